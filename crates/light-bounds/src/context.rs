@@ -1,0 +1,48 @@
+use crate::glam::Vec3;
+
+/// Who asks for light: a point on a surface, or a point in a medium.
+///
+/// Lengths are in scene units. Both normals are unit vectors, or both zero in a medium. Samplers read [`ns`](Self::ns)
+/// and no other normal; lights read both, to move the point off the surface along [`n`](Self::n).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSampleContext {
+    /// The point.
+    pub p: Vec3,
+    /// Half widths of the box around `p` in which the exact point lies: the rounding error of the intersection.
+    pub p_error: Vec3,
+    /// Geometric normal.
+    pub n: Vec3,
+    /// Shading normal.
+    pub ns: Vec3,
+}
+
+impl LightSampleContext {
+    /// A point on a surface with geometric normal `n` and shading normal `ns`, known exactly.
+    #[must_use]
+    pub const fn surface(p: Vec3, n: Vec3, ns: Vec3) -> Self {
+        Self {
+            p,
+            p_error: Vec3::ZERO,
+            n,
+            ns,
+        }
+    }
+
+    /// A point in a medium: light counts from all sides alike.
+    #[must_use]
+    pub const fn medium(p: Vec3) -> Self {
+        Self::surface(p, Vec3::ZERO, Vec3::ZERO)
+    }
+
+    /// The same context with the rounding error of `p`, one half width per axis.
+    #[must_use]
+    pub const fn with_error(self, p_error: Vec3) -> Self {
+        Self { p_error, ..self }
+    }
+
+    /// Whether the point has no surface, so no normal.
+    #[must_use]
+    pub fn is_medium(&self) -> bool {
+        self.ns == Vec3::ZERO
+    }
+}

@@ -1,0 +1,15 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+pub use light_math;
+pub use light_math::glam;
+
+mod context;
+mod light_bounds;
+mod light_id;
+
+pub use context::LightSampleContext;
+pub use light_bounds::LightBounds;
+pub use light_id::LightId;

@@ -1,0 +1,119 @@
+//! Floating-point functions that `core` lacks.
+//!
+//! The only place that chooses between the platform's functions (feature `std`) and software ones (feature
+//! `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on every platform.
+//! Angles are radians.
+
+macro_rules! forward {
+    ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $std:ident, $libm:ident;)+) => {$(
+        $(#[$doc])*
+        #[inline]
+        #[must_use]
+        pub fn $name($($arg: f32),+) -> f32 {
+            #[cfg(feature = "libm")]
+            {
+                libm::$libm($($arg),+)
+            }
+            #[cfg(not(feature = "libm"))]
+            {
+                f32::$std($($arg),+)
+            }
+        }
+    )+};
+}
+
+forward! {
+    /// Square root; NaN below zero.
+    sqrt(x) = sqrt, sqrtf;
+    /// Sine.
+    sin(x) = sin, sinf;
+    /// Cosine.
+    cos(x) = cos, cosf;
+    /// Tangent.
+    tan(x) = tan, tanf;
+    /// Arc sine in `[-pi/2, pi/2]`; NaN outside `[-1, 1]`.
+    asin(x) = asin, asinf;
+    /// Arc cosine in `[0, pi]`; NaN outside `[-1, 1]`.
+    acos(x) = acos, acosf;
+    /// Arc tangent in `[-pi/2, pi/2]`.
+    atan(x) = atan, atanf;
+    /// Angle of the point `(x, y)` in `[-pi, pi]`.
+    atan2(y, x) = atan2, atan2f;
+    /// `e^x`.
+    exp(x) = exp, expf;
+    /// Natural logarithm.
+    ln(x) = ln, logf;
+    /// `x^y`.
+    powf(x, y) = powf, powf;
+    /// Cube root.
+    cbrt(x) = cbrt, cbrtf;
+    /// Largest integer not above `x`.
+    floor(x) = floor, floorf;
+    /// Smallest integer not below `x`.
+    ceil(x) = ceil, ceilf;
+    /// Nearest integer, ties away from zero.
+    round(x) = round, roundf;
+}
+
+/// Sine and cosine of `x`.
+#[inline]
+#[must_use]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    #[cfg(feature = "libm")]
+    {
+        libm::sincosf(x)
+    }
+    #[cfg(not(feature = "libm"))]
+    {
+        f32::sin_cos(x)
+    }
+}
+
+/// Square root of `max(x, 0)`: for radicands that are negative by round-off alone.
+#[inline]
+#[must_use]
+pub fn safe_sqrt(x: f32) -> f32 {
+    sqrt(x.max(0.0))
+}
+
+/// Arc cosine of `x` clamped to `[-1, 1]`.
+#[inline]
+#[must_use]
+pub fn safe_acos(x: f32) -> f32 {
+    acos(x.clamp(-1.0, 1.0))
+}
+
+/// Arc sine of `x` clamped to `[-1, 1]`.
+#[inline]
+#[must_use]
+pub fn safe_asin(x: f32) -> f32 {
+    asin(x.clamp(-1.0, 1.0))
+}
+
+/// The largest `f32` below one: the upper end of `u`, which lies in `[0, 1)`.
+pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn safe_functions_clamp_round_off() {
+        assert_eq!(safe_sqrt(-1e-9), 0.0, "below zero");
+        assert_eq!(safe_acos(1.0 + f32::EPSILON), 0.0, "above one");
+        assert_eq!(
+            safe_asin(-2.0),
+            -core::f32::consts::FRAC_PI_2,
+            "below minus one"
+        );
+    }
+
+    #[test]
+    fn one_minus_epsilon_is_the_predecessor_of_one() {
+        assert_eq!(
+            ONE_MINUS_EPSILON.to_bits() + 1,
+            1.0f32.to_bits(),
+            "neighbours"
+        );
+    }
+}

@@ -1,0 +1,21 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("light-math needs float functions: turn on the feature `std` or the feature `libm`");
+
+pub use glam;
+
+mod aabb;
+pub mod float;
+mod frame;
+
+pub use aabb::Aabb;
+pub use frame::Frame;

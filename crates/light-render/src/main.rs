@@ -1,0 +1,2 @@
+//! The program `lights`.
+fn main() {}
