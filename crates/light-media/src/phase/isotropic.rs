@@ -1,0 +1,18 @@
+use super::PhaseFunction;
+use core::f32::consts::PI;
+
+/// Light leaves in all directions alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Isotropic;
+
+impl PhaseFunction for Isotropic {
+    #[inline]
+    fn value(&self, _cos_theta: f32) -> f32 {
+        0.25 / PI
+    }
+
+    #[inline]
+    fn sample_cos(&self, u: f32) -> f32 {
+        1.0 - 2.0 * u
+    }
+}

@@ -1,0 +1,212 @@
+//! Phase functions: how a medium redistributes the light that it scatters.
+
+mod henyey_greenstein;
+mod isotropic;
+mod mie;
+mod rayleigh;
+mod schlick;
+
+pub use henyey_greenstein::HenyeyGreenstein;
+pub use isotropic::Isotropic;
+pub use mie::{MieHazy, MieMurky};
+pub use rayleigh::Rayleigh;
+pub use schlick::Schlick;
+
+use core::f32::consts::TAU;
+use light_math::glam::{Vec2, Vec3};
+use light_math::{Frame, float};
+
+/// A phase function that depends on the angle of deflection alone.
+///
+/// `cos_theta` is the cosine between the direction in which light travelled before the event and the one in which it
+/// travels after: 1 is straight on, -1 straight back. For directions `wo` and `wi` that both point away from the
+/// event it is `-dot(wo, wi)`. Every phase function here is sampled exactly, so its density is its value.
+pub trait PhaseFunction {
+    /// The phase function per steradian; integrates to one over the sphere.
+    fn value(&self, cos_theta: f32) -> f32;
+
+    /// A cosine of deflection in `[-1, 1]` with density `TAU * value`, from `u` in `[0, 1)`.
+    fn sample_cos(&self, u: f32) -> f32;
+}
+
+/// A direction chosen by a phase function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseSample {
+    /// Unit direction toward which the path goes on.
+    pub wi: Vec3,
+    /// Its density per steradian, which is also the phase function's value.
+    pub pdf: f32,
+}
+
+/// The phase functions of this crate as one plain value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Phase {
+    /// The same in all directions.
+    Isotropic(Isotropic),
+    /// Molecules.
+    Rayleigh(Rayleigh),
+    /// One asymmetry parameter.
+    HenyeyGreenstein(HenyeyGreenstein),
+    /// A rational stand-in for Henyey-Greenstein.
+    Schlick(Schlick),
+    /// Small droplets, thin haze.
+    MieHazy(MieHazy),
+    /// Small droplets, dense haze.
+    MieMurky(MieMurky),
+}
+
+impl Phase {
+    /// A direction for light that is followed against its flow: `wo` points back along the path that arrived, the
+    /// answer points onward. `u` in `[0, 1)^2`.
+    #[must_use]
+    pub fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
+        let cos_theta = self.sample_cos(u.x);
+        let sin_theta = float::safe_sqrt(1.0 - cos_theta * cos_theta);
+        let (sin_phi, cos_phi) = float::sin_cos(TAU * u.y);
+        let local = Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta);
+        PhaseSample {
+            wi: Frame::from_z(-wo).from_local(local),
+            pdf: self.value(cos_theta),
+        }
+    }
+
+    /// The value, and density, for a pair of unit directions that both point away from the event.
+    #[must_use]
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.value(-wo.dot(wi))
+    }
+}
+
+impl PhaseFunction for Phase {
+    fn value(&self, cos_theta: f32) -> f32 {
+        match self {
+            Self::Isotropic(f) => f.value(cos_theta),
+            Self::Rayleigh(f) => f.value(cos_theta),
+            Self::HenyeyGreenstein(f) => f.value(cos_theta),
+            Self::Schlick(f) => f.value(cos_theta),
+            Self::MieHazy(f) => f.value(cos_theta),
+            Self::MieMurky(f) => f.value(cos_theta),
+        }
+    }
+
+    fn sample_cos(&self, u: f32) -> f32 {
+        match self {
+            Self::Isotropic(f) => f.sample_cos(u),
+            Self::Rayleigh(f) => f.sample_cos(u),
+            Self::HenyeyGreenstein(f) => f.sample_cos(u),
+            Self::Schlick(f) => f.sample_cos(u),
+            Self::MieHazy(f) => f.sample_cos(u),
+            Self::MieMurky(f) => f.sample_cos(u),
+        }
+    }
+}
+
+/// Why an asymmetry parameter is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AsymmetryError {
+    /// `g` or `k` does not lie strictly between -1 and 1, where the phase function has a density.
+    OutOfRange,
+}
+
+impl core::fmt::Display for AsymmetryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("the asymmetry of a phase function must lie between -1 and 1, both excluded")
+    }
+}
+
+impl core::error::Error for AsymmetryError {}
+
+/// `x` if it lies strictly between -1 and 1.
+fn check_asymmetry(x: f32) -> Result<f32, AsymmetryError> {
+    if x > -1.0 && x < 1.0 {
+        Ok(x)
+    } else {
+        Err(AsymmetryError::OutOfRange)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all() -> [Phase; 10] {
+        let hg = |g| Phase::HenyeyGreenstein(HenyeyGreenstein::new(g).expect("in range"));
+        let schlick = |g| Phase::Schlick(Schlick::from_asymmetry(g).expect("in range"));
+        [
+            Phase::Isotropic(Isotropic),
+            Phase::Rayleigh(Rayleigh),
+            Phase::MieHazy(MieHazy),
+            Phase::MieMurky(MieMurky),
+            hg(0.0),
+            hg(0.85),
+            hg(-0.5),
+            hg(1e-4),
+            schlick(0.7),
+            schlick(-0.9),
+        ]
+    }
+
+    /// `TAU` times the integral of the phase function from -1 to `to`, by the midpoint rule.
+    fn cumulative(f: &Phase, to: f64) -> f64 {
+        let n = 20_000;
+        let h = (to + 1.0) / f64::from(n);
+        (0..n)
+            .map(|i| f64::from(f.value((-1.0 + (f64::from(i) + 0.5) * h) as f32)))
+            .sum::<f64>()
+            * h
+            * core::f64::consts::TAU
+    }
+
+    #[test]
+    fn every_phase_function_integrates_to_one() {
+        for f in all() {
+            let total = cumulative(&f, 1.0);
+            assert!((total - 1.0).abs() < 2e-4, "{f:?} integrates to {total}");
+        }
+    }
+
+    #[test]
+    fn samples_follow_the_value() {
+        // Sampling is by inversion: the mass between the ends of any range of u is the range's length.
+        for f in all() {
+            let marks: [f32; 5] = [0.0, 0.1, 0.37, 0.9, float::ONE_MINUS_EPSILON];
+            if matches!(f, Phase::MieHazy(_) | Phase::MieMurky(_)) {
+                continue; // sampled as a mixture: checked in its own file
+            }
+            let masses = marks.map(|u| cumulative(&f, f64::from(f.sample_cos(u))));
+            for i in 1..marks.len() {
+                let mass = (masses[i] - masses[i - 1]).abs();
+                let expected = f64::from(marks[i] - marks[i - 1]);
+                assert!(
+                    (mass - expected).abs() < 1e-3,
+                    "{f:?} between u {} and {}: {mass}",
+                    marks[i - 1],
+                    marks[i]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn directions_are_unit_and_carry_their_density() {
+        let wo = Vec3::new(0.48, -0.6, 0.64);
+        for f in all() {
+            for u in [
+                Vec2::ZERO,
+                Vec2::new(0.3, 0.8),
+                Vec2::splat(float::ONE_MINUS_EPSILON),
+            ] {
+                let s = f.sample(wo, u);
+                assert!((s.wi.length() - 1.0).abs() < 1e-5, "{f:?}: unit");
+                let queried = f.pdf(wo, s.wi);
+                assert!(
+                    s.pdf > 0.0 && (s.pdf - queried).abs() <= 1e-3 * s.pdf,
+                    "{f:?}: {} against {queried}",
+                    s.pdf
+                );
+            }
+        }
+    }
+}

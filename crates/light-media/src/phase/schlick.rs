@@ -1,0 +1,44 @@
+use super::{AsymmetryError, PhaseFunction, check_asymmetry};
+use core::f32::consts::PI;
+
+/// A rational stand-in for Henyey-Greenstein: no square root, and an inversion in one division.
+///
+/// # Source
+/// `[Blasi1993]`, section 3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Schlick {
+    k: f32,
+}
+
+impl Schlick {
+    /// The phase function `(1 - k^2) / (4 pi (1 - k cos)^2)`.
+    ///
+    /// # Errors
+    /// `k` does not lie strictly between -1 and 1.
+    pub fn new(k: f32) -> Result<Self, AsymmetryError> {
+        check_asymmetry(k).map(|k| Self { k })
+    }
+
+    /// The one that comes close to Henyey-Greenstein of mean cosine `g`: `k = 1.55 g - 0.55 g^3`.
+    ///
+    /// # Errors
+    /// `g` does not lie strictly between -1 and 1.
+    pub fn from_asymmetry(g: f32) -> Result<Self, AsymmetryError> {
+        check_asymmetry(g).and_then(|g| Self::new(1.55 * g - 0.55 * g * g * g))
+    }
+}
+
+impl PhaseFunction for Schlick {
+    #[inline]
+    fn value(&self, cos_theta: f32) -> f32 {
+        let k = self.k;
+        let denominator = 1.0 - k * cos_theta;
+        (1.0 - k * k) / (4.0 * PI * denominator * denominator)
+    }
+
+    #[inline]
+    fn sample_cos(&self, u: f32) -> f32 {
+        let x = 2.0 * u - 1.0;
+        ((x + self.k) / (1.0 + self.k * x)).clamp(-1.0, 1.0)
+    }
+}
