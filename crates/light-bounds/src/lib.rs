@@ -9,7 +9,9 @@ pub use light_math::glam;
 mod context;
 mod light_bounds;
 mod light_id;
+mod sampled_light;
 
 pub use context::LightSampleContext;
 pub use light_bounds::LightBounds;
 pub use light_id::LightId;
+pub use sampled_light::SampledLight;
