@@ -38,7 +38,8 @@ impl LatinHypercube {
             axis += 1;
             let key = hash(self.seed ^ hash(axis));
             let slab = permute(index, self.n, key);
-            let jitter = (hash(key ^ index) >> 16) as f32 / 65536.0;
+            // 12 bits, taken at their middle: no rounding moves the point into a neighbouring slab.
+            let jitter = ((hash(key ^ index) >> 20) as f32 + 0.5) / 4096.0;
             ((slab as f32 + jitter) / self.n as f32).min(light_math::float::ONE_MINUS_EPSILON)
         })
     }
