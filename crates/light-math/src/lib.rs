@@ -14,8 +14,16 @@ compile_error!("light-math needs float functions: turn on the feature `std` or t
 pub use glam;
 
 mod aabb;
+mod cone;
+pub mod equal_area;
 pub mod float;
 mod frame;
+pub mod lat_long;
+mod octahedral;
+pub mod quantize;
 
 pub use aabb::Aabb;
+pub use cone::DirectionCone;
 pub use frame::Frame;
+pub use octahedral::OctahedralVector;
+pub use quantize::QuantizedBox;

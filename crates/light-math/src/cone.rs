@@ -1,0 +1,314 @@
+use core::f32::consts::PI;
+
+use glam::Vec3;
+
+use crate::Aabb;
+use crate::float::{cos, safe_acos, safe_asin, safe_sqrt, sin_cos, sqrt};
+
+/// Round-off of the dot product of two unit vectors, each known to half a unit in the last place.
+const DOT_ERROR: f32 = 4.0 * f32::EPSILON;
+
+/// All directions within an angle of an axis.
+///
+/// Directions are unit vectors, angles radians. A cone is empty, a single direction, wider, or the whole sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DirectionCone {
+    /// Unit axis; without meaning when the cone is empty or the whole sphere.
+    pub w: Vec3,
+    /// Cosine of the half angle; infinite when the cone is empty, -1 for the whole sphere.
+    pub cos_theta: f32,
+}
+
+impl DirectionCone {
+    /// The cone that holds no direction and is neutral under [`union`](Self::union).
+    pub const EMPTY: Self = Self {
+        w: Vec3::Z,
+        cos_theta: f32::INFINITY,
+    };
+
+    /// The cone that holds every direction.
+    pub const WHOLE_SPHERE: Self = Self {
+        w: Vec3::Z,
+        cos_theta: -1.0,
+    };
+
+    /// The cone of the directions whose angle with the unit vector `w` has a cosine of at least `cos_theta`.
+    #[inline]
+    #[must_use]
+    pub const fn new(w: Vec3, cos_theta: f32) -> Self {
+        Self { w, cos_theta }
+    }
+
+    /// The cone that holds the unit vector `w` alone.
+    #[inline]
+    #[must_use]
+    pub const fn from_direction(w: Vec3) -> Self {
+        Self::new(w, 1.0)
+    }
+
+    /// Whether the cone holds no direction at all.
+    #[inline]
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cos_theta > 1.0
+    }
+
+    /// Whether the cone holds every direction.
+    #[inline]
+    #[must_use]
+    pub fn is_whole_sphere(&self) -> bool {
+        self.cos_theta <= -1.0
+    }
+
+    /// The half angle in `[0, pi]`; 0 for the empty cone.
+    #[inline]
+    #[must_use]
+    pub fn theta(&self) -> f32 {
+        safe_acos(self.cos_theta)
+    }
+
+    /// Whether the unit vector `w` lies in the closed cone.
+    ///
+    /// Generous by the round-off of a dot product, so that no direction that lies in the cone is denied: a cone
+    /// holds its own axis, however narrow it is.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, w: Vec3) -> bool {
+        self.is_whole_sphere() || self.w.dot(w) >= self.cos_theta - DOT_ERROR
+    }
+
+    /// A cone that holds both cones, the narrowest one unless round-off interferes.
+    ///
+    /// # Source
+    /// `[PBRT4]`, section 3.8.4. The cross product is taken with the difference (or sum) of the axes, which keeps its
+    /// digits when they are nearly parallel.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        if self.is_empty() {
+            return other;
+        }
+        if other.is_empty() {
+            return self;
+        }
+
+        // One cone may hold the other.
+        let theta_a = self.theta();
+        let theta_b = other.theta();
+        let theta_d = angle_between(self.w, other.w);
+        if (theta_d + theta_b).min(PI) <= theta_a {
+            return self;
+        }
+        if (theta_d + theta_a).min(PI) <= theta_b {
+            return other;
+        }
+
+        // The spread from the far side of one to the far side of the other.
+        let theta_o = 0.5 * (theta_a + theta_d + theta_b);
+        if theta_o >= PI {
+            return Self::WHOLE_SPHERE;
+        }
+        let Some(toward_other) = tangent_toward(self.w, other.w) else {
+            return Self::WHOLE_SPHERE;
+        };
+        let (sin_r, cos_r) = sin_cos(theta_o - theta_a);
+        let w = self.w * cos_r + toward_other * sin_r;
+        Self::new(w.normalize(), cos(theta_o))
+    }
+
+    /// The cone of the directions within `angle` (in `[0, pi]`) of a direction of this cone; empty stays empty.
+    #[must_use]
+    pub fn widened(self, angle: f32) -> Self {
+        if self.is_empty() {
+            return self;
+        }
+        let (sin_a, cos_a) = sin_cos(angle);
+        // Past pi the cosine of the sum would come back up.
+        if self.cos_theta <= -cos_a {
+            return Self::WHOLE_SPHERE;
+        }
+        let sin_theta = safe_sqrt((1.0 - self.cos_theta) * (1.0 + self.cos_theta));
+        Self::new(self.w, self.cos_theta * cos_a - sin_theta * sin_a)
+    }
+
+    /// A cone that holds the directions from `p` to every point of `bounds`, through the box's bounding sphere.
+    ///
+    /// The whole sphere when `p` lies in the box or in that sphere; empty when the box is. Lengths are in scene units
+    /// of any scale: nothing over- or underflows as long as the differences of the coordinates do not.
+    ///
+    /// # Source
+    /// `[PBRT4]`, section 3.8.4: `sin^2 theta_max = r^2 / d^2`.
+    #[must_use]
+    pub fn bound_subtended_directions(bounds: &Aabb, p: Vec3) -> Self {
+        if bounds.is_empty() {
+            return Self::EMPTY;
+        }
+        if bounds.contains(p) {
+            return Self::WHOLE_SPHERE;
+        }
+        let center = bounds.center();
+        let to_center = center - p;
+        let half_diagonal = bounds.max - center;
+
+        // Scaled so that squares stay in range.
+        let scale = to_center.abs().max(half_diagonal).max_element();
+        let to_center = to_center / scale;
+        let radius_sq = (half_diagonal / scale).length_squared();
+        let dist_sq = to_center.length_squared();
+        // NaN fails this guard too: a box with an infinite corner is seen in all directions.
+        if !(radius_sq < dist_sq) {
+            return Self::WHOLE_SPHERE;
+        }
+        Self::new(
+            to_center / sqrt(dist_sq),
+            sqrt((dist_sq - radius_sq) / dist_sq),
+        )
+    }
+}
+
+impl Default for DirectionCone {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+/// The angle between unit vectors, in `[0, pi]`, accurate near both ends.
+#[inline]
+fn angle_between(a: Vec3, b: Vec3) -> f32 {
+    if a.dot(b) < 0.0 {
+        PI - 2.0 * safe_asin(0.5 * (a + b).length())
+    } else {
+        2.0 * safe_asin(0.5 * (b - a).length())
+    }
+}
+
+/// The unit vector perpendicular to `a` on the way to `b`; none when they are the same or opposite.
+#[inline]
+fn tangent_toward(a: Vec3, b: Vec3) -> Option<Vec3> {
+    let near = if a.dot(b) < 0.0 { b + a } else { b - a };
+    a.cross(near).cross(a).try_normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn direction() -> impl Strategy<Value = Vec3> {
+        (-1.0f32..1.0, -PI..PI).prop_map(|(z, phi)| {
+            let r = safe_sqrt(1.0 - z * z);
+            Vec3::new(r * phi.cos(), r * phi.sin(), z).normalize()
+        })
+    }
+
+    /// Half angles from nothing to the whole sphere, with many small ones.
+    fn cone() -> impl Strategy<Value = DirectionCone> {
+        let theta = prop_oneof![0.0f32..PI, 0.0f32..1e-3, Just(0.0), Just(PI)];
+        (direction(), theta).prop_map(|(w, theta)| DirectionCone::new(w, theta.cos()))
+    }
+
+    #[test]
+    fn extremes() {
+        let single = DirectionCone::from_direction(Vec3::X);
+        assert!(DirectionCone::EMPTY.is_empty(), "empty");
+        assert!(!DirectionCone::EMPTY.contains(Vec3::Z), "holds nothing");
+        assert!(
+            DirectionCone::WHOLE_SPHERE.contains(-Vec3::Z),
+            "the pole opposite to the axis"
+        );
+        assert!(
+            single.contains(Vec3::X) && !single.contains(Vec3::Y),
+            "a single direction"
+        );
+        assert_eq!(single.union(DirectionCone::EMPTY), single, "neutral");
+        assert_eq!(DirectionCone::EMPTY.union(single), single, "neutral");
+        let opposite = DirectionCone::from_direction(-Vec3::X);
+        assert!(
+            single.union(opposite).is_whole_sphere(),
+            "opposite axes have no middle"
+        );
+    }
+
+    #[test]
+    fn union_of_two_directions_is_centred() {
+        let u =
+            DirectionCone::from_direction(Vec3::X).union(DirectionCone::from_direction(Vec3::Y));
+        assert!(
+            u.w.distance(Vec3::new(0.5, 0.5, 0.0).normalize()) < 1e-6,
+            "halfway: {u:?}"
+        );
+        assert!((u.theta() - PI / 4.0).abs() < 1e-6, "half of a right angle");
+    }
+
+    #[test]
+    fn widening_ends_at_the_whole_sphere() {
+        let c = DirectionCone::new(Vec3::X, 0.0);
+        assert!(
+            (c.widened(0.5).theta() - (0.5 * PI + 0.5)).abs() < 1e-6,
+            "adds"
+        );
+        assert!(c.widened(1.6).is_whole_sphere(), "past pi");
+        assert!(DirectionCone::EMPTY.widened(1.0).is_empty(), "still empty");
+    }
+
+    #[test]
+    fn subtended_directions_at_every_scale() {
+        for scale in [1e-30, 1e-20, 1.0, 1e18, 1e30] {
+            let b = Aabb::new(Vec3::splat(-scale), Vec3::splat(scale));
+            let c = DirectionCone::bound_subtended_directions(&b, Vec3::X * (4.0 * scale));
+            assert!(c.w.distance(-Vec3::X) < 1e-6, "toward the box: {c:?}");
+            let expected = (1.0 - 3.0 / 16.0f32).sqrt();
+            assert!((c.cos_theta - expected).abs() < 1e-6, "sin^2 = 3/16: {c:?}");
+        }
+    }
+
+    #[test]
+    fn subtended_directions_inside_and_empty() {
+        let b = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        let near_face = Vec3::new(0.5, 0.5, 1.1);
+        for p in [Vec3::ZERO, Vec3::splat(0.5), near_face] {
+            assert!(
+                DirectionCone::bound_subtended_directions(&b, p).is_whole_sphere(),
+                "inside the sphere: {p}"
+            );
+        }
+        let point = Aabb::from_point(Vec3::Z);
+        let c = DirectionCone::bound_subtended_directions(&point, Vec3::ZERO);
+        assert_eq!(c, DirectionCone::from_direction(Vec3::Z), "a point");
+        assert!(
+            DirectionCone::bound_subtended_directions(&point, Vec3::Z).is_whole_sphere(),
+            "at the point itself"
+        );
+        assert!(
+            DirectionCone::bound_subtended_directions(&Aabb::EMPTY, Vec3::ZERO).is_empty(),
+            "nothing to see"
+        );
+    }
+
+    proptest! {
+        /// Directions of both cones lie in the union, up to the error of an arc cosine near 1 (4e-4).
+        #[test]
+        fn union_holds_both(a in cone(), b in cone(), t in 0.0f32..1.0, phi in -PI..PI) {
+            let u = a.union(b);
+            for c in [a, b] {
+                let (sin_t, cos_t) = (t * c.theta()).sin_cos();
+                let f = crate::Frame::from_z(c.w);
+                let w = f.from_local(Vec3::new(sin_t * phi.cos(), sin_t * phi.sin(), cos_t));
+                prop_assert!(u.widened(1e-3).contains(w.normalize()), "{:?} of {:?} not in {:?}", w, c, u);
+            }
+        }
+
+        /// Directions to points of the box lie in its cone.
+        #[test]
+        fn subtended_directions_hold_the_box(
+            a in prop::array::uniform3(-1.0f32..1.0), b in prop::array::uniform3(-1.0f32..1.0),
+            p in prop::array::uniform3(-4.0f32..4.0), t in prop::array::uniform3(0.0f32..=1.0),
+        ) {
+            let bounds = Aabb::new(a.into(), b.into());
+            let p = Vec3::from(p);
+            let q = bounds.min + bounds.diagonal() * Vec3::from(t);
+            let c = DirectionCone::bound_subtended_directions(&bounds, p);
+            prop_assert!(q == p || c.widened(1e-3).contains((q - p).normalize()), "{:?}", c);
+        }
+    }
+}
