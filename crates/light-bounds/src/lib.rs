@@ -7,11 +7,15 @@ pub use light_math;
 pub use light_math::glam;
 
 mod context;
+mod error;
+mod extent;
 mod light_bounds;
 mod light_id;
 mod sampled_light;
 
 pub use context::LightSampleContext;
+pub use error::{InfiniteBoundsError, LightBoundsError};
+pub use extent::{InfiniteBounds, LightExtent};
 pub use light_bounds::LightBounds;
 pub use light_id::LightId;
 pub use sampled_light::SampledLight;
