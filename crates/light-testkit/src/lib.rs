@@ -1,1 +1,33 @@
-//! light-testkit
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "doubles are rounded to what the tested f32 code takes, counts are small and positive"
+)]
+
+pub use light_math::glam;
+
+mod cap;
+mod chi_squared;
+mod density;
+mod gamma;
+mod kolmogorov_smirnov;
+pub mod naive;
+pub mod nasty;
+mod quadrature;
+mod rng;
+
+pub use cap::Cap;
+pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
+pub use density::{DensityOutcome, DensityTest};
+pub use gamma::{ln_gamma, regularized_gamma_q};
+pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
+pub use quadrature::{GaussLegendre, integrate};
+pub use rng::Rng;
+
+/// The chance that one statistical check fails although the code is right.
+///
+/// Seeds are fixed, so a check that passes once passes forever; the level says how surprising a result has to be
+/// before it counts as a fault. A check that consists of several tests divides it by their number (Bonferroni).
+pub const SIGNIFICANCE: f64 = 1e-4;

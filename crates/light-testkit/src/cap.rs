@@ -1,0 +1,146 @@
+use core::f64::consts::TAU;
+use light_math::glam::Vec3;
+
+use crate::integrate;
+
+/// A spherical cap: all directions within an angle of an axis, mapped to the unit square without change of area.
+///
+/// Checks on the sphere run over a cap that holds the whole density, so that narrow ones are resolved too.
+#[derive(Clone, Copy, Debug)]
+pub struct Cap {
+    axes: [[f64; 3]; 3],
+    one_minus_cos: f64,
+}
+
+impl Cap {
+    /// The whole sphere.
+    #[must_use]
+    pub fn sphere() -> Self {
+        Self::new(Vec3::Z, core::f64::consts::PI)
+    }
+
+    /// The half of the sphere around `axis`.
+    #[must_use]
+    pub fn hemisphere(axis: Vec3) -> Self {
+        Self::new(axis, core::f64::consts::FRAC_PI_2)
+    }
+
+    /// The directions within `angle` (radians, up to pi) of `axis` (any length but zero).
+    #[must_use]
+    pub fn new(axis: Vec3, angle: f64) -> Self {
+        let z = normalize(components(axis));
+        let smallest = if z[0].abs() < 0.6 {
+            [1.0, 0.0, 0.0]
+        } else {
+            [0.0, 1.0, 0.0]
+        };
+        let x = normalize(cross(smallest, z));
+        let half_sin = (0.5 * angle).sin();
+        Self {
+            axes: [x, cross(z, x), z],
+            one_minus_cos: 2.0 * half_sin * half_sin,
+        }
+    }
+
+    /// The solid angle, in sr.
+    #[must_use]
+    pub fn solid_angle(&self) -> f64 {
+        TAU * self.one_minus_cos
+    }
+
+    /// The direction at `[azimuth, height]` of the unit square; height 0 is the axis, height 1 the rim.
+    #[must_use]
+    pub fn direction(&self, [azimuth, height]: [f64; 2]) -> Vec3 {
+        let one_minus_z = self.one_minus_cos * height;
+        let r = (one_minus_z * (2.0 - one_minus_z)).max(0.0).sqrt();
+        let (sin, cos) = (azimuth * TAU).sin_cos();
+        let local = [r * cos, r * sin, 1.0 - one_minus_z];
+        let outer = |k| (0..3).map(|i| self.axes[i][k] * local[i]).sum::<f64>() as f32;
+        Vec3::new(outer(0), outer(1), outer(2))
+    }
+
+    /// Where direction `w` lies in the unit square; a height above 1 is outside of the cap.
+    #[must_use]
+    pub fn square(&self, w: Vec3) -> [f64; 2] {
+        let w = components(w);
+        let [x, y, z] = self.axes.map(|axis| dot(axis, w));
+        // Near the axis 1 - z cancels, sin^2 / (1 + z) does not.
+        let one_minus_z = if z > 0.0 {
+            (x * x + y * y) / (1.0 + z)
+        } else {
+            1.0 - z
+        };
+        let azimuth = (y.atan2(x) / TAU).rem_euclid(1.0);
+        [azimuth, one_minus_z / self.one_minus_cos]
+    }
+
+    /// The integral of `f` over the cap, with an absolute error of about `tolerance`.
+    pub fn integrate(&self, tolerance: f64, mut f: impl FnMut(Vec3) -> f64) -> f64 {
+        let omega = self.solid_angle();
+        let grid = 8;
+        let step = 1.0 / f64::from(grid);
+        let mut total = 0.0;
+        for cell in 0..grid * grid {
+            let low = [f64::from(cell % grid) * step, f64::from(cell / grid) * step];
+            let high = [low[0] + step, low[1] + step];
+            let share = tolerance / (omega * f64::from(grid * grid));
+            total += integrate(low, high, share, |x| f(self.direction(x)));
+        }
+        total * omega
+    }
+}
+
+fn components(v: Vec3) -> [f64; 3] {
+    v.to_array().map(f64::from)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn normalize(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    v.map(|c| c / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Rng;
+
+    #[test]
+    fn square_inverts_direction() {
+        let mut rng = Rng::new(1);
+        for angle in [1e-3, 0.3, 1.5, 3.0] {
+            let cap = Cap::new(rng.direction(), angle);
+            for _ in 0..100 {
+                let x = [rng.f64(), rng.f64()];
+                let back = cap.square(cap.direction(x));
+                // f32 directions carry 6e-8, a thousandth of the smallest cap's ring at height 0.01.
+                let turn = (x[0] - back[0]).abs();
+                let near = turn.min(1.0 - turn) * x[1].sqrt() < 1e-3;
+                assert!(
+                    near && (x[1] - back[1]).abs() < 1e-3,
+                    "{x:?} became {back:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn integrals_over_caps() {
+        let omega = Cap::sphere().integrate(1e-6, |_| 1.0);
+        assert!((omega - 2.0 * TAU).abs() < 1e-9, "4 pi: {omega}");
+        let axis = Vec3::new(0.6, 0.0, -0.8);
+        let cosine = Cap::hemisphere(axis).integrate(1e-6, |w| f64::from(w.dot(axis)));
+        assert!((cosine - TAU / 2.0).abs() < 1e-5, "pi: {cosine}");
+    }
+}
