@@ -1,1 +1,3 @@
 //! light-scene
+
+pub mod light_set;

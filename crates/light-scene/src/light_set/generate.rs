@@ -1,0 +1,334 @@
+use core::f32::consts::{PI, TAU};
+use core::str::FromStr;
+
+use glam::{Vec2, Vec3};
+use lights::math::{Frame, float};
+use rand_core::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::{LightSetFile, SetLight, SetPoint};
+
+/// Shading points of a generated set.
+const POINTS: usize = 4096;
+
+/// How many lights of a mixed set are a thousand times as strong as the rest.
+const STRONG: usize = 8;
+
+/// What a generated set looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SetKind {
+    /// Small triangles all over the unit cube, over three decades of power.
+    Uniform,
+    /// A city by night: lamps that face down and windows that face out, in clusters on a plane of 10 by 10.
+    Clusters,
+    /// Spot lights that point roughly down, one in five a point light, over a floor of 10 by 10.
+    Spots,
+    /// A quarter each of one-sided triangles, two-sided triangles, points and spots of 5 to 70 degrees, over a floor of 10 by 10;
+    /// eight of them a thousand times as strong.
+    Mixed,
+}
+
+impl SetKind {
+    /// All kinds, in the order of the tables.
+    pub const ALL: [Self; 4] = [Self::Uniform, Self::Clusters, Self::Spots, Self::Mixed];
+
+    /// The kind's name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Clusters => "clusters",
+            Self::Spots => "spots",
+            Self::Mixed => "mixed",
+        }
+    }
+}
+
+impl FromStr for SetKind {
+    type Err = &'static str;
+
+    fn from_str(s: &str) -> Result<Self, Self::Err> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == s)
+            .ok_or("expected uniform, clusters, spots or mixed")
+    }
+}
+
+impl LightSetFile {
+    /// The set of `n` lights and 4096 points that `kind`, `n` and `seed` stand for.
+    #[must_use]
+    pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
+        let mut random = Random(Pcg64Mcg::seed_from_u64(
+            seed ^ (kind as u64) << 56 ^ (n as u64) << 24,
+        ));
+        let r = &mut random;
+        match kind {
+            SetKind::Uniform => Self {
+                lights: uniform_lights(r, n),
+                points: repeat(POINTS, || SetPoint {
+                    p: r.cube(),
+                    n: r.direction(),
+                }),
+            },
+            SetKind::Clusters => Self {
+                lights: cluster_lights(r, n),
+                points: repeat(POINTS, || {
+                    if r.unit() < 0.75 {
+                        r.on_floor()
+                    } else {
+                        SetPoint {
+                            p: r.over_floor(0.0, 3.0),
+                            n: r.direction(),
+                        }
+                    }
+                }),
+            },
+            SetKind::Spots => Self {
+                lights: repeat(n, || {
+                    if r.unit() < 0.8 {
+                        r.spot(10.0, 45.0)
+                    } else {
+                        r.point_light()
+                    }
+                }),
+                points: repeat(POINTS, || r.on_floor()),
+            },
+            SetKind::Mixed => Self {
+                lights: mixed_lights(r, n),
+                points: repeat(POINTS, || {
+                    if r.unit() < 0.5 {
+                        r.on_floor()
+                    } else {
+                        SetPoint {
+                            p: r.over_floor(0.0, 3.0),
+                            n: r.direction(),
+                        }
+                    }
+                }),
+            },
+        }
+    }
+}
+
+fn uniform_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
+    let size = 0.3 * float::powf(n as f32, -1.0 / 3.0);
+    repeat(n, || {
+        let power = r.log_uniform(3.0);
+        let (center, normal) = (r.cube(), r.direction());
+        triangle(r, center, normal, size, power, false)
+    })
+}
+
+fn cluster_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
+    struct Cluster {
+        center: Vec3,
+        radius: f32,
+        power: f32,
+        lamp: bool,
+    }
+    let count = ((float::sqrt(n as f32) / 2.0) as usize).max(1);
+    let mut lamp = false;
+    let clusters = repeat(count, || {
+        lamp = !lamp;
+        Cluster {
+            center: r.over_floor(if lamp { 1.5 } else { 0.2 }, if lamp { 3.0 } else { 2.0 }),
+            radius: 0.1 + 0.3 * r.unit(),
+            power: r.log_uniform(1.0),
+            lamp,
+        }
+    });
+    // Lights of a cluster stand about as dense as they are large.
+    let size = 0.3 / float::sqrt((n / count).max(1) as f32);
+    let mut next = 0;
+    repeat(n, || {
+        let cluster = &clusters[next % count];
+        next += 1;
+        let power = cluster.power * r.log_uniform(2.0);
+        let (s, c) = float::sin_cos(TAU * r.unit());
+        let around = Vec3::new(c, s, 0.0);
+        let (center, normal) = if cluster.lamp {
+            let spread = cluster.radius * float::sqrt(r.unit());
+            let tilt = r.direction() * 0.2;
+            let height = 0.05 * r.unit();
+            (
+                cluster.center + around * spread + Vec3::Z * height,
+                (Vec3::NEG_Z + tilt).normalize(),
+            )
+        } else {
+            let height = cluster.center.z * (2.0 * r.unit() - 1.0);
+            (
+                cluster.center + around * cluster.radius + Vec3::Z * height,
+                around,
+            )
+        };
+        let two_sided = r.unit() < 0.05;
+        triangle(r, center, normal, size * cluster.radius, power, two_sided)
+    })
+}
+
+fn mixed_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
+    let size = 0.5 * float::powf(300.0 / n as f32, 1.0 / 3.0);
+    let mut index = 0;
+    repeat(n, || {
+        let kind = index % 4;
+        let strong = if index < STRONG { 1000.0 } else { 1.0 };
+        index += 1;
+        let light = match kind {
+            2 => r.point_light(),
+            3 => r.spot(5.0, 70.0),
+            _ => {
+                let power = 4.0 * PI * r.log_uniform(2.0);
+                let (center, normal) = (r.over_floor(0.5, 3.0), r.direction());
+                triangle(r, center, normal, 0.3 * size, power, kind == 1)
+            }
+        };
+        scaled(light, strong)
+    })
+}
+
+fn scaled(light: SetLight, factor: f32) -> SetLight {
+    let mut light = light;
+    match &mut light {
+        SetLight::Triangle { radiance, .. } => *radiance *= factor,
+        SetLight::Point { intensity, .. } | SetLight::Spot { intensity, .. } => {
+            *intensity *= factor;
+        }
+    }
+    light
+}
+
+/// A triangle of about the given size (radius of its circumscribed circle) and emitted power.
+fn triangle(
+    r: &mut Random,
+    center: Vec3,
+    normal: Vec3,
+    size: f32,
+    power: f32,
+    two_sided: bool,
+) -> SetLight {
+    let frame = Frame::from_z(normal);
+    let turn = TAU * r.unit();
+    let corner = |k: f32, stretch: f32| {
+        let (s, c) = float::sin_cos(turn + TAU * k / 3.0);
+        (frame.x * c + frame.y * s) * (size * stretch)
+    };
+    let corners = [
+        corner(0.0, 0.6 + 0.4 * r.unit()),
+        corner(1.0, 0.6 + 0.4 * r.unit()),
+        corner(2.0, 0.6 + 0.4 * r.unit()),
+    ];
+    let vertices = corners.map(|corner| center + corner);
+    let area = 0.5
+        * (corners[1] - corners[0])
+            .cross(corners[2] - corners[0])
+            .length();
+    SetLight::Triangle {
+        vertices,
+        radiance: power / (PI * area),
+        two_sided,
+    }
+}
+
+fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
+    core::iter::repeat_with(make).take(n).collect()
+}
+
+struct Random(Pcg64Mcg);
+
+impl Random {
+    /// Uniform in `[0, 1)`.
+    fn unit(&mut self) -> f32 {
+        (self.0.next_u32() >> 8) as f32 / 16_777_216.0
+    }
+
+    /// From 1 to `10^decades`, uniform in the logarithm.
+    fn log_uniform(&mut self, decades: f32) -> f32 {
+        float::powf(10.0, decades * self.unit())
+    }
+
+    fn cube(&mut self) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    fn square(&mut self) -> Vec2 {
+        Vec2::new(self.unit(), self.unit())
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        let u = self.square();
+        let z = 1.0 - 2.0 * u.x;
+        let (s, c) = float::sin_cos(TAU * u.y);
+        let radius = float::safe_sqrt(1.0 - z * z);
+        Vec3::new(radius * c, radius * s, z).normalize()
+    }
+
+    fn over_floor(&mut self, low: f32, high: f32) -> Vec3 {
+        let u = self.square() * 10.0;
+        Vec3::new(u.x, u.y, low + (high - low) * self.unit())
+    }
+
+    fn on_floor(&mut self) -> SetPoint {
+        SetPoint {
+            p: self.over_floor(0.0, 0.0),
+            n: Vec3::Z,
+        }
+    }
+
+    fn point_light(&mut self) -> SetLight {
+        SetLight::Point {
+            p: self.over_floor(0.5, 3.0),
+            intensity: self.log_uniform(2.0),
+        }
+    }
+
+    fn spot(&mut self, narrow_deg: f32, wide_deg: f32) -> SetLight {
+        let p = self.over_floor(0.5, 3.0);
+        let aside = self.square() * 2.0 - 1.0;
+        let cone_deg = narrow_deg + (wide_deg - narrow_deg) * self.unit();
+        SetLight::Spot {
+            p,
+            target: Vec3::new(p.x + aside.x * p.z * 0.5, p.y + aside.y * p.z * 0.5, 0.0),
+            intensity: self.log_uniform(2.0),
+            cone_deg,
+            delta_deg: cone_deg * (0.1 + 0.4 * self.unit()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn same_seed_same_set() {
+        for kind in SetKind::ALL {
+            let set = LightSetFile::generate(kind, 100, 7);
+            assert_eq!(
+                set,
+                LightSetFile::generate(kind, 100, 7),
+                "{} is determined",
+                kind.name()
+            );
+            assert_ne!(
+                set,
+                LightSetFile::generate(kind, 100, 8),
+                "{} depends on the seed",
+                kind.name()
+            );
+            assert_eq!(set.lights.len(), 100, "as many as asked for");
+            assert_eq!(set.points.len(), POINTS, "points");
+            assert_eq!(kind.name().parse(), Ok(kind), "name");
+        }
+    }
+
+    #[test]
+    fn triangles_have_the_asked_power_and_side() {
+        let mut r = Random(Pcg64Mcg::seed_from_u64(1));
+        let normal = r.direction();
+        let light = triangle(&mut r, Vec3::ONE, normal, 0.1, 5.0, false);
+        let bounds = light.bounds();
+        assert!((bounds.phi - 5.0).abs() < 1e-3, "power");
+        assert!(bounds.w.dot(normal) > 0.999, "front side");
+    }
+}

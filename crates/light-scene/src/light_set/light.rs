@@ -1,0 +1,255 @@
+use glam::{DVec3, Vec3};
+use lights::bounds::LightBounds;
+use lights::math::{Aabb, float};
+
+use super::SetPoint;
+
+/// A light of a light set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SetLight {
+    /// A diffuse triangle.
+    Triangle {
+        /// The vertices, counter-clockwise as seen from the emitting side.
+        vertices: [Vec3; 3],
+        /// Emitted radiance.
+        radiance: f32,
+        /// Whether the other side emits as well.
+        two_sided: bool,
+    },
+    /// A point that shines alike in all directions.
+    Point {
+        /// Position.
+        p: Vec3,
+        /// Radiant intensity.
+        intensity: f32,
+    },
+    /// A point that shines into a cone with a soft edge.
+    Spot {
+        /// Position.
+        p: Vec3,
+        /// A point on the axis.
+        target: Vec3,
+        /// Radiant intensity along the axis.
+        intensity: f32,
+        /// Half angle of the cone, in degrees.
+        cone_deg: f32,
+        /// Width of the soft edge inside the cone, in degrees.
+        delta_deg: f32,
+    },
+}
+
+impl SetLight {
+    /// The light's position; the centroid of a triangle.
+    #[must_use]
+    pub fn position(&self) -> DVec3 {
+        match self {
+            Self::Triangle {
+                vertices: [a, b, c],
+                ..
+            } => (a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0,
+            Self::Point { p, .. } | Self::Spot { p, .. } => p.as_dvec3(),
+        }
+    }
+
+    /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at its position.
+    #[must_use]
+    pub fn contribution(&self, at: &SetPoint) -> f64 {
+        let to_light = self.position() - at.p.as_dvec3();
+        self.intensity_toward(-to_light) * geometry(to_light, at)
+    }
+
+    /// The irradiance that reaches `at` without occlusion, a triangle's taken as the mean over `samples`, barycentric coordinates
+    /// of points on it.
+    #[must_use]
+    pub fn area_contribution(&self, at: &SetPoint, samples: &[(f64, f64)]) -> f64 {
+        let Self::Triangle { vertices, .. } = self else {
+            return self.contribution(at);
+        };
+        let [a, b, c] = vertices.map(Vec3::as_dvec3);
+        let sum: f64 = samples
+            .iter()
+            .map(|&(s, t)| {
+                let to_light = a + (b - a) * s + (c - a) * t - at.p.as_dvec3();
+                self.intensity_toward(-to_light) * geometry(to_light, at)
+            })
+            .sum();
+        sum / samples.len() as f64
+    }
+
+    /// What a light sampler is told about the light.
+    #[must_use]
+    pub fn bounds(&self) -> LightBounds {
+        match *self {
+            Self::Triangle {
+                vertices: [a, b, c],
+                radiance,
+                two_sided,
+            } => {
+                let cross = (b - a).cross(c - a);
+                LightBounds {
+                    bounds: Aabb::from_points([a, b, c]),
+                    w: cross.normalize_or(Vec3::Z),
+                    phi: core::f32::consts::PI * radiance * 0.5 * cross.length(),
+                    cos_theta_o: 1.0,
+                    cos_theta_e: 0.0,
+                    two_sided,
+                }
+            }
+            Self::Point { p, intensity } => LightBounds {
+                bounds: Aabb::from_point(p),
+                w: Vec3::Z,
+                phi: 4.0 * core::f32::consts::PI * intensity,
+                cos_theta_o: -1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            },
+            Self::Spot {
+                p,
+                target,
+                intensity,
+                cone_deg,
+                delta_deg,
+            } => LightBounds {
+                bounds: Aabb::from_point(p),
+                w: (target - p).normalize_or(Vec3::Z),
+                phi: 4.0 * core::f32::consts::PI * intensity,
+                cos_theta_o: float::cos((cone_deg - delta_deg).to_radians()),
+                cos_theta_e: float::cos(delta_deg.to_radians()),
+                two_sided: false,
+            },
+        }
+    }
+
+    /// Radiant intensity along `direction`, of any length.
+    fn intensity_toward(&self, direction: DVec3) -> f64 {
+        match *self {
+            Self::Triangle {
+                vertices,
+                radiance,
+                two_sided,
+            } => {
+                let [a, b, c] = vertices.map(Vec3::as_dvec3);
+                let projected = 0.5 * (b - a).cross(c - a).dot(direction.normalize_or_zero());
+                let seen = if two_sided {
+                    projected.abs()
+                } else {
+                    projected.max(0.0)
+                };
+                f64::from(radiance) * seen
+            }
+            Self::Point { intensity, .. } => f64::from(intensity),
+            Self::Spot {
+                p,
+                target,
+                intensity,
+                cone_deg,
+                delta_deg,
+            } => {
+                let axis = (target.as_dvec3() - p.as_dvec3()).normalize_or_zero();
+                let cos = axis.dot(direction.normalize_or_zero());
+                let cos_end = f64::from(cone_deg).to_radians().cos();
+                let cos_start = (f64::from(cone_deg) - f64::from(delta_deg))
+                    .to_radians()
+                    .cos();
+                f64::from(intensity) * falloff(cos, cos_start, cos_end)
+            }
+        }
+    }
+}
+
+/// Cosine at the surface over the squared distance; 0 for a light at the point itself.
+fn geometry(to_light: DVec3, at: &SetPoint) -> f64 {
+    let dist_sq = to_light.length_squared();
+    if dist_sq == 0.0 {
+        return 0.0;
+    }
+    at.n.as_dvec3().dot(to_light).max(0.0) / (dist_sq * dist_sq.sqrt())
+}
+
+/// Smooth step from 0 at `cos_end` to 1 at `cos_start`.
+fn falloff(cos: f64, cos_start: f64, cos_end: f64) -> f64 {
+    if cos >= cos_start {
+        return 1.0;
+    }
+    if cos <= cos_end {
+        return 0.0;
+    }
+    let s = (cos - cos_end) / (cos_start - cos_end);
+    s * s * (3.0 - 2.0 * s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn floor() -> SetPoint {
+        SetPoint {
+            p: Vec3::ZERO,
+            n: Vec3::Z,
+        }
+    }
+
+    #[test]
+    fn triangle_shines_from_its_front_only_unless_two_sided() {
+        let facing_down = [Vec3::Z, Vec3::Z + Vec3::Y, Vec3::Z + Vec3::X];
+        let facing_up = [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y];
+        let f = |vertices, two_sided| {
+            SetLight::Triangle {
+                vertices,
+                radiance: 2.0,
+                two_sided,
+            }
+            .contribution(&floor())
+        };
+        let d2: f64 = 1.0 + 2.0 / 9.0;
+        assert!(
+            (f(facing_down, false) - 2.0 * 0.5 / (d2 * d2)).abs() < 1e-12,
+            "L A cos cos / d^2"
+        );
+        assert_eq!(f(facing_up, false), 0.0, "from behind");
+        assert_eq!(
+            f(facing_up, true),
+            f(facing_down, false),
+            "both sides alike"
+        );
+    }
+
+    #[test]
+    fn spot_is_one_inside_and_zero_outside() {
+        let spot = |target| {
+            SetLight::Spot {
+                p: Vec3::new(0.0, 0.0, 2.0),
+                target,
+                intensity: 8.0,
+                cone_deg: 30.0,
+                delta_deg: 10.0,
+            }
+            .contribution(&floor())
+        };
+        assert_eq!(spot(Vec3::ZERO), 2.0, "on the axis");
+        assert_eq!(spot(Vec3::new(5.0, 0.0, 2.0)), 0.0, "beside the cone");
+        let half = spot(Vec3::new(2.0 * 25f32.to_radians().tan(), 0.0, 0.0));
+        assert!(half > 0.0 && half < 2.0, "in the soft edge");
+    }
+
+    #[test]
+    fn bounds_tell_power_and_cone() {
+        let b = SetLight::Point {
+            p: Vec3::ONE,
+            intensity: 1.0,
+        }
+        .bounds();
+        assert_eq!(b.cos_theta_o, -1.0, "all directions");
+        let b = SetLight::Triangle {
+            vertices: [Vec3::ZERO, Vec3::X, Vec3::Y],
+            radiance: 1.0,
+            two_sided: true,
+        }
+        .bounds();
+        assert_eq!(b.w, Vec3::Z, "front side");
+        assert!(
+            (b.phi - core::f32::consts::FRAC_PI_2).abs() < 1e-6,
+            "pi A L, not doubled"
+        );
+    }
+}
