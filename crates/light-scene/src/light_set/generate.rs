@@ -127,7 +127,7 @@ fn cluster_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
         power: f32,
         lamp: bool,
     }
-    let count = ((float::sqrt(n as f32) / 2.0) as usize).max(1);
+    let count = (n.isqrt() / 2).max(1);
     let mut lamp = false;
     let clusters = repeat(count, || {
         lamp = !lamp;
