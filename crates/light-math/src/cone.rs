@@ -133,7 +133,7 @@ impl DirectionCone {
 
     /// A cone that holds the directions from `p` to every point of `bounds`, through the box's bounding sphere.
     ///
-    /// The whole sphere when `p` lies in the box or in that sphere; empty when the box is. Lengths are in scene units
+    /// The whole sphere when `p` lies inside that sphere, so wherever it lies in the box but at a corner; empty when the box is. Lengths are in scene units
     /// of any scale: nothing over- or underflows as long as the differences of the coordinates do not.
     ///
     /// # Source
@@ -142,9 +142,6 @@ impl DirectionCone {
     pub fn bound_subtended_directions(bounds: &Aabb, p: Vec3) -> Self {
         if bounds.is_empty() {
             return Self::EMPTY;
-        }
-        if bounds.contains(p) {
-            return Self::WHOLE_SPHERE;
         }
         let center = bounds.center();
         let to_center = center - p;
@@ -155,8 +152,8 @@ impl DirectionCone {
         let to_center = to_center / scale;
         let radius_sq = (half_diagonal / scale).length_squared();
         let dist_sq = to_center.length_squared();
-        // NaN fails this guard too: a box with an infinite corner is seen in all directions.
-        if !(radius_sq < dist_sq) {
+        // A corner of the box may lie on the sphere. NaN fails the guard: a point at its own box, an infinite corner.
+        if !(radius_sq <= dist_sq) {
             return Self::WHOLE_SPHERE;
         }
         Self::new(
@@ -266,12 +263,14 @@ mod tests {
     fn subtended_directions_inside_and_empty() {
         let b = Aabb::new(Vec3::ZERO, Vec3::ONE);
         let near_face = Vec3::new(0.5, 0.5, 1.1);
-        for p in [Vec3::ZERO, Vec3::splat(0.5), near_face] {
+        for p in [Vec3::splat(0.01), Vec3::splat(0.5), near_face] {
             assert!(
                 DirectionCone::bound_subtended_directions(&b, p).is_whole_sphere(),
                 "inside the sphere: {p}"
             );
         }
+        let at_corner = DirectionCone::bound_subtended_directions(&b, Vec3::ZERO);
+        assert_eq!(at_corner.cos_theta, 0.0, "a corner sees one side");
         let point = Aabb::from_point(Vec3::Z);
         let c = DirectionCone::bound_subtended_directions(&point, Vec3::ZERO);
         assert_eq!(c, DirectionCone::from_direction(Vec3::Z), "a point");
