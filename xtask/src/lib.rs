@@ -3,11 +3,13 @@
 use std::process::ExitCode;
 
 pub mod conformance;
+pub mod exhaustive;
 
 const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
   conformance [DIR]   check the reference vectors (default: testdata/pbrt)
+  exhaustive          check all 2^32 octahedral codes
   thin-vectors FROM   remake testdata/pbrt from a full set of vectors
 ";
 
@@ -17,6 +19,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     match arguments.split_first() {
         Some((command, rest)) => match command.as_str() {
             "conformance" => conformance::run(rest),
+            "exhaustive" => exhaustive::run(rest),
             "thin-vectors" => conformance::thin::run(rest),
             _ => refuse(&format!("no such command: {command}\n\n{USAGE}")),
         },
