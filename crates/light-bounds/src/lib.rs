@@ -6,13 +6,17 @@
 pub use light_math;
 pub use light_math::glam;
 
+mod angle;
+mod compact;
 mod context;
 mod error;
 mod extent;
+mod importance;
 mod light_bounds;
 mod light_id;
 mod sampled_light;
 
+pub use compact::CompactLightBounds;
 pub use context::LightSampleContext;
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
