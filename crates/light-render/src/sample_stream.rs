@@ -1,0 +1,136 @@
+use lights::glam::Vec2;
+use sobol_burley::parts;
+
+/// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four dimensions at a time.
+///
+/// A pure function of seed, pixel and sample number: the same numbers whatever thread asks, in whatever order.
+///
+/// # Source
+/// `[Burley2020]`, section 5 (padding by seed).
+#[derive(Clone, Copy, Debug)]
+pub struct SampleStream {
+    index: u32,
+    seed: u32,
+}
+
+/// The numbers for the camera ray, each in `[0, 1)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraNumbers {
+    /// Where in the pixel.
+    pub film: Vec2,
+    /// Where on the lens.
+    pub lens: Vec2,
+}
+
+/// The numbers for one vertex of a path, each in `[0, 1)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexNumbers {
+    /// Which light; carries 46 bits, enough to address every light of a large set.
+    pub light: f64,
+    /// Where on the light.
+    pub light_point: Vec2,
+    /// Whether the path goes on.
+    pub roulette: f32,
+    /// Which lobe of the material.
+    pub lobe: f32,
+    /// Which direction of the lobe.
+    pub direction: Vec2,
+}
+
+impl SampleStream {
+    /// The numbers of sample `sample` of pixel `(x, y)` in the picture rendered with `seed`.
+    #[must_use]
+    pub fn new(seed: u32, (x, y): (u32, u32), sample: u32) -> Self {
+        // The generator has 2^16 points; longer sequences start a fresh scramble each time they run out.
+        let epoch = sample >> 16;
+        let seed = [x, y, epoch].into_iter().fold(parts::hash(seed), |h, key| {
+            parts::hash(h.rotate_left(5) ^ key)
+        });
+        Self {
+            index: sample & 0xffff,
+            seed,
+        }
+    }
+
+    /// The numbers for the camera ray.
+    #[must_use]
+    pub fn camera(&self) -> CameraNumbers {
+        let [a, b, c, d] = self.set(0);
+        CameraNumbers {
+            film: Vec2::new(a, b),
+            lens: Vec2::new(c, d),
+        }
+    }
+
+    /// The numbers for vertex `vertex` of the path, counted from 0.
+    #[inline]
+    #[must_use]
+    pub fn vertex(&self, vertex: u32) -> VertexNumbers {
+        let [light, x, y, roulette] = self.set(2 * vertex + 1);
+        let [u, v, lobe, low_bits] = self.set(2 * vertex + 2);
+        VertexNumbers {
+            // Both halves are multiples of 2^-23.
+            light: f64::from(light) + f64::from(low_bits) * (1.0 / (1u32 << 23) as f64),
+            light_point: Vec2::new(x, y),
+            roulette,
+            lobe,
+            direction: Vec2::new(u, v),
+        }
+    }
+
+    /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.
+    fn set(&self, set: u32) -> [f32; 4] {
+        sobol_burley::sample_4d(self.index, 0, parts::hash(self.seed ^ set))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_depend_on_every_key() {
+        let of = |seed, pixel, sample| SampleStream::new(seed, pixel, sample).vertex(0);
+        let base = of(1, (2, 3), 4);
+        assert_eq!(base, of(1, (2, 3), 4), "the same again");
+        let others = [
+            of(2, (2, 3), 4),
+            of(1, (3, 2), 4),
+            of(1, (2, 4), 4),
+            of(1, (2, 3), 5),
+            of(1, (2, 3), 4 + (1 << 16)),
+            SampleStream::new(1, (2, 3), 4).vertex(1),
+        ];
+        for other in others {
+            assert_ne!(base, other, "a different key, different numbers");
+        }
+    }
+
+    #[test]
+    fn sixteen_samples_fall_into_sixteen_strata() {
+        for pixel in 0..8 {
+            let mut light = [0; 16];
+            let mut cells = [[0; 4]; 4];
+            for sample in 0..16 {
+                let v = SampleStream::new(7, (pixel, 0), sample).vertex(2);
+                assert!((0.0..1.0).contains(&v.light), "in range");
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a cell number"
+                )]
+                let cell = |x: f32| (x * 4.0) as usize;
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a cell number"
+                )]
+                let stratum = (v.light * 16.0) as usize;
+                light[stratum] += 1;
+                cells[cell(v.direction.x)][cell(v.direction.y)] += 1;
+            }
+            assert_eq!(light, [1; 16], "one light choice a stratum");
+            assert_eq!(cells, [[1; 4]; 4], "one direction a cell");
+        }
+    }
+}

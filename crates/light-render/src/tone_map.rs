@@ -1,0 +1,124 @@
+use lights::glam::Vec3;
+
+/// How linear radiance becomes what a screen shows. For looking only: files of record stay linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToneMap {
+    exposure: f32,
+}
+
+impl ToneMap {
+    /// Radiance 1 becomes almost white.
+    pub const UNIT: Self = Self { exposure: 1.0 };
+
+    /// The exposure that brings the log-average luminance of `pixels` to middle grey; [`UNIT`](Self::UNIT) for a black
+    /// picture.
+    ///
+    /// # Source
+    /// `[Reinhard2002]`, equations 1 and 2, over the pixels that are not black.
+    #[must_use]
+    pub fn fit(pixels: &[Vec3]) -> Self {
+        const MIDDLE_GREY: f64 = 0.18;
+        let (mut sum, mut n) = (0.0, 0u32);
+        for luminance in pixels.iter().map(|&p| f64::from(luminance(p))) {
+            if luminance > 0.0 && luminance.is_finite() {
+                sum += luminance.ln();
+                n += 1;
+            }
+        }
+        if n == 0 {
+            return Self::UNIT;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "an exposure needs no f64")]
+        let exposure = (MIDDLE_GREY / (sum / f64::from(n)).exp()) as f32;
+        Self { exposure }
+    }
+
+    /// The 8-bit sRGB colour of a pixel: exposed, with highlights rolled off channel by channel.
+    #[must_use]
+    pub fn apply(&self, radiance: Vec3) -> [u8; 3] {
+        let exposed = (radiance * self.exposure).max(Vec3::ZERO);
+        (exposed).to_array().map(|x| srgb_byte(roll_off(x)))
+    }
+}
+
+/// The luminance of linear sRGB.
+///
+/// # Source
+/// ITU-R BT.709-6, item 3.2.
+#[inline]
+#[must_use]
+pub fn luminance(rgb: Vec3) -> f32 {
+    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// Identity up to the knee, from there a curve of equal slope that reaches one at infinity.
+fn roll_off(x: f32) -> f32 {
+    const KNEE: f32 = 0.6;
+    if !(x > KNEE) {
+        return x;
+    }
+    let over = (x - KNEE) / (1.0 - KNEE);
+    KNEE + (1.0 - KNEE) * (over / (1.0 + over))
+}
+
+/// The sRGB code of a linear value in `[0, 1]`.
+///
+/// # Source
+/// IEC 61966-2-1, section 5.2.
+fn srgb_byte(x: f32) -> u8 {
+    let encoded = if x <= 0.003_130_8 {
+        12.92 * x
+    } else {
+        1.055 * x.powf(1.0 / 2.4) - 0.055
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped; NaN becomes 0"
+    )]
+    let byte = (encoded.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    byte
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_is_fixed_at_its_ends() {
+        assert_eq!(ToneMap::UNIT.apply(Vec3::ZERO), [0; 3], "black");
+        assert_eq!(
+            ToneMap::UNIT.apply(Vec3::splat(f32::INFINITY)),
+            [0; 3],
+            "not a number"
+        );
+        assert_eq!(ToneMap::UNIT.apply(Vec3::splat(1e9)), [255; 3], "white");
+        assert_eq!(
+            ToneMap::UNIT.apply(Vec3::splat(0.5)),
+            [188; 3],
+            "the sRGB code of one half"
+        );
+    }
+
+    #[test]
+    fn the_curve_rises() {
+        let mut last = 0;
+        for i in 0..200u8 {
+            let [code, ..] = ToneMap::UNIT.apply(Vec3::splat(f32::from(i) * 0.02));
+            assert!(code >= last, "monotonic at {i}");
+            last = code;
+        }
+    }
+
+    #[test]
+    fn middle_grey_lands_where_it_should() {
+        let pixels = [Vec3::splat(5.0), Vec3::ZERO, Vec3::splat(5.0)];
+        let map = ToneMap::fit(&pixels);
+        assert!((map.exposure - 0.036).abs() < 1e-5, "0.18 / 5");
+        assert_eq!(
+            ToneMap::fit(&[Vec3::ZERO]),
+            ToneMap::UNIT,
+            "nothing to measure"
+        );
+    }
+}
