@@ -1,3 +1,28 @@
-//! light-scene
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
+extern crate alloc;
+
+pub use lights;
+pub use lights::glam;
+
+mod camera;
+mod diagnostic;
+mod environment;
+mod image;
 pub mod light_set;
+mod material;
+mod mesh;
+mod obj;
+mod scene;
+mod text;
+
+pub use camera::{Camera, CameraError, Lens};
+pub use diagnostic::{Diagnostic, Place};
+pub use environment::{SceneLight, SkyImage};
+pub use image::{Image, ImageError};
+pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
+pub use mesh::Mesh;
+pub use obj::read_obj;
+pub use scene::{ImageId, MaterialId, Scene};

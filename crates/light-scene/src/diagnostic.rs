@@ -1,0 +1,79 @@
+use core::fmt;
+use std::path::{Path, PathBuf};
+
+/// What is wrong with a file, or was ignored in it, and where: the error of every reader, and its warnings.
+///
+/// Its display is one line: `path:line: message` or `path: byte N: message`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The file.
+    pub path: PathBuf,
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong there, and what was expected.
+    pub message: String,
+}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line of a text file; the first is 1.
+    Line(usize),
+    /// A byte of a binary file; the first is 0.
+    Byte(usize),
+}
+
+impl Diagnostic {
+    /// A message about the file as a whole.
+    #[must_use]
+    pub fn file(path: &Path, message: impl Into<String>) -> Self {
+        Self::at(path, Place::File, message)
+    }
+
+    /// A message about one place in the file.
+    #[must_use]
+    pub fn at(path: &Path, place: Place, message: impl Into<String>) -> Self {
+        Self {
+            path: path.to_path_buf(),
+            place,
+            message: message.into(),
+        }
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let path = self.path.display();
+        match self.place {
+            Place::File => write!(f, "{path}: {}", self.message),
+            Place::Line(line) => write!(f, "{path}:{line}: {}", self.message),
+            Place::Byte(byte) => write!(f, "{path}: byte {byte}: {}", self.message),
+        }
+    }
+}
+
+impl core::error::Error for Diagnostic {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shows_one_line() {
+        let path = Path::new("a/b.obj");
+        let shown = |place| Diagnostic::at(path, place, "expected a number").to_string();
+        assert_eq!(shown(Place::File), "a/b.obj: expected a number", "file");
+        assert_eq!(
+            shown(Place::Line(7)),
+            "a/b.obj:7: expected a number",
+            "line"
+        );
+        assert_eq!(
+            shown(Place::Byte(9)),
+            "a/b.obj: byte 9: expected a number",
+            "byte"
+        );
+    }
+}

@@ -1,0 +1,104 @@
+use core::fmt;
+
+use crate::glam::Vec3;
+
+/// A linear RGB image in memory, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    width: u32,
+    height: u32,
+    texels: Vec<Vec3>,
+}
+
+/// Why texels are no image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// Width or height is 0.
+    Empty,
+    /// There are not width times height texels.
+    TexelCount,
+}
+
+impl Image {
+    /// An image of `width * height` texels, row by row from the top, each row from the left.
+    ///
+    /// # Errors
+    /// When width or height is 0, or the number of texels is not their product.
+    pub fn new(width: u32, height: u32, texels: Vec<Vec3>) -> Result<Self, ImageError> {
+        if width == 0 || height == 0 {
+            return Err(ImageError::Empty);
+        }
+        if (width as usize).checked_mul(height as usize) != Some(texels.len()) {
+            return Err(ImageError::TexelCount);
+        }
+        Ok(Self {
+            width,
+            height,
+            texels,
+        })
+    }
+
+    /// Texels per row, at least 1.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows, at least 1.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All texels, row by row from the top.
+    #[must_use]
+    pub fn texels(&self) -> &[Vec3] {
+        &self.texels
+    }
+
+    /// All texels, row by row from the top, without the frame around them.
+    #[must_use]
+    pub fn into_texels(self) -> Vec<Vec3> {
+        self.texels
+    }
+
+    /// The texel of column `x` and row `y`.
+    ///
+    /// # Panics
+    /// Panics outside the image.
+    #[must_use]
+    pub fn texel(&self, x: u32, y: u32) -> Vec3 {
+        assert!(x < self.width && y < self.height, "texel inside the image");
+        self.texels[y as usize * self.width as usize + x as usize]
+    }
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Empty => "an image needs at least one texel in each direction",
+            Self::TexelCount => "the number of texels is not width times height",
+        })
+    }
+}
+
+impl core::error::Error for ImageError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_must_fit() {
+        let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, Vec3::ZERO];
+        let image = Image::new(3, 2, texels.clone()).expect("3 x 2");
+        assert_eq!(image.texel(1, 1), Vec3::ONE, "row by row");
+        assert_eq!(
+            Image::new(2, 2, texels),
+            Err(ImageError::TexelCount),
+            "six texels are not 2 x 2"
+        );
+        assert_eq!(Image::new(0, 2, vec![]), Err(ImageError::Empty), "empty");
+    }
+}

@@ -1,0 +1,110 @@
+use lights::math::Aabb;
+
+use crate::MaterialId;
+use crate::glam::{Vec2, Vec3};
+
+/// Triangles of one material.
+///
+/// Seen from their front the vertices of a triangle run counter-clockwise: the front normal is
+/// `cross(p1 - p0, p2 - p0)`, and it is the side on which a one-sided emitter shines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// The group's name in the file; may be empty.
+    pub name: String,
+    /// What the triangles are made of.
+    pub material: MaterialId,
+    /// Positions of the vertices, in scene units.
+    pub positions: Vec<Vec3>,
+    /// Shading normals, one per vertex, not necessarily of unit length; absent for flat shading.
+    pub normals: Option<Vec<Vec3>>,
+    /// Texture coordinates, one per vertex; (0, 0) is the lower left corner of an image.
+    pub uvs: Option<Vec<Vec2>>,
+    /// Three vertices per triangle, each below `positions.len()`.
+    pub indices: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// A mesh without triangles.
+    #[must_use]
+    pub fn new(name: impl Into<String>, material: MaterialId) -> Self {
+        Self {
+            name: name.into(),
+            material,
+            positions: Vec::new(),
+            normals: None,
+            uvs: None,
+            indices: Vec::new(),
+        }
+    }
+
+    /// Two triangles over four corners, counter-clockwise seen from the front.
+    #[must_use]
+    pub fn quad(name: impl Into<String>, material: MaterialId, corners: [Vec3; 4]) -> Self {
+        let mut mesh = Self::new(name, material);
+        mesh.push_quad(corners);
+        mesh
+    }
+
+    /// Adds two triangles over four corners, counter-clockwise seen from the front; the mesh must be flat shaded.
+    pub fn push_quad(&mut self, corners: [Vec3; 4]) {
+        let first = self.next_vertex();
+        self.positions.extend(corners);
+        self.indices.push([first, first + 1, first + 2]);
+        self.indices.push([first, first + 2, first + 3]);
+    }
+
+    /// Adds one triangle, counter-clockwise seen from the front; the mesh must be flat shaded.
+    pub fn push_triangle(&mut self, corners: [Vec3; 3]) {
+        let first = self.next_vertex();
+        self.positions.extend(corners);
+        self.indices.push([first, first + 1, first + 2]);
+    }
+
+    /// The box around all vertices.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.positions.iter().copied())
+    }
+
+    /// The corners of a triangle.
+    ///
+    /// # Panics
+    /// Panics if there is no such triangle.
+    #[must_use]
+    pub fn triangle(&self, index: usize) -> [Vec3; 3] {
+        self.indices[index].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// The area of all triangles, in scene units squared.
+    #[must_use]
+    pub fn area(&self) -> f32 {
+        let triangles = (0..self.indices.len()).map(|index| self.triangle(index));
+        let doubled = triangles.map(|[a, b, c]| (b - a).cross(c - a).length());
+        0.5 * doubled.sum::<f32>()
+    }
+
+    /// The index that the next vertex gets.
+    ///
+    /// # Panics
+    /// Panics at 2^32 vertices.
+    pub(crate) fn next_vertex(&self) -> u32 {
+        u32::try_from(self.positions.len()).expect("fewer than 2^32 vertices in a mesh")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quad_is_two_triangles_with_one_front() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
+        let mesh = Mesh::quad("q", MaterialId(0), corners);
+        assert_eq!(mesh.indices.len(), 2, "two triangles");
+        assert_eq!(mesh.area(), 1.0, "unit square");
+        for index in 0..2 {
+            let [a, b, c] = mesh.triangle(index);
+            assert_eq!((b - a).cross(c - a), Vec3::Z, "front is +z");
+        }
+    }
+}

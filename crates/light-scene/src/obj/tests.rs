@@ -1,0 +1,218 @@
+use super::*;
+use crate::glam::Vec2;
+use crate::{Color, Emission, Surface};
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+fn parse(obj: &str, mtl: &str) -> Result<Scene, String> {
+    let library = |path: &Path| match path.to_str() {
+        Some("dir/a.mtl" | "dir/a b.mtl") => Ok(mtl.to_owned()),
+        _ => Err(Diagnostic::file(path, "cannot be read: no such file")),
+    };
+    parse_obj(Path::new("dir/a.obj"), obj, &library).map_err(|error| error.to_string())
+}
+
+fn error(obj: &str, mtl: &str) -> String {
+    parse(obj, mtl).expect_err("an error")
+}
+
+#[test]
+fn reads_groups_materials_and_polygons() {
+    let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
+        o wall\nusemtl white\nf 1 2 3 4\ng lamp of mine\nusemtl lamp\nf -4/1/1 -3/2/1 -2/3/1\n\
+        o wall\nusemtl white\nf 4 3 2\n";
+    let mtl = "newmtl white\nKd .7 .8 .9\nnewmtl lamp # on\nKe 1 2 3\nKd 0 0 0\n";
+    let scene = parse(obj, mtl).expect("a scene");
+    assert_eq!(scene.warnings, [], "nothing ignored");
+    let [wall, lamp] = &scene.meshes[..] else {
+        panic!(
+            "one mesh per group and material, not {}",
+            scene.meshes.len()
+        );
+    };
+    assert_eq!(wall.name, "wall", "name of `o`");
+    assert_eq!(wall.positions.len(), 4, "shared vertices");
+    let quad_and_back = [[0, 1, 2], [0, 2, 3], [3, 2, 1]];
+    assert_eq!(wall.indices, quad_and_back, "a fan, then the second visit");
+    assert_eq!(wall.normals, None, "flat");
+    assert_eq!(lamp.name, "lamp of mine", "name of `g`");
+    assert_eq!(lamp.normals, Some(vec![Vec3::Z; 3]), "normals");
+    let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE];
+    assert_eq!(lamp.uvs, Some(uvs), "texture coordinates");
+    let emission = scene.material(lamp.material).emission;
+    let expected = Emission::one_sided(Vec3::new(1.0, 2.0, 3.0));
+    assert_eq!(emission, Some(expected), "Ke");
+    let reflectance = Color::Constant(Vec3::new(0.7, 0.8, 0.9));
+    let white = &scene.material(wall.material).surface;
+    assert_eq!(white, &Surface::Diffuse { reflectance }, "Kd");
+}
+
+#[test]
+fn names_what_it_ignores_once() {
+    let obj = format!("{TRIANGLE}curv 1\ncurv 2\nv 0 0 0 1 0 0\ns off\nusemtl x\nf 1 2 3\n");
+    let scene = parse(&obj, "").expect("a scene");
+    let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
+    let expected = [
+        "dir/a.obj:4: `curv` is not understood and was ignored",
+        "dir/a.obj:6: `v` has vertex colours, which were ignored",
+        "dir/a.obj:8: material `x` is grey: no `mtllib` line before",
+    ];
+    assert_eq!(warnings, expected, "one warning each");
+    let obj = format!("mtllib a.mtl\n{TRIANGLE}f 1 2 3\n");
+    let scene = parse(&obj, "newmtl a\nfoo 1\nfoo 2\n").expect("a scene");
+    let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
+    let expected = ["dir/a.mtl:2: `foo` is not understood and was ignored"];
+    assert_eq!(warnings, expected, "one warning");
+}
+
+#[test]
+fn library_names_may_hold_blanks_or_be_several() {
+    let mtl = "newmtl a\n";
+    for names in ["a b.mtl", "a.mtl a.mtl"] {
+        let obj = format!("mtllib {names}\n{TRIANGLE}usemtl a\nf 1 2 3\n");
+        parse(&obj, mtl).expect("a scene");
+    }
+}
+
+#[test]
+fn broken_obj_lines_give_one_clear_line() {
+    let cases = [
+        (
+            "v 0 0\n",
+            "dir/a.obj:1: expected a vertex coordinate, found the end of the line",
+        ),
+        (
+            "\nv 0 x 0\n",
+            "dir/a.obj:2: expected a vertex coordinate, found `x`",
+        ),
+        (
+            "v 0 inf 0\n",
+            "dir/a.obj:1: expected a vertex coordinate, found `inf`",
+        ),
+        ("v 0 1 0 0\n", "dir/a.obj:1: expected a weight other than 0"),
+        (
+            "vt 0\n",
+            "dir/a.obj:1: expected a texture coordinate, found the end of the line",
+        ),
+        (
+            "vn 0 0 nan\n",
+            "dir/a.obj:1: expected a normal's coordinate, found `nan`",
+        ),
+        ("f 1 2 3\n", "dir/a.obj:1: vertex 1 of 0 does not exist"),
+        (
+            "v 0 0 0\nf 1 1\n",
+            "dir/a.obj:2: expected at least three corners, found 2",
+        ),
+        (
+            "v 0 0 0\nf 1 1 0\n",
+            "dir/a.obj:2: vertex 0 of 1 does not exist",
+        ),
+        (
+            "v 0 0 0\nf 1/1 1/1 1/1\n",
+            "dir/a.obj:2: texture coordinate 1 of 0 does not exist",
+        ),
+        (
+            "v 0 0 0\nf 1//-1 1 1\n",
+            "dir/a.obj:2: normal -1 of 0 does not exist",
+        ),
+        (
+            "v 0 0 0\nf 1 1 a\n",
+            "dir/a.obj:2: expected v, v/vt, v//vn or v/vt/vn, found `a`",
+        ),
+        (
+            "v 0 0 0\nf 1 1 1/////\n",
+            "dir/a.obj:2: expected v, v/vt, v//vn or v/vt/vn, found `1/////`",
+        ),
+        (
+            "v 0 0 0\nf 1 1 //\n",
+            "dir/a.obj:2: expected v, v/vt, v//vn or v/vt/vn, found `//`",
+        ),
+        (
+            "v 0 0 0\nvt 0 0\nf 1 1 1/1\n",
+            "dir/a.obj:3: expected all corners alike: v, v/vt, v//vn or v/vt/vn",
+        ),
+        ("usemtl\n", "dir/a.obj:1: expected a material's name"),
+        ("mtllib\n", "dir/a.obj:1: expected a file name"),
+        (
+            "mtllib b.mtl\n",
+            "dir/a.obj:1: material library `b.mtl`: cannot be read: no such file",
+        ),
+        (
+            "mtllib a.mtl\nusemtl b\n",
+            "dir/a.obj:2: expected a material of a.mtl, found `b`",
+        ),
+        ("", "dir/a.obj: expected at least one face (`f`)"),
+    ];
+    for (obj, expected) in cases {
+        assert_eq!(error(obj, "newmtl a\n"), expected, "{obj}");
+    }
+}
+
+#[test]
+fn broken_mtl_lines_give_one_clear_line() {
+    let cases = [
+        (
+            "",
+            "dir/a.mtl: expected at least one material (`newmtl NAME`)",
+        ),
+        (
+            "Kd 1 1 1\n",
+            "dir/a.mtl:1: expected `newmtl NAME` before `Kd`",
+        ),
+        ("newmtl\n", "dir/a.mtl:1: expected a material's name"),
+        (
+            "newmtl a\nKd\n",
+            "dir/a.mtl:2: expected a colour channel, found the end of the line",
+        ),
+        (
+            "newmtl a\nKd 1 1\n",
+            "dir/a.mtl:2: expected a colour channel, found the end of the line",
+        ),
+        (
+            "newmtl a\nKe 1 -1 1\n",
+            "dir/a.mtl:2: expected colour channels of at least 0",
+        ),
+        (
+            "newmtl a\nNi -1\n",
+            "dir/a.mtl:2: expected an index of refraction of at least 0, found -1",
+        ),
+        (
+            "newmtl a\nillum 11\n",
+            "dir/a.mtl:2: expected an illumination model of 0 to 10, found `11`",
+        ),
+    ];
+    for (mtl, expected) in cases {
+        assert_eq!(error("mtllib a.mtl\n", mtl), expected, "{mtl}");
+    }
+}
+
+#[test]
+fn materials_mean_what_the_documentation_says() {
+    let mtl = "newmtl mirror\nKs .9 .9 .9\nillum 5\nnewmtl glass\nNi 1.3\nillum 7\n\
+        newmtl gold\nPm 1\nPr .5\nKd 1 .7 .3\nnewmtl grey\nKd .4\n";
+    let obj = format!("mtllib a.mtl\n{TRIANGLE}f 1 2 3\n");
+    let scene = parse(&obj, mtl).expect("a scene");
+    let surfaces: Vec<_> = scene.materials.iter().map(|m| &m.surface).collect();
+    let reflectance = Vec3::splat(0.9);
+    assert_eq!(surfaces[0], &Surface::Mirror { reflectance }, "illum 5");
+    let alpha = Vec2::ZERO;
+    assert_eq!(
+        surfaces[1],
+        &Surface::Dielectric { eta: 1.3, alpha },
+        "illum 7"
+    );
+    let gold = Surface::conductor_of_reflectance(Vec3::new(1.0, 0.7, 0.3), Vec2::splat(0.25));
+    assert_eq!(surfaces[2], &gold, "Pm");
+    let reflectance = Color::Constant(Vec3::splat(0.4));
+    assert_eq!(surfaces[3], &Surface::Diffuse { reflectance }, "one number");
+}
+
+#[test]
+fn missing_file_is_named() {
+    let error = read_obj(Path::new("no/such.obj")).expect_err("an error");
+    let shown = error.to_string();
+    assert!(
+        shown.starts_with("no/such.obj: cannot be read: "),
+        "{shown}"
+    );
+}

@@ -1,0 +1,114 @@
+use lights::math::Aabb;
+
+use crate::glam::Vec3;
+use crate::{Camera, Diagnostic, Image, Material, Mesh, SceneLight};
+
+/// Position of a material in [`Scene::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MaterialId(pub u32);
+
+/// Position of an image in [`Scene::images`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ImageId(pub u32);
+
+/// What a scene file describes, in the user's units: what is there, what it is made of, what shines, who looks.
+///
+/// Right-handed, y up by convention; lengths are in scene units. A `Scene` may hold nonsense (a material that emits
+/// negative radiance); the lights built from it may not.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Triangles, one mesh per group and material of the file.
+    pub meshes: Vec<Mesh>,
+    /// Materials; a mesh names its material by position. A mesh shines when its material does.
+    pub materials: Vec<Material>,
+    /// Images, each stored once however often it is used.
+    pub images: Vec<Image>,
+    /// Lights that are no mesh: points, distant lights, environments.
+    pub lights: Vec<SceneLight>,
+    /// The camera, if the file has one.
+    pub camera: Option<Camera>,
+    /// What the reader ignored or repaired, each with file and line.
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl Scene {
+    /// The box around all meshes; empty when there are none.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        let boxes = self.meshes.iter().map(Mesh::bounds);
+        boxes.fold(Aabb::EMPTY, |all, one| all.union(one))
+    }
+
+    /// The material with this id.
+    ///
+    /// # Panics
+    /// Panics if the scene has no such material; readers never make such an id.
+    #[must_use]
+    pub fn material(&self, id: MaterialId) -> &Material {
+        &self.materials[id.0 as usize]
+    }
+
+    /// The number of triangles of all meshes.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.meshes.iter().map(|mesh| mesh.indices.len()).sum()
+    }
+
+    /// The number of triangles whose material emits light.
+    #[must_use]
+    pub fn emissive_triangle_count(&self) -> usize {
+        let shines = |mesh: &&Mesh| self.material(mesh.material).emission.is_some();
+        let emissive = self.meshes.iter().filter(shines);
+        emissive.map(|mesh| mesh.indices.len()).sum()
+    }
+
+    /// The scene's camera or, if it has none, one in front of the scene (toward +z of its centre) that sees all of it.
+    #[must_use]
+    pub fn camera_or_default(&self) -> Camera {
+        let default = || Camera::framing(&self.bounds(), Vec3::NEG_Z);
+        self.camera.unwrap_or_else(default)
+    }
+
+    /// Adds a material and returns its id.
+    ///
+    /// # Panics
+    /// Panics if there are already 2^32 materials.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        let id = u32::try_from(self.materials.len()).expect("fewer than 2^32 materials");
+        self.materials.push(material);
+        MaterialId(id)
+    }
+
+    /// Adds an image and returns its id.
+    ///
+    /// # Panics
+    /// Panics if there are already 2^32 images.
+    pub fn add_image(&mut self, image: Image) -> ImageId {
+        let id = u32::try_from(self.images.len()).expect("fewer than 2^32 images");
+        self.images.push(image);
+        ImageId(id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Emission;
+
+    #[test]
+    fn counts_and_bounds() {
+        let mut scene = Scene::default();
+        let grey = scene.add_material(Material::diffuse("grey", Vec3::splat(0.5)));
+        let lamp = scene.add_material(Material {
+            emission: Some(Emission::one_sided(Vec3::ONE)),
+            ..Material::diffuse("lamp", Vec3::ZERO)
+        });
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
+        scene.meshes.push(Mesh::quad("floor", grey, corners));
+        let above = corners.map(|p| p + Vec3::Z);
+        scene.meshes.push(Mesh::quad("lamp", lamp, above));
+        assert_eq!(scene.triangle_count(), 4, "two quads");
+        assert_eq!(scene.emissive_triangle_count(), 2, "one of them shines");
+        assert_eq!(scene.bounds(), Aabb::new(Vec3::ZERO, Vec3::ONE), "box");
+    }
+}

@@ -1,0 +1,179 @@
+//! What the readers of line-by-line formats share: lines, words, numbers, and errors that know where they are.
+
+use alloc::borrow::Cow;
+use core::str::SplitWhitespace;
+use std::path::Path;
+
+use crate::glam::{Vec2, Vec3};
+use crate::{Diagnostic, Place};
+
+/// The text of a file; bytes that are not UTF-8 become replacement characters.
+pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
+    let bytes = read_bytes(path)?;
+    Ok(match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+    })
+}
+
+/// The bytes of a file.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    std::fs::read(path).map_err(|error| Diagnostic::file(path, format!("cannot be read: {error}")))
+}
+
+/// The lines of `text` with the number of each (the first is 1), without comments that `#` starts.
+///
+/// A line that ends with a backslash goes on in the next one.
+pub(crate) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let mut lines = text.lines().enumerate();
+    core::iter::from_fn(move || {
+        let (index, first) = lines.next()?;
+        let mut whole = Cow::Borrowed(without_comment(first));
+        while let Some(begun) = whole.strip_suffix('\\') {
+            let next = lines.next().map_or("", |(_, line)| without_comment(line));
+            whole = Cow::Owned(format!("{begun} {next}"));
+        }
+        Some((index + 1, whole))
+    })
+}
+
+/// A `#` starts a comment at the start of a word only: file names may hold one.
+fn without_comment(line: &str) -> &str {
+    let starts_comment = |&(at, _): &(usize, &str)| {
+        let before = line[..at].chars().next_back();
+        before.is_none_or(char::is_whitespace)
+    };
+    let comment = line.match_indices('#').find(starts_comment);
+    line[..comment.map_or(line.len(), |(at, _)| at)].trim_end()
+}
+
+/// One line, read word by word.
+#[derive(Clone, Debug)]
+pub(crate) struct Line<'a> {
+    path: &'a Path,
+    number: usize,
+    words: SplitWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    pub(crate) fn new(path: &'a Path, number: usize, text: &'a str) -> Self {
+        Self {
+            path,
+            number,
+            words: text.split_whitespace(),
+        }
+    }
+
+    /// The file that the line is in.
+    pub(crate) const fn path(&self) -> &'a Path {
+        self.path
+    }
+
+    /// A message about this line.
+    pub(crate) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::at(self.path, Place::Line(self.number), message)
+    }
+
+    /// The next word, if there is one.
+    pub(crate) fn word(&mut self) -> Option<&'a str> {
+        self.words.next()
+    }
+
+    /// The words that are left, separated by single blanks: a name or path that may hold blanks.
+    pub(crate) fn rest(&mut self, what: &str) -> Result<String, Diagnostic> {
+        let words: Vec<&str> = self.words.by_ref().collect();
+        if words.is_empty() {
+            return Err(self.diagnostic(format!("expected {what}")));
+        }
+        Ok(words.join(" "))
+    }
+
+    /// The next word as a finite number; `what` says what it is for.
+    pub(crate) fn number(&mut self, what: &str) -> Result<f32, Diagnostic> {
+        let Some(word) = self.word() else {
+            return Err(self.diagnostic(format!("expected {what}, found the end of the line")));
+        };
+        self.parse_number(word, what)
+    }
+
+    /// The next word, if there is one, as a finite number.
+    pub(crate) fn optional_number(&mut self, what: &str) -> Result<Option<f32>, Diagnostic> {
+        let word = self.word();
+        word.map(|word| self.parse_number(word, what)).transpose()
+    }
+
+    /// The next two words as finite numbers.
+    pub(crate) fn vec2(&mut self, what: &str) -> Result<Vec2, Diagnostic> {
+        Ok(Vec2::new(self.number(what)?, self.number(what)?))
+    }
+
+    /// The next three words as finite numbers.
+    pub(crate) fn vec3(&mut self, what: &str) -> Result<Vec3, Diagnostic> {
+        let (x, y) = (self.number(what)?, self.number(what)?);
+        Ok(Vec3::new(x, y, self.number(what)?))
+    }
+
+    fn parse_number(&self, word: &str, what: &str) -> Result<f32, Diagnostic> {
+        let parsed = word.parse::<f32>().ok().filter(|number| number.is_finite());
+        parsed.ok_or_else(|| self.diagnostic(format!("expected {what}, found `{}`", shown(word))))
+    }
+}
+
+/// A word as an error message shows it: not longer than a line has room for.
+pub(crate) fn shown(word: &str) -> String {
+    const LONGEST: usize = 40;
+    let printable = |c: char| if c.is_control() { '?' } else { c };
+    let mut short: String = word.chars().take(LONGEST).map(printable).collect();
+    if word.chars().nth(LONGEST).is_some() {
+        short.push_str("...");
+    }
+    short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_and_continued_lines() {
+        let text = "v 1 # x\n# all\nf 1 \\\n 2 \\\n3\nmtllib a#b.mtl\nend\\";
+        let lines: Vec<_> = logical_lines(text).collect();
+        let expected = [
+            (1, "v 1"),
+            (2, ""),
+            (3, "f 1   2  3"),
+            (6, "mtllib a#b.mtl"),
+            (7, "end "),
+        ];
+        assert_eq!(lines.len(), expected.len(), "{lines:?}");
+        for (line, (number, text)) in lines.iter().zip(expected) {
+            assert_eq!(line.0, number, "the first line's number");
+            assert_eq!(line.1, text, "the text");
+        }
+    }
+
+    #[test]
+    fn numbers_are_finite_or_named() {
+        let path = Path::new("a");
+        let mut line = Line::new(path, 3, "1e0 -.5 nan x");
+        assert_eq!(line.vec2("a number"), Ok(Vec2::new(1.0, -0.5)), "two");
+        let message = |error: Diagnostic| error.to_string();
+        assert_eq!(
+            line.number("a width").map_err(message),
+            Err("a:3: expected a width, found `nan`".into()),
+            "NaN"
+        );
+        assert_eq!(
+            line.number("a width").map_err(message),
+            Err("a:3: expected a width, found `x`".into()),
+            "no number"
+        );
+        assert_eq!(
+            line.number("a width").map_err(message),
+            Err("a:3: expected a width, found the end of the line".into()),
+            "nothing"
+        );
+        assert_eq!(line.optional_number("a width"), Ok(None), "nothing");
+        assert_eq!(shown(&"x".repeat(50)).len(), 43, "cut");
+    }
+}
