@@ -3,6 +3,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod accel;
+pub mod bench;
 mod compare;
 mod false_color;
 mod film;

@@ -1,0 +1,148 @@
+//! Light samplers measured side by side on a light set: exact variance, time, memory, and the laws they must obey.
+//!
+//! The estimator is that of one unoccluded shading point: the contribution of the chosen light over its probability. Its variance
+//! is summed over all lights, not sampled, so that a rare large term cannot hide.
+
+mod laws;
+mod row;
+mod statistics;
+mod subject;
+mod timing;
+mod truth;
+mod variance;
+
+pub use laws::Laws;
+pub use row::BenchRow;
+pub use subject::SamplerKind;
+pub use timing::QueryTime;
+pub use truth::Truth;
+pub use variance::Variance;
+
+use light_scene::light_set::LightSetFile;
+use lights::bounds::{LightExtent, LightSampleContext};
+
+use subject::Subject;
+
+/// What to measure.
+#[derive(Clone, Debug)]
+pub struct BenchOptions {
+    /// The samplers, in the order of the rows.
+    pub samplers: Vec<SamplerKind>,
+    /// Samples of one call.
+    pub k: usize,
+    /// How many of the set's points the variance is taken over; `None`: all of them up to 10 thousand lights, 256 above.
+    pub var_points: Option<usize>,
+    /// Threads that build a tree and sum the variance. Queries are timed on one.
+    pub threads: usize,
+    /// What counts as the contribution of a light.
+    pub truth: Truth,
+}
+
+/// One row for each sampler, all measured in this run and in turns, so that their ratios mean something on a busy machine.
+///
+/// # Panics
+/// If the system refuses to start the threads.
+#[must_use]
+pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<BenchRow> {
+    let extents: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
+    let contexts: Vec<LightSampleContext> = set
+        .points
+        .iter()
+        .map(|at| LightSampleContext::surface(at.p, at.n, at.n))
+        .collect();
+    let var_points = options
+        .var_points
+        .unwrap_or(if set.lights.len() > 10_000 {
+            256
+        } else {
+            usize::MAX
+        })
+        .min(set.points.len());
+
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()
+        .expect("threads for building");
+    let built: Vec<(f64, Subject)> = options
+        .samplers
+        .iter()
+        .map(|&kind| pool.install(|| timing::build(|| Subject::new(kind, &extents))))
+        .collect();
+    let subjects: Vec<&Subject> = built.iter().map(|(_, subject)| subject).collect();
+    let times = timing::queries(&subjects, &contexts, options.k);
+
+    built
+        .iter()
+        .zip(times)
+        .map(|((build_ms, subject), time)| {
+            let variance = pool.install(|| {
+                if options.k == 1 {
+                    variance::exact(subject, set, &contexts[..var_points], options.truth)
+                } else {
+                    variance::repeated(
+                        subject,
+                        set,
+                        &contexts[..var_points],
+                        options.truth,
+                        options.k,
+                    )
+                }
+            });
+            let laws = pool.install(|| laws::check(subject, &contexts));
+            BenchRow {
+                set: name.to_owned(),
+                n_lights: set.lights.len(),
+                sampler: subject.kind(),
+                k: options.k,
+                build_ms: *build_ms,
+                bytes: subject.bytes(),
+                depth: subject.depth(),
+                time,
+                variance,
+                laws,
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_scene::light_set::SetKind;
+
+    fn options(k: usize) -> BenchOptions {
+        BenchOptions {
+            samplers: vec![SamplerKind::Uniform],
+            k,
+            var_points: Some(16),
+            threads: 1,
+            truth: Truth::Centroid,
+        }
+    }
+
+    #[test]
+    fn uniform_sampling_loses_nothing_and_its_pmf_adds_up() {
+        let set = LightSetFile::generate(SetKind::Mixed, 50, 1);
+        let rows = bench("mixed", &set, &options(1));
+        let row = &rows[0];
+        assert_eq!(row.variance.lost_energy, 0.0, "every light can be picked");
+        assert_eq!(row.laws.pmf_mismatch, 0.0, "same bits");
+        assert!(row.laws.pmf_sum_max_error < 1e-6, "a distribution");
+        assert!(row.variance.mean > 1.0, "as noisy as uniform sampling is");
+    }
+
+    #[test]
+    fn repeated_calls_agree_with_the_exact_variance() {
+        let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
+        let exact = &bench("uniform", &set, &options(1))[0];
+        let repeated = &bench("uniform", &set, &options(2))[0];
+        // Two stratified samples are at most as noisy as two independent ones, up to the noise of the estimate.
+        assert!(
+            repeated.variance.mean < exact.variance.mean * 1.5,
+            "{} against {}",
+            repeated.variance.mean,
+            exact.variance.mean
+        );
+        assert!(repeated.variance.mean > 0.0, "but noisy");
+    }
+}

@@ -1,0 +1,116 @@
+use core::fmt;
+
+use serde_json::{Value, json};
+
+use super::SamplerKind;
+use super::laws::Laws;
+use super::timing::QueryTime;
+use super::variance::Variance;
+
+/// What was measured of one sampler on one set.
+#[derive(Clone, Debug)]
+pub struct BenchRow {
+    /// Name of the set.
+    pub set: String,
+    /// Lights of the set.
+    pub n_lights: usize,
+    /// The sampler.
+    pub sampler: SamplerKind,
+    /// Samples of one call.
+    pub k: usize,
+    /// Milliseconds to build.
+    pub build_ms: f64,
+    /// Bytes that a query may touch.
+    pub bytes: usize,
+    /// Nodes on the longest way down.
+    pub depth: usize,
+    /// Time of the queries.
+    pub time: QueryTime,
+    /// Variance of the estimate.
+    pub variance: Variance,
+    /// How the sampler keeps the laws.
+    pub laws: Laws,
+}
+
+impl BenchRow {
+    /// The title line of a table of rows.
+    #[must_use]
+    pub fn header() -> String {
+        format!(
+            "{:<10} {:>8} {:<14} {:>3} {:>10} {:>8} {:>5} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}",
+            "set",
+            "lights",
+            "sampler",
+            "k",
+            "build ms",
+            "B/light",
+            "depth",
+            "ns/sample",
+            "ns/pmf",
+            "V mean",
+            "V median",
+            "V 99 %",
+            "lost",
+            "no light"
+        )
+    }
+
+    /// The row as one JSON object.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        json!({
+            "set": self.set,
+            "n_lights": self.n_lights,
+            "sampler": self.sampler.name(),
+            "k": self.k,
+            "build_ms": self.build_ms,
+            "bytes": self.bytes,
+            "depth": self.depth,
+            "ns_sample": self.time.sample,
+            "ns_pmf": self.time.pmf,
+            "ns_pmf_random_light": self.time.pmf_random_light,
+            "v_mean": self.variance.mean,
+            "v_median": self.variance.median,
+            "v_p99": self.variance.p99,
+            "v_flux": self.variance.flux_weighted,
+            "v_se": self.variance.standard_error,
+            "lost_energy": self.variance.lost_energy,
+            "no_light": self.laws.no_light,
+            "pmf_mismatch": self.laws.pmf_mismatch,
+            "pmf_nan": self.laws.pmf_nan,
+            "pmf_sum_max_error": self.laws.pmf_sum_max_error,
+        })
+    }
+}
+
+impl fmt::Display for BenchRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{:<10} {:>8} {:<14} {:>3} {:>10.2} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9.3} {:>9.3} {:>9.2} {:>9.1e} {:>8.4}",
+            self.set,
+            self.n_lights,
+            self.sampler.name(),
+            self.k,
+            self.build_ms,
+            self.bytes as f64 / self.n_lights.max(1) as f64,
+            self.depth,
+            self.time.sample,
+            self.time.pmf,
+            self.variance.mean,
+            self.variance.median,
+            self.variance.p99,
+            self.variance.lost_energy,
+            self.laws.no_light,
+        )?;
+        let laws = &self.laws;
+        if laws.pmf_mismatch > 0.0 || laws.pmf_nan > 0.0 || laws.pmf_sum_max_error > 1e-5 {
+            write!(
+                f,
+                "  BROKEN: mismatch {:.1e}, nan {:.1e}, sum {:+.1e}",
+                laws.pmf_mismatch, laws.pmf_nan, laws.pmf_sum_max_error
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,43 @@
+/// Mean, median, a high quantile, and how sure the mean is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Summary {
+    /// Mean.
+    pub(super) mean: f64,
+    /// Median.
+    pub(super) median: f64,
+    /// 99th percentile.
+    pub(super) p99: f64,
+    /// Standard error of the mean.
+    pub(super) standard_error: f64,
+}
+
+impl Summary {
+    /// The summary of `values`; all zeros if there are none.
+    pub(super) fn new(mut values: Vec<f64>) -> Self {
+        if values.is_empty() {
+            return Self::default();
+        }
+        values.sort_by(f64::total_cmp);
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+        Self {
+            mean,
+            median: values[values.len() / 2],
+            p99: values[(values.len() * 99 / 100).min(values.len() - 1)],
+            standard_error: (squares / n / n).sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_range() {
+        let s = Summary::new((0..=100).rev().map(f64::from).collect());
+        assert_eq!((s.mean, s.median, s.p99), (50.0, 50.0, 99.0), "0 to 100");
+        assert_eq!(Summary::new(vec![]), Summary::default(), "nothing");
+    }
+}

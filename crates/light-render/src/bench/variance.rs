@@ -1,0 +1,129 @@
+use light_scene::light_set::LightSetFile;
+use lights::bounds::{LightId, LightSampleContext};
+use rand_core::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
+
+use super::Truth;
+use super::statistics::Summary;
+use super::subject::Subject;
+use super::timing::unit;
+
+/// Calls of `k` samples that the variance at one point is estimated from.
+const CALLS: usize = 16;
+
+/// Relative variance over the points that any light reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Variance {
+    /// Mean over the points.
+    pub mean: f64,
+    /// Median over the points.
+    pub median: f64,
+    /// 99th percentile over the points.
+    pub p99: f64,
+    /// Standard error of the mean: of the choice of points, and of the calls if there were several samples a call.
+    pub standard_error: f64,
+    /// Sum over the points of the variances over the sum of the squared contributions: weighted as a picture weighs it.
+    pub flux_weighted: f64,
+    /// Share of the contribution, mean over the points, in lights of probability 0.
+    pub lost_energy: f64,
+}
+
+struct AtPoint {
+    total: f64,
+    lost: f64,
+    relative: f64,
+}
+
+/// The variance of one sample, summed over all lights.
+pub(super) fn exact(
+    subject: &Subject,
+    set: &LightSetFile,
+    contexts: &[LightSampleContext],
+    truth: Truth,
+) -> Variance {
+    let at_points = contexts
+        .par_iter()
+        .zip(&set.points)
+        .map(|(ctx, at)| {
+            let (mut total, mut reached, mut second_moment) = (0.0, 0.0, 0.0);
+            for (id, light) in (0u32..).zip(&set.lights) {
+                let f = truth.contribution(light, at);
+                if f <= 0.0 {
+                    continue;
+                }
+                total += f;
+                let pmf = f64::from(subject.sampler().pmf(ctx, LightId(id)));
+                if pmf > 0.0 {
+                    reached += f;
+                    second_moment += f * f / pmf;
+                }
+            }
+            AtPoint {
+                total,
+                lost: (total - reached) / total,
+                relative: (second_moment - reached * reached) / (total * total),
+            }
+        })
+        .collect();
+    summarise(at_points)
+}
+
+/// `k` times the variance of the mean of `k` samples, from repeated calls.
+pub(super) fn repeated(
+    subject: &Subject,
+    set: &LightSetFile,
+    contexts: &[LightSampleContext],
+    truth: Truth,
+    k: usize,
+) -> Variance {
+    let at_points = contexts
+        .par_iter()
+        .zip(&set.points)
+        .enumerate()
+        .map(|(i, (ctx, at))| {
+            let total: f64 = set
+                .lights
+                .iter()
+                .map(|light| truth.contribution(light, at))
+                .sum();
+            let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
+            let mut squares = 0.0;
+            for _ in 0..CALLS {
+                let mut mean = 0.0;
+                subject.sample_many(ctx, unit(&mut rng), k, &mut |sample| {
+                    let f = truth.contribution(&set.lights[sample.light.index()], at);
+                    mean += f / f64::from(sample.pmf) / k as f64;
+                });
+                squares += (mean - total) * (mean - total) / CALLS as f64;
+            }
+            AtPoint {
+                total,
+                lost: 0.0,
+                relative: k as f64 * squares / (total * total),
+            }
+        })
+        .collect();
+    summarise(at_points)
+}
+
+fn summarise(at_points: Vec<AtPoint>) -> Variance {
+    let lit: Vec<AtPoint> = at_points.into_iter().filter(|v| v.total > 0.0).collect();
+    let squares: f64 = lit.iter().map(|v| v.total * v.total).sum();
+    let variances: f64 = lit.iter().map(|v| v.relative * v.total * v.total).sum();
+    let lost: f64 = lit.iter().map(|v| v.lost).sum();
+    let count = lit.len().max(1) as f64;
+    let summary = Summary::new(lit.iter().map(|v| v.relative).collect());
+    Variance {
+        mean: summary.mean,
+        median: summary.median,
+        p99: summary.p99,
+        standard_error: summary.standard_error,
+        flux_weighted: if squares > 0.0 {
+            variances / squares
+        } else {
+            0.0
+        },
+        lost_energy: lost / count,
+    }
+}
