@@ -24,7 +24,7 @@ impl LightBounds {
     /// context: also at a box centre, on a point light, and at coordinates whose squares are no floats. Reads `ctx.p`
     /// and `ctx.ns`. At a surface light counts from both sides.
     ///
-    /// Costs five square roots, six at a surface, and no trigonometric function.
+    /// Costs six square roots, seven at a surface, and no trigonometric function.
     ///
     /// # Source
     /// `[PBRT4]`, section 12.6.3: `phi cos theta' cos theta_i' / d^2` with
@@ -39,7 +39,8 @@ impl LightBounds {
             return 0.0;
         }
 
-        // Vector from the centre and half extents, scaled by a power of two so that squares stay in range.
+        // Vector from the centre, and a half box that reaches both corners from there wherever rounding has put it;
+        // scaled by a power of two so that squares stay in range.
         let center = self.bounds.center();
         let to_p = ctx.p - center;
         let half = (self.bounds.max - center).max(center - self.bounds.min);
@@ -67,7 +68,8 @@ impl LightBounds {
             1.0
         };
 
-        let clamped_dist_sq = dist_sq.max(radius * scale);
+        let half_diagonal = 0.5 * (self.bounds.diagonal() * scale).length();
+        let clamped_dist_sq = dist_sq.max(half_diagonal * scale);
         let importance = self.phi * scale / clamped_dist_sq * scale * cosines;
         if importance >= MIN_IMPORTANCE {
             importance.min(MAX_IMPORTANCE)
