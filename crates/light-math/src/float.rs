@@ -93,6 +93,28 @@ pub fn safe_asin(x: f32) -> f32 {
 /// The largest `f32` below one: the upper end of `u`, which lies in `[0, 1)`.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
 
+/// The smallest `f32` above `x`; `x` itself at the upper end and for NaN.
+#[inline]
+#[must_use]
+pub const fn next_up(x: f32) -> f32 {
+    if x.is_nan() || x == f32::INFINITY {
+        x
+    } else if x == 0.0 {
+        f32::from_bits(1)
+    } else if x > 0.0 {
+        f32::from_bits(x.to_bits() + 1)
+    } else {
+        f32::from_bits(x.to_bits() - 1)
+    }
+}
+
+/// The largest `f32` below `x`; `x` itself at the lower end and for NaN.
+#[inline]
+#[must_use]
+pub const fn next_down(x: f32) -> f32 {
+    -next_up(-x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,6 +128,16 @@ mod tests {
             -core::f32::consts::FRAC_PI_2,
             "below minus one"
         );
+    }
+
+    #[test]
+    fn neighbours() {
+        assert_eq!(next_up(1.0), 1.0 + f32::EPSILON, "above one");
+        assert_eq!(next_down(1.0), ONE_MINUS_EPSILON, "below one");
+        assert_eq!(next_down(next_up(0.0)), 0.0, "around zero");
+        assert_eq!(next_up(-next_up(0.0)), 0.0, "from below zero");
+        assert_eq!(next_up(f32::INFINITY), f32::INFINITY, "upper end");
+        assert!(next_up(f32::NAN).is_nan(), "NaN");
     }
 
     #[test]

@@ -15,12 +15,16 @@ pub use glam;
 
 mod aabb;
 mod cone;
+pub mod discrete;
+pub mod distribution;
 pub mod equal_area;
 pub mod float;
 mod frame;
 pub mod lat_long;
+pub mod mis;
 mod octahedral;
 pub mod quantize;
+pub mod warp;
 
 pub use aabb::Aabb;
 pub use cone::DirectionCone;

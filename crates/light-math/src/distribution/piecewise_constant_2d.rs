@@ -1,0 +1,339 @@
+#[cfg(feature = "alloc")]
+use alloc::{vec, vec::Vec};
+
+use super::axis::Axis;
+use super::cumulative;
+use super::error::{TableError, check_len, positive_total};
+use glam::Vec2;
+
+/// A density on a rectangle, constant in each texel of a grid: the usual way to sample an image.
+///
+/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the numbers: `Vec<f32>`, `&[f32]`,
+/// `[f32; M]`. They are the density of each texel over the unit square, the running sum of each row, and the running
+/// sum of the rows, [`table_len`](Self::table_len) in all.
+///
+/// # Source
+/// `[PBRT4]` A.5.3: `u.y` picks the row, `u.x` the place in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PiecewiseConstant2D<S> {
+    table: S,
+    x: Axis,
+    y: Axis,
+    mean: f32,
+}
+
+/// A sample of a density on a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample2D {
+    /// The point, in the domain.
+    pub p: Vec2,
+    /// The density there, per area of the domain; above 0.
+    pub pdf: f32,
+    /// Column and row of the texel.
+    pub texel: [usize; 2],
+}
+
+impl PiecewiseConstant2D<()> {
+    /// The number of floats that the table of a grid of `nx` columns and `ny` rows takes.
+    #[must_use]
+    pub const fn table_len(nx: usize, ny: usize) -> usize {
+        ny * (2 * nx + 1) + ny + 1
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl PiecewiseConstant2D<Vec<f32>> {
+    /// The density over the unit square proportional to `weights`, `ny` rows of `nx` each.
+    ///
+    /// # Errors
+    /// [`TableError`] if there are no weights or not `nx * ny`, if all are zero, or if one is negative or not finite.
+    pub fn new(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
+        // Checked first, so that nonsense sizes do not allocate.
+        check_len(nx.saturating_mul(ny), weights.len())?;
+        let mut table = vec![0.0; PiecewiseConstant2D::table_len(nx, ny)];
+        let ([x, y], mean) = fill(weights, nx, ny, &mut table)?;
+        Ok(Self { table, x, y, mean })
+    }
+}
+
+impl<const M: usize> PiecewiseConstant2D<[f32; M]> {
+    /// Like [`new`](PiecewiseConstant2D::new), in an array; usable in a `const` or `static`.
+    ///
+    /// # Errors
+    /// As for [`new`](PiecewiseConstant2D::new), and [`TableError::SizeMismatch`] if `M` is not
+    /// [`table_len`](PiecewiseConstant2D::table_len).
+    pub const fn in_array(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
+        let mut table = [0.0; M];
+        match fill(weights, nx, ny, &mut table) {
+            Ok(([x, y], mean)) => Ok(Self { table, x, y, mean }),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl<'a> PiecewiseConstant2D<&'a [f32]> {
+    /// Like [`new`](PiecewiseConstant2D::new), in a buffer of [`table_len`](PiecewiseConstant2D::table_len) floats.
+    ///
+    /// # Errors
+    /// As for [`new`](PiecewiseConstant2D::new), and [`TableError::SizeMismatch`].
+    pub fn build_into(
+        weights: &[f32],
+        nx: usize,
+        ny: usize,
+        table: &'a mut [f32],
+    ) -> Result<Self, TableError> {
+        let ([x, y], mean) = fill(weights, nx, ny, table)?;
+        Ok(Self { table, x, y, mean })
+    }
+}
+
+impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
+    /// A table whose numbers were built earlier, with the mean of the weights.
+    ///
+    /// # Errors
+    /// [`TableError`] if the numbers are not what [`table`](Self::table) returns for `nx` columns and `ny` rows.
+    pub fn from_table(table: S, nx: usize, ny: usize, mean: f32) -> Result<Self, TableError> {
+        let (x, y) = (Axis::unit(nx)?, Axis::unit(ny)?);
+        let found = table.as_ref().len();
+        check_len(PiecewiseConstant2D::table_len(nx, ny), found)?;
+        let this = Self { table, x, y, mean };
+        let is_well_formed = (0..ny).all(|row| {
+            let marginal = this.marginal();
+            let is_reached = marginal[row] < marginal[row + 1];
+            let has_density = this.densities(row).iter().any(|&d| d > 0.0);
+            cumulative::is_well_formed(this.densities(row), this.sums(row))
+                && marginal[row] <= marginal[row + 1]
+                && (has_density || !is_reached)
+        });
+        let ends = [this.marginal()[0], this.marginal()[ny]];
+        if is_well_formed && ends == [0.0, 1.0] && mean > 0.0 && mean.is_finite() {
+            Ok(this)
+        } else {
+            Err(TableError::Malformed)
+        }
+    }
+
+    /// The same density stretched over the rectangle from `min` to `max`.
+    ///
+    /// # Errors
+    /// [`TableError::Domain`] unless `min < max` on both axes and all is finite, [`TableError::Overflow`] if the area
+    /// or the integral is not.
+    pub fn over(self, min: Vec2, max: Vec2) -> Result<Self, TableError> {
+        let x = self.x.over(min.x, max.x)?;
+        let y = self.y.over(min.y, max.y)?;
+        let this = Self { x, y, ..self };
+        if this.integral().is_finite() && this.area().is_finite() && this.area() > 0.0 {
+            Ok(this)
+        } else {
+            Err(TableError::Overflow)
+        }
+    }
+
+    /// The point for `u` in `[0, 1)^2`.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, u: Vec2) -> Sample2D {
+        let (row, y) = cumulative::sample(self.marginal(), u.y);
+        let (column, x) = cumulative::sample(self.sums(row), u.x);
+        Sample2D {
+            p: Vec2::new(self.x.place(column, x), self.y.place(row, y)),
+            pdf: self.densities(row)[column] / self.area(),
+            texel: [column, row],
+        }
+    }
+
+    /// The density at `p`, per area of the domain; 0 outside it.
+    #[inline]
+    #[must_use]
+    pub fn pdf(&self, p: Vec2) -> f32 {
+        match (self.x.locate(p.x), self.y.locate(p.y)) {
+            (Some((column, _)), Some((row, _))) => self.densities(row)[column] / self.area(),
+            _ => 0.0,
+        }
+    }
+
+    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to `p`; none outside the domain.
+    #[must_use]
+    pub fn invert(&self, p: Vec2) -> Option<Vec2> {
+        let (column, x) = self.x.locate(p.x)?;
+        let (row, y) = self.y.locate(p.y)?;
+        Some(Vec2::new(
+            cumulative::invert(self.sums(row), column, x),
+            cumulative::invert(self.marginal(), row, y),
+        ))
+    }
+
+    /// The integral of the weights over the domain.
+    #[must_use]
+    pub fn integral(&self) -> f32 {
+        self.mean * self.area()
+    }
+
+    /// The mean of the weights.
+    #[must_use]
+    pub fn mean(&self) -> f32 {
+        self.mean
+    }
+
+    /// Columns and rows.
+    #[must_use]
+    pub fn resolution(&self) -> [usize; 2] {
+        [self.x.bins(), self.y.bins()]
+    }
+
+    /// All numbers, to be stored and used again.
+    #[must_use]
+    pub fn table(&self) -> &[f32] {
+        self.table.as_ref()
+    }
+
+    #[inline]
+    fn area(&self) -> f32 {
+        self.x.width() * self.y.width()
+    }
+
+    #[inline]
+    fn densities(&self, row: usize) -> &[f32] {
+        let nx = self.x.bins();
+        &self.table.as_ref()[row * nx..][..nx]
+    }
+
+    #[inline]
+    fn sums(&self, row: usize) -> &[f32] {
+        let [nx, ny] = self.resolution();
+        &self.table.as_ref()[nx * ny + row * (nx + 1)..][..=nx]
+    }
+
+    #[inline]
+    fn marginal(&self) -> &[f32] {
+        let [nx, ny] = self.resolution();
+        &self.table.as_ref()[ny * (2 * nx + 1)..]
+    }
+}
+
+/// Fills `table`; returns the axes and the mean weight.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounds densities and the mean"
+)]
+const fn fill(
+    weights: &[f32],
+    nx: usize,
+    ny: usize,
+    table: &mut [f32],
+) -> Result<([Axis; 2], f32), TableError> {
+    let axes = match (Axis::unit(nx), Axis::unit(ny)) {
+        (Ok(x), Ok(y)) => [x, y],
+        (Err(error), _) | (_, Err(error)) => return Err(error),
+    };
+    if let Err(error) = check_len(nx.saturating_mul(ny), weights.len()) {
+        return Err(error);
+    }
+    if let Err(error) = check_len(PiecewiseConstant2D::table_len(nx, ny), table.len()) {
+        return Err(error);
+    }
+    let total = match positive_total(weights) {
+        Ok(total) => total,
+        Err(error) => return Err(error),
+    };
+    let mean = total / weights.len() as f64;
+    let (mut densities, sums) = table.split_at_mut(nx * ny);
+    let (mut sums, marginal) = sums.split_at_mut(ny * (nx + 1));
+    // The sum of what is stored, so that the rows end at 1 even where the last ones are empty.
+    let mut sum = 0.0;
+    let mut i = 0;
+    while i < densities.len() {
+        densities[i] = (weights[i] as f64 / mean) as f32;
+        sum += densities[i] as f64;
+        i += 1;
+    }
+
+    let mut below = 0.0;
+    let mut row = 0;
+    while row < ny {
+        let (row_densities, other_densities) = densities.split_at_mut(nx);
+        let (row_sums, other_sums) = sums.split_at_mut(nx + 1);
+        marginal[row] = cumulative::share(below, sum);
+        below += cumulative::accumulate(row_densities, row_sums);
+        (densities, sums) = (other_densities, other_sums);
+        row += 1;
+    }
+    marginal[ny] = 1.0;
+    Ok((axes, mean as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::float::ONE_MINUS_EPSILON;
+
+    const WEIGHTS: [f32; 6] = [0.0, 1.0, 3.0, 0.0, 0.0, 4.0];
+
+    #[test]
+    fn samples_densities_and_inverses() {
+        let d = PiecewiseConstant2D::new(&WEIGHTS, 3, 2).expect("valid weights");
+        let d = d
+            .over(Vec2::new(-1.0, 0.0), Vec2::new(2.0, 2.0))
+            .expect("domain");
+        assert_eq!(d.integral(), 8.0, "integral");
+        assert_eq!(d.pdf(Vec2::new(0.5, 0.5)), 0.125, "density");
+        assert_eq!(d.pdf(Vec2::new(0.5, 1.5)), 0.0, "empty texel");
+        assert_eq!(d.pdf(Vec2::new(3.0, 1.5)), 0.0, "outside");
+        for x in [0.0, 0.2, 0.25, 0.9, ONE_MINUS_EPSILON] {
+            for y in [0.0, 0.2, 0.5, 0.9, ONE_MINUS_EPSILON] {
+                let u = Vec2::new(x, y);
+                let s = d.sample(u);
+                assert!(s.pdf > 0.0 && s.pdf == d.pdf(s.p), "density at {u}");
+                let back = d.invert(s.p).expect("inside");
+                assert!(back.distance(u) < 1e-6, "round trip of {u}: {back}");
+            }
+        }
+        assert_eq!(d.invert(Vec2::splat(5.0)), None, "outside");
+    }
+
+    #[test]
+    fn empty_rows_at_both_ends_are_never_reached() {
+        let mut weights = [0.0; 100];
+        for (i, weight) in weights[30..70].iter_mut().enumerate() {
+            *weight = 0.1 + i as f32 / 7.0;
+        }
+        let d = PiecewiseConstant2D::new(&weights, 10, 10).expect("valid weights");
+        for y in [0.0, 1e-9, 0.5, 0.999_999_9, ONE_MINUS_EPSILON] {
+            let s = d.sample(Vec2::splat(y));
+            assert!((3..7).contains(&s.texel[1]) && s.pdf > 0.0, "row at {y}");
+        }
+    }
+
+    #[test]
+    fn storage_is_a_choice() {
+        static IN_FLASH: PiecewiseConstant2D<[f32; 17]> =
+            match PiecewiseConstant2D::in_array(&WEIGHTS, 3, 2) {
+                Ok(table) => table,
+                Err(_) => panic!("valid weights"),
+            };
+        let mut buffer = [0.0; PiecewiseConstant2D::table_len(3, 2)];
+        let borrowed = PiecewiseConstant2D::build_into(&WEIGHTS, 3, 2, &mut buffer).expect("fits");
+        assert_eq!(IN_FLASH.table(), borrowed.table(), "same builder");
+        let again = PiecewiseConstant2D::from_table(borrowed.table(), 3, 2, borrowed.mean());
+        assert_eq!(again, Ok(borrowed), "stored and used again");
+        let wrong = PiecewiseConstant2D::from_table(&borrowed.table()[1..], 3, 2, 1.0);
+        assert!(wrong.is_err(), "shifted");
+    }
+
+    #[test]
+    fn refuses() {
+        let new = |w: &[f32], nx, ny| PiecewiseConstant2D::new(w, nx, ny).map(|_| ());
+        let mismatch = |expected, found| Err(TableError::SizeMismatch { expected, found });
+        assert_eq!(new(&[1.0; 5], 3, 2), mismatch(6, 5), "missing texel");
+        assert_eq!(
+            new(&[1.0], usize::MAX, 2),
+            mismatch(usize::MAX, 1),
+            "nonsense size"
+        );
+        assert_eq!(new(&[], 0, 0), Err(TableError::Empty), "empty");
+        assert_eq!(new(&[0.0; 4], 2, 2), Err(TableError::AllZero), "zero");
+        let domain =
+            PiecewiseConstant2D::new(&[1.0], 1, 1).and_then(|d| d.over(Vec2::ZERO, Vec2::X));
+        assert_eq!(domain.map(|_| ()), Err(TableError::Domain), "flat");
+    }
+}

@@ -1,0 +1,32 @@
+//! Maps from uniform random numbers to densities, each with its density and its inverse.
+//!
+//! Every module holds the trio `sample`, `pdf`, `invert`; a shape whose set-up is worth keeping between the three is a
+//! type with methods of these names. Random numbers `u` are in `[0, 1)`; a sample never has zero density, at both ends
+//! of that range too. Maps compose: the inverse of one feeds another, so that for example the corners of the square
+//! may be weighted by [`bilinear`] before they go through any other map.
+
+pub mod bilinear;
+pub mod concentric_disk;
+pub mod cosine_hemisphere;
+pub mod linear;
+pub mod polar_disk;
+pub mod uniform_cone;
+pub mod uniform_hemisphere;
+pub mod uniform_sphere;
+pub mod uniform_triangle;
+
+use crate::float::{atan2, sin_cos};
+use core::f32::consts::TAU;
+use glam::Vec2;
+
+/// The unit vector at the azimuth `u * 2 pi`.
+fn azimuth(u: f32) -> Vec2 {
+    let (sin_phi, cos_phi) = sin_cos(TAU * u);
+    Vec2::new(cos_phi, sin_phi)
+}
+
+/// The `u` in `[0, 1]` of the azimuth of `(x, y)`; 0 at the pole.
+fn invert_azimuth(x: f32, y: f32) -> f32 {
+    let phi = atan2(y, x);
+    (if phi < 0.0 { phi + TAU } else { phi }) / TAU
+}
