@@ -2,13 +2,14 @@ use core::f64::consts::TAU;
 use light_math::glam::Vec3;
 
 use crate::integrate;
+use crate::real3::{Real3, cross, dot, normalize, real3, vec3};
 
 /// A spherical cap: all directions within an angle of an axis, mapped to the unit square without change of area.
 ///
 /// Checks on the sphere run over a cap that holds the whole density, so that narrow ones are resolved too.
 #[derive(Clone, Copy, Debug)]
 pub struct Cap {
-    axes: [[f64; 3]; 3],
+    axes: [Real3; 3],
     one_minus_cos: f64,
 }
 
@@ -28,7 +29,7 @@ impl Cap {
     /// The directions within `angle` (radians, up to pi) of `axis` (any length but zero).
     #[must_use]
     pub fn new(axis: Vec3, angle: f64) -> Self {
-        let z = normalize(components(axis));
+        let z = normalize(real3(axis));
         let smallest = if z[0].abs() < 0.6 {
             [1.0, 0.0, 0.0]
         } else {
@@ -55,14 +56,14 @@ impl Cap {
         let r = (one_minus_z * (2.0 - one_minus_z)).max(0.0).sqrt();
         let (sin, cos) = (azimuth * TAU).sin_cos();
         let local = [r * cos, r * sin, 1.0 - one_minus_z];
-        let outer = |k| (0..3).map(|i| self.axes[i][k] * local[i]).sum::<f64>() as f32;
-        Vec3::new(outer(0), outer(1), outer(2))
+        let outer = |k| (0..3).map(|i| self.axes[i][k] * local[i]).sum();
+        vec3([outer(0), outer(1), outer(2)])
     }
 
     /// Where direction `w` lies in the unit square; a height above 1 is outside of the cap.
     #[must_use]
     pub fn square(&self, w: Vec3) -> [f64; 2] {
-        let w = components(w);
+        let w = real3(w);
         let [x, y, z] = self.axes.map(|axis| dot(axis, w));
         // Near the axis 1 - z cancels, sin^2 / (1 + z) does not.
         let one_minus_z = if z > 0.0 {
@@ -88,27 +89,6 @@ impl Cap {
         }
         total * omega
     }
-}
-
-fn components(v: Vec3) -> [f64; 3] {
-    v.to_array().map(f64::from)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn normalize(v: [f64; 3]) -> [f64; 3] {
-    let length = dot(v, v).sqrt();
-    v.map(|c| c / length)
 }
 
 #[cfg(test)]

@@ -7,22 +7,38 @@
 )]
 
 pub use light_math::glam;
+#[cfg(feature = "samplers")]
+pub use light_samplers;
 
+#[cfg(feature = "samplers")]
+mod adversarial_sets;
 mod cap;
 mod chi_squared;
 mod density;
+#[cfg(feature = "samplers")]
+mod emitter;
 mod gamma;
+#[cfg(feature = "samplers")]
+mod generated_sets;
 mod kolmogorov_smirnov;
+pub mod laws;
+#[cfg(feature = "samplers")]
+mod light_set;
 pub mod naive;
 pub mod nasty;
 mod quadrature;
+mod real3;
 mod rng;
 
 pub use cap::Cap;
 pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
 pub use density::{DensityOutcome, DensityTest};
+#[cfg(feature = "samplers")]
+pub use emitter::Emitter;
 pub use gamma::{ln_gamma, regularized_gamma_q};
 pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
+#[cfg(feature = "samplers")]
+pub use light_set::LightSet;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
 

@@ -1,0 +1,9 @@
+//! What every implementation of a trait must obey, written once.
+
+#[cfg(feature = "samplers")]
+pub mod sampler;
+#[cfg(feature = "samplers")]
+mod sampler_laws;
+
+#[cfg(feature = "samplers")]
+pub use sampler_laws::sampler_sets;

@@ -1,0 +1,79 @@
+use crate::LightSet;
+
+/// The sets on which samplers are tried: generated ones of several sizes, and adversarial ones.
+#[must_use]
+pub fn sampler_sets() -> Vec<LightSet> {
+    let mut sets = LightSet::adversarial(60);
+    for n in [2, 9, 100] {
+        sets.push(LightSet::uniform(n, 21));
+        sets.push(LightSet::clusters(n, 22));
+        sets.push(LightSet::spots(n, 23));
+        sets.push(LightSet::mixed(n, 24));
+    }
+    sets
+}
+
+/// Makes a module of tests, one a law, for the sampler that `$build` makes of a [`LightSet`](crate::LightSet).
+///
+/// Belongs in a file of `tests/`: in unit tests the trait of the crate under test is another one.
+///
+/// ```
+/// light_testkit::sampler_laws! {
+///     /// Every light alike.
+///     mod uniform {
+///         |set| light_samplers::UniformLightSampler::new(set.count())
+///     }
+/// }
+/// # fn main() {}
+/// ```
+#[macro_export]
+macro_rules! sampler_laws {
+    ($($(#[$meta:meta])* mod $name:ident { |$set:ident| $build:expr })+) => {$(
+        $(#[$meta])*
+        #[cfg(test)]
+        mod $name {
+            #[allow(unused_imports, reason = "not every way to build a sampler needs what the file imports")]
+            use super::*;
+
+            fn build($set: &$crate::LightSet) -> impl $crate::light_samplers::LightSampler + use<> {
+                $build
+            }
+
+            fn check<S>(law: impl Fn(&$crate::LightSet, &S), build: impl Fn(&$crate::LightSet) -> S) {
+                for set in $crate::laws::sampler_sets() {
+                    law(&set, &build(&set));
+                }
+            }
+
+            #[test]
+            fn sampled_pmf_is_the_queried_pmf() {
+                check($crate::laws::sampler::sampled_pmf_is_the_queried_pmf, build);
+            }
+
+            #[test]
+            fn pmfs_and_none_sum_to_one() {
+                check($crate::laws::sampler::pmfs_and_none_sum_to_one, build);
+            }
+
+            #[test]
+            fn contributing_lights_can_be_chosen() {
+                check($crate::laws::sampler::contributing_lights_can_be_chosen, build);
+            }
+
+            #[test]
+            fn unknown_lights_have_no_pmf() {
+                check($crate::laws::sampler::unknown_lights_have_no_pmf, build);
+            }
+
+            #[test]
+            fn frequencies_match_and_u_stays_uniform() {
+                check($crate::laws::sampler::frequencies_match_and_u_stays_uniform, build);
+            }
+
+            #[test]
+            fn nonsense_is_survived() {
+                check($crate::laws::sampler::nonsense_is_survived, build);
+            }
+        }
+    )+};
+}

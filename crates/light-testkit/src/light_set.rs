@@ -1,0 +1,96 @@
+use light_bounds::{LightExtent, LightId, LightSampleContext};
+use light_math::{Aabb, glam::Vec3};
+
+use crate::{Emitter, Rng};
+
+/// Lights, and the contexts at which samplers of them are tried.
+#[derive(Clone, Debug)]
+pub struct LightSet {
+    /// What the set is about.
+    pub name: &'static str,
+    /// One entry a light; the index is the light's id.
+    pub emitters: Vec<Emitter>,
+    /// Who asks for light.
+    pub contexts: Vec<LightSampleContext>,
+}
+
+impl LightSet {
+    /// The lights with `count` random contexts in and around their box, and a few more exactly at their bounds.
+    #[must_use]
+    pub fn new(name: &'static str, emitters: Vec<Emitter>, count: usize, seed: u64) -> Self {
+        let mut rng = Rng::new(seed);
+        let mut set = Self {
+            name,
+            emitters,
+            contexts: Vec::new(),
+        };
+        let (low, high) = set.corners();
+        let size = (high - low).max(Vec3::splat(1e-3));
+        for i in 0..count {
+            let p = low - size * 0.25 + size * 1.5 * rng.vec3();
+            set.contexts.push(context(p, i, &mut rng));
+        }
+        set.add_contexts_at_bounds(&mut rng);
+        set
+    }
+
+    /// What samplers are built from.
+    #[must_use]
+    pub fn extents(&self) -> Vec<LightExtent> {
+        self.emitters.iter().map(Emitter::extent).collect()
+    }
+
+    /// The emitted powers, in W.
+    #[must_use]
+    pub fn powers(&self) -> Vec<f32> {
+        self.emitters.iter().map(Emitter::power).collect()
+    }
+
+    /// How many lights there are.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.emitters.len() as u32
+    }
+
+    /// The ids of all lights.
+    pub fn ids(&self) -> impl Iterator<Item = LightId> + use<> {
+        (0..self.count()).map(LightId)
+    }
+
+    /// The box of all bounded lights.
+    fn corners(&self) -> (Vec3, Vec3) {
+        let extents = self.extents();
+        let boxes = extents.iter().filter_map(|e| e.bounded()).map(|b| b.bounds);
+        let all = boxes.fold(Aabb::EMPTY, Aabb::union);
+        if all.is_empty() {
+            (Vec3::ZERO, Vec3::ONE)
+        } else {
+            (all.min, all.max)
+        }
+    }
+
+    /// Where careless code divides by zero: box centres and corners of the first lights and of all lights.
+    fn add_contexts_at_bounds(&mut self, rng: &mut Rng) {
+        let (low, high) = self.corners();
+        let mut points = vec![low * 0.5 + high * 0.5, low, high];
+        for extent in self.extents().iter().take(3) {
+            if let LightExtent::Bounded(bounds) = extent {
+                points.extend([bounds.bounds.center(), bounds.bounds.max]);
+            }
+        }
+        for (i, p) in points.into_iter().enumerate() {
+            self.contexts.push(context(p, i, rng));
+        }
+    }
+}
+
+/// Mostly surfaces, some with different normals, every fourth a medium.
+fn context(p: Vec3, i: usize, rng: &mut Rng) -> LightSampleContext {
+    let n = rng.direction();
+    match i % 4 {
+        0 => LightSampleContext::surface(p, Vec3::Z, Vec3::Z),
+        1 => LightSampleContext::surface(p, n, n),
+        2 => LightSampleContext::surface(p, n, (n + 0.3 * rng.direction()).normalize()),
+        _ => LightSampleContext::medium(p),
+    }
+}

@@ -1,0 +1,102 @@
+//! Each law of samplers finds the fault that it is there for.
+#![cfg(feature = "samplers")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast truncates on purpose, as in the sampler that is broken here"
+)]
+
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
+
+use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_samplers::LightSampler;
+use light_testkit::LightSet;
+use light_testkit::laws::sampler::{
+    contributing_lights_can_be_chosen, frequencies_match_and_u_stays_uniform, nonsense_is_survived,
+    pmfs_and_none_sum_to_one, sampled_pmf_is_the_queried_pmf, unknown_lights_have_no_pmf,
+};
+
+/// A uniform choice with one fault.
+struct Broken {
+    count: u32,
+    fault: Fault,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    None,
+    HalfPmf,
+    NeverTheLast,
+    SameU,
+    KnowsAll,
+}
+
+impl LightSampler for Broken {
+    fn sample(&self, _: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.sample_emitter(u)
+    }
+
+    fn pmf(&self, _: &LightSampleContext, light: LightId) -> f32 {
+        self.pmf_emitter(light)
+    }
+
+    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+        let last = self.count.checked_sub(1)?;
+        let scaled = u.clamp(0.0, SampledLight::MAX_U) * f64::from(self.count);
+        let light = LightId((scaled as u32).min(last));
+        let rest = (scaled - f64::from(light.0)).min(SampledLight::MAX_U);
+        Some(SampledLight {
+            light,
+            pmf: 1.0 / self.count as f32,
+            u: if self.fault == Fault::SameU { u } else { rest },
+        })
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        let pmf = 1.0 / self.count as f32;
+        match self.fault {
+            Fault::HalfPmf => 0.5 * pmf,
+            Fault::NeverTheLast if light.0 + 1 == self.count => 0.0,
+            Fault::KnowsAll => pmf,
+            _ if light.0 < self.count => pmf,
+            _ => 0.0,
+        }
+    }
+}
+
+type Law = fn(&LightSet, &Broken);
+
+fn holds(law: impl Fn(&LightSet, &Broken), fault: Fault) -> bool {
+    let set = LightSet::mixed(9, 1);
+    let count = set.count();
+    catch_unwind(AssertUnwindSafe(|| law(&set, &Broken { count, fault }))).is_ok()
+}
+
+#[test]
+fn laws_hold_for_a_right_sampler() {
+    for law in [
+        sampled_pmf_is_the_queried_pmf,
+        pmfs_and_none_sum_to_one,
+        contributing_lights_can_be_chosen,
+        unknown_lights_have_no_pmf,
+        frequencies_match_and_u_stays_uniform,
+        nonsense_is_survived,
+    ] {
+        assert!(holds(law, Fault::None), "a law fails");
+    }
+}
+
+#[test]
+fn each_law_finds_its_fault() {
+    let cases: [(Law, Fault); 5] = [
+        (sampled_pmf_is_the_queried_pmf, Fault::HalfPmf),
+        (pmfs_and_none_sum_to_one, Fault::HalfPmf),
+        (contributing_lights_can_be_chosen, Fault::NeverTheLast),
+        (unknown_lights_have_no_pmf, Fault::KnowsAll),
+        (frequencies_match_and_u_stays_uniform, Fault::SameU),
+    ];
+    for (i, (law, fault)) in cases.into_iter().enumerate() {
+        assert!(!holds(law, fault), "case {i} goes unseen");
+    }
+}
