@@ -16,13 +16,17 @@ mod material;
 mod mesh;
 mod obj;
 mod scene;
+#[cfg(test)]
+mod test_folder;
 mod text;
+mod write_whole;
 
 pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use environment::{SceneLight, SkyImage};
-pub use image::{Image, ImageError};
+pub use image::{Image, ImageError, ImageFile, read_image, write_exr, write_image, write_png};
 pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::read_obj;
 pub use scene::{ImageId, MaterialId, Scene};
+pub use write_whole::write_whole;

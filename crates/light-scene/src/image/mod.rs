@@ -1,6 +1,19 @@
+//! Images in memory and in files.
+
+mod checked;
+mod display;
+mod file;
+mod openexr;
+mod srgb;
+
 use core::fmt;
 
 use crate::glam::Vec3;
+
+use checked::checked;
+pub use display::write_png;
+pub use file::{ImageFile, read_image, write_image};
+pub use openexr::write_exr;
 
 /// A linear RGB image in memory, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,19 +99,4 @@ impl fmt::Display for ImageError {
 impl core::error::Error for ImageError {}
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_must_fit() {
-        let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, Vec3::ZERO];
-        let image = Image::new(3, 2, texels.clone()).expect("3 x 2");
-        assert_eq!(image.texel(1, 1), Vec3::ONE, "row by row");
-        assert_eq!(
-            Image::new(2, 2, texels),
-            Err(ImageError::TexelCount),
-            "six texels are not 2 x 2"
-        );
-        assert_eq!(Image::new(0, 2, vec![]), Err(ImageError::Empty), "empty");
-    }
-}
+mod tests;

@@ -1,0 +1,50 @@
+//! Radiance HDR and PNG.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use ::image::codecs::png::PngEncoder;
+use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader};
+
+use super::{Image, ImageFile, checked, srgb};
+use crate::glam::Vec3;
+use crate::text::read_bytes;
+use crate::{Diagnostic, write_whole};
+
+/// Reads a Radiance HDR (RGBE) file.
+pub(super) fn read_hdr(path: &Path) -> Result<ImageFile, Diagnostic> {
+    let image = decode(path, ImageFormat::Hdr, "a Radiance HDR file")?.into_rgb32f();
+    let size = [image.width() as usize, image.height() as usize];
+    let texels = image.pixels().map(|texel| Vec3::from(texel.0)).collect();
+    checked(path, size, texels)
+}
+
+/// Reads a PNG file; its channels are taken as sRGB and made linear.
+pub(super) fn read_png(path: &Path) -> Result<ImageFile, Diagnostic> {
+    let image = decode(path, ImageFormat::Png, "a PNG file")?.into_rgb16();
+    let size = [image.width() as usize, image.height() as usize];
+    let linear = |channel: u16| srgb::decode(f32::from(channel) / 65535.0);
+    let texels = image.pixels().map(|texel| Vec3::from(texel.0.map(linear)));
+    checked(path, size, texels.collect())
+}
+
+/// Writes an 8-bit sRGB PNG file; channels are clamped to [0, 1], NaN becomes black.
+///
+/// # Errors
+/// When the file cannot be written; nothing is left behind then.
+pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    let channels = image.texels().iter().flat_map(Vec3::to_array);
+    let encoded: Vec<u8> = channels.map(srgb::encode_byte).collect();
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new(&mut bytes);
+    let (width, height) = (image.width(), image.height());
+    let written = encoder.write_image(&encoded, width, height, ExtendedColorType::Rgb8);
+    written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
+    write_whole(path, &bytes)
+}
+
+fn decode(path: &Path, format: ImageFormat, what: &str) -> Result<DynamicImage, Diagnostic> {
+    let bytes = read_bytes(path)?;
+    let decoded = ImageReader::with_format(Cursor::new(bytes), format).decode();
+    decoded.map_err(|error| Diagnostic::file(path, format!("expected {what}: {error}")))
+}

@@ -1,0 +1,53 @@
+use std::path::Path;
+
+use super::display::{read_hdr, read_png};
+use super::openexr::read_exr;
+use super::{Image, write_exr, write_png};
+use crate::Diagnostic;
+
+/// An image as it came from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageFile {
+    /// The image; every channel is finite and at least 0.
+    pub image: Image,
+    /// What was repaired, if anything: how many texels were negative.
+    pub warning: Option<Diagnostic>,
+}
+
+/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png` (sRGB, made linear).
+///
+/// # Errors
+/// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or an infinity: with the
+/// pixel and the channel.
+pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
+    match ending(path).as_str() {
+        "exr" => read_exr(path),
+        "hdr" => read_hdr(path),
+        "png" => read_png(path),
+        _ => Err(Diagnostic::file(
+            path,
+            "expected an image: .exr, .hdr or .png",
+        )),
+    }
+}
+
+/// Writes an image by the ending of its name: `.exr` (float32 linear RGB) or `.png` (8-bit sRGB).
+///
+/// # Errors
+/// When the ending is another, or the file cannot be written; nothing is left behind then.
+pub fn write_image(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    match ending(path).as_str() {
+        "exr" => write_exr(path, image),
+        "png" => write_png(path, image),
+        _ => Err(Diagnostic::file(
+            path,
+            "expected an image to write: .exr or .png",
+        )),
+    }
+}
+
+/// The ending of a file's name in lower case; empty without one.
+fn ending(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_ascii_lowercase()
+}

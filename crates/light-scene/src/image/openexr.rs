@@ -1,0 +1,127 @@
+//! OpenEXR.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use exr::prelude::{
+    Encoding, Error, FlatSamples, Layer, LayerAttributes, MetaData, ReadChannels, ReadLayers,
+    SpecificChannels, Text, Vec2, WritableImage, read,
+};
+
+use super::{Image, ImageFile, checked};
+use crate::glam::Vec3;
+use crate::text::read_bytes;
+use crate::{Diagnostic, write_whole};
+
+/// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
+const MAX_TEXELS: usize = 1 << 27;
+
+/// Reads the first layer of an OpenEXR file: channels R, G and B, or Y alone, of half or float samples.
+pub(super) fn read_exr(path: &Path) -> Result<ImageFile, Diagnostic> {
+    let bytes = read_bytes(path)?;
+    let refuse = |error: Error| Diagnostic::file(path, message(&error));
+    let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false).map_err(refuse)?;
+    let header = meta.headers.iter().find(|header| !header.deep);
+    let header =
+        header.ok_or_else(|| Diagnostic::file(path, "expected an image, found deep data only"))?;
+    let [width, height] = [header.layer_size.0, header.layer_size.1];
+    if width.checked_mul(height).is_none_or(|n| n > MAX_TEXELS) {
+        let message = format!("expected at most {MAX_TEXELS} texels, found {width} x {height}");
+        return Err(Diagnostic::file(path, message));
+    }
+    let names: Vec<_> = header
+        .channels
+        .list
+        .iter()
+        .map(|c| c.name.to_string())
+        .collect();
+    let has = |name: &str| names.iter().any(|other| other == name);
+    let wanted = if ["R", "G", "B"].into_iter().all(has) {
+        ["R", "G", "B"]
+    } else if has("Y") {
+        ["Y"; 3]
+    } else {
+        let message = format!("expected channels R, G and B, found {}", names.join(", "));
+        return Err(Diagnostic::file(path, message));
+    };
+    let texels = decode(&bytes, wanted).map_err(refuse)?;
+    if texels.len() != width * height {
+        return Err(Diagnostic::file(path, "expected all of the image's rows"));
+    }
+    checked(path, [width, height], texels)
+}
+
+/// The texels of the first layer that has the wanted channels.
+fn decode(bytes: &[u8], wanted: [&str; 3]) -> Result<Vec<Vec3>, Error> {
+    if wanted[0] == wanted[1] {
+        return decode_grey(bytes);
+    }
+    type Rows = (usize, Vec<[f32; 3]>);
+    let reader = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size, _| (size.0, vec![[0.0; 3]; size.0 * size.1]),
+            |(width, texels): &mut Rows, at, (r, g, b): (f32, f32, f32)| {
+                texels[at.1 * *width + at.0] = [r, g, b];
+            },
+        )
+        .first_valid_layer()
+        .all_attributes();
+    let image = reader.from_buffered(Cursor::new(bytes))?;
+    let (_, texels) = image.layer_data.channel_data.pixels;
+    Ok(texels.into_iter().map(Vec3::from).collect())
+}
+
+/// The texels of channel Y of the first layer, alike in all three channels.
+fn decode_grey(bytes: &[u8]) -> Result<Vec<Vec3>, Error> {
+    let reader = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes();
+    let image = reader.from_buffered(Cursor::new(bytes))?;
+    let channels = image.layer_data.channel_data.list;
+    let grey = channels.into_iter().find(|channel| channel.name == *"Y");
+    let grey = grey.ok_or(Error::Invalid("channel Y is missing".into()))?;
+    Ok(match grey.sample_data {
+        FlatSamples::F16(samples) => samples.iter().map(|y| Vec3::splat(y.to_f32())).collect(),
+        FlatSamples::F32(samples) => samples.into_iter().map(Vec3::splat).collect(),
+        FlatSamples::U32(_) => return Err(Error::Invalid("channel Y holds integers".into())),
+    })
+}
+
+/// Writes a float32 linear RGB OpenEXR file, compressed without loss; the same image gives the same bytes.
+///
+/// # Errors
+/// When the file cannot be written; nothing is left behind then.
+pub fn write_exr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    let size = Vec2(image.width() as usize, image.height() as usize);
+    let texels = image.texels();
+    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
+        let texel = texels[at.1 * size.0 + at.0];
+        (texel.x, texel.y, texel.z)
+    });
+    let attributes = LayerAttributes {
+        software_name: Some(Text::from("lights")),
+        ..LayerAttributes::default()
+    };
+    let layer = Layer::new(size, attributes, Encoding::SMALL_FAST_LOSSLESS, channels);
+    let mut bytes = Cursor::new(Vec::new());
+    // One thread, so that blocks come in the same order every time.
+    let written = exr::prelude::Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes);
+    written.map_err(|error| Diagnostic::file(path, message(&error)))?;
+    write_whole(path, bytes.get_ref())
+}
+
+fn message(error: &Error) -> String {
+    match error {
+        Error::NotSupported(what) => format!("this kind of OpenEXR file is not supported: {what}"),
+        Error::Invalid(what) => format!("expected an OpenEXR file: {what}"),
+        other => format!("expected an OpenEXR file: {other}"),
+    }
+}

@@ -1,0 +1,128 @@
+use std::fs;
+use std::path::Path;
+
+use super::*;
+use crate::test_folder::TestFolder;
+
+fn picture() -> Image {
+    let texel = |i: u16| Vec3::new(f32::from(i) * 0.1, 1.0 / 3.0, f32::from(i) * 1e-4);
+    Image::new(3, 2, (0..6).map(texel).collect()).expect("3 x 2")
+}
+
+#[test]
+fn sizes_must_fit() {
+    let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, Vec3::ZERO];
+    let image = Image::new(3, 2, texels.clone()).expect("3 x 2");
+    assert_eq!(image.texel(1, 1), Vec3::ONE, "row by row");
+    assert_eq!(
+        Image::new(2, 2, texels),
+        Err(ImageError::TexelCount),
+        "six texels are not 2 x 2"
+    );
+    assert_eq!(Image::new(0, 2, vec![]), Err(ImageError::Empty), "empty");
+}
+
+#[test]
+fn exr_keeps_every_bit_and_writes_the_same_bytes() {
+    let folder = TestFolder::new("exr");
+    let (a, b) = (folder.path("a.exr"), folder.path("b.EXR"));
+    write_image(&a, &picture()).expect("written");
+    write_image(&b, &picture()).expect("written");
+    let bytes = |path| fs::read(path).expect("a file");
+    assert_eq!(bytes(&a), bytes(&b), "same image, same bytes");
+    let file = read_image(&a).expect("an image");
+    assert_eq!(file.image, picture(), "the same texels");
+    assert_eq!(file.warning, None, "nothing repaired");
+}
+
+#[test]
+fn png_is_srgb() {
+    let folder = TestFolder::new("png");
+    let path = folder.path("a.png");
+    write_image(&path, &picture()).expect("written");
+    let image = read_image(&path).expect("an image").image;
+    for (read, written) in image.texels().iter().zip(picture().texels()) {
+        // Half a step of 1/255 is at most 0.0045 in linear values.
+        assert!(read.abs_diff_eq(*written, 0.0045), "{read} for {written}");
+    }
+}
+
+#[test]
+fn hdr_is_read() {
+    let folder = TestFolder::new("hdr");
+    let path = folder.path("a.hdr");
+    let head = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    let texels = [128, 64, 0, 129, 128, 0, 0, 132];
+    fs::write(&path, [&head[..], &texels[..]].concat()).expect("written");
+    let image = read_image(&path).expect("an image").image;
+    let expected = [Vec3::new(1.0, 0.5, 0.0), Vec3::new(8.0, 0.0, 0.0)];
+    assert_eq!(
+        image.texels(),
+        expected,
+        "mantissa times 2^(exponent - 136)"
+    );
+}
+
+#[test]
+fn broken_files_give_one_clear_line() {
+    let folder = TestFolder::new("broken_images");
+    let good = folder.path("good.exr");
+    write_image(&good, &picture()).expect("written");
+    let bytes = fs::read(&good).expect("a file");
+    let cases = [
+        (
+            "a.jpg",
+            &b"x"[..],
+            ": expected an image: .exr, .hdr or .png",
+        ),
+        ("a.exr", &b"no image"[..], ": expected an OpenEXR file: "),
+        (
+            "cut.exr",
+            &bytes[..bytes.len() - 9],
+            ": expected an OpenEXR file: ",
+        ),
+        (
+            "a.hdr",
+            &b"#?RADIANCE\n"[..],
+            ": expected a Radiance HDR file: ",
+        ),
+        ("a.png", &b"\x89PNG"[..], ": expected a PNG file: "),
+    ];
+    for (name, bytes, expected) in cases {
+        let path = folder.path(name);
+        fs::write(&path, bytes).expect("written");
+        let shown = read_image(&path).expect_err("an error").to_string();
+        assert!(shown.contains(expected), "{shown}");
+        assert_eq!(shown.lines().count(), 1, "{shown}");
+    }
+    let missing = read_image(&folder.path("missing.exr")).expect_err("an error");
+    assert!(missing.message.starts_with("cannot be read: "), "{missing}");
+    let error = write_image(Path::new("a.gif"), &picture()).expect_err("an error");
+    assert_eq!(
+        error.message, "expected an image to write: .exr or .png",
+        "ending"
+    );
+}
+
+#[test]
+fn exr_without_colour_channels_names_what_it_has() {
+    use exr::prelude::{Image as ExrImage, SpecificChannels, Vec2, WritableImage};
+    let folder = TestFolder::new("exr_channels");
+    let write = |name: &str, channel: &str| {
+        let channels = SpecificChannels::build().with_channel(channel);
+        let channels = channels.with_pixel_fn(|at: Vec2<usize>| (at.0 as f32 - 1.0,));
+        let path = folder.path(name);
+        let image = ExrImage::from_channels((3, 1), channels);
+        image.write().to_file(&path).expect("written");
+        path
+    };
+    let error = read_image(&write("z.exr", "Z")).expect_err("an error");
+    assert_eq!(
+        error.message, "expected channels R, G and B, found Z",
+        "depth"
+    );
+    let grey = read_image(&write("y.exr", "Y")).expect("an image");
+    let expected = [Vec3::ZERO, Vec3::ZERO, Vec3::ONE];
+    assert_eq!(grey.image.texels(), expected, "luminance, clamped");
+    assert!(grey.warning.is_some(), "one was negative");
+}
