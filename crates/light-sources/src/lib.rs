@@ -1,1 +1,94 @@
-//! light-sources
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+pub use light_bounds;
+pub use light_bounds::glam;
+pub use light_bounds::light_math;
+
+mod amount;
+#[cfg(feature = "alloc")]
+mod area;
+mod color;
+mod coverage;
+#[cfg(feature = "alloc")]
+mod desc;
+#[cfg(feature = "alloc")]
+mod diffuse_emission;
+mod distant;
+#[cfg(feature = "alloc")]
+mod image;
+#[cfg(feature = "alloc")]
+mod image_infinite;
+mod kind;
+mod light;
+#[cfg(feature = "alloc")]
+mod light_ref;
+#[cfg(feature = "alloc")]
+mod light_set;
+#[cfg(feature = "alloc")]
+mod light_set_builder;
+mod media;
+#[cfg(feature = "alloc")]
+mod mesh;
+mod point;
+#[cfg(feature = "alloc")]
+mod resample;
+mod rgb;
+#[cfg(feature = "alloc")]
+mod rgb_sum;
+mod rigid_transform;
+mod sample;
+mod scaled_emission;
+mod scene_sphere;
+pub mod shape;
+mod sides;
+mod surface_point;
+mod uniform_infinite;
+
+pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
+#[cfg(feature = "alloc")]
+pub use area::DiffuseAreaLight;
+pub use color::{ColorModel, Radiance};
+pub use coverage::PdfCoverage;
+#[cfg(feature = "alloc")]
+pub use desc::{LightDesc, LightDescError};
+#[cfg(feature = "alloc")]
+pub use diffuse_emission::{
+    DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError, EmissionMask, SurfaceColor,
+};
+pub use distant::{DistantLight, DistantLightDesc, DistantLightError};
+#[cfg(feature = "alloc")]
+pub use image::{Channels, Image, ImageError};
+#[cfg(feature = "alloc")]
+pub use image_infinite::{
+    EnvironmentMap, ImageInfiniteLight, ImageInfiniteLightDesc, ImageInfiniteLightError,
+};
+pub use kind::LightType;
+pub use light::{AreaLight, InfiniteLight, Light};
+#[cfg(feature = "alloc")]
+pub use light_ref::LightRef;
+#[cfg(feature = "alloc")]
+pub use light_set::{LightSet, SourceId};
+#[cfg(feature = "alloc")]
+pub use light_set_builder::LightSetBuilder;
+pub use media::{MediumId, MediumInterface};
+#[cfg(feature = "alloc")]
+pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
+pub use point::{PointLight, PointLightDesc, PointLightError};
+#[cfg(feature = "alloc")]
+pub use resample::{equal_area_size, equal_area_to_lat_long, lat_long_to_equal_area};
+pub use rgb::Rgb;
+pub use rigid_transform::{RigidTransform, RigidTransformError};
+pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+pub use scaled_emission::{EmissionError, ScaledEmission};
+pub use scene_sphere::{SceneSphere, SceneSphereError};
+pub use sides::Sides;
+pub use surface_point::SurfacePoint;
+pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};

@@ -1,0 +1,166 @@
+use core::f32::consts::PI;
+
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::diffuse_emission::DiffuseEmission;
+use crate::glam::{Vec2, Vec3};
+use crate::kind::LightType;
+use crate::light::{AreaLight, Light};
+use crate::media::MediumInterface;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::shape::{Shape, ShapeSample};
+use crate::sides::Sides;
+use crate::surface_point::SurfacePoint;
+use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_math::Frame;
+use light_math::float::ONE_MINUS_EPSILON;
+use light_math::warp::cosine_hemisphere;
+
+/// A shape that shines with the same radiance in all directions: a shape and the emission that it shares with others.
+///
+/// It is a view, made when it is asked for: a light set stores shapes and emissions apart.
+///
+/// # Source
+/// `[PBRT4]`, section 12.4.
+#[derive(Debug)]
+pub struct DiffuseAreaLight<'a, C: ColorModel, S> {
+    shape: S,
+    emission: &'a DiffuseEmission<C>,
+}
+
+impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
+    /// The light that shines from `shape` with `emission`.
+    #[must_use]
+    pub const fn new(shape: S, emission: &'a DiffuseEmission<C>) -> Self {
+        Self { shape, emission }
+    }
+
+    /// The surface.
+    #[must_use]
+    pub const fn shape(&self) -> &S {
+        &self.shape
+    }
+
+    /// How it shines.
+    #[must_use]
+    pub const fn emission(&self) -> &'a DiffuseEmission<C> {
+        self.emission
+    }
+}
+
+impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
+    fn light_type(&self) -> LightType {
+        if self.emission.is_visible() {
+            LightType::Area
+        } else {
+            LightType::DeltaPosition
+        }
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.emission.exitance(wavelengths) * self.shape.area()
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        let sample = self.shape.sample_toward(ctx, u)?;
+        let l = self.emission.l(&sample.at, -sample.wi, wavelengths);
+        (!l.is_black()).then_some(LightLiSample {
+            l,
+            wi: sample.wi,
+            pdf: sample.pdf,
+            p_light: sample.at.p,
+            n_light: sample.at.n,
+            uv: sample.at.uv,
+        })
+    }
+
+    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        self.shape.pdf_toward(ctx, wi)
+    }
+
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let ShapeSample { at, pdf } = self.shape.sample(u1)?;
+        let (u2, normal) = match self.emission.sides() {
+            Sides::Front => (u2, at.n),
+            Sides::Back => (u2, -at.n),
+            // The first number chooses the side and is stretched again to the full interval.
+            Sides::Both => {
+                let u = u2.x * 2.0;
+                let (u, n) = if u < 1.0 { (u, at.n) } else { (u - 1.0, -at.n) };
+                (Vec2::new(u.min(ONE_MINUS_EPSILON), u2.y), n)
+            }
+        };
+        let direction = Frame::from_z(normal).from_local(cosine_hemisphere::sample(u2));
+        let l = self.emission.l(&at, direction, wavelengths);
+        let ray = EmittedRay {
+            origin: at.p,
+            direction,
+            normal: at.n,
+            uv: at.uv,
+        };
+        let dir = self.pdf_direction(&ray);
+        (!l.is_black() && dir > 0.0).then_some(LightLeSample {
+            l,
+            ray,
+            pdf: LePdf { pos: pdf, dir },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        let at = SurfacePoint {
+            p: ray.origin,
+            n: ray.normal,
+            uv: ray.uv,
+        };
+        LePdf {
+            pos: self.shape.pdf(&at),
+            dir: self.pdf_direction(ray),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        let cone = self.shape.normal_cone();
+        LightExtent::Bounded(LightBounds {
+            bounds: self.shape.bounds(),
+            w: self.emission.sides().emitting_normal(cone.w),
+            phi: self.emission.strength() * self.shape.area(),
+            cos_theta_o: cone.cos_theta,
+            cos_theta_e: 0.0,
+            two_sided: self.emission.sides() == Sides::Both,
+        })
+    }
+
+    fn media(&self) -> MediumInterface {
+        self.emission.media()
+    }
+}
+
+impl<C: ColorModel, S: Shape> AreaLight<C> for DiffuseAreaLight<'_, C, S> {
+    fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.emission.l(at, w, wavelengths)
+    }
+}
+
+impl<C: ColorModel, S> DiffuseAreaLight<'_, C, S> {
+    /// Density per solid angle of a direction that leaves the surface.
+    fn pdf_direction(&self, ray: &EmittedRay) -> f32 {
+        let sides = self.emission.sides();
+        let cos_theta = ray.normal.dot(ray.direction).abs();
+        if sides.emit_toward(ray.normal, ray.direction) {
+            cos_theta / (PI * sides.count())
+        } else {
+            0.0
+        }
+    }
+}

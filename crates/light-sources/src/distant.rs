@@ -1,0 +1,152 @@
+use core::error::Error;
+use core::fmt;
+
+use crate::amount::IrradianceAmount;
+use crate::color::ColorModel;
+use crate::coverage::PdfCoverage;
+use crate::glam::{Vec2, Vec3};
+use crate::kind::LightType;
+use crate::light::Light;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scaled_emission::{EmissionError, ScaledEmission};
+use crate::scene_sphere::SceneSphere;
+use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
+use light_math::Frame;
+use light_math::warp::concentric_disk;
+
+/// A [`DistantLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct DistantLightDesc<C: ColorModel> {
+    /// Direction toward the light, of any length above 0.
+    pub direction: Vec3,
+    /// Colour of the light.
+    pub emission: C::Emission,
+    /// How bright it is.
+    pub amount: IrradianceAmount,
+}
+
+/// A light that arrives everywhere from one direction.
+///
+/// Its radiance is a Dirac in direction, `E delta(w - d)`: with anything finite the integral of radiance over that one
+/// direction would be 0. So the light is given by `E`, the irradiance of a plane that faces it, and an estimator is
+/// `f |cos| E`. There is no distance, hence no inverse square.
+///
+/// # Source
+/// `[PBRT4]`, section 12.3.
+#[derive(Clone, Debug)]
+pub struct DistantLight<C: ColorModel> {
+    direction: Vec3,
+    irradiance: ScaledEmission<C>,
+    scene: SceneSphere,
+}
+
+/// Why a description is no distant light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DistantLightError {
+    /// `direction` is zero or not finite.
+    Direction,
+    /// `emission` or `amount` makes no sense.
+    Emission(EmissionError),
+}
+
+impl<C: ColorModel> DistantLight<C> {
+    /// The light that `desc` describes, over the given scene.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: DistantLightDesc<C>, scene: SceneSphere) -> Result<Self, DistantLightError> {
+        let IrradianceAmount::Radiometric(scale) = desc.amount;
+        let direction = desc.direction.try_normalize();
+        let direction = direction.ok_or(DistantLightError::Direction)?;
+        Ok(Self {
+            direction,
+            irradiance: ScaledEmission::new(desc.emission, scale)?,
+            scene,
+        })
+    }
+}
+
+impl<C: ColorModel> Light<C> for DistantLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::DeltaDirection
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.irradiance.at(wavelengths) * self.scene.disk_area()
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        _u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        Some(LightLiSample {
+            l: self.irradiance.at(wavelengths),
+            wi: self.direction,
+            pdf: 1.0,
+            p_light: self.scene.beyond(ctx.p, self.direction),
+            n_light: Vec3::ZERO,
+            uv: Vec2::ZERO,
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        0.0
+    }
+
+    /// The ray starts on a disk of the scene's radius, chosen by `u1`.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        _u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        Some(LightLeSample {
+            l: self.irradiance.at(wavelengths),
+            ray: ray_through_scene(&self.scene, -self.direction, u1),
+            pdf: LePdf {
+                pos: 1.0 / self.scene.disk_area(),
+                dir: 1.0,
+            },
+        })
+    }
+
+    fn pdf_le(&self, _ray: &EmittedRay) -> LePdf {
+        LePdf {
+            pos: 1.0 / self.scene.disk_area(),
+            dir: 0.0,
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        InfiniteBounds::distant(self.irradiance.maximum(), self.direction).into()
+    }
+}
+
+/// The ray in `direction` that starts outside of the scene and passes through a disk of the scene's radius around its
+/// centre, at the place that `u` chooses uniformly.
+pub(crate) fn ray_through_scene(scene: &SceneSphere, direction: Vec3, u: Vec2) -> EmittedRay {
+    let disk = concentric_disk::sample(u) * scene.radius();
+    let on_disk = Frame::from_z(-direction).from_local(disk.extend(scene.radius()));
+    EmittedRay::from_point(scene.center() + on_disk, direction)
+}
+
+impl fmt::Display for DistantLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Direction => f.write_str("direction: must be finite and not zero"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl From<EmissionError> for DistantLightError {
+    fn from(error: EmissionError) -> Self {
+        Self::Emission(error)
+    }
+}
+
+impl Error for DistantLightError {}

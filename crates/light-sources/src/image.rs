@@ -1,0 +1,344 @@
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::error::Error;
+use core::fmt;
+
+use crate::glam::{Vec2, Vec3};
+use crate::rgb_sum::RgbSum;
+use half::f16;
+
+/// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere negative.
+///
+/// Texels are listed row by row from row 0, channels interleaved; texel `(x, y)` covers
+/// `[x / width, (x + 1) / width) x [y / height, (y + 1) / height)` of the unit square. They are shared: a clone costs
+/// a counter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    size: [u32; 2],
+    channels: Channels,
+    texels: Texels,
+}
+
+/// What a texel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Channels {
+    /// One number, for all colours alike.
+    Gray,
+    /// Red, green, blue.
+    Rgb,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Texels {
+    Single(Arc<[f32]>),
+    Half(Arc<[f16]>),
+}
+
+/// Why numbers are no image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// Width or height is 0.
+    Empty,
+    /// There are not `width * height * channels` numbers.
+    Length,
+    /// A texel is NaN.
+    NotANumber {
+        /// Its column and row.
+        texel: [u32; 2],
+        /// Its channel: 0 red or grey, 1 green, 2 blue.
+        channel: usize,
+    },
+    /// A texel is infinite.
+    Infinite {
+        /// Its column and row.
+        texel: [u32; 2],
+        /// Its channel: 0 red or grey, 1 green, 2 blue.
+        channel: usize,
+    },
+    /// A texel is below 0. Readers of files are expected to clamp and to say so.
+    Negative {
+        /// Its column and row.
+        texel: [u32; 2],
+        /// Its channel: 0 red or grey, 1 green, 2 blue.
+        channel: usize,
+    },
+}
+
+impl Channels {
+    /// How many numbers a texel has.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Gray => 1,
+            Self::Rgb => 3,
+        }
+    }
+}
+
+impl Image {
+    /// An image of single-precision texels.
+    ///
+    /// # Errors
+    /// When the size is 0 or does not fit `texels`, or a texel is NaN, infinite or negative.
+    pub fn from_f32(
+        size: [u32; 2],
+        channels: Channels,
+        texels: impl Into<Arc<[f32]>>,
+    ) -> Result<Self, ImageError> {
+        let texels = texels.into();
+        check(size, channels, texels.len(), |i| texels[i])?;
+        Ok(Self {
+            size,
+            channels,
+            texels: Texels::Single(texels),
+        })
+    }
+
+    /// An image of half-precision texels, half the memory.
+    ///
+    /// # Errors
+    /// When the size is 0 or does not fit `texels`, or a texel is NaN, infinite or negative.
+    pub fn from_f16(
+        size: [u32; 2],
+        channels: Channels,
+        texels: impl Into<Arc<[f16]>>,
+    ) -> Result<Self, ImageError> {
+        let texels = texels.into();
+        check(size, channels, texels.len(), |i| texels[i].to_f32())?;
+        Ok(Self {
+            size,
+            channels,
+            texels: Texels::Half(texels),
+        })
+    }
+
+    /// Width and height in texels, both at least 1.
+    #[must_use]
+    pub const fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// What a texel holds.
+    #[must_use]
+    pub const fn channels(&self) -> Channels {
+        self.channels
+    }
+
+    /// Bytes of texels, which clones share.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        match &self.texels {
+            Texels::Single(texels) => size_of_val::<[f32]>(texels),
+            Texels::Half(texels) => size_of_val::<[f16]>(texels),
+        }
+    }
+
+    /// The colour of texel `(x, y)`; beyond the edge, of the texel nearest to it.
+    #[inline]
+    #[must_use]
+    pub fn texel(&self, x: u32, y: u32) -> Vec3 {
+        let [width, height] = self.size;
+        let (x, y) = (x.min(width - 1), y.min(height - 1));
+        let index = y as usize * width as usize + x as usize;
+        match self.channels {
+            Channels::Gray => Vec3::splat(self.number(index)),
+            Channels::Rgb => {
+                let i = 3 * index;
+                Vec3::new(self.number(i), self.number(i + 1), self.number(i + 2))
+            }
+        }
+    }
+
+    /// The texel that holds `uv`; outside of the unit square, the one nearest to it.
+    #[inline]
+    #[must_use]
+    pub fn nearest(&self, uv: Vec2) -> Vec3 {
+        let t = uv * self.extent();
+        self.texel(index(t.x), index(t.y))
+    }
+
+    /// The colour at `uv`, interpolated between the centres of the four texels around it.
+    #[must_use]
+    pub fn bilinear(&self, uv: Vec2) -> Vec3 {
+        let t = (uv * self.extent() - 0.5).max(Vec2::ZERO);
+        let (x, y) = (index(t.x), index(t.y));
+        let f = t.fract();
+        let top = self
+            .texel(x, y)
+            .lerp(self.texel(x.saturating_add(1), y), f.x);
+        let y1 = y.saturating_add(1);
+        let bottom = self
+            .texel(x, y1)
+            .lerp(self.texel(x.saturating_add(1), y1), f.x);
+        top.lerp(bottom, f.y)
+    }
+
+    /// All texels, row by row.
+    pub fn texels(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let [width, height] = self.size;
+        (0..height).flat_map(move |y| (0..width).map(move |x| self.texel(x, y)))
+    }
+
+    /// The mean colour.
+    #[must_use]
+    pub fn mean(&self) -> Vec3 {
+        let mut sum = RgbSum::default();
+        self.texels().for_each(|texel| sum.add(texel, 1.0));
+        sum.over(f64::from(self.size[0]) * f64::from(self.size[1]))
+    }
+
+    /// The mean over the channels of each texel, row by row: what light is sampled in proportion to.
+    #[must_use]
+    pub fn averages(&self) -> Vec<f32> {
+        self.texels().map(|t| t.element_sum() / 3.0).collect()
+    }
+
+    fn extent(&self) -> Vec2 {
+        Vec2::new(self.size[0] as f32, self.size[1] as f32)
+    }
+
+    #[inline]
+    fn number(&self, index: usize) -> f32 {
+        match &self.texels {
+            Texels::Single(texels) => texels[index],
+            Texels::Half(texels) => texels[index].to_f32(),
+        }
+    }
+}
+
+/// The texel index under a coordinate that may lie outside; NaN gives 0.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, which is the clamp that is wanted"
+)]
+const fn index(t: f32) -> u32 {
+    t as u32
+}
+
+fn check(
+    size: [u32; 2],
+    channels: Channels,
+    len: usize,
+    number: impl Fn(usize) -> f32,
+) -> Result<(), ImageError> {
+    if size.contains(&0) {
+        return Err(ImageError::Empty);
+    }
+    let texels = (size[0] as usize).checked_mul(size[1] as usize);
+    let numbers = texels.and_then(|texels| texels.checked_mul(channels.count()));
+    if numbers != Some(len) {
+        return Err(ImageError::Length);
+    }
+    for i in 0..len {
+        let value = number(i);
+        if value >= 0.0 && value.is_finite() {
+            continue;
+        }
+        let channel = i % channels.count();
+        let i = i / channels.count();
+        #[expect(clippy::cast_possible_truncation, reason = "both below a u32")]
+        let texel = [(i % size[0] as usize) as u32, (i / size[0] as usize) as u32];
+        return Err(if value.is_nan() {
+            ImageError::NotANumber { texel, channel }
+        } else if value < 0.0 {
+            ImageError::Negative { texel, channel }
+        } else {
+            ImageError::Infinite { texel, channel }
+        });
+    }
+    Ok(())
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (texel, channel, rule) = match self {
+            Self::Empty => return f.write_str("width and height must be at least 1"),
+            Self::Length => return f.write_str("width * height * channels numbers are needed"),
+            Self::NotANumber { texel, channel } => (texel, channel, "is not a number"),
+            Self::Infinite { texel, channel } => (texel, channel, "is infinite"),
+            Self::Negative { texel, channel } => (texel, channel, "is negative"),
+        };
+        write!(
+            f,
+            "texel ({}, {}), channel {channel}: {rule}",
+            texel[0], texel[1]
+        )
+    }
+}
+
+impl Error for ImageError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::string::ToString;
+
+    fn gray(width: u32, height: u32, texels: &[f32]) -> Result<Image, ImageError> {
+        Image::from_f32([width, height], Channels::Gray, texels)
+    }
+
+    #[test]
+    fn refuses_bad_texels_by_name() {
+        let rgb = |bad: f32| {
+            let mut texels = [1.0; 12];
+            texels[10] = bad;
+            Image::from_f32([2, 2], Channels::Rgb, texels)
+        };
+        let (texel, channel) = ([1, 1], 1);
+        assert_eq!(
+            rgb(f32::NAN),
+            Err(ImageError::NotANumber { texel, channel }),
+            "NaN"
+        );
+        assert_eq!(
+            rgb(-1.0),
+            Err(ImageError::Negative { texel, channel }),
+            "negative"
+        );
+        let infinite = ImageError::Infinite { texel, channel };
+        assert_eq!(rgb(f32::INFINITY), Err(infinite), "infinite");
+        assert_eq!(
+            infinite.to_string(),
+            "texel (1, 1), channel 1: is infinite",
+            "named"
+        );
+        assert_eq!(gray(0, 1, &[]), Err(ImageError::Empty), "empty");
+        assert_eq!(gray(2, 2, &[1.0; 3]), Err(ImageError::Length), "too short");
+    }
+
+    #[test]
+    fn looks_up_texels() {
+        let Ok(image) = gray(2, 2, &[0.0, 1.0, 2.0, 3.0]) else {
+            unreachable!("good numbers")
+        };
+        assert_eq!(
+            image.nearest(Vec2::new(0.5, 0.49)).x,
+            1.0,
+            "cells are half open"
+        );
+        assert_eq!(image.nearest(Vec2::new(1.0, 7.0)).x, 3.0, "clamped");
+        assert_eq!(image.bilinear(Vec2::splat(0.5)).x, 1.5, "middle");
+        assert_eq!(image.bilinear(Vec2::ZERO).x, 0.0, "corner");
+        assert_eq!(image.bilinear(Vec2::ONE).x, 3.0, "corner");
+        assert_eq!(image.mean(), Vec3::splat(1.5), "mean");
+        assert_eq!(image.averages(), [0.0, 1.0, 2.0, 3.0], "averages");
+    }
+
+    #[test]
+    fn half_texels_read_as_their_values() {
+        let halves: Vec<f16> = [0.25, 0.5, 0.75].map(f16::from_f32).to_vec();
+        let image = Image::from_f16([1, 1], Channels::Rgb, halves);
+        let Ok(image) = image else {
+            unreachable!("good numbers")
+        };
+        assert_eq!(
+            image.texel(0, 0),
+            Vec3::new(0.25, 0.5, 0.75),
+            "exact in half"
+        );
+        assert_eq!(image.bytes(), 6, "two bytes a number");
+    }
+}

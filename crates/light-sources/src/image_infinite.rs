@@ -1,0 +1,261 @@
+use alloc::vec::Vec;
+use core::error::Error;
+use core::f32::consts::{FRAC_1_PI, PI};
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::amount::RadianceAmount;
+use crate::color::ColorModel;
+use crate::coverage::PdfCoverage;
+use crate::distant::ray_through_scene;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::image::Image;
+use crate::kind::LightType;
+use crate::light::{InfiniteLight, Light};
+use crate::resample::{equal_area_size, lat_long_to_equal_area};
+use crate::rgb_sum::{RgbSum, single};
+use crate::rigid_transform::{RigidTransform, RigidTransformError};
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scene_sphere::SceneSphere;
+use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
+use light_math::DirectionCone;
+use light_math::distribution::{PiecewiseConstant2D, Sample2D};
+use light_math::equal_area::{sphere_to_square, square_to_sphere};
+
+/// An [`ImageInfiniteLight`] as a user describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageInfiniteLightDesc {
+    /// From light space to the scene; only its rotation counts.
+    pub transform: Affine3A,
+    /// The picture of the sky.
+    pub map: EnvironmentMap,
+    /// How bright it is, as a factor of the picture.
+    pub amount: RadianceAmount,
+}
+
+/// A picture of all directions, and how it shows them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EnvironmentMap {
+    /// A square, by [`equal_area`](light_math::equal_area).
+    EqualArea(Image),
+    /// A rectangle, by [`lat_long`](light_math::lat_long); it is resampled into a square once.
+    LatLong(Image),
+}
+
+/// An environment map: radiance from infinitely far away, by direction.
+///
+/// # Source
+/// `[PBRT4]`, section 12.5.2; the compensated distribution for [`PdfCoverage::Incomplete`] is that of `[Karlik2019]`.
+#[derive(Clone, Debug)]
+pub struct ImageInfiniteLight<C> {
+    transform: RigidTransform,
+    image: Image,
+    mean: Vec3,
+    scale: f32,
+    scene: SceneSphere,
+    extent: InfiniteBounds,
+    distribution: Option<PiecewiseConstant2D<Vec<f32>>>,
+    compensated: Option<PiecewiseConstant2D<Vec<f32>>>,
+    color: PhantomData<C>,
+}
+
+/// Why a description is no environment light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImageInfiniteLightError {
+    /// `transform` is not rigid.
+    Transform(RigidTransformError),
+    /// `map` is an equal-area image that is not square.
+    NotSquare,
+    /// `map` is too bright to be summed, or `amount` negative, not finite, or too large for it.
+    Amount,
+}
+
+impl<C: ColorModel> ImageInfiniteLight<C> {
+    /// The light that `desc` describes, over the given scene.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(
+        desc: ImageInfiniteLightDesc,
+        scene: SceneSphere,
+    ) -> Result<Self, ImageInfiniteLightError> {
+        let RadianceAmount::Radiometric(scale) = desc.amount;
+        let transform = RigidTransform::new(desc.transform)?;
+        let image = desc.map.into_equal_area()?;
+        let mean = image.mean();
+        if !(scale >= 0.0 && (mean * scale).is_finite()) {
+            return Err(ImageInfiniteLightError::Amount);
+        }
+        let averages = image.averages();
+        let n = image.size()[0] as usize;
+        // No table means that all weights are zero: the image is black.
+        let table = |weights: &[f32]| PiecewiseConstant2D::new(weights, n, n).ok();
+        Ok(Self {
+            transform,
+            extent: extent(&averages, n, scale, &transform),
+            compensated: table(&compensate(&averages)),
+            distribution: table(&averages),
+            image,
+            mean,
+            scale,
+            scene,
+            color: PhantomData,
+        })
+    }
+
+    fn distribution(&self, coverage: PdfCoverage) -> Option<&PiecewiseConstant2D<Vec<f32>>> {
+        match coverage {
+            PdfCoverage::Complete => self.distribution.as_ref(),
+            PdfCoverage::Incomplete => self.compensated.as_ref(),
+        }
+    }
+
+    fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
+    }
+
+    /// The place in the map of a direction toward the light.
+    fn uv(&self, wi: Vec3) -> Vec2 {
+        sphere_to_square(self.transform.inverse_vector(wi))
+    }
+}
+
+impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::Infinite
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let factor = 4.0 * PI * self.scene.disk_area() * self.scale;
+        C::emit_texel(self.mean, wavelengths) * factor
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        let Sample2D { p: uv, pdf, .. } = self.distribution(coverage)?.sample(u);
+        let wi = self.transform.vector(square_to_sphere(uv));
+        Some(LightLiSample {
+            l: self.radiance(uv, wavelengths),
+            wi,
+            pdf: pdf * PER_STERADIAN,
+            p_light: self.scene.beyond(ctx.p, wi),
+            n_light: Vec3::ZERO,
+            uv,
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
+        let pdf = |table: &PiecewiseConstant2D<_>| table.pdf(self.uv(wi)) * PER_STERADIAN;
+        self.distribution(coverage).map_or(0.0, pdf)
+    }
+
+    /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let Sample2D { p: uv, pdf, .. } = self.distribution.as_ref()?.sample(u1);
+        let wi = self.transform.vector(square_to_sphere(uv));
+        Some(LightLeSample {
+            l: self.radiance(uv, wavelengths),
+            ray: ray_through_scene(&self.scene, -wi, u2),
+            pdf: LePdf {
+                pos: 1.0 / self.scene.disk_area(),
+                dir: pdf * PER_STERADIAN,
+            },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        let wi = -ray.direction;
+        let pdf = |table: &PiecewiseConstant2D<_>| table.pdf(self.uv(wi)) * PER_STERADIAN;
+        LePdf {
+            pos: 1.0 / self.scene.disk_area(),
+            dir: self.distribution.as_ref().map_or(0.0, pdf),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        self.extent.into()
+    }
+}
+
+impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
+    fn le(&self, _origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.radiance(self.uv(direction), wavelengths)
+    }
+}
+
+impl EnvironmentMap {
+    fn into_equal_area(self) -> Result<Image, ImageInfiniteLightError> {
+        match self {
+            Self::EqualArea(image) if image.size()[0] != image.size()[1] => {
+                Err(ImageInfiniteLightError::NotSquare)
+            }
+            Self::EqualArea(image) => Ok(image),
+            Self::LatLong(image) => {
+                lat_long_to_equal_area(&image, equal_area_size(image.size()[1]))
+                    .map_err(|_| ImageInfiniteLightError::Amount)
+            }
+        }
+    }
+}
+
+/// The whole square is the whole sphere.
+const PER_STERADIAN: f32 = 0.25 * FRAC_1_PI;
+
+/// The distribution for samples that may leave out directions of little light: what is above the mean.
+///
+/// # Source
+/// `[Karlik2019]`, with the constant for an image that is the same everywhere.
+fn compensate(averages: &[f32]) -> Vec<f32> {
+    let sum: f64 = averages.iter().copied().map(f64::from).sum();
+    let mean = single(sum / averages.len() as f64);
+    let above: Vec<f32> = averages.iter().map(|a| (a - mean).max(0.0)).collect();
+    if mean > 0.0 && above.iter().all(|&a| a == 0.0) {
+        alloc::vec![1.0; averages.len()]
+    } else {
+        above
+    }
+}
+
+/// What a light sampler knows of an image of `n` rows.
+fn extent(averages: &[f32], n: usize, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
+    let (mut sum, mut weighted) = (0.0, RgbSum::default());
+    for (i, &average) in averages.iter().enumerate() {
+        let texel = Vec2::new((i % n) as f32, (i / n) as f32) + 0.5;
+        sum += f64::from(average);
+        weighted.add(square_to_sphere(texel / n as f32), f64::from(average));
+    }
+    InfiniteBounds {
+        fluence: 4.0 * PI * scale * single(sum / averages.len() as f64),
+        mean: transform.vector(weighted.over(sum)),
+        cone: DirectionCone::WHOLE_SPHERE,
+    }
+}
+
+impl fmt::Display for ImageInfiniteLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Transform(error) => error.fmt(f),
+            Self::NotSquare => f.write_str("map: an equal-area image must be square"),
+            Self::Amount => f.write_str("amount: must be finite and not negative"),
+        }
+    }
+}
+
+impl Error for ImageInfiniteLightError {}
+
+impl From<RigidTransformError> for ImageInfiniteLightError {
+    fn from(error: RigidTransformError) -> Self {
+        Self::Transform(error)
+    }
+}

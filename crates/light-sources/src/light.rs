@@ -1,0 +1,75 @@
+use crate::color::ColorModel;
+use crate::coverage::PdfCoverage;
+use crate::glam::{Vec2, Vec3};
+use crate::kind::LightType;
+use crate::media::MediumInterface;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::surface_point::SurfacePoint;
+use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+
+/// What every light answers. Random inputs `u` lie in `[0, 1)`; nothing here fails or panics.
+///
+/// Vectors are in scene space, directions have unit length and `wi` points toward the light.
+pub trait Light<C: ColorModel> {
+    /// How the light reaches a point.
+    fn light_type(&self) -> LightType;
+
+    /// Emitted power in W, for lights at infinity the power that enters the scene's sphere.
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance;
+
+    /// A direction from which the light arrives at `ctx.p`, with its density; `None` when this light does not reach
+    /// the point in the direction that `u` stands for. Sides of the surface at `ctx` are not looked at: a direction
+    /// below the horizon is for the BSDF to refuse.
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>>;
+
+    /// Density in sr^-1 with which [`sample_li`](Self::sample_li) chooses `wi`; 0 for Dirac lights, and for directions
+    /// that miss the light.
+    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32;
+
+    /// A ray that leaves the light, its origin chosen by `u1` and its direction by `u2`, unless the light says
+    /// otherwise.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>>;
+
+    /// Densities with which [`sample_le`](Self::sample_le) chooses `ray`, where a Dirac counts as 0.
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf;
+
+    /// What a light sampler has to know of the light.
+    fn extent(&self) -> LightExtent;
+
+    /// Bounds of the light in space, direction and power; `None` for lights at infinity.
+    fn bounds(&self) -> Option<LightBounds> {
+        match self.extent() {
+            LightExtent::Bounded(bounds) => Some(bounds),
+            LightExtent::Infinite(_) => None,
+        }
+    }
+
+    /// The media that the light is in; vacuum for lights at infinity.
+    fn media(&self) -> MediumInterface {
+        MediumInterface::default()
+    }
+}
+
+/// A light that rays can hit.
+pub trait AreaLight<C: ColorModel>: Light<C> {
+    /// Radiance that leaves the surface at `at` in direction `w`, in W m^-2 sr^-1.
+    fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance;
+}
+
+/// A light that rays reach by leaving the scene.
+pub trait InfiniteLight<C: ColorModel>: Light<C> {
+    /// Radiance that arrives along a ray that leaves the scene in `direction`, in W m^-2 sr^-1, at `origin`: only a
+    /// portal looks at where the ray comes from.
+    fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance;
+}

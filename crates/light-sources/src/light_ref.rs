@@ -1,0 +1,120 @@
+use crate::area::DiffuseAreaLight;
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::distant::DistantLight;
+use crate::glam::{Vec2, Vec3};
+use crate::image_infinite::ImageInfiniteLight;
+use crate::kind::LightType;
+use crate::light::{AreaLight, InfiniteLight, Light};
+use crate::media::MediumInterface;
+use crate::point::PointLight;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::shape::Triangle;
+use crate::surface_point::SurfacePoint;
+use crate::uniform_infinite::UniformInfiniteLight;
+use light_bounds::{LightExtent, LightSampleContext};
+
+/// One light of a set, whatever its kind: the closed enum beside the trait, for callers who hold them all.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum LightRef<'a, C: ColorModel> {
+    /// A point light.
+    Point(&'a PointLight<C>),
+    /// A triangle of an emissive mesh.
+    Triangle(DiffuseAreaLight<'a, C, Triangle>),
+    /// A light from one direction.
+    Distant(&'a DistantLight<C>),
+    /// A uniform sky.
+    UniformInfinite(&'a UniformInfiniteLight<C>),
+    /// An environment map.
+    ImageInfinite(&'a ImageInfiniteLight<C>),
+}
+
+/// The same expression for whichever light it is.
+macro_rules! for_each_kind {
+    ($light:expr, $it:ident => $answer:expr) => {
+        match $light {
+            LightRef::Point($it) => $answer,
+            LightRef::Triangle($it) => $answer,
+            LightRef::Distant($it) => $answer,
+            LightRef::UniformInfinite($it) => $answer,
+            LightRef::ImageInfinite($it) => $answer,
+        }
+    };
+}
+
+impl<C: ColorModel> LightRef<'_, C> {
+    /// Radiance that leaves the surface at `at` in direction `w`; black unless this is an area light.
+    #[inline]
+    #[must_use]
+    pub fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        match self {
+            Self::Triangle(light) => light.l(at, w, wavelengths),
+            Self::Point(_)
+            | Self::Distant(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_) => C::Radiance::BLACK,
+        }
+    }
+
+    /// Radiance that arrives along a ray that leaves the scene; black unless this is an infinite light.
+    #[inline]
+    #[must_use]
+    pub fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        match self {
+            Self::UniformInfinite(light) => light.le(origin, direction, wavelengths),
+            Self::ImageInfinite(light) => light.le(origin, direction, wavelengths),
+            Self::Point(_) | Self::Triangle(_) | Self::Distant(_) => C::Radiance::BLACK,
+        }
+    }
+}
+
+impl<C: ColorModel> Light<C> for LightRef<'_, C> {
+    #[inline]
+    fn light_type(&self) -> LightType {
+        for_each_kind!(self, light => light.light_type())
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        for_each_kind!(self, light => light.phi(wavelengths))
+    }
+
+    #[inline]
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        for_each_kind!(self, light => light.sample_li(ctx, u, wavelengths, coverage))
+    }
+
+    #[inline]
+    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
+        for_each_kind!(self, light => light.pdf_li(ctx, wi, coverage))
+    }
+
+    #[inline]
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        for_each_kind!(self, light => light.sample_le(u1, u2, wavelengths))
+    }
+
+    #[inline]
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        for_each_kind!(self, light => light.pdf_le(ray))
+    }
+
+    fn extent(&self) -> LightExtent {
+        for_each_kind!(self, light => light.extent())
+    }
+
+    fn media(&self) -> MediumInterface {
+        for_each_kind!(self, light => light.media())
+    }
+}

@@ -1,0 +1,280 @@
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use crate::color::ColorModel;
+use crate::distant::DistantLight;
+use crate::image_infinite::ImageInfiniteLight;
+use crate::light::Light;
+use crate::light_ref::LightRef;
+use crate::mesh::MeshLight;
+use crate::point::PointLight;
+use crate::uniform_infinite::UniformInfiniteLight;
+use light_bounds::{LightExtent, LightId};
+
+/// All lights of a scene, by kind. Made by a [`LightSetBuilder`](crate::LightSetBuilder).
+///
+/// Ids run through the kinds one after the other, through the triangles of each mesh in their order, and end with the
+/// lights at infinity; a [`SourceId`] tells where a description went. A triangle costs nothing here but its vertices.
+#[derive(Clone, Debug)]
+pub struct LightSet<C: ColorModel> {
+    pub(crate) points: Vec<PointLight<C>>,
+    pub(crate) meshes: Vec<MeshLight<C>>,
+    pub(crate) distants: Vec<DistantLight<C>>,
+    pub(crate) uniform_infinites: Vec<UniformInfiniteLight<C>>,
+    pub(crate) image_infinites: Vec<ImageInfiniteLight<C>>,
+    /// The first id behind each kind.
+    ends: [u32; Kind::COUNT],
+    /// How many triangles there are up to and with each mesh.
+    mesh_ends: Vec<u32>,
+    /// Where each description went: its kind, and how many lights of that kind came before.
+    sources: Vec<(Kind, u32)>,
+}
+
+/// Which description of those that a set was built from, in the order of adding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceId(pub u32);
+
+/// The kinds of light, in the order of their ids; those at infinity come last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Point,
+    Triangle,
+    Distant,
+    UniformInfinite,
+    ImageInfinite,
+}
+
+impl Kind {
+    const COUNT: usize = 5;
+    const ALL: [Self; Self::COUNT] = [
+        Self::Point,
+        Self::Triangle,
+        Self::Distant,
+        Self::UniformInfinite,
+        Self::ImageInfinite,
+    ];
+    const LAST_BOUNDED: Self = Self::Triangle;
+}
+
+impl<C: ColorModel> LightSet<C> {
+    /// The set without lights.
+    pub(crate) const fn empty() -> Self {
+        Self {
+            points: Vec::new(),
+            meshes: Vec::new(),
+            distants: Vec::new(),
+            uniform_infinites: Vec::new(),
+            image_infinites: Vec::new(),
+            ends: [0; Kind::COUNT],
+            mesh_ends: Vec::new(),
+            sources: Vec::new(),
+        }
+    }
+
+    /// Counts the `lights` that the source last added has; `None` where 32 bits do not suffice for the ids.
+    pub(crate) fn count_in(&mut self, kind: Kind, lights: usize) -> Option<SourceId> {
+        let lights = u32::try_from(lights).ok()?;
+        let source = u32::try_from(self.sources.len()).ok()?;
+        self.ends[Kind::COUNT - 1].checked_add(lights)?;
+        let before = self.ids(kind).len();
+        for end in &mut self.ends[kind as usize..] {
+            *end += lights;
+        }
+        self.sources.push((kind, u32::try_from(before).ok()?));
+        if kind == Kind::Triangle {
+            self.mesh_ends.push(self.ids(kind).len().try_into().ok()?);
+        }
+        Some(SourceId(source))
+    }
+
+    /// How many lights there are; their ids are the numbers below.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.ends[Kind::COUNT - 1] as usize
+    }
+
+    /// Whether there is no light at all.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The light with the given id; `None` for an unknown one.
+    #[inline]
+    #[must_use]
+    pub fn get(&self, light: LightId) -> Option<LightRef<'_, C>> {
+        let kind = *Kind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
+        let start = self.ids(kind).start;
+        let index = (light.0 - start) as usize;
+        Some(match kind {
+            Kind::Point => LightRef::Point(&self.points[index]),
+            Kind::Triangle => {
+                let mesh = self.mesh_ends.partition_point(|&end| end as usize <= index);
+                let first = if mesh == 0 {
+                    0
+                } else {
+                    self.mesh_ends[mesh - 1] as usize
+                };
+                LightRef::Triangle(self.meshes[mesh].triangle(index - first)?)
+            }
+            Kind::Distant => LightRef::Distant(&self.distants[index]),
+            Kind::UniformInfinite => LightRef::UniformInfinite(&self.uniform_infinites[index]),
+            Kind::ImageInfinite => LightRef::ImageInfinite(&self.image_infinites[index]),
+        })
+    }
+
+    /// The id of the first light that a description became: of its only one, or of the first triangle of its mesh.
+    /// Triangle `k` of that mesh has the id that is larger by `k`. `None` for an unknown source.
+    #[inline]
+    #[must_use]
+    pub fn first_id(&self, source: SourceId) -> Option<LightId> {
+        let (kind, before) = *self.sources.get(source.0 as usize)?;
+        Some(LightId(self.ids(kind).start + before))
+    }
+
+    /// The ids of the lights at infinity, those from one direction included.
+    #[must_use]
+    pub fn infinite_ids(&self) -> impl ExactSizeIterator<Item = LightId> + Clone + use<C> {
+        let first = self.ends[Kind::LAST_BOUNDED as usize];
+        (first..self.ends[Kind::COUNT - 1]).map(LightId)
+    }
+
+    /// All lights with their ids.
+    pub fn iter(&self) -> impl Iterator<Item = (LightId, LightRef<'_, C>)> {
+        (0..self.ends[Kind::COUNT - 1])
+            .map(LightId)
+            .filter_map(|id| Some((id, self.get(id)?)))
+    }
+
+    /// What a light sampler is built from: the extents of all lights, by id.
+    #[must_use]
+    pub fn extents(&self) -> Vec<LightExtent> {
+        self.iter().map(|(_, light)| light.extent()).collect()
+    }
+
+    /// The powers of all lights in W, by id: the mean over the colour channels or the spectrum.
+    #[must_use]
+    pub fn powers(&self) -> Vec<f32> {
+        let wavelengths = C::reference_wavelengths();
+        let power = |light: LightRef<'_, C>| C::mean(light.phi(&wavelengths), &wavelengths);
+        self.iter().map(|(_, light)| power(light)).collect()
+    }
+
+    #[inline]
+    fn ids(&self, kind: Kind) -> Range<u32> {
+        let kind = kind as usize;
+        let start = if kind == 0 { 0 } else { self.ends[kind - 1] };
+        start..self.ends[kind]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
+    use crate::desc::LightDesc;
+    use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+    use crate::distant::DistantLightDesc;
+    use crate::glam::Vec3;
+    use crate::kind::LightType;
+    use crate::light_set_builder::LightSetBuilder;
+    use crate::media::MediumInterface;
+    use crate::mesh::MeshLightDesc;
+    use crate::point::PointLightDesc;
+    use crate::rgb::Rgb;
+    use crate::scene_sphere::SceneSphere;
+
+    fn point(intensity: f32) -> LightDesc<Rgb> {
+        LightDesc::Point(PointLightDesc {
+            position: Vec3::ZERO,
+            emission: Vec3::ONE,
+            amount: IntensityAmount::Radiometric(intensity),
+            media: MediumInterface::default(),
+        })
+    }
+
+    fn sun() -> LightDesc<Rgb> {
+        LightDesc::Distant(DistantLightDesc {
+            direction: Vec3::Z,
+            emission: Vec3::ONE,
+            amount: IrradianceAmount::Radiometric(1.0),
+        })
+    }
+
+    /// `triangles` right-angled triangles of area 0.5 that lie in the plane z = 1.
+    fn mesh(triangles: usize, radiance: f32) -> LightDesc<Rgb> {
+        LightDesc::Mesh(MeshLightDesc {
+            positions: [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y].into(),
+            indices: alloc::vec![[0, 1, 2]; triangles].into(),
+            uvs: None,
+            emission: DiffuseEmissionDesc::new(
+                SurfaceColor::Uniform(Vec3::ONE),
+                RadianceAmount::Radiometric(radiance),
+            ),
+        })
+    }
+
+    fn set(descs: &[LightDesc<Rgb>]) -> (LightSet<Rgb>, Vec<SourceId>) {
+        let Ok(scene) = SceneSphere::new(Vec3::ZERO, 2.0) else {
+            unreachable!("a sphere")
+        };
+        let mut builder = LightSetBuilder::new(scene);
+        let sources = descs
+            .iter()
+            .filter_map(|desc| builder.add(desc.clone()).ok());
+        let sources = sources.collect();
+        (builder.build(), sources)
+    }
+
+    #[test]
+    fn ids_run_by_kind_and_sources_know_theirs() {
+        let (set, sources) = set(&[
+            sun(),
+            mesh(2, 1.0),
+            point(1.0),
+            mesh(0, 1.0),
+            mesh(3, 2.0),
+            point(2.0),
+        ]);
+        let firsts: Vec<_> = sources.iter().filter_map(|&s| set.first_id(s)).collect();
+        assert_eq!(
+            firsts,
+            [7, 2, 0, 4, 4, 1].map(LightId),
+            "points, triangles, infinite"
+        );
+        assert_eq!(set.len(), 8, "all");
+        assert!(set.infinite_ids().eq([LightId(7)]), "the sun");
+        let types: Vec<_> = set.iter().map(|(_, light)| light.light_type()).collect();
+        let area = LightType::Area;
+        let (position, direction) = (LightType::DeltaPosition, LightType::DeltaDirection);
+        assert_eq!(
+            types,
+            [position, position, area, area, area, area, area, direction],
+            "kinds"
+        );
+        assert!(set.get(LightId(8)).is_none(), "unknown");
+        assert!(set.first_id(SourceId(6)).is_none(), "unknown");
+    }
+
+    #[test]
+    fn powers_and_extents_are_those_of_the_lights() {
+        let (set, _) = set(&[point(1.0), mesh(1, 3.0), sun()]);
+        let powers = set.powers();
+        let expected = [4.0, 1.5, 4.0].map(|x| x * core::f32::consts::PI);
+        for (power, expected) in powers.iter().zip(expected) {
+            assert!(
+                (power - expected).abs() < 1e-5,
+                "{power}, expected {expected}"
+            );
+        }
+        let extents = set.extents();
+        assert_eq!(extents.len(), 3, "one each");
+        assert!(
+            extents.iter().all(|extent| match extent {
+                LightExtent::Bounded(bounds) => bounds.validate().is_ok(),
+                LightExtent::Infinite(bounds) => bounds.validate().is_ok(),
+            }),
+            "valid"
+        );
+    }
+}

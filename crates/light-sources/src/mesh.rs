@@ -1,0 +1,210 @@
+use alloc::sync::Arc;
+use core::error::Error;
+use core::fmt;
+
+use crate::area::DiffuseAreaLight;
+use crate::color::ColorModel;
+use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
+use crate::glam::{Vec2, Vec3};
+use crate::shape::Triangle;
+
+/// A [`MeshLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct MeshLightDesc<C: ColorModel> {
+    /// Vertices in scene space, shared with whoever else needs them.
+    pub positions: Arc<[Vec3]>,
+    /// Three vertices a triangle, counter-clockwise on the front.
+    pub indices: Arc<[[u32; 3]]>,
+    /// Surface parameters, one a vertex; without them those of [`Triangle::DEFAULT_UV`].
+    pub uvs: Option<Arc<[Vec2]>>,
+    /// How all triangles shine.
+    pub emission: DiffuseEmissionDesc<C>,
+}
+
+/// An emissive mesh: one source, whose triangles are area lights with consecutive ids.
+///
+/// Vertices are shared and emission is stored once, so that a triangle costs nothing here. A triangle without area is
+/// a light without power.
+#[derive(Clone, Debug)]
+pub struct MeshLight<C: ColorModel> {
+    positions: Arc<[Vec3]>,
+    indices: Arc<[[u32; 3]]>,
+    uvs: Option<Arc<[Vec2]>>,
+    emission: DiffuseEmission<C>,
+}
+
+/// Why a description is no mesh light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MeshLightError {
+    /// A vertex of `positions` is not finite.
+    Position {
+        /// Which.
+        vertex: usize,
+    },
+    /// A triangle of `indices` names a vertex that is not there.
+    Index {
+        /// Which triangle.
+        triangle: usize,
+    },
+    /// There are not as many `uvs` as vertices.
+    UvCount,
+    /// One of `uvs` is not finite.
+    Uv {
+        /// Of which vertex.
+        vertex: usize,
+    },
+    /// `emission` makes no sense.
+    Emission(DiffuseEmissionError),
+}
+
+impl<C: ColorModel> MeshLight<C> {
+    /// The light that `desc` describes.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: MeshLightDesc<C>) -> Result<Self, MeshLightError> {
+        let count = desc.positions.len();
+        if let Some(vertex) = desc.positions.iter().position(|p| !p.is_finite()) {
+            return Err(MeshLightError::Position { vertex });
+        }
+        let is_outside = |t: &[u32; 3]| t.iter().any(|&vertex| vertex as usize >= count);
+        if let Some(triangle) = desc.indices.iter().position(is_outside) {
+            return Err(MeshLightError::Index { triangle });
+        }
+        if let Some(uvs) = &desc.uvs {
+            if uvs.len() != count {
+                return Err(MeshLightError::UvCount);
+            }
+            if let Some(vertex) = uvs.iter().position(|uv| !uv.is_finite()) {
+                return Err(MeshLightError::Uv { vertex });
+            }
+        }
+        let emission = DiffuseEmission::new(desc.emission).map_err(MeshLightError::Emission)?;
+        Ok(Self {
+            positions: desc.positions,
+            indices: desc.indices,
+            uvs: desc.uvs,
+            emission,
+        })
+    }
+
+    /// How many triangles, each a light.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.indices.len()
+    }
+
+    /// Whether there is no triangle at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.indices.is_empty()
+    }
+
+    /// How all triangles shine.
+    #[must_use]
+    pub const fn emission(&self) -> &DiffuseEmission<C> {
+        &self.emission
+    }
+
+    /// The light that triangle number `index` is; `None` beyond the last.
+    #[inline]
+    #[must_use]
+    pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
+        let vertices = self.indices.get(index)?.map(|vertex| vertex as usize);
+        let p = vertices.map(|vertex| self.positions[vertex]);
+        let uv = match &self.uvs {
+            Some(uvs) => vertices.map(|vertex| uvs[vertex]),
+            None => Triangle::DEFAULT_UV,
+        };
+        Some(DiffuseAreaLight::new(
+            Triangle::from_mesh(p, uv),
+            &self.emission,
+        ))
+    }
+}
+
+impl fmt::Display for MeshLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Position { vertex } => write!(f, "positions: vertex {vertex} is not finite"),
+            Self::Index { triangle } => {
+                write!(
+                    f,
+                    "indices: triangle {triangle} names a vertex that is not there"
+                )
+            }
+            Self::UvCount => f.write_str("uvs: there must be one a vertex"),
+            Self::Uv { vertex } => write!(f, "uvs: that of vertex {vertex} is not finite"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for MeshLightError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amount::RadianceAmount;
+    use crate::diffuse_emission::SurfaceColor;
+    use crate::rgb::Rgb;
+
+    fn square() -> MeshLightDesc<Rgb> {
+        MeshLightDesc {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y].into(),
+            indices: [[0, 1, 2], [0, 2, 3]].into(),
+            uvs: None,
+            emission: DiffuseEmissionDesc::new(
+                SurfaceColor::Uniform(Vec3::ONE),
+                RadianceAmount::Radiometric(1.0),
+            ),
+        }
+    }
+
+    #[test]
+    fn refuses_nonsense_by_field() {
+        let error = |desc| MeshLight::new(desc).err();
+        assert_eq!(error(square()), None, "a square");
+        let desc = MeshLightDesc {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::NAN, Vec3::Y].into(),
+            ..square()
+        };
+        assert_eq!(
+            error(desc),
+            Some(MeshLightError::Position { vertex: 2 }),
+            "NaN"
+        );
+        let desc = MeshLightDesc {
+            indices: [[0, 1, 2], [0, 2, 4]].into(),
+            ..square()
+        };
+        assert_eq!(
+            error(desc),
+            Some(MeshLightError::Index { triangle: 1 }),
+            "index"
+        );
+        let desc = MeshLightDesc {
+            uvs: Some([Vec2::ZERO].into()),
+            ..square()
+        };
+        assert_eq!(error(desc), Some(MeshLightError::UvCount), "too few");
+        let desc = MeshLightDesc {
+            uvs: Some([Vec2::NAN; 4].into()),
+            ..square()
+        };
+        assert_eq!(error(desc), Some(MeshLightError::Uv { vertex: 0 }), "NaN");
+    }
+
+    #[test]
+    fn triangles_beyond_the_last_are_none() {
+        let Ok(mesh) = MeshLight::new(square()) else {
+            unreachable!("a square")
+        };
+        assert_eq!(mesh.len(), 2, "two");
+        assert!(
+            mesh.triangle(1).is_some() && mesh.triangle(2).is_none(),
+            "no third"
+        );
+    }
+}

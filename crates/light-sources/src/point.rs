@@ -1,0 +1,165 @@
+use core::error::Error;
+use core::f32::consts::PI;
+use core::fmt;
+
+use crate::amount::IntensityAmount;
+use crate::color::ColorModel;
+use crate::coverage::PdfCoverage;
+use crate::glam::{Vec2, Vec3};
+use crate::kind::LightType;
+use crate::light::Light;
+use crate::media::MediumInterface;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scaled_emission::{EmissionError, ScaledEmission};
+use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_math::Aabb;
+use light_math::warp::uniform_sphere;
+
+/// A [`PointLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct PointLightDesc<C: ColorModel> {
+    /// Where it is, in scene units.
+    pub position: Vec3,
+    /// Colour of the light.
+    pub emission: C::Emission,
+    /// How bright it is.
+    pub amount: IntensityAmount,
+    /// The medium around it, `outside`.
+    pub media: MediumInterface,
+}
+
+/// A light at a point that shines alike in all directions.
+///
+/// # Source
+/// `[PBRT4]`, section 12.2.
+#[derive(Clone, Debug)]
+pub struct PointLight<C: ColorModel> {
+    position: Vec3,
+    intensity: ScaledEmission<C>,
+    media: MediumInterface,
+}
+
+/// Why a description is no point light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PointLightError {
+    /// `position` is not finite.
+    Position,
+    /// `emission` or `amount` makes no sense.
+    Emission(EmissionError),
+}
+
+impl<C: ColorModel> PointLight<C> {
+    /// The light that `desc` describes.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: PointLightDesc<C>) -> Result<Self, PointLightError> {
+        let IntensityAmount::Radiometric(scale) = desc.amount;
+        if !desc.position.is_finite() {
+            return Err(PointLightError::Position);
+        }
+        Ok(Self {
+            position: desc.position,
+            intensity: ScaledEmission::new(desc.emission, scale)?,
+            media: desc.media,
+        })
+    }
+}
+
+impl<C: ColorModel> Light<C> for PointLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::DeltaPosition
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.intensity.at(wavelengths) * (4.0 * PI)
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        _u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        let (wi, inv_dist_sq) = toward(ctx, self.position)?;
+        Some(LightLiSample {
+            l: self.intensity.at(wavelengths) * inv_dist_sq,
+            wi,
+            pdf: 1.0,
+            p_light: self.position,
+            n_light: Vec3::ZERO,
+            uv: Vec2::ZERO,
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        0.0
+    }
+
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        _u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let direction = uniform_sphere::sample(u1);
+        Some(LightLeSample {
+            l: self.intensity.at(wavelengths),
+            ray: EmittedRay::from_point(self.position, direction),
+            pdf: LePdf {
+                pos: 1.0,
+                dir: uniform_sphere::pdf(),
+            },
+        })
+    }
+
+    fn pdf_le(&self, _ray: &EmittedRay) -> LePdf {
+        LePdf {
+            pos: 0.0,
+            dir: uniform_sphere::pdf(),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        LightExtent::Bounded(LightBounds {
+            bounds: Aabb::from_point(self.position),
+            w: Vec3::Z,
+            phi: 4.0 * PI * self.intensity.maximum(),
+            cos_theta_o: -1.0,
+            cos_theta_e: 0.0,
+            two_sided: false,
+        })
+    }
+
+    fn media(&self) -> MediumInterface {
+        self.media
+    }
+}
+
+/// Unit direction from `ctx.p` to a light at `position` and the inverse of the squared distance; `None` where the two
+/// meet, or are so near or so far that the inverse is no finite positive number.
+pub(crate) fn toward(ctx: &LightSampleContext, position: Vec3) -> Option<(Vec3, f32)> {
+    let d = position - ctx.p;
+    let wi = d.try_normalize()?;
+    let inv_dist_sq = 1.0 / d.length_squared();
+    (inv_dist_sq > 0.0 && inv_dist_sq.is_finite()).then_some((wi, inv_dist_sq))
+}
+
+impl fmt::Display for PointLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Position => f.write_str("position: must be finite"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl From<EmissionError> for PointLightError {
+    fn from(error: EmissionError) -> Self {
+        Self::Emission(error)
+    }
+}
+
+impl Error for PointLightError {}

@@ -1,0 +1,78 @@
+use core::error::Error;
+use core::fmt;
+
+use crate::color::ColorModel;
+
+/// An emission and how strong it is: what every light stores. Both are finite and not negative.
+#[derive(Clone, Debug)]
+pub struct ScaledEmission<C: ColorModel> {
+    emission: C::Emission,
+    scale: f32,
+}
+
+/// Why an emission is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum EmissionError {
+    /// `emission` is negative or not finite somewhere.
+    Emission,
+    /// `amount` is negative or not finite, or too large for this emission.
+    Amount,
+}
+
+impl<C: ColorModel> ScaledEmission<C> {
+    /// `scale` times `emission`.
+    ///
+    /// # Errors
+    /// When one of them, or their product, is negative or not finite.
+    pub fn new(emission: C::Emission, scale: f32) -> Result<Self, EmissionError> {
+        if !C::is_valid(&emission) {
+            return Err(EmissionError::Emission);
+        }
+        if !(scale >= 0.0 && (scale * C::maximum(&emission)).is_finite()) {
+            return Err(EmissionError::Amount);
+        }
+        Ok(Self { emission, scale })
+    }
+
+    /// The value at the wavelengths of a query.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit(&self.emission, wavelengths) * self.scale
+    }
+
+    /// The largest value over all channels or wavelengths.
+    #[must_use]
+    pub fn maximum(&self) -> f32 {
+        C::maximum(&self.emission) * self.scale
+    }
+}
+
+impl fmt::Display for EmissionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Emission => "emission: must be finite and not negative",
+            Self::Amount => "amount: must be finite and not negative",
+        })
+    }
+}
+
+impl Error for EmissionError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::glam::Vec3;
+    use crate::rgb::Rgb;
+
+    #[test]
+    fn refuses_nonsense_by_field() {
+        let new = |e: f32, scale| ScaledEmission::<Rgb>::new(Vec3::splat(e), scale).err();
+        assert_eq!(new(1.0, 0.0), None, "a light may be off");
+        assert_eq!(new(-1.0, 1.0), Some(EmissionError::Emission), "negative");
+        assert_eq!(new(1.0, -1.0), Some(EmissionError::Amount), "negative");
+        assert_eq!(new(1.0, f32::NAN), Some(EmissionError::Amount), "NaN");
+        assert_eq!(new(1e30, 1e30), Some(EmissionError::Amount), "overflow");
+    }
+}

@@ -1,0 +1,100 @@
+//! Surfaces that area lights shine from, one a file.
+
+mod triangle;
+
+pub use triangle::{Triangle, TriangleError};
+
+use crate::glam::{Vec2, Vec3};
+use crate::surface_point::SurfacePoint;
+use light_bounds::LightSampleContext;
+use light_math::{Aabb, DirectionCone};
+
+/// A surface that area lights can shine from.
+pub trait Shape {
+    /// Area in length^2.
+    fn area(&self) -> f32;
+
+    /// A box around the surface.
+    fn bounds(&self) -> Aabb;
+
+    /// A cone around the normals of the front side.
+    fn normal_cone(&self) -> DirectionCone;
+
+    /// A point of the surface, for light that leaves it, with its density per area; `None` without area.
+    fn sample(&self, u: Vec2) -> Option<ShapeSample>;
+
+    /// Density per area with which [`sample`](Self::sample) chooses `at`, a point of the surface.
+    fn pdf(&self, at: &SurfacePoint) -> f32;
+
+    /// A point of the surface as seen from `ctx.p`, with the density of its direction per solid angle; `None` when the
+    /// surface is seen from its edge, or not at all.
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample>;
+
+    /// Density per solid angle with which [`sample_toward`](Self::sample_toward) chooses `wi`; 0 when it misses.
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32;
+
+    /// The first point of the surface on the ray from `origin` in the unit direction `direction`, from either side.
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint>;
+}
+
+impl<S: Shape> Shape for &S {
+    fn area(&self) -> f32 {
+        (**self).area()
+    }
+
+    fn bounds(&self) -> Aabb {
+        (**self).bounds()
+    }
+
+    fn normal_cone(&self) -> DirectionCone {
+        (**self).normal_cone()
+    }
+
+    fn sample(&self, u: Vec2) -> Option<ShapeSample> {
+        (**self).sample(u)
+    }
+
+    fn pdf(&self, at: &SurfacePoint) -> f32 {
+        (**self).pdf(at)
+    }
+
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        (**self).sample_toward(ctx, u)
+    }
+
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        (**self).pdf_toward(ctx, wi)
+    }
+
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        (**self).hit(origin, direction)
+    }
+}
+
+/// A point of a surface, chosen by its area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapeSample {
+    /// The point.
+    pub at: SurfacePoint,
+    /// Density per area, in length^-2, positive and finite.
+    pub pdf: f32,
+}
+
+/// A point of a surface, chosen by the solid angle at which it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionSample {
+    /// The point.
+    pub at: SurfacePoint,
+    /// Unit direction toward it.
+    pub wi: Vec3,
+    /// Density per solid angle, in sr^-1, positive and finite.
+    pub pdf: f32,
+}
+
+/// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with unit normal `n`, seen
+/// along `to_light` (not of unit length); `None` from its edge, where the density is infinite.
+pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Option<(Vec3, f32)> {
+    let wi = to_light.try_normalize()?;
+    let pdf = pdf_area * to_light.length_squared() / n.dot(wi).abs();
+    (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
+}

@@ -1,0 +1,155 @@
+use core::error::Error;
+use core::fmt;
+
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use crate::glam::{Vec2, Vec3};
+use crate::surface_point::SurfacePoint;
+use light_bounds::LightSampleContext;
+use light_math::warp::uniform_triangle;
+use light_math::{Aabb, DirectionCone};
+
+/// A triangle; its front is the side from which the vertices run counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    p: [Vec3; 3],
+    uv: [Vec2; 3],
+}
+
+/// Why three points are no triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TriangleError {
+    /// A vertex is not finite.
+    Vertex,
+    /// The vertices lie on a line, or so close that the area is no positive number.
+    Area,
+}
+
+impl Triangle {
+    /// Surface parameters of the vertices where no others are given.
+    pub const DEFAULT_UV: [Vec2; 3] = [Vec2::ZERO, Vec2::X, Vec2::ONE];
+
+    /// The triangle with vertices `p`, and surface parameters `uv` at them.
+    ///
+    /// # Errors
+    /// When a vertex is not finite or the triangle has no area.
+    pub fn new(p: [Vec3; 3], uv: [Vec2; 3]) -> Result<Self, TriangleError> {
+        if !p.iter().all(|p| p.is_finite()) {
+            return Err(TriangleError::Vertex);
+        }
+        let triangle = Self { p, uv };
+        let area = triangle.area();
+        if !(area > 0.0 && area.is_finite()) {
+            return Err(TriangleError::Area);
+        }
+        Ok(triangle)
+    }
+
+    /// A triangle that may have no area: it is never sampled then.
+    pub(crate) const fn from_mesh(p: [Vec3; 3], uv: [Vec2; 3]) -> Self {
+        Self { p, uv }
+    }
+
+    /// The vertices.
+    #[must_use]
+    pub const fn vertices(&self) -> [Vec3; 3] {
+        self.p
+    }
+
+    /// The unit normal of the front; `None` without area.
+    #[must_use]
+    pub fn normal(&self) -> Option<Vec3> {
+        self.scaled_normal().try_normalize()
+    }
+
+    /// The normal, as long as twice the area.
+    fn scaled_normal(&self) -> Vec3 {
+        let [a, b, c] = self.p;
+        (b - a).cross(c - a)
+    }
+
+    fn at(&self, b: Vec3, n: Vec3) -> SurfacePoint {
+        let ([p0, p1, p2], [uv0, uv1, uv2]) = (self.p, self.uv);
+        SurfacePoint {
+            p: p0 * b.x + p1 * b.y + p2 * b.z,
+            n,
+            uv: uv0 * b.x + uv1 * b.y + uv2 * b.z,
+        }
+    }
+
+    /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the edges counts.
+    ///
+    /// Each edge and the origin span a plane, and the ray has to pass all three on the same side. What the products
+    /// round off is added to the triangle, so that a direction toward any point of it always hits.
+    fn barycentric(&self, origin: Vec3, direction: Vec3) -> Option<Vec3> {
+        let v = self.p.map(|p| p - origin);
+        let side = |i: usize, j: usize| {
+            let edge = v[j] - v[i];
+            let slack = 8.0 * f32::EPSILON * v[i].length() * edge.length();
+            (direction.dot(v[i].cross(edge)), slack)
+        };
+        let sides = [side(1, 2), side(2, 0), side(0, 1)];
+        let front = sides.iter().all(|(s, slack)| *s >= -slack);
+        let back = sides.iter().all(|(s, slack)| *s <= *slack);
+        let b = Vec3::from_array(sides.map(|(s, _)| s));
+        let sum = b.element_sum();
+        ((front || back) && sum != 0.0).then(|| b / sum)
+    }
+}
+
+impl Shape for Triangle {
+    fn area(&self) -> f32 {
+        0.5 * self.scaled_normal().length()
+    }
+
+    fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.p)
+    }
+
+    fn normal_cone(&self) -> DirectionCone {
+        self.normal()
+            .map_or(DirectionCone::EMPTY, DirectionCone::from_direction)
+    }
+
+    fn sample(&self, u: Vec2) -> Option<ShapeSample> {
+        let at = self.at(uniform_triangle::sample(u), self.normal()?);
+        let pdf = 1.0 / self.area();
+        pdf.is_finite().then_some(ShapeSample { at, pdf })
+    }
+
+    fn pdf(&self, _at: &SurfacePoint) -> f32 {
+        1.0 / self.area()
+    }
+
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        let ShapeSample { at, pdf } = self.sample(u)?;
+        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+        Some(DirectionSample { at, wi, pdf })
+    }
+
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        let pdf = || {
+            let at = self.hit(ctx.p, wi)?;
+            area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
+        };
+        pdf().map_or(0.0, |(_, pdf)| pdf)
+    }
+
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        let n = self.normal()?;
+        let b = self.barycentric(origin, direction)?;
+        let at = self.at(b, n);
+        ((at.p - origin).dot(direction) > 0.0).then_some(at)
+    }
+}
+
+impl fmt::Display for TriangleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vertex => "vertices: must be finite",
+            Self::Area => "vertices: must span an area above 0",
+        })
+    }
+}
+
+impl Error for TriangleError {}
