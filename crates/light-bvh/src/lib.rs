@@ -1,1 +1,16 @@
-//! light-bvh
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+pub use light_bounds;
+
+mod error;
+#[cfg(feature = "alloc")]
+mod join;
+pub mod reference;
+
+pub use error::LightBvhError;
