@@ -41,6 +41,8 @@ forward! {
     atan2(y, x) = atan2, atan2f;
     /// `e^x`.
     exp(x) = exp, expf;
+    /// `e^x - 1`, accurate near 0.
+    exp_m1(x) = exp_m1, expm1f;
     /// Natural logarithm.
     ln(x) = ln, logf;
     /// `x^y`.

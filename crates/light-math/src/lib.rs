@@ -24,6 +24,7 @@ pub mod lat_long;
 pub mod mis;
 mod octahedral;
 pub mod quantize;
+pub mod spectrum;
 pub mod warp;
 
 pub use aabb::Aabb;

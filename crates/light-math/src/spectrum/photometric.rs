@@ -1,0 +1,139 @@
+//! Light as people state it: in lumen, candela, nit and lux, and the way to watts.
+//!
+//! A photometric quantity is the radiometric one weighted by the luminous efficiency `V` of the eye, times
+//! [`K_M`]. A light whose spectrum has the shape `s` gives [`luminous`]`(s)` photometric units for each unit of its scale, so the scale
+//! that gives what the user asked for is the quotient. What the light does with direction (`4 pi` sr of a point light, `pi` of
+//! a Lambertian surface) is for the light to know.
+
+use super::Spectrum;
+use super::cie::{LAMBDA_MIN, OBSERVER};
+
+/// The luminous efficacy of a monochromatic light of 555 nm, in lm/W.
+pub const K_M: f32 = 683.0;
+
+/// Luminous power, in lm.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Lumen(pub f32);
+
+/// Luminous intensity, in cd = lm/sr.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Candela(pub f32);
+
+/// Luminance, in cd/m^2 = lm/(sr m^2).
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Nit(pub f32);
+
+/// Illuminance, in lx = lm/m^2.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Lux(pub f32);
+
+impl Lumen {
+    /// The power in W of a light of the given efficacy in lm/W.
+    #[inline]
+    #[must_use]
+    pub fn to_watts(self, efficacy: f32) -> f32 {
+        self.0 / efficacy
+    }
+}
+
+impl Candela {
+    /// The radiant intensity in W/sr of a light of the given efficacy in lm/W.
+    #[inline]
+    #[must_use]
+    pub fn to_watts_per_sr(self, efficacy: f32) -> f32 {
+        self.0 / efficacy
+    }
+}
+
+impl Nit {
+    /// The radiance in W/(sr m^2) of a light of the given efficacy in lm/W.
+    #[inline]
+    #[must_use]
+    pub fn to_radiance(self, efficacy: f32) -> f32 {
+        self.0 / efficacy
+    }
+}
+
+impl Lux {
+    /// The irradiance in W/m^2 by a light of the given efficacy in lm/W.
+    #[inline]
+    #[must_use]
+    pub fn to_irradiance(self, efficacy: f32) -> f32 {
+        self.0 / efficacy
+    }
+}
+
+/// What a spectral quantity per nm amounts to in photometric units: W/nm to lm, W/(sr nm) to cd, and so on.
+#[must_use]
+pub fn luminous(spectrum: &impl Spectrum) -> f32 {
+    integrals(spectrum).0
+}
+
+/// The luminous efficacy of radiation of a spectrum, in lm/W: 0 without visible light, 683 at most.
+///
+/// Only what lies between 360 and 830 nm counts as power.
+#[must_use]
+pub fn efficacy(spectrum: &impl Spectrum) -> f32 {
+    let (luminous, radiant) = integrals(spectrum);
+    if radiant > 0.0 {
+        luminous / radiant
+    } else {
+        0.0
+    }
+}
+
+/// The photometric and the radiometric integral of a spectrum.
+fn integrals(spectrum: &impl Spectrum) -> (f32, f32) {
+    let mut luminous = 0.0;
+    let mut radiant = 0.0;
+    for (i, observer) in OBSERVER.iter().enumerate() {
+        let value = spectrum.eval(LAMBDA_MIN + i as f32);
+        luminous += value * observer.y;
+        radiant += value;
+    }
+    (K_M * luminous, radiant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::cie::Y_INTEGRAL;
+    use crate::spectrum::{Constant, Daylight, DenselySampled};
+
+    #[test]
+    fn one_nanometre_at_the_peak_has_the_maximal_efficacy() {
+        let mut values = [0.0; 471];
+        values[555 - 360] = 2.0;
+        let line = DenselySampled::new(values).expect("valid");
+        assert_eq!(efficacy(&line), K_M, "683 lm/W");
+        assert_eq!(luminous(&line), 2.0 * K_M, "two watts");
+    }
+
+    #[test]
+    fn equal_energy_has_the_mean_of_the_efficiency() {
+        let value = efficacy(&Constant(1.0));
+        assert!((value - 683.0 * 106.857 / 471.0).abs() < 0.01, "{value}");
+        assert!(
+            (luminous(&Daylight::D65) / (K_M * Y_INTEGRAL) - 1.0).abs() < 1e-5,
+            "scaled to Y = 1"
+        );
+    }
+
+    #[test]
+    fn darkness_has_no_efficacy() {
+        assert_eq!(efficacy(&Constant(0.0)), 0.0, "not 0/0");
+    }
+
+    #[test]
+    fn units_divide_by_the_efficacy() {
+        let k = K_M;
+        assert_eq!(Lumen(1366.0).to_watts(k), 2.0, "lm");
+        assert_eq!(Candela(683.0).to_watts_per_sr(k), 1.0, "cd");
+        assert_eq!(Nit(683.0).to_radiance(k), 1.0, "nit");
+        assert_eq!(Lux(341.5).to_irradiance(k), 0.5, "lx");
+    }
+}
