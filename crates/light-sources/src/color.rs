@@ -19,6 +19,13 @@ pub trait Radiance:
     /// No light.
     const BLACK: Self;
 
+    /// The same value in every component.
+    fn splat(value: f32) -> Self;
+
+    /// `f` of every component.
+    #[must_use]
+    fn map(self, f: impl Fn(f32) -> f32) -> Self;
+
     /// Whether every component is 0.
     fn is_black(self) -> bool;
 

@@ -9,6 +9,16 @@ impl Radiance for Vec3 {
     const BLACK: Self = Self::ZERO;
 
     #[inline]
+    fn splat(value: f32) -> Self {
+        Self::splat(value)
+    }
+
+    #[inline]
+    fn map(self, f: impl Fn(f32) -> f32) -> Self {
+        Self::new(f(self.x), f(self.y), f(self.z))
+    }
+
+    #[inline]
     fn is_black(self) -> bool {
         self == Self::ZERO
     }

@@ -1,0 +1,53 @@
+use crate::march::StepSize;
+use crate::medium::Medium;
+use crate::ray::{Ray, Span};
+use crate::ray_march::RayMarch;
+use light_sources::{ColorModel, Radiance};
+
+/// What a medium does to a ray through it. A surface at the end that sends `lo` is seen as `lo * transmittance + l`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeLight<R> {
+    /// Radiance that the medium adds, in W m^-2 sr^-1.
+    pub l: R,
+    /// Share of the light from beyond that is left.
+    pub transmittance: R,
+}
+
+impl<R: Radiance> VolumeLight<R> {
+    /// A ray that meets no medium.
+    #[must_use]
+    pub fn vacuum() -> Self {
+        Self {
+            l: R::BLACK,
+            transmittance: R::splat(1.0),
+        }
+    }
+}
+
+/// The radiance that a medium emits toward the start of a ray; what it scatters is left out.
+///
+/// Marches in equal steps from one random offset, in the manner of the first two editions of the pbrt book. `next_u`
+/// gives independent numbers in `[0, 1)`.
+///
+/// # Source
+/// `[PBRT4]`, equation 14.1 without its in-scattering term.
+pub fn emission<C: ColorModel, M: Medium<C> + ?Sized>(
+    medium: &M,
+    ray: &Ray,
+    span: Span,
+    step: StepSize,
+    wavelengths: &C::Wavelengths,
+    next_u: &mut impl FnMut() -> f32,
+) -> VolumeLight<C::Radiance> {
+    let Some(mut march) = RayMarch::new(medium, ray, span, step, wavelengths, next_u) else {
+        return VolumeLight::vacuum();
+    };
+    let mut sum = C::Radiance::BLACK;
+    while let Some((t, transmittance)) = march.next_point(next_u) {
+        sum = sum + transmittance * medium.coefficients(ray.at(t), wavelengths).emission;
+    }
+    VolumeLight {
+        l: sum * march.steps().step,
+        transmittance: march.finish(next_u),
+    }
+}

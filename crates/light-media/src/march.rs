@@ -1,0 +1,125 @@
+use crate::ray::Span;
+
+/// The length of the steps in which a march through a medium goes, in scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSize(f32);
+
+/// Why a step size is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepSizeError {
+    /// It is not a finite number above zero.
+    NotPositive,
+}
+
+impl StepSize {
+    /// More steps than this are never taken: what lies beyond them, on a ray without end, is left out.
+    pub const MAX_STEPS: u32 = 1 << 16;
+
+    /// Steps of the given length.
+    ///
+    /// # Errors
+    /// The length is not finite and above zero.
+    pub fn new(length: f32) -> Result<Self, StepSizeError> {
+        if length > 0.0 && length.is_finite() {
+            Ok(Self(length))
+        } else {
+            Err(StepSizeError::NotPositive)
+        }
+    }
+
+    /// The length.
+    #[must_use]
+    pub const fn length(self) -> f32 {
+        self.0
+    }
+
+    /// `span` in equal steps no longer than this one.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number from 1 to MAX_STEPS"
+    )]
+    pub fn march(self, span: Span) -> March {
+        let wanted = light_math::float::ceil(span.length() / self.0).max(1.0);
+        if wanted <= Self::MAX_STEPS as f32 {
+            March {
+                t0: span.t0,
+                step: span.length() / wanted,
+                n: wanted as u32,
+            }
+        } else {
+            March {
+                t0: span.t0,
+                step: self.0,
+                n: Self::MAX_STEPS,
+            }
+        }
+    }
+}
+
+/// Equal steps along a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct March {
+    /// Where the first step begins.
+    pub t0: f32,
+    /// The length of a step.
+    pub step: f32,
+    /// The number of steps.
+    pub n: u32,
+}
+
+impl March {
+    /// The step with the given number, from 0.
+    #[inline]
+    #[must_use]
+    pub fn segment(&self, i: u32) -> Span {
+        Span {
+            t0: self.t0 + self.step * i as f32,
+            t1: self.t0 + self.step * (i + 1) as f32,
+        }
+    }
+}
+
+impl core::fmt::Display for StepSizeError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("the step of a march must be finite and above zero")
+    }
+}
+
+impl core::error::Error for StepSizeError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_equal_and_no_longer_than_asked() {
+        let march = StepSize::new(0.3)
+            .expect("positive")
+            .march(Span { t0: 1.0, t1: 2.0 });
+        assert_eq!((march.n, march.step), (4, 0.25), "four quarters");
+        assert_eq!(march.segment(3), Span { t0: 1.75, t1: 2.0 }, "the last one");
+    }
+
+    #[test]
+    fn a_ray_without_end_is_left_at_some_point() {
+        let march = StepSize::new(0.5).expect("positive").march(Span {
+            t0: 0.0,
+            t1: f32::INFINITY,
+        });
+        assert_eq!((march.n, march.step), (StepSize::MAX_STEPS, 0.5), "bounded");
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        for length in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert_eq!(
+                StepSize::new(length),
+                Err(StepSizeError::NotPositive),
+                "{length}"
+            );
+        }
+    }
+}

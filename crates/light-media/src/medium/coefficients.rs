@@ -1,0 +1,122 @@
+use light_sources::{ColorModel, Radiance};
+
+/// What a medium does to light at one point, per unit length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficients<R> {
+    /// Share of the radiance that is absorbed, per unit length.
+    pub sigma_a: R,
+    /// Share of the radiance that is scattered, per unit length.
+    pub sigma_s: R,
+    /// Radiance that is added per unit length, in W m^-2 sr^-1 per unit length.
+    pub emission: R,
+}
+
+impl<R: Radiance> Coefficients<R> {
+    /// Vacuum.
+    pub const VACUUM: Self = Self {
+        sigma_a: R::BLACK,
+        sigma_s: R::BLACK,
+        emission: R::BLACK,
+    };
+
+    /// The extinction: absorption and scattering together.
+    #[inline]
+    #[must_use]
+    pub fn sigma_t(&self) -> R {
+        self.sigma_a + self.sigma_s
+    }
+}
+
+/// What a medium is made of, at density 1.
+#[derive(Clone, Debug)]
+pub struct Substance<C: ColorModel> {
+    sigma_a: C::Emission,
+    sigma_s: C::Emission,
+    le: C::Emission,
+    max_sigma_t: f32,
+}
+
+/// Why a substance is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CoefficientsError {
+    /// The absorption coefficient is negative or not finite.
+    SigmaA,
+    /// The scattering coefficient is negative or not finite.
+    SigmaS,
+    /// The emitted radiance is negative or not finite.
+    Le,
+}
+
+impl<C: ColorModel> Substance<C> {
+    /// A substance with absorption `sigma_a` and scattering `sigma_s` per unit length that glows like a body of radiance
+    /// `le`: an optically thick layer of it that only absorbs emits `le`, so it adds `sigma_a le` per unit length.
+    ///
+    /// # Errors
+    /// A value is negative or not finite.
+    pub fn new(
+        sigma_a: C::Emission,
+        sigma_s: C::Emission,
+        le: C::Emission,
+    ) -> Result<Self, CoefficientsError> {
+        for (value, error) in [
+            (&sigma_a, CoefficientsError::SigmaA),
+            (&sigma_s, CoefficientsError::SigmaS),
+            (&le, CoefficientsError::Le),
+        ] {
+            if !C::is_valid(value) {
+                return Err(error);
+            }
+        }
+        let max_sigma_t = C::maximum(&sigma_a) + C::maximum(&sigma_s);
+        Ok(Self {
+            sigma_a,
+            sigma_s,
+            le,
+            max_sigma_t,
+        })
+    }
+
+    /// The coefficients at the given density, with the emission scaled once more by `glow`.
+    #[inline]
+    #[must_use]
+    pub fn at_density(
+        &self,
+        density: f32,
+        glow: f32,
+        wavelengths: &C::Wavelengths,
+    ) -> Coefficients<C::Radiance> {
+        let sigma_a = C::emit(&self.sigma_a, wavelengths) * density;
+        Coefficients {
+            sigma_a,
+            sigma_s: C::emit(&self.sigma_s, wavelengths) * density,
+            emission: sigma_a * C::emit(&self.le, wavelengths) * glow,
+        }
+    }
+
+    /// The extinction at density 1.
+    #[inline]
+    #[must_use]
+    pub fn sigma_t(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit(&self.sigma_a, wavelengths) + C::emit(&self.sigma_s, wavelengths)
+    }
+
+    /// An upper bound of the extinction at density 1 over all channels or wavelengths.
+    #[inline]
+    #[must_use]
+    pub fn max_sigma_t(&self) -> f32 {
+        self.max_sigma_t
+    }
+}
+
+impl core::fmt::Display for CoefficientsError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::SigmaA => "sigma_a must be finite and nowhere negative",
+            Self::SigmaS => "sigma_s must be finite and nowhere negative",
+            Self::Le => "the emission of a medium must be finite and nowhere negative",
+        })
+    }
+}
+
+impl core::error::Error for CoefficientsError {}

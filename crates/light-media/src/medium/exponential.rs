@@ -1,0 +1,317 @@
+use super::{Coefficients, Majorants, Medium, Substance};
+use crate::phase::Phase;
+use crate::ray::{Ray, Span};
+use crate::region::Region;
+use core::f32::consts::LN_2;
+use light_math::float;
+use light_math::glam::Vec3;
+use light_sources::ColorModel;
+
+/// A medium that thins out with height: density 1 up to a base, above it `exp(-falloff * height)`.
+#[derive(Clone, Debug)]
+pub struct ExponentialHeight<C: ColorModel> {
+    substance: Substance<C>,
+    phase: Phase,
+    region: Region,
+    base: Vec3,
+    up: Vec3,
+    falloff: f32,
+}
+
+/// Why an exponential medium is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ExponentialHeightError {
+    /// The base is not finite.
+    Base,
+    /// The up direction is zero or not finite.
+    Up,
+    /// The falloff is negative or not finite.
+    Falloff,
+}
+
+impl<C: ColorModel> ExponentialHeight<C> {
+    /// The medium whose density begins to fall at the point `base` of the scene in the direction `up` (any length), by
+    /// the factor `e` each `1 / falloff` units of length.
+    ///
+    /// # Errors
+    /// An argument is not finite, `up` is zero or `falloff` negative.
+    pub fn new(
+        substance: Substance<C>,
+        phase: Phase,
+        region: Region,
+        base: Vec3,
+        up: Vec3,
+        falloff: f32,
+    ) -> Result<Self, ExponentialHeightError> {
+        if !base.is_finite() {
+            return Err(ExponentialHeightError::Base);
+        }
+        let up = up.try_normalize().ok_or(ExponentialHeightError::Up)?;
+        if !(falloff >= 0.0 && falloff.is_finite()) {
+            return Err(ExponentialHeightError::Falloff);
+        }
+        Ok(Self {
+            substance,
+            phase,
+            region,
+            base,
+            up,
+            falloff,
+        })
+    }
+
+    fn height(&self, p: Vec3) -> f32 {
+        self.up.dot(p - self.base)
+    }
+
+    fn density(&self, height: f32) -> f32 {
+        float::exp(-self.falloff * height.max(0.0))
+    }
+
+    /// The integral of the density over `span`: a flat part below the base, a closed form above.
+    fn column(&self, ray: &Ray, span: Span) -> f32 {
+        let (h0, dh) = (self.height(ray.o), self.up.dot(ray.d));
+        if dh == 0.0 {
+            return self.density(h0) * span.length();
+        }
+        let t_base = (-h0 / dh).clamp(span.t0, span.t1);
+        let before = Span { t1: t_base, ..span };
+        let after = Span { t0: t_base, ..span };
+        let (below, above, lowest) = if dh > 0.0 {
+            (before, after, after.t0)
+        } else {
+            (after, before, before.t1)
+        };
+        below.length()
+            + self.density(h0 + dh * lowest) * falling_mass(self.falloff * dh.abs(), above.length())
+    }
+}
+
+/// The integral of `exp(-rate x)` for x from 0 to `length`.
+fn falling_mass(rate: f32, length: f32) -> f32 {
+    let x = rate * length;
+    if x < 1e-3 {
+        // The quotient below would cancel.
+        length * (1.0 - 0.5 * x)
+    } else {
+        (1.0 - float::exp(-x)) / rate
+    }
+}
+
+impl<C: ColorModel> Medium<C> for ExponentialHeight<C> {
+    fn phase(&self) -> &Phase {
+        &self.phase
+    }
+
+    fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance> {
+        if !self.region.contains(p) {
+            return Coefficients::VACUUM;
+        }
+        self.substance
+            .at_density(self.density(self.height(p)), 1.0, wavelengths)
+    }
+
+    fn clip(&self, ray: &Ray, span: Span) -> Option<Span> {
+        self.region.clip(ray, span)
+    }
+
+    fn optical_thickness(
+        &self,
+        ray: &Ray,
+        span: Span,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<C::Radiance> {
+        Some(self.substance.sigma_t(wavelengths) * self.column(ray, span))
+    }
+
+    fn majorants(&self, ray: &Ray, span: Span, _wavelengths: &C::Wavelengths) -> Majorants<'_> {
+        let bands = Bands::new(self.falloff, self.height(ray.o), self.up.dot(ray.d), span);
+        Majorants::bands(span, self.substance.max_sigma_t(), bands)
+    }
+}
+
+/// The bands of height that a ray crosses: in band `k` the density lies within `[2^-(k+1), 2^-k]`, in band 0 also
+/// everything below the base, in the last one everything above.
+#[derive(Clone, Debug)]
+pub(super) struct Bands {
+    band: i32,
+    last: i32,
+    t_of_base: f32,
+    t_per_band: f32,
+}
+
+impl Bands {
+    /// Above this band the density is below any that matters: one segment covers the rest.
+    const TOP: i32 = 24;
+
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=TOP")]
+    fn new(falloff: f32, h0: f32, dh: f32, span: Span) -> Self {
+        let band_of = |t: f32| {
+            let height = if dh == 0.0 { h0 } else { h0 + dh * t };
+            float::floor(falloff * height / LN_2).clamp(0.0, Self::TOP as f32) as i32
+        };
+        Self {
+            band: band_of(span.t0),
+            last: band_of(span.t1),
+            t_of_base: -h0 / dh,
+            t_per_band: LN_2 / (falloff * dh),
+        }
+    }
+
+    /// The bound of the density in the band where the walk stands, and the distance at which the ray leaves the band.
+    pub(super) fn step(&mut self) -> (f32, f32) {
+        // The margin covers the rounding of heights and exponentials.
+        let density = float::powf(0.5, self.band as f32) * (1.0 + 1e-4);
+        if self.band == self.last {
+            return (density, f32::INFINITY);
+        }
+        let upward = self.last > self.band;
+        let wall = self.band + i32::from(upward);
+        self.band += if upward { 1 } else { -1 };
+        (density, self.t_of_base + self.t_per_band * wall as f32)
+    }
+}
+
+impl core::fmt::Display for ExponentialHeightError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Base => "the base of an exponential medium must be finite",
+            Self::Up => "the up direction of an exponential medium must be finite and not zero",
+            Self::Falloff => "the falloff of an exponential medium must be finite and not negative",
+        })
+    }
+}
+
+impl core::error::Error for ExponentialHeightError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::Isotropic;
+    use light_sources::Rgb;
+
+    fn fog() -> ExponentialHeight<Rgb> {
+        let substance = Substance::new(Vec3::ZERO, Vec3::splat(0.5), Vec3::ZERO).expect("valid");
+        let phase = Phase::Isotropic(Isotropic);
+        ExponentialHeight::new(
+            substance,
+            phase,
+            Region::UNBOUNDED,
+            Vec3::Y,
+            Vec3::Y * 3.0,
+            0.7,
+        )
+        .expect("valid")
+    }
+
+    fn rays() -> [Ray; 6] {
+        [
+            (Vec3::ZERO, Vec3::Y),
+            (Vec3::Y * 9.0, Vec3::NEG_Y),
+            (Vec3::ZERO, Vec3::X),
+            (Vec3::Y * 3.0, Vec3::Z),
+            (Vec3::Y * 1.5, Vec3::new(1.0, 1e-5, 0.0)),
+            (Vec3::Y * -2.0, Vec3::new(0.6, 0.8, 0.0)),
+        ]
+        .map(|(o, d)| Ray { o, d })
+    }
+
+    #[test]
+    fn optical_thickness_agrees_with_quadrature() {
+        let fog = fog();
+        for ray in rays() {
+            let span = Span { t0: 0.25, t1: 7.0 };
+            let n = 4000u16;
+            let h = span.length() / f32::from(n);
+            let sum: f64 = (0..n)
+                .map(|i| {
+                    f64::from(
+                        fog.coefficients(ray.at(span.t0 + (f32::from(i) + 0.5) * h), &())
+                            .sigma_t()
+                            .x,
+                    )
+                })
+                .sum();
+            let expected = sum * f64::from(h);
+            let closed = f64::from(
+                fog.optical_thickness(&ray, span, &())
+                    .expect("closed form")
+                    .x,
+            );
+            assert!(
+                (closed - expected).abs() < 1e-4 * expected,
+                "{ray:?}: {closed} against {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn majorants_bound_the_extinction_and_fill_the_span() {
+        let fog = fog();
+        for ray in rays() {
+            let span = Span { t0: 0.0, t1: 60.0 };
+            let mut t = span.t0;
+            for segment in fog.majorants(&ray, span, &()) {
+                assert_eq!(segment.span.t0, t, "no gap");
+                t = segment.span.t1;
+                for i in 0..=8u8 {
+                    let p = ray.at(segment.span.t0 + segment.span.length() * f32::from(i) / 8.0);
+                    let sigma_t = fog.coefficients(p, &()).sigma_t().x;
+                    assert!(
+                        sigma_t <= segment.sigma_maj,
+                        "{ray:?}: {sigma_t} above {}",
+                        segment.sigma_maj
+                    );
+                }
+            }
+            assert_eq!(t, span.t1, "filled");
+        }
+    }
+
+    #[test]
+    fn a_ray_without_end_keeps_what_the_fog_leaves() {
+        let up = Ray {
+            o: Vec3::Y,
+            d: Vec3::Y,
+        };
+        let tau = fog()
+            .optical_thickness(
+                &up,
+                Span {
+                    t0: 0.0,
+                    t1: f32::INFINITY,
+                },
+                &(),
+            )
+            .expect("closed form");
+        assert!(
+            (tau.x - 0.5 / 0.7).abs() < 1e-6,
+            "the whole atmosphere: {tau}"
+        );
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let make = |base, up, falloff| {
+            let substance = Substance::<Rgb>::new(Vec3::ONE, Vec3::ONE, Vec3::ZERO).expect("valid");
+            let phase = Phase::Isotropic(Isotropic);
+            ExponentialHeight::new(substance, phase, Region::UNBOUNDED, base, up, falloff).err()
+        };
+        assert_eq!(
+            make(Vec3::NAN, Vec3::Y, 1.0),
+            Some(ExponentialHeightError::Base),
+            "base"
+        );
+        assert_eq!(
+            make(Vec3::ZERO, Vec3::ZERO, 1.0),
+            Some(ExponentialHeightError::Up),
+            "up"
+        );
+        assert_eq!(
+            make(Vec3::ZERO, Vec3::Y, -1.0),
+            Some(ExponentialHeightError::Falloff),
+            "falloff"
+        );
+    }
+}

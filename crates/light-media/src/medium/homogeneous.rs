@@ -1,0 +1,48 @@
+use super::{Coefficients, Majorants, Medium, Substance};
+use crate::phase::Phase;
+use crate::ray::{Ray, Span};
+use crate::region::Region;
+use light_math::glam::Vec3;
+use light_sources::ColorModel;
+
+/// A medium that is the same everywhere in its region.
+#[derive(Clone, Debug)]
+pub struct Homogeneous<C: ColorModel> {
+    /// What it is made of.
+    pub substance: Substance<C>,
+    /// How it scatters.
+    pub phase: Phase,
+    /// Where it is.
+    pub region: Region,
+}
+
+impl<C: ColorModel> Medium<C> for Homogeneous<C> {
+    fn phase(&self) -> &Phase {
+        &self.phase
+    }
+
+    fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance> {
+        if self.region.contains(p) {
+            self.substance.at_density(1.0, 1.0, wavelengths)
+        } else {
+            Coefficients::VACUUM
+        }
+    }
+
+    fn clip(&self, ray: &Ray, span: Span) -> Option<Span> {
+        self.region.clip(ray, span)
+    }
+
+    fn optical_thickness(
+        &self,
+        _ray: &Ray,
+        span: Span,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<C::Radiance> {
+        Some(self.substance.sigma_t(wavelengths) * span.length())
+    }
+
+    fn majorants(&self, _ray: &Ray, span: Span, _wavelengths: &C::Wavelengths) -> Majorants<'_> {
+        Majorants::constant(span, self.substance.max_sigma_t())
+    }
+}

@@ -1,0 +1,135 @@
+use super::density_grid::MajorantGrid;
+use super::exponential::Bands;
+use crate::ray::{Ray, Span};
+use light_math::glam::Vec3;
+
+/// A part of a ray along which the extinction never exceeds `sigma_maj`, in any channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MajorantSegment {
+    /// The part of the ray.
+    pub span: Span,
+    /// The bound, per unit length.
+    pub sigma_maj: f32,
+}
+
+/// Consecutive segments that fill a span, near end first.
+#[derive(Clone, Debug)]
+pub struct Majorants<'a> {
+    rest: Option<Span>,
+    sigma: f32,
+    walk: Walk<'a>,
+}
+
+#[derive(Clone, Debug)]
+enum Walk<'a> {
+    Constant,
+    Bands(Bands),
+    Cells(CellWalk<'a>),
+}
+
+impl<'a> Majorants<'a> {
+    /// One segment with one bound.
+    #[must_use]
+    pub fn constant(span: Span, sigma_maj: f32) -> Self {
+        Self::new(span, sigma_maj, Walk::Constant)
+    }
+
+    /// The bands of height in which an exponential density stays within a factor of two.
+    pub(super) fn bands(span: Span, max_sigma_t: f32, bands: Bands) -> Self {
+        Self::new(span, max_sigma_t, Walk::Bands(bands))
+    }
+
+    /// The cells of a coarse grid of maxima over the unit cube, which `unit_ray` crosses.
+    pub(super) fn cells(
+        span: Span,
+        max_sigma_t: f32,
+        grid: &'a MajorantGrid,
+        unit_ray: &Ray,
+    ) -> Self {
+        Self::new(
+            span,
+            max_sigma_t,
+            Walk::Cells(CellWalk::new(grid, unit_ray, span.t0)),
+        )
+    }
+
+    fn new(span: Span, sigma: f32, walk: Walk<'a>) -> Self {
+        Self {
+            rest: Some(span),
+            sigma,
+            walk,
+        }
+    }
+}
+
+impl Iterator for Majorants<'_> {
+    type Item = MajorantSegment;
+
+    fn next(&mut self) -> Option<MajorantSegment> {
+        let rest = self.rest?;
+        let (density, end) = match &mut self.walk {
+            Walk::Constant => (1.0, f32::INFINITY),
+            Walk::Bands(bands) => bands.step(),
+            Walk::Cells(cells) => cells.step(),
+        };
+        // An end that rounding puts before the start makes a segment without length; the walk itself still goes on.
+        let t = end.clamp(rest.t0, rest.t1);
+        self.rest = Span::new(t, rest.t1);
+        Some(MajorantSegment {
+            span: Span { t0: rest.t0, t1: t },
+            sigma_maj: self.sigma * density,
+        })
+    }
+}
+
+/// A walk through the cells that a ray crosses.
+///
+/// # Source
+/// `[Amanatides1987]`.
+#[derive(Clone, Debug)]
+struct CellWalk<'a> {
+    grid: &'a MajorantGrid,
+    cell: [i32; 3],
+    step: [i32; 3],
+    next_t: Vec3,
+    delta_t: Vec3,
+}
+
+impl<'a> CellWalk<'a> {
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to the cells")]
+    fn new(grid: &'a MajorantGrid, ray: &Ray, t0: f32) -> Self {
+        let n = MajorantGrid::CELLS as f32;
+        let start = ray.at(t0) * n;
+        let mut walk = Self {
+            grid,
+            cell: [0; 3],
+            step: [0; 3],
+            next_t: Vec3::INFINITY,
+            delta_t: Vec3::INFINITY,
+        };
+        for axis in 0..3 {
+            let cell = start[axis].clamp(0.0, n - 1.0) as i32;
+            let d = ray.d[axis] * n;
+            walk.cell[axis] = cell;
+            if d != 0.0 {
+                walk.step[axis] = if d > 0.0 { 1 } else { -1 };
+                let wall = (cell + i32::from(d > 0.0)) as f32;
+                walk.next_t[axis] = (wall - ray.o[axis] * n) / d;
+                walk.delta_t[axis] = 1.0 / d.abs();
+            }
+        }
+        walk
+    }
+
+    /// The maximum in the cell where the walk stands, and the distance at which the ray leaves it.
+    fn step(&mut self) -> (f32, f32) {
+        let density = self.grid.get(self.cell);
+        let axis = self.next_t.min_position();
+        let end = self.next_t[axis];
+        self.cell[axis] += self.step[axis];
+        self.next_t[axis] += self.delta_t[axis];
+        // Past the last cell only rounding is left of the ray.
+        let inside = usize::try_from(self.cell[axis]).is_ok_and(|cell| cell < MajorantGrid::CELLS);
+        (density, if inside { end } else { f32::INFINITY })
+    }
+}

@@ -1,0 +1,44 @@
+//! Media: where light is absorbed, scattered and emitted, and how much of it.
+
+mod coefficients;
+mod density_grid;
+mod exponential;
+mod grid;
+mod homogeneous;
+mod majorant;
+
+pub use coefficients::{Coefficients, CoefficientsError, Substance};
+pub use density_grid::{DensityGrid, DensityGridError};
+pub use exponential::{ExponentialHeight, ExponentialHeightError};
+pub use grid::GridMedium;
+pub use homogeneous::Homogeneous;
+pub use majorant::{MajorantSegment, Majorants};
+
+use crate::phase::Phase;
+use crate::ray::{Ray, Span};
+use light_math::glam::Vec3;
+use light_sources::ColorModel;
+
+/// A participating medium. Points, rays and distances are the scene's; coefficients are per unit of its length.
+pub trait Medium<C: ColorModel> {
+    /// How it redistributes what it scatters.
+    fn phase(&self) -> &Phase;
+
+    /// The coefficients at `p`; all zero outside of the medium.
+    fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance>;
+
+    /// The part of `span` in which the medium may be other than vacuum.
+    fn clip(&self, ray: &Ray, span: Span) -> Option<Span>;
+
+    /// The optical thickness, the integral of the extinction over `span`, where it has a closed form. `span` lies in
+    /// the medium.
+    fn optical_thickness(
+        &self,
+        ray: &Ray,
+        span: Span,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<C::Radiance>;
+
+    /// Upper bounds of the extinction over consecutive segments that fill `span`. `span` lies in the medium.
+    fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_>;
+}

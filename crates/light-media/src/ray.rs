@@ -1,0 +1,61 @@
+use light_math::glam::{Affine3A, Vec3};
+
+/// A ray through media: the points `o + t d`. The direction need not have unit length where a transform has touched
+/// it; `t` then still counts lengths of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Origin.
+    pub o: Vec3,
+    /// Direction; of unit length in the scene.
+    pub d: Vec3,
+}
+
+impl Ray {
+    /// The point at distance `t`.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.o + self.d * t
+    }
+
+    /// The same ray in another space, with the same `t` for the same point.
+    #[inline]
+    #[must_use]
+    pub fn transformed(&self, transform: &Affine3A) -> Self {
+        Self {
+            o: transform.transform_point3(self.o),
+            d: transform.transform_vector3(self.d),
+        }
+    }
+}
+
+/// The part of a ray from `t0` to `t1`, with `0 <= t0 <= t1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Where it begins.
+    pub t0: f32,
+    /// Where it ends.
+    pub t1: f32,
+}
+
+impl Span {
+    /// The span from `t0` to `t1`; `None` when it holds no length or an end is NaN.
+    #[must_use]
+    pub fn new(t0: f32, t1: f32) -> Option<Self> {
+        (t0 < t1).then_some(Self { t0, t1 })
+    }
+
+    /// Its length; the largest finite number for a span without end, so that no light is lost over it where nothing
+    /// is absorbed.
+    #[inline]
+    #[must_use]
+    pub fn length(&self) -> f32 {
+        (self.t1 - self.t0).min(f32::MAX)
+    }
+
+    /// The part that both have in common.
+    #[must_use]
+    pub fn intersection(&self, other: &Self) -> Option<Self> {
+        Self::new(self.t0.max(other.t0), self.t1.min(other.t1))
+    }
+}

@@ -1,0 +1,172 @@
+use crate::ray::{Ray, Span};
+use light_math::Aabb;
+use light_math::glam::{Affine3A, Vec3};
+
+/// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape, everywhere).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    from_scene: Affine3A,
+    bounds: Option<Aabb>,
+}
+
+/// Why a region is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RegionError {
+    /// The box is empty or not finite.
+    Bounds,
+    /// The transform has an entry that is not finite, or no inverse.
+    Transform,
+}
+
+impl Region {
+    /// No bounds of its own: the scene's shapes, or nothing, enclose the medium.
+    pub const UNBOUNDED: Self = Self {
+        from_scene: Affine3A::IDENTITY,
+        bounds: None,
+    };
+
+    /// The box `bounds` of a space that `to_scene` takes to the scene. Any transform with an inverse will do.
+    ///
+    /// # Errors
+    /// The box is empty or not finite, or the transform is not finite or has no inverse.
+    pub fn new(bounds: Aabb, to_scene: Affine3A) -> Result<Self, RegionError> {
+        if bounds.is_empty() || !bounds.is_finite() {
+            return Err(RegionError::Bounds);
+        }
+        let from_scene = to_scene.inverse();
+        if !to_scene.is_finite() || !from_scene.is_finite() {
+            return Err(RegionError::Transform);
+        }
+        Ok(Self {
+            from_scene,
+            bounds: Some(bounds),
+        })
+    }
+
+    /// The scene's point `p` in the region's own space.
+    #[inline]
+    #[must_use]
+    pub fn local_point(&self, p: Vec3) -> Vec3 {
+        self.from_scene.transform_point3(p)
+    }
+
+    /// The scene's ray in the region's own space, with the same `t`.
+    #[inline]
+    #[must_use]
+    pub fn local_ray(&self, ray: &Ray) -> Ray {
+        ray.transformed(&self.from_scene)
+    }
+
+    /// The box in the region's own space; `None` where it is unbounded.
+    #[must_use]
+    pub const fn bounds(&self) -> Option<&Aabb> {
+        self.bounds.as_ref()
+    }
+
+    /// Whether the scene's point `p` lies in the region.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, p: Vec3) -> bool {
+        self.bounds.is_none_or(|b| b.contains(self.local_point(p)))
+    }
+
+    /// The part of `span` that lies in the region.
+    #[must_use]
+    pub fn clip(&self, ray: &Ray, span: Span) -> Option<Span> {
+        match &self.bounds {
+            None => Some(span),
+            Some(bounds) => slabs(bounds, &self.local_ray(ray), span),
+        }
+    }
+}
+
+/// The part of `span` inside `bounds`, by the slab method; a ray parallel to a face counts as inside while its origin is.
+fn slabs(bounds: &Aabb, ray: &Ray, span: Span) -> Option<Span> {
+    let (mut t0, mut t1) = (span.t0, span.t1);
+    for axis in 0..3 {
+        let (o, d) = (ray.o[axis], ray.d[axis]);
+        if d == 0.0 {
+            if o < bounds.min[axis] || o > bounds.max[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((bounds.min[axis] - o) / d, (bounds.max[axis] - o) / d);
+        t0 = t0.max(a.min(b));
+        t1 = t1.min(a.max(b));
+    }
+    Span::new(t0, t1)
+}
+
+impl core::fmt::Display for RegionError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Bounds => "the box of a medium must be finite and hold a point",
+            Self::Transform => "the transform of a medium must be finite and have an inverse",
+        })
+    }
+}
+
+impl core::error::Error for RegionError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: Span = Span {
+        t0: 0.0,
+        t1: f32::INFINITY,
+    };
+
+    #[test]
+    fn a_ray_is_clipped_to_the_box_wherever_it_stands() {
+        let cube = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        let shifted =
+            Affine3A::from_translation(Vec3::X * 10.0) * Affine3A::from_scale(Vec3::splat(2.0));
+        let region = Region::new(cube, shifted).expect("a box");
+        let ray = Ray {
+            o: Vec3::new(0.0, 1.0, 1.0),
+            d: Vec3::X,
+        };
+        assert_eq!(
+            region.clip(&ray, ALL),
+            Some(Span { t0: 10.0, t1: 12.0 }),
+            "scene distances"
+        );
+        assert_eq!(
+            region.clip(&Ray { d: Vec3::Y, ..ray }, ALL),
+            None,
+            "passes by, parallel to faces"
+        );
+        assert!(
+            region.contains(Vec3::new(11.0, 0.5, 2.0)) && !region.contains(Vec3::ZERO),
+            "points"
+        );
+        let inside = Ray {
+            o: Vec3::new(11.0, 1.0, 1.0),
+            d: Vec3::NEG_X,
+        };
+        assert_eq!(
+            region.clip(&inside, ALL),
+            Some(Span { t0: 0.0, t1: 1.0 }),
+            "begins inside"
+        );
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let cube = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        assert_eq!(
+            Region::new(Aabb::EMPTY, Affine3A::IDENTITY),
+            Err(RegionError::Bounds),
+            "empty"
+        );
+        let flat = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
+        assert_eq!(
+            Region::new(cube, flat),
+            Err(RegionError::Transform),
+            "no inverse"
+        );
+    }
+}
