@@ -7,6 +7,7 @@ extern crate alloc;
 pub use lights;
 pub use lights::glam;
 
+mod builtin;
 mod camera;
 mod diagnostic;
 mod environment;
@@ -21,6 +22,7 @@ mod test_folder;
 mod text;
 mod write_whole;
 
+pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use environment::{SceneLight, SkyImage};

@@ -216,3 +216,32 @@ fn missing_file_is_named() {
         "{shown}"
     );
 }
+
+/// Another reader as the oracle: the same triangles, in the same order, with the same emission.
+#[test]
+fn agrees_with_tobj() {
+    let obj = include_str!("../../assets/cornell_box.obj");
+    let mtl = include_str!("../../assets/cornell_box.mtl");
+    let library = |_: &Path| Ok(mtl.to_owned());
+    let ours = parse_obj(Path::new("box.obj"), obj, &library).expect("a scene");
+    let (models, materials) =
+        tobj::load_obj_buf(&mut obj.as_bytes(), &tobj::GPU_LOAD_OPTIONS, |_| {
+            tobj::load_mtl_buf(&mut mtl.as_bytes())
+        })
+        .expect("a scene");
+    let materials = materials.expect("materials");
+    assert_eq!(ours.meshes.len(), models.len(), "as many meshes");
+    for (mesh, model) in ours.meshes.iter().zip(&models) {
+        assert_eq!(mesh.name, model.name, "name");
+        let position = |&i: &u32| Vec3::from_slice(&model.mesh.positions[3 * i as usize..]);
+        let theirs: Vec<Vec3> = model.mesh.indices.iter().map(position).collect();
+        let triangles = (0..mesh.indices.len()).flat_map(|index| mesh.triangle(index));
+        assert_eq!(triangles.collect::<Vec<_>>(), theirs, "triangles");
+        let material = &materials[model.mesh.material_id.expect("a material")];
+        let emission = ours.material(mesh.material).emission;
+        let theirs = material
+            .emissive
+            .map(|e| Emission::one_sided(Vec3::from(e)));
+        assert_eq!(emission, theirs, "emission");
+    }
+}

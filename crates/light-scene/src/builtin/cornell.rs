@@ -1,0 +1,89 @@
+use std::path::Path;
+
+use crate::glam::Vec3;
+use crate::obj::parse_obj;
+use crate::{Camera, Scene};
+
+/// The Cornell box from its published measurements, in millimetres: two blocks in a white room with a red wall on the
+/// left and a green one on the right, under one lamp that shines downward only.
+///
+/// # Source
+/// `[Cornell]`: geometry, reflectance spectra and the lamp's spectrum.
+pub(super) fn cornell_box() -> Scene {
+    let obj = include_str!("../../assets/cornell_box.obj");
+    let mtl = include_str!("../../assets/cornell_box.mtl");
+    let library = |_: &Path| Ok(mtl.to_owned());
+    let mut scene = parse_obj(Path::new("cornell_box.obj"), obj, &library)
+        .expect("the Cornell box that ships is a valid file");
+    // A film of 25 mm by 25 mm behind a lens of 35 mm.
+    let fov = 2.0 * (12.5f32 / 35.0).atan();
+    let eye = Vec3::new(278.0, 273.0, -800.0);
+    let camera = Camera::look_at(eye, eye + Vec3::Z, Vec3::Y, fov);
+    let camera = camera.expect("the published camera is valid");
+    scene.camera = Some(Camera {
+        resolution: Some([512, 512]),
+        ..camera
+    });
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Mesh;
+
+    fn mesh<'a>(scene: &'a Scene, name: &str) -> &'a Mesh {
+        let mut meshes = scene.meshes.iter();
+        meshes
+            .find(|mesh| mesh.name == name)
+            .expect("a mesh of this name")
+    }
+
+    #[test]
+    fn is_the_published_box() {
+        let scene = cornell_box();
+        assert_eq!(scene.warnings, [], "all understood");
+        assert_eq!(scene.triangle_count(), 2 * 19, "nineteen quads");
+        assert_eq!(scene.emissive_triangle_count(), 2, "the lamp");
+        let lamp = mesh(&scene, "lamp");
+        assert_eq!(lamp.area(), 130.0 * 105.0, "130 mm by 105 mm");
+        let ceiling = mesh(&scene, "ceiling").area() + lamp.area();
+        assert!((ceiling / (556.0 * 559.2) - 1.0).abs() < 1e-6, "one hole");
+    }
+
+    #[test]
+    fn fronts_face_the_room() {
+        let scene = cornell_box();
+        let middle = Vec3::new(278.0, 274.0, 280.0);
+        for name in [
+            "floor",
+            "ceiling",
+            "lamp",
+            "back_wall",
+            "right_wall",
+            "left_wall",
+        ] {
+            let mesh = mesh(&scene, name);
+            for index in 0..mesh.indices.len() {
+                let [a, b, c] = mesh.triangle(index);
+                let front = (b - a).cross(c - a);
+                assert!(front.dot(middle - a) > 0.0, "{name} faces the room");
+            }
+        }
+        for name in ["short_block", "tall_block"] {
+            let mesh = mesh(&scene, name);
+            let middle = mesh.bounds().center();
+            for index in 0..mesh.indices.len() {
+                let [a, b, c] = mesh.triangle(index);
+                let front = (b - a).cross(c - a);
+                assert!(front.dot(a - middle) > 0.0, "{name} faces outward");
+            }
+        }
+    }
+
+    #[test]
+    fn red_is_on_the_left_of_the_picture() {
+        let camera = cornell_box().camera.expect("a camera");
+        assert_eq!(camera.right, Vec3::NEG_X, "large x is on the left");
+    }
+}

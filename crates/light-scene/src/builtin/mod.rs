@@ -1,0 +1,69 @@
+//! Scenes that ship with the crate.
+
+mod cornell;
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::Scene;
+
+/// A scene that ships with the crate: made by its code and by files that it holds, so that no download is needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BuiltinScene {
+    /// Two blocks in a coloured room under one lamp; the classic test, from its published measurements.
+    CornellBox,
+}
+
+impl BuiltinScene {
+    /// All scenes, from the simplest on.
+    pub const ALL: [Self; 1] = [Self::CornellBox];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::CornellBox => "cornell-box",
+        }
+    }
+
+    /// Makes the scene; the same one each time.
+    #[must_use]
+    pub fn load(self) -> Scene {
+        match self {
+            Self::CornellBox => cornell::cornell_box(),
+        }
+    }
+}
+
+impl fmt::Display for BuiltinScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A name that no scene that ships has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownScene;
+
+impl fmt::Display for UnknownScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("expected a scene that ships:")?;
+        BuiltinScene::ALL
+            .iter()
+            .try_for_each(|scene| write!(f, " {scene}"))
+    }
+}
+
+impl core::error::Error for UnknownScene {}
+
+impl FromStr for BuiltinScene {
+    type Err = UnknownScene;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let mut scenes = Self::ALL.into_iter();
+        scenes
+            .find(|scene| scene.name() == name)
+            .ok_or(UnknownScene)
+    }
+}
