@@ -2,32 +2,66 @@
 
 use std::process::ExitCode;
 
+mod bench;
+mod check;
+mod ci;
 pub mod conformance;
+mod counts;
 pub mod exhaustive;
+mod features;
+mod fuzz;
+mod no_std;
+mod references;
+mod steps;
+
+use steps::{StepResult, Steps};
 
 const USAGE: &str = "\
-usage: cargo xtask COMMAND
+usage: cargo xtask [COMMAND]
 
-  conformance [DIR]   check the reference vectors (default: testdata/pbrt)
-  exhaustive          check all 2^32 octahedral codes
-  thin-vectors FROM   remake testdata/pbrt from a full set of vectors
+  (none)                      format, lints, tests over each feature set, documentation
+  ci                          the same, bare targets, the oldest toolchain, fuzz smoke, instruction counts
+  conformance [DIR]           check the reference vectors (default: testdata/pbrt)
+  exhaustive                  check all 2^32 octahedral codes
+  bench [FILTER]              time everything, with ratios to the reference
+  counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
+  fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
+  no-std                      prove that no crate needs std, nor alloc where it promises that
+  thin-vectors FROM           remake testdata/pbrt from a full set of vectors
 ";
 
 /// Runs the command that the program's `arguments` (without its name) ask for.
 #[must_use]
 pub fn run(arguments: &[String]) -> ExitCode {
-    match arguments.split_first() {
-        Some((command, rest)) => match command.as_str() {
-            "conformance" => conformance::run(rest),
-            "exhaustive" => exhaustive::run(rest),
-            "thin-vectors" => conformance::thin::run(rest),
-            _ => refuse(&format!("no such command: {command}\n\n{USAGE}")),
-        },
-        None => refuse(USAGE),
+    let Some((command, rest)) = arguments.split_first() else {
+        return all(check::add_steps);
+    };
+    match (command.as_str(), rest) {
+        ("ci", []) => all(ci::add_steps),
+        ("no-std", []) => all(no_std::add_steps),
+        ("bench", rest) => one("bench", || bench::bench(rest)),
+        ("counts", rest) => one("counts", || counts::counts(rest)),
+        ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
+        ("conformance", rest) => conformance::run(rest),
+        ("exhaustive", rest) => exhaustive::run(rest),
+        ("thin-vectors", rest) => conformance::thin::run(rest),
+        ("help" | "--help" | "-h", _) => {
+            print!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            eprint!("not understood: {}\n\n{USAGE}", arguments.join(" "));
+            ExitCode::from(2)
+        }
     }
 }
 
-fn refuse(message: &str) -> ExitCode {
-    eprint!("{message}");
-    ExitCode::from(2)
+fn all(add_steps: impl FnOnce(&mut Steps)) -> ExitCode {
+    let mut steps = Steps::default();
+    add_steps(&mut steps);
+    steps.finish()
+}
+
+fn one(name: &str, step: impl FnOnce() -> StepResult) -> ExitCode {
+    all(|steps| steps.run(name, step))
 }

@@ -1,0 +1,49 @@
+//! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
+
+use crate::features::{SOFTWARE_FLOATS, for_each_set};
+use crate::references;
+use crate::steps::{Outcome, StepResult, Steps, cargo, run};
+
+/// Adds the steps: format, lints, tests, documentation, each over every feature set that can make a difference.
+pub fn add_steps(steps: &mut Steps) {
+    steps.run("format", || passes(&["fmt", "--all", "--check"]));
+    steps.run("references", references::check);
+    steps.run("lints of the workspace", || {
+        lints(&["--workspace", "--all-targets"]).map(|()| Outcome::Passed)
+    });
+    steps.run("lints of each feature set", || {
+        for_each_set(|_| true, |set| lints(&set.arguments()))
+    });
+    steps.run("tests of the workspace", || {
+        passes(&["test", "--workspace", "--quiet"])
+    });
+    steps.run("tests with software floats", || {
+        let test = [
+            "test",
+            "--quiet",
+            "--lib",
+            "--tests",
+            "--features",
+            "libm",
+            "--package",
+        ];
+        let mut packages = SOFTWARE_FLOATS.iter();
+        packages.try_fold(Outcome::Passed, |_, package| {
+            passes(&[&test[..], &[package]].concat())
+        })
+    });
+    steps.run("documentation", || {
+        let mut doc = cargo(["doc", "--workspace", "--no-deps", "--quiet"]);
+        run(doc.env("RUSTDOCFLAGS", "-D warnings")).map(|()| Outcome::Passed)
+    });
+}
+
+fn lints(selection: &[&str]) -> Result<(), String> {
+    let mut arguments = [&["clippy", "--quiet"], selection].concat();
+    arguments.extend(["--", "-D", "warnings"]);
+    run(&mut cargo(arguments))
+}
+
+fn passes(arguments: &[&str]) -> StepResult {
+    run(&mut cargo(arguments)).map(|()| Outcome::Passed)
+}

@@ -1,0 +1,166 @@
+//! The feature sets that are checked: the one list of them.
+
+use crate::steps::{Outcome, StepResult};
+
+/// What a feature set expects of the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// No operating system and no memory allocator.
+    Core,
+    /// A memory allocator.
+    Alloc,
+    /// An operating system.
+    Std,
+}
+
+/// Features of one library crate, its default ones off.
+#[derive(Clone, Copy, Debug)]
+pub struct FeatureSet {
+    /// Name of the package.
+    pub package: &'static str,
+    /// Features, separated by commas.
+    pub features: &'static str,
+    /// What the crate then expects.
+    pub needs: Needs,
+}
+
+impl FeatureSet {
+    /// The arguments of cargo that choose this set of this package alone.
+    #[must_use]
+    pub fn arguments(&self) -> [&'static str; 5] {
+        [
+            "--package",
+            self.package,
+            "--no-default-features",
+            "--features",
+            self.features,
+        ]
+    }
+}
+
+/// Every crate alone, at least without std and with every feature that it has. The default features are checked
+/// with the workspace.
+pub const FEATURE_SETS: &[FeatureSet] = &[
+    core("light-math", "libm"),
+    core("light-math", "libm,bytemuck,serde"),
+    alloc("light-math", "libm,alloc"),
+    std("light-math", "std,libm,bytemuck,serde"),
+    core("light-bounds", "libm"),
+    core("light-bounds", "libm,bytemuck,serde"),
+    std("light-bounds", "std,bytemuck,serde"),
+    core("light-bvh", "libm"),
+    alloc("light-bvh", "libm,alloc,bytemuck"),
+    std("light-bvh", "std,rayon"),
+    core("light-samplers", "libm"),
+    alloc("light-samplers", "libm,alloc"),
+    std("light-samplers", "std,rayon"),
+    core("light-sources", "libm"),
+    alloc("light-sources", "libm,alloc"),
+    std("light-sources", "std"),
+    core("light-media", "libm"),
+    alloc("light-media", "libm,alloc"),
+    std("light-media", "std"),
+    core("lights", "libm"),
+    alloc("lights", "libm,alloc"),
+    std("lights", "std,rayon"),
+];
+
+/// Runs `check` for the sets that `select` chooses, all of them, whatever fails.
+///
+/// # Errors
+/// What failed, one line a set.
+pub fn for_each_set(
+    select: impl Fn(&FeatureSet) -> bool,
+    check: impl Fn(&FeatureSet) -> Result<(), String>,
+) -> StepResult {
+    let sets = FEATURE_SETS.iter().filter(|set| select(set));
+    let errors: Vec<String> = sets
+        .filter_map(|set| {
+            let error = check(set).err()?;
+            Some(format!("{} with {}: {error}", set.package, set.features))
+        })
+        .collect();
+    if errors.is_empty() {
+        Ok(Outcome::Passed)
+    } else {
+        Err(errors.join("\n        "))
+    }
+}
+
+/// The packages whose tests run a second time with software float functions, the same bits on every machine.
+pub const SOFTWARE_FLOATS: &[&str] = &[
+    "light-math",
+    "light-bounds",
+    "light-bvh",
+    "light-samplers",
+    "light-sources",
+];
+
+const fn core(package: &'static str, features: &'static str) -> FeatureSet {
+    FeatureSet {
+        package,
+        features,
+        needs: Needs::Core,
+    }
+}
+
+const fn alloc(package: &'static str, features: &'static str) -> FeatureSet {
+    FeatureSet {
+        package,
+        features,
+        needs: Needs::Alloc,
+    }
+}
+
+const fn std(package: &'static str, features: &'static str) -> FeatureSet {
+    FeatureSet {
+        package,
+        features,
+        needs: Needs::Std,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steps::root;
+
+    /// The names in the `[features]` table of a package's manifest.
+    fn features_of(package: &str) -> Vec<String> {
+        let path = root().join("crates").join(package).join("Cargo.toml");
+        let manifest = std::fs::read_to_string(path).expect("a manifest");
+        let table = manifest.split("[features]").nth(1).unwrap_or_default();
+        let table = table.split("\n[").next().unwrap_or_default();
+        let names = table.lines().filter_map(|line| line.split_once(" = "));
+        names.map(|(name, _)| name.trim().to_owned()).collect()
+    }
+
+    #[test]
+    fn every_library_crate_and_feature_is_in_a_set() {
+        for entry in std::fs::read_dir(root().join("crates")).expect("a folder of crates") {
+            let name = entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned();
+            // Programs and test tools have no features to choose from.
+            if ["light-scene", "light-render", "light-testkit"].contains(&name.as_str()) {
+                continue;
+            }
+            let sets: Vec<_> = FEATURE_SETS.iter().filter(|s| s.package == name).collect();
+            for feature in features_of(&name) {
+                let listed = sets
+                    .iter()
+                    .any(|s| s.features.split(',').any(|f| f == feature));
+                assert!(
+                    feature == "default" || listed,
+                    "{name}: feature {feature} is in no set"
+                );
+            }
+            assert!(
+                sets.iter().any(|s| s.needs != Needs::Std),
+                "{name}: no set without std"
+            );
+        }
+    }
+}

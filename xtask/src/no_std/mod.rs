@@ -1,0 +1,63 @@
+//! `cargo xtask no-std`: the proof that nothing needs an operating system, and most of it no allocator.
+
+mod debian;
+mod probe;
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::features::{FeatureSet, Needs, for_each_set};
+use crate::steps::{Outcome, StepResult, Steps, cargo, output, root, run};
+
+/// A microcontroller with a float unit for `f32` and none for `f64`.
+const TARGET: &str = "thumbv7em-none-eabihf";
+
+/// Adds both proofs as steps.
+pub fn add_steps(steps: &mut Steps) {
+    steps.run(
+        "each crate links without std, and without an allocator where it promises that",
+        probe::check,
+    );
+    steps.run(
+        &format!("each crate builds for {TARGET}"),
+        check_bare_target,
+    );
+}
+
+/// Builds every set without std for the bare target, with the installed toolchain or with Debian's.
+fn check_bare_target() -> StepResult {
+    if is_installed()? {
+        println!("    with the installed target");
+        return build_all(&|_| cargo(["build", "--target", TARGET]));
+    }
+    match debian::toolchain() {
+        Ok(toolchain) => {
+            println!(
+                "    with Debian's toolchain in {}",
+                toolchain.folder().display()
+            );
+            build_all(&|needs| toolchain.cargo_build(TARGET, needs))
+        }
+        Err(reason) => Ok(Outcome::Skipped(format!(
+            "no target (rustup target add {TARGET}) and no toolchain from Debian ({reason})"
+        ))),
+    }
+}
+
+fn is_installed() -> Result<bool, String> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let sysroot = output(Command::new(rustc).args(["--print", "sysroot"]))?;
+    let libraries = Path::new(sysroot.trim()).join("lib/rustlib").join(TARGET);
+    Ok(libraries.is_dir())
+}
+
+fn build_all(build: &dyn Fn(Needs) -> Command) -> StepResult {
+    let without_std = |set: &FeatureSet| set.needs != Needs::Std;
+    for_each_set(without_std, |set| {
+        let mut command = build(set.needs);
+        command
+            .args(["--quiet", "--lib", "--target-dir"])
+            .arg(root().join("target/bare"));
+        run(command.args(set.arguments()))
+    })
+}

@@ -1,0 +1,173 @@
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Instant;
+
+/// How a step ended that did not fail.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// What it checks holds.
+    Passed,
+    /// It could not run here, for the reason given.
+    Skipped(String),
+}
+
+/// What a step returns: an error says in one line what failed.
+pub type StepResult = Result<Outcome, String>;
+
+/// A list of steps that run one after the other, all of them, whatever fails.
+#[derive(Debug)]
+pub struct Steps {
+    start: Instant,
+    failed: Vec<String>,
+    skipped: Vec<String>,
+}
+
+impl Default for Steps {
+    fn default() -> Self {
+        Self {
+            start: Instant::now(),
+            failed: Vec::new(),
+            skipped: Vec::new(),
+        }
+    }
+}
+
+impl Steps {
+    /// Runs one step and says how it went.
+    pub fn run(&mut self, name: &str, step: impl FnOnce() -> StepResult) {
+        println!("==> {name}");
+        let start = Instant::now();
+        let result = step();
+        let seconds = start.elapsed().as_secs();
+        match result {
+            Ok(Outcome::Passed) => println!("    passed in {seconds} s"),
+            Ok(Outcome::Skipped(reason)) => {
+                println!("    skipped: {reason}");
+                self.skipped.push(format!("skipped {name}: {reason}"));
+            }
+            Err(reason) => {
+                println!("    FAILED after {seconds} s: {reason}");
+                self.failed.push(format!("FAILED  {name}: {reason}"));
+            }
+        }
+    }
+
+    /// Says what was skipped and what failed; success if nothing did.
+    #[must_use]
+    pub fn finish(self) -> ExitCode {
+        println!();
+        for line in self.skipped.iter().chain(&self.failed) {
+            println!("{line}");
+        }
+        let seconds = self.start.elapsed().as_secs();
+        let verdict = if self.failed.is_empty() {
+            "all steps passed"
+        } else {
+            "some steps failed"
+        };
+        println!("{verdict} ({} min {} s)", seconds / 60, seconds % 60);
+        ExitCode::from(u8::from(!self.failed.is_empty()))
+    }
+}
+
+/// The project's root folder.
+#[must_use]
+pub fn root() -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    manifest.parent().unwrap_or(manifest).to_path_buf()
+}
+
+/// Cargo of the toolchain that runs this program, in the project's root.
+pub fn cargo<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Command {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(program);
+    command.current_dir(root()).args(arguments);
+    command
+}
+
+/// Runs a command that writes where we write.
+///
+/// # Errors
+/// The command line, if it cannot start or answers that it failed.
+pub fn run(command: &mut Command) -> Result<(), String> {
+    let status = command.status().map_err(|e| cannot_start(command, &e))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(command_line(command))
+    }
+}
+
+/// Runs a command and returns what it wrote to both of its outputs.
+///
+/// # Errors
+/// The command line and the last lines, if it cannot start or answers that it failed.
+pub fn output(command: &mut Command) -> Result<String, String> {
+    let out = command
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|e| cannot_start(command, &e))?;
+    let text = String::from_utf8_lossy(&out.stdout) + String::from_utf8_lossy(&out.stderr);
+    if out.status.success() {
+        return Ok(text.into_owned());
+    }
+    let lines: Vec<&str> = text.lines().collect();
+    let tail = lines[lines.len().saturating_sub(20)..].join("\n");
+    Err(format!("{}\n{tail}", command_line(command)))
+}
+
+/// Whether a program answers to `--version`.
+#[must_use]
+pub fn is_there(program: &str) -> bool {
+    output(Command::new(program).arg("--version")).is_ok()
+}
+
+fn command_line(command: &Command) -> String {
+    let program = Path::new(command.get_program())
+        .file_name()
+        .unwrap_or_default();
+    let mut line = program.to_string_lossy().into_owned();
+    for argument in command.get_args() {
+        line += " ";
+        line += &argument.to_string_lossy();
+    }
+    line
+}
+
+fn cannot_start(command: &Command, error: &std::io::Error) -> String {
+    format!("{}: {error}", command_line(command))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_step_fails_the_list_and_a_skipped_one_does_not() {
+        let mut steps = Steps::default();
+        steps.run("passes", || Ok(Outcome::Passed));
+        steps.run("is skipped", || Ok(Outcome::Skipped("no such tool".into())));
+        assert!(steps.failed.is_empty(), "nothing failed");
+        steps.run("fails", || Err("reason".into()));
+        assert_eq!(steps.failed, ["FAILED  fails: reason"], "one failed");
+        assert_eq!(
+            steps.skipped,
+            ["skipped is skipped: no such tool"],
+            "one skipped"
+        );
+    }
+
+    #[test]
+    fn commands_say_their_line_when_they_fail() {
+        let missing = run(&mut Command::new("no-such-program-anywhere"));
+        assert!(
+            missing.is_err_and(|e| e.starts_with("no-such-program-anywhere")),
+            "its name"
+        );
+        assert!(
+            output(cargo(["--version"]).arg("--no-such-flag")).is_err(),
+            "bad flag"
+        );
+    }
+}
