@@ -2,6 +2,7 @@
 
 use super::Checker;
 
+mod alias_table;
 mod bounds;
 mod compact;
 mod direction_cone;
@@ -9,16 +10,26 @@ mod equal_area;
 mod light_bounds_importance;
 mod light_bounds_union;
 mod octahedral;
+mod piecewise_constant_1d;
+mod piecewise_constant_2d;
+mod summed_area_table;
+mod tables;
+mod windowed_piecewise_constant_2d;
 
 /// The checker of `kind`, fresh for the first line of a file; none while the kind has no module.
 pub(super) fn checker(kind: &str) -> Option<Box<dyn Checker>> {
     Some(match kind {
+        "alias_table" => Box::new(alias_table::check),
         "compact" => Box::new(compact::check),
         "direction_cone" => Box::new(direction_cone::check),
         "equal_area" => Box::new(equal_area::check),
         "light_bounds_importance" => Box::new(light_bounds_importance::check),
         "light_bounds_union" => Box::new(light_bounds_union::check),
         "octahedral" => Box::new(octahedral::check),
+        "piecewise_constant_1d" => Box::new(piecewise_constant_1d::check),
+        "piecewise_constant_2d" => Box::new(piecewise_constant_2d::check),
+        "summed_area_table" => Box::new(summed_area_table::check),
+        "windowed_piecewise_constant_2d" => Box::new(windowed_piecewise_constant_2d::check),
         _ => return None,
     })
 }

@@ -9,8 +9,17 @@ mod cumulative;
 mod error;
 mod piecewise_constant_1d;
 mod piecewise_constant_2d;
+mod reservoir;
+mod span;
+mod summed_area_table;
+mod window;
+mod windowed_piecewise_constant_2d;
 
 pub use alias_table::{AliasBin, AliasTable};
 pub use error::TableError;
 pub use piecewise_constant_1d::{PiecewiseConstant1D, Sample1D};
 pub use piecewise_constant_2d::{PiecewiseConstant2D, Sample2D};
+pub use reservoir::{SampledValue, WeightedReservoir};
+pub use summed_area_table::SummedAreaTable;
+pub use window::Window;
+pub use windowed_piecewise_constant_2d::WindowedPiecewiseConstant2D;

@@ -10,6 +10,7 @@ pub mod concentric_disk;
 pub mod cosine_hemisphere;
 pub mod linear;
 pub mod polar_disk;
+pub mod smoothstep;
 pub mod uniform_cone;
 pub mod uniform_hemisphere;
 pub mod uniform_sphere;

@@ -1,0 +1,333 @@
+#[cfg(feature = "alloc")]
+use alloc::{vec, vec::Vec};
+
+use super::axis::Axis;
+use super::error::{TableError, check_len, total};
+use super::span::Span;
+use super::window::Window;
+
+/// Sums of a grid of weights over any rectangle, in constant time.
+///
+/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the sums: `Vec<u64>`, `&[u64]`,
+/// `[u64; M]`, one for each weight; sum `y * nx + x` counts all texels up to column x and row y.
+///
+/// The sums are whole numbers, in a unit that is a power of two and 2^-62 of the total or so. So a sum over texels is
+/// exact: never negative, zero only where all weights are, and the same in whatever order it was built. A weight
+/// below the unit counts as one unit.
+///
+/// # Source
+/// `[Crow1984]`; whole numbers are ours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SummedAreaTable<S> {
+    sums: S,
+    nx: usize,
+    ny: usize,
+    unit: f64,
+}
+
+#[cfg(feature = "alloc")]
+impl SummedAreaTable<Vec<u64>> {
+    /// The table of `ny` rows of `nx` weights each.
+    ///
+    /// # Errors
+    /// [`TableError`] if there are no weights or not `nx * ny`, or if one is negative or not finite.
+    pub fn new(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
+        let mut sums = vec![0; weights.len()];
+        let unit = fill(weights, nx, ny, &mut sums)?;
+        Ok(Self { sums, nx, ny, unit })
+    }
+}
+
+impl<const M: usize> SummedAreaTable<[u64; M]> {
+    /// Like [`new`](SummedAreaTable::new), in an array; usable in a `const` or `static`.
+    ///
+    /// # Errors
+    /// As for [`new`](SummedAreaTable::new).
+    pub const fn in_array(weights: &[f32; M], nx: usize, ny: usize) -> Result<Self, TableError> {
+        let mut sums = [0; M];
+        match fill(weights, nx, ny, &mut sums) {
+            Ok(unit) => Ok(Self { sums, nx, ny, unit }),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl<'a> SummedAreaTable<&'a [u64]> {
+    /// Like [`new`](SummedAreaTable::new), in a buffer of as many sums as there are weights.
+    ///
+    /// # Errors
+    /// As for [`new`](SummedAreaTable::new), and [`TableError::SizeMismatch`].
+    pub fn build_into(
+        weights: &[f32],
+        nx: usize,
+        ny: usize,
+        sums: &'a mut [u64],
+    ) -> Result<Self, TableError> {
+        let unit = fill(weights, nx, ny, sums)?;
+        Ok(Self { sums, nx, ny, unit })
+    }
+}
+
+impl<S: AsRef<[u64]>> SummedAreaTable<S> {
+    /// A table whose sums were built earlier, with their [`unit`](Self::unit).
+    ///
+    /// # Errors
+    /// [`TableError`] if the sums are not what [`sums`](Self::sums) returns for `nx` columns and `ny` rows.
+    pub fn from_sums(sums: S, nx: usize, ny: usize, unit: f64) -> Result<Self, TableError> {
+        if let Some(error) = [Axis::unit(nx), Axis::unit(ny)]
+            .into_iter()
+            .find_map(Result::err)
+        {
+            return Err(error);
+        }
+        check_len(nx.saturating_mul(ny), sums.as_ref().len())?;
+        let this = Self { sums, nx, ny, unit };
+        let at = |x: usize, y: usize| i128::from(this.below(x, y));
+        let count = |x, y| at(x + 1, y + 1) - at(x, y + 1) - at(x + 1, y) + at(x, y);
+        let is_well_formed = (0..ny).all(|y| (0..nx).all(|x| count(x, y) >= 0));
+        if is_well_formed && unit >= 0.0 && unit.is_finite() {
+            Ok(this)
+        } else {
+            Err(TableError::Malformed)
+        }
+    }
+
+    /// The integral over the part of `window` in the unit square, on which each weight covers its texel; over the
+    /// whole square it is the mean of the weights.
+    #[inline]
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounds an integral")]
+    pub fn integral(&self, window: &Window) -> f32 {
+        match window.clip() {
+            Some(window) => {
+                let [x, y] = self.spans(&window);
+                (x.sum(|x0, x1| y.sum(|y0, y1| self.count(x0..x1, y0..y1))) * self.mean_unit())
+                    as f32
+            }
+            None => 0.0,
+        }
+    }
+
+    /// The sum of the weights in columns `x` and rows `y`, to the rounding of the result alone.
+    ///
+    /// Ranges are cut off at the edges of the grid.
+    #[inline]
+    #[must_use]
+    pub fn sum(&self, x: core::ops::Range<usize>, y: core::ops::Range<usize>) -> f64 {
+        let x = x.start.min(self.nx)..x.end.min(self.nx);
+        let y = y.start.min(self.ny)..y.end.min(self.ny);
+        if x.is_empty() || y.is_empty() {
+            return 0.0;
+        }
+        self.count(x, y) * self.unit
+    }
+
+    /// Columns and rows.
+    #[inline]
+    #[must_use]
+    pub fn resolution(&self) -> [usize; 2] {
+        [self.nx, self.ny]
+    }
+
+    /// All sums, to be stored and used again.
+    #[must_use]
+    pub fn sums(&self) -> &[u64] {
+        self.sums.as_ref()
+    }
+
+    /// The weight that one unit of the sums stands for: a power of two, or 0 if all weights are 0.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// The sum over whole texels in units, exact up to its conversion; the ranges lie in the grid.
+    #[inline]
+    pub(super) fn count(&self, x: core::ops::Range<usize>, y: core::ops::Range<usize>) -> f64 {
+        let right = self.below(x.end, y.end) - self.below(x.end, y.start);
+        let left = self.below(x.start, y.end) - self.below(x.start, y.start);
+        (right - left) as f64
+    }
+
+    /// How `window`, a part of the unit square, covers columns and rows.
+    #[inline]
+    pub(super) fn spans(&self, window: &Window) -> [Span; 2] {
+        [
+            Span::new(window.min.x, window.max.x, self.nx),
+            Span::new(window.min.y, window.max.y, self.ny),
+        ]
+    }
+
+    /// The sum of the columns before `x` and the rows before `y`, in units.
+    #[inline]
+    fn below(&self, x: usize, y: usize) -> u64 {
+        if x == 0 || y == 0 {
+            0
+        } else {
+            self.sums.as_ref()[(y - 1) * self.nx + x - 1]
+        }
+    }
+
+    /// The integral over a texel of one unit.
+    #[inline]
+    fn mean_unit(&self) -> f64 {
+        self.unit / (self.nx * self.ny) as f64
+    }
+}
+
+/// Fills `sums`; returns the unit.
+const fn fill(weights: &[f32], nx: usize, ny: usize, sums: &mut [u64]) -> Result<f64, TableError> {
+    match (Axis::unit(nx), Axis::unit(ny)) {
+        (Ok(_), Ok(_)) => {}
+        (Err(error), _) | (_, Err(error)) => return Err(error),
+    }
+    let total = match (
+        check_len(nx.saturating_mul(ny), weights.len()),
+        total(weights),
+    ) {
+        (Ok(()), Ok(total)) => total,
+        (Err(error), _) | (_, Err(error)) => return Err(error),
+    };
+    if let Err(error) = check_len(weights.len(), sums.len()) {
+        return Err(error);
+    }
+    // The power of two that brings the total to 61 or 62 bits, with room for the weights that are rounded up.
+    let exponent = if total > 0.0 {
+        (total.to_bits() >> 52) as i64 - 1023
+    } else {
+        61
+    };
+    let scale = power_of_two(61 - exponent);
+    let mut y = 0;
+    while y < ny {
+        let mut row = 0;
+        let mut x = 0;
+        while x < nx {
+            let i = y * nx + x;
+            row += round_up(weights[i] as f64 * scale);
+            sums[i] = row + if y > 0 { sums[i - nx] } else { 0 };
+            x += 1;
+        }
+        y += 1;
+    }
+    Ok(if total > 0.0 {
+        power_of_two(exponent - 61)
+    } else {
+        0.0
+    })
+}
+
+#[expect(
+    clippy::cast_sign_loss,
+    reason = "exponents of sums of f32 stay far inside the range"
+)]
+const fn power_of_two(exponent: i64) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The smallest whole number not below `x`, which is not negative and below 2^63.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the integer part is wanted"
+)]
+const fn round_up(x: f64) -> u64 {
+    let whole = x as u64;
+    if (whole as f64) < x { whole + 1 } else { whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    const WEIGHTS: [f32; 6] = [1.0, 0.0, 2.0, 4.0, 0.0, 5.0];
+
+    #[test]
+    fn sums_and_integrals() {
+        let table = SummedAreaTable::new(&WEIGHTS, 3, 2).expect("valid weights");
+        assert_eq!(table.integral(&Window::UNIT), 2.0, "mean");
+        assert_eq!(table.sum(0..3, 0..2), 12.0, "all");
+        assert_eq!(table.sum(1..3, 1..2), 5.0, "corner");
+        assert_eq!(table.sum(2..9, 0..9), 7.0, "cut off at the edges");
+        assert_eq!(table.sum(1..1, 0..2), 0.0, "nothing");
+        let half_texel = Window::new(Vec2::new(0.5, 0.25), Vec2::new(1.0, 0.5));
+        assert!(
+            (table.integral(&half_texel) - 2.0 / 12.0).abs() < 1e-7,
+            "in part"
+        );
+        let column = Window::new(Vec2::new(0.34, 0.0), Vec2::new(0.66, 1.0));
+        assert_eq!(
+            table.integral(&column),
+            0.0,
+            "an empty column is exactly empty"
+        );
+    }
+
+    #[test]
+    fn a_faint_corner_beside_a_sun_keeps_its_digits() {
+        let mut weights = [1e-6; 64];
+        weights[0] = 1e9;
+        let table = SummedAreaTable::new(&weights, 8, 8).expect("valid weights");
+        let corner = table.sum(7..8, 7..8);
+        assert!(
+            (corner / f64::from(1e-6f32) - 1.0).abs() < 1e-3,
+            "corner {corner}"
+        );
+        let strip = table.sum(1..8, 1..8);
+        assert!(
+            (strip / (49.0 * corner) - 1.0).abs() < 1e-15,
+            "strip {strip}"
+        );
+    }
+
+    #[test]
+    fn weights_at_the_ends_of_the_range() {
+        let table = SummedAreaTable::new(&[f32::MAX, 1e-45, f32::MAX, 0.0], 2, 2).expect("finite");
+        assert_eq!(table.sum(0..1, 0..2), 2.0 * f64::from(f32::MAX), "largest");
+        assert!(table.sum(1..2, 0..1) > 0.0, "the smallest is not lost");
+        assert_eq!(table.sum(1..2, 1..2), 0.0, "zero is zero");
+        let tiny = SummedAreaTable::new(&[1e-45; 3], 3, 1).expect("finite");
+        assert_eq!(tiny.sum(0..2, 0..1), 2.0 * f64::from(1e-45f32), "denormal");
+        let dark = SummedAreaTable::new(&[0.0; 3], 3, 1).expect("zeros have sums");
+        assert_eq!(
+            (dark.unit(), dark.integral(&Window::UNIT)),
+            (0.0, 0.0),
+            "dark"
+        );
+    }
+
+    #[test]
+    fn storage_is_a_choice() {
+        static IN_FLASH: SummedAreaTable<[u64; 6]> = match SummedAreaTable::in_array(&WEIGHTS, 3, 2)
+        {
+            Ok(table) => table,
+            Err(_) => panic!("valid weights"),
+        };
+        let mut buffer = [0; 6];
+        let borrowed = SummedAreaTable::build_into(&WEIGHTS, 3, 2, &mut buffer).expect("fits");
+        assert_eq!(IN_FLASH.sums(), borrowed.sums(), "same builder");
+        let again = SummedAreaTable::from_sums(borrowed.sums(), 3, 2, borrowed.unit());
+        assert_eq!(again, Ok(borrowed), "stored and used again");
+    }
+
+    #[test]
+    fn refuses() {
+        let new = |w: &[f32], nx, ny| SummedAreaTable::new(w, nx, ny).map(|_| ());
+        let mismatch = |expected, found| Err(TableError::SizeMismatch { expected, found });
+        assert_eq!(new(&[1.0; 5], 3, 2), mismatch(6, 5), "missing texel");
+        assert_eq!(new(&[], 0, 0), Err(TableError::Empty), "empty");
+        assert_eq!(
+            new(&[1.0, -1.0], 2, 1),
+            Err(TableError::Negative { index: 1 }),
+            "negative"
+        );
+        assert_eq!(
+            new(&[f32::NAN], 1, 1),
+            Err(TableError::NotFinite { index: 0 }),
+            "NaN"
+        );
+        let falling = SummedAreaTable::from_sums([2, 1], 2, 1, 1.0).map(|_| ());
+        assert_eq!(falling, Err(TableError::Malformed), "sums that fall");
+    }
+}

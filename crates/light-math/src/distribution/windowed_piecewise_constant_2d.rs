@@ -1,0 +1,224 @@
+use super::piecewise_constant_2d::Sample2D;
+use super::span::{Span, texel};
+use super::summed_area_table::SummedAreaTable;
+use super::window::Window;
+use crate::discrete::unit;
+use crate::float::{next_down, next_up};
+use glam::Vec2;
+
+/// The density of a [`PiecewiseConstant2D`](super::PiecewiseConstant2D) over the unit square, restricted to any
+/// rectangle of it: how an environment is sampled through a window.
+///
+/// Values of texels are differences of the table's sums, so nothing else is stored. A sample costs a binary search
+/// over the columns and one over the rows.
+///
+/// # Source
+/// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in `[PBRT4]` A.5.4; there
+/// by bisection of the interpolated sums, here by search over texels and a straight line within the one that is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowedPiecewiseConstant2D<S> {
+    table: SummedAreaTable<S>,
+}
+
+impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
+    /// The density proportional to the weights that `table` sums.
+    #[must_use]
+    pub const fn new(table: SummedAreaTable<S>) -> Self {
+        Self { table }
+    }
+
+    /// The point of `window` for `u` in `[0, 1)^2`; none if the window holds no weight.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, u: Vec2, window: &Window) -> Option<Sample2D> {
+        let window = window.clip()?;
+        let [columns, rows] = self.table.spans(&window);
+        let strip = |x0, x1| rows.sum(|y0, y1| self.table.count(x0..x1, y0..y1));
+        let (column, x, total) = choose(&columns, u.x, strip)?;
+        let column_sum = |y0, y1| self.table.count(column..column + 1, y0..y1);
+        let (row, y, _) = choose(&rows, u.y, column_sum)?;
+
+        let [nx, ny] = self.table.resolution();
+        let p = Vec2::new(
+            settle(x / nx as f64, column, nx, window.min.x, window.max.x),
+            settle(y / ny as f64, row, ny, window.min.y, window.max.y),
+        );
+        let pdf = self.density([column, row], total);
+        let texel = [column, row];
+        (pdf > 0.0).then_some(Sample2D { p, pdf, texel })
+    }
+
+    /// The density of [`sample`](Self::sample) at `p`, per area; 0 outside `window`.
+    #[inline]
+    #[must_use]
+    pub fn pdf(&self, p: Vec2, window: &Window) -> f32 {
+        let Some(window) = window.clip().filter(|window| window.contains(p)) else {
+            return 0.0;
+        };
+        let [nx, ny] = self.table.resolution();
+        let column = texel(f64::from(p.x) * nx as f64, nx);
+        let row = texel(f64::from(p.y) * ny as f64, ny);
+        let [columns, rows] = self.table.spans(&window);
+        let total = columns.sum(|x0, x1| rows.sum(|y0, y1| self.table.count(x0..x1, y0..y1)));
+        self.density([column, row], total)
+    }
+
+    /// The table of sums.
+    #[must_use]
+    pub const fn table(&self) -> &SummedAreaTable<S> {
+        &self.table
+    }
+
+    /// The density in a texel, given the window's sum in units; 0 for an empty window.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounds a density")]
+    fn density(&self, [column, row]: [usize; 2], total: f64) -> f32 {
+        if !(total > 0.0) {
+            return 0.0;
+        }
+        let [nx, ny] = self.table.resolution();
+        let value = self.table.count(column..column + 1, row..row + 1);
+        (value / total * (nx * ny) as f64) as f32
+    }
+}
+
+/// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given the sum over whole
+/// texels; none if that is zero.
+#[inline]
+fn choose(span: &Span, u: f32, whole: impl Fn(usize, usize) -> f64) -> Option<(usize, f64, f64)> {
+    let total = span.sum(&whole);
+    if !(total > 0.0) {
+        return None;
+    }
+    let target = unit(f64::from(u)) * total;
+    // The last texel that starts at or below the target; it ends above it, so it holds something.
+    let (mut low, mut high) = (span.first, span.last + 1);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
+        if span.sum_before(middle, &whole) <= target {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let before = span.sum_before(low, &whole);
+    let covered = span.covered(low);
+    let place = ((target - before) / (covered * whole(low, low + 1))).clamp(0.0, 1.0);
+    let start = span.start.max(low as f64);
+    Some((low, start + place * covered, total))
+}
+
+/// `x` as an `f32` of the interval from `min` to `max` that lies in texel `wanted` of `texels` over `[0, 1]`.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "rounds a coordinate")]
+fn settle(x: f64, wanted: usize, texels: usize, min: f32, max: f32) -> f32 {
+    let mut x = (x as f32).clamp(min, max);
+    // One rounding may lead over an edge of the texel, never further.
+    for _ in 0..2 {
+        let found = texel(f64::from(x) * texels as f64, texels);
+        if found < wanted {
+            x = next_up(x);
+        } else if found > wanted {
+            x = next_down(x);
+        }
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::float::ONE_MINUS_EPSILON;
+    use alloc::vec::Vec;
+
+    fn table(weights: &[f32], nx: usize, ny: usize) -> WindowedPiecewiseConstant2D<Vec<u64>> {
+        WindowedPiecewiseConstant2D::new(
+            SummedAreaTable::new(weights, nx, ny).expect("valid weights"),
+        )
+    }
+
+    #[test]
+    fn fixed_points() {
+        let table = table(&[1.0, 0.0, 2.0, 4.0, 0.0, 5.0], 3, 2);
+        let s = table
+            .sample(Vec2::new(0.25, 0.6), &Window::UNIT)
+            .expect("weights");
+        assert_eq!(s.texel, [0, 1], "column by u.x, row by u.y");
+        assert!((s.pdf - 2.0).abs() < 1e-6, "4 over the mean 2");
+        let left = Window::new(Vec2::ZERO, Vec2::new(0.5, 0.5));
+        let s = table.sample(Vec2::new(0.5, 0.5), &left).expect("weights");
+        assert!(
+            s.p.distance(Vec2::new(1.0 / 6.0, 0.25)) < 1e-6,
+            "middle of the only texel"
+        );
+        assert!(
+            (s.pdf - 6.0).abs() < 1e-6,
+            "even over a sixth of the square"
+        );
+        let gap = Window::new(Vec2::new(0.34, 0.0), Vec2::new(0.66, 1.0));
+        assert_eq!(
+            table.sample(Vec2::splat(0.5), &gap),
+            None,
+            "nothing in the window"
+        );
+        assert_eq!(
+            table.pdf(Vec2::splat(0.5), &gap),
+            0.0,
+            "nothing in the window"
+        );
+        assert_eq!(
+            table.pdf(Vec2::splat(0.9), &left),
+            0.0,
+            "outside the window"
+        );
+    }
+
+    #[test]
+    fn samples_stay_in_the_window_and_where_there_is_density() {
+        let checkered: Vec<f32> = (0..63u8)
+            .map(|i| f32::from(i % 2) * 0.7f32.powi(i.into()))
+            .collect();
+        let table = table(&checkered, 7, 9);
+        let ends = [
+            0.0,
+            1e-30,
+            0.1,
+            1.0 / 7.0,
+            0.333_333_34,
+            0.5,
+            0.857_142_9,
+            0.999_999_94,
+            1.0,
+        ];
+        let us = [0.0, 0.3, 0.5, 0.77, ONE_MINUS_EPSILON, f32::NAN, 2.0];
+        for (i, &x0) in ends.iter().enumerate() {
+            for &x1 in &ends[i + 1..] {
+                let window = Window::new(Vec2::new(x0, 0.0), Vec2::new(x1, 0.9));
+                for (k, &u) in us.iter().enumerate() {
+                    let Some(s) = table.sample(Vec2::new(u, us[us.len() - 1 - k]), &window) else {
+                        continue;
+                    };
+                    assert!(window.contains(s.p), "{s:?} in {window:?}");
+                    assert!(
+                        s.pdf > 0.0 && s.pdf == table.pdf(s.p, &window),
+                        "density of {s:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nonsense_windows_hold_nothing() {
+        let table = table(&[1.0; 4], 2, 2);
+        let u = Vec2::splat(0.5);
+        for (min, max) in [(0.5, 0.5), (0.7, 0.3), (f32::NAN, 1.0), (2.0, 3.0)] {
+            let window = Window::new(Vec2::splat(min), Vec2::splat(max));
+            assert_eq!(table.sample(u, &window), None, "{window:?}");
+            assert_eq!(table.pdf(u, &window), 0.0, "{window:?}");
+        }
+        let wide = Window::new(Vec2::splat(-1.0), Vec2::splat(9.0));
+        let s = table.sample(u, &wide).expect("the square");
+        assert_eq!((s.p, s.pdf), (u, 1.0), "cut off at the unit square");
+    }
+}
