@@ -12,5 +12,7 @@ mod error;
 #[cfg(feature = "alloc")]
 mod join;
 pub mod reference;
+mod validate;
 
 pub use error::LightBvhError;
+pub use validate::validate;

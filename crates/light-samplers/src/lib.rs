@@ -3,11 +3,24 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 pub use light_bounds;
 pub use light_bounds::SampledLight;
 
+#[cfg(feature = "alloc")]
+mod infinite;
 mod light_sampler;
+#[cfg(feature = "alloc")]
+mod power;
+#[cfg(feature = "alloc")]
+mod reference_bvh;
 mod uniform;
 
 pub use light_sampler::LightSampler;
+#[cfg(feature = "alloc")]
+pub use power::{PowerLightSampler, PowerLightSamplerError};
+#[cfg(feature = "alloc")]
+pub use reference_bvh::ReferenceBvhLightSampler;
 pub use uniform::UniformLightSampler;

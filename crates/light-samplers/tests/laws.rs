@@ -1,7 +1,20 @@
-//! The laws that every sampler obeys, on sets of every kind.
+//! Every sampler of this crate keeps the laws of light samplers.
 
-use light_samplers::UniformLightSampler;
+use light_samplers::{PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler};
 
 light_testkit::sampler_laws! {
-    mod uniform { |set| UniformLightSampler::new(set.count()) }
+    /// Every light alike.
+    mod uniform {
+        |set| UniformLightSampler::new(set.count())
+    }
+
+    /// In proportion to power.
+    mod power {
+        |set| PowerLightSampler::new(&set.powers()).expect("valid powers")
+    }
+
+    /// The published hierarchy.
+    mod reference_bvh {
+        |set| ReferenceBvhLightSampler::new(&set.extents()).expect("valid bounds")
+    }
 }

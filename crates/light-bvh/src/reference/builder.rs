@@ -6,8 +6,8 @@ use light_bounds::{CompactLightBounds, LightBounds, LightExtent, LightId};
 
 use super::split::{Split, cheapest_split};
 use super::{BitTrail, ReferenceNode};
-use crate::LightBvhError;
 use crate::join::join;
+use crate::{LightBvhError, validate};
 
 /// More lights would need more nodes than the links of a node can number.
 const MAX_LIGHTS: usize = ReferenceNode::INDEX_LIMIT as usize / 2;
@@ -46,27 +46,15 @@ fn leaves(lights: &[LightExtent]) -> Result<Vec<Leaf>, LightBvhError> {
     if lights.len() > MAX_LIGHTS {
         return Err(LightBvhError::TooManyLights);
     }
-    let mut leaves = Vec::with_capacity(lights.len());
-    for (light, extent) in (0..).map(LightId).zip(lights) {
-        match extent {
-            LightExtent::Infinite(bounds) => bounds
-                .validate()
-                .map_err(|reason| LightBvhError::BadInfiniteBounds { light, reason })?,
-            LightExtent::Bounded(bounds) => {
-                bounds
-                    .validate()
-                    .map_err(|reason| LightBvhError::BadBounds { light, reason })?;
-                if bounds.phi > 0.0 {
-                    leaves.push(Leaf {
-                        bounds: *bounds,
-                        centroid: bounds.centroid(),
-                        light,
-                    });
-                }
-            }
-        }
-    }
-    Ok(leaves)
+    validate(lights)?;
+    let bounded = (0..).map(LightId).zip(lights);
+    let bounded = bounded.filter_map(|(light, extent)| Some((light, extent.bounded()?)));
+    let leaf = |(light, bounds): (LightId, &LightBounds)| Leaf {
+        bounds: *bounds,
+        centroid: bounds.centroid(),
+        light,
+    };
+    Ok(bounded.filter(|(_, b)| b.phi > 0.0).map(leaf).collect())
 }
 
 /// Where in the tree a group of lights goes.

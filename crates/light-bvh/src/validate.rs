@@ -1,0 +1,45 @@
+use light_bounds::{LightExtent, LightId};
+
+use crate::LightBvhError;
+
+/// Whether every one of `lights` can be one; the index of a light is its id.
+///
+/// # Errors
+/// [`LightBvhError`] names the first light that cannot.
+pub fn validate(lights: &[LightExtent]) -> Result<(), LightBvhError> {
+    for (light, extent) in (0..).map(LightId).zip(lights) {
+        match extent {
+            LightExtent::Bounded(bounds) => bounds
+                .validate()
+                .map_err(|reason| LightBvhError::BadBounds { light, reason })?,
+            LightExtent::Infinite(bounds) => bounds
+                .validate()
+                .map_err(|reason| LightBvhError::BadInfiniteBounds { light, reason })?,
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_bounds::{InfiniteBounds, InfiniteBoundsError, LightBounds, LightBoundsError};
+
+    #[test]
+    fn the_first_bad_light_is_named() {
+        let sky = LightExtent::Infinite(InfiniteBounds::uniform(1.0));
+        assert_eq!(validate(&[sky]), Ok(()), "a sky");
+        let no_sky = LightExtent::Infinite(InfiniteBounds::uniform(-1.0));
+        let empty = LightExtent::Bounded(LightBounds::EMPTY);
+        let bad_sky = LightBvhError::BadInfiniteBounds {
+            light: LightId(1),
+            reason: InfiniteBoundsError::Fluence,
+        };
+        assert_eq!(validate(&[sky, no_sky, empty]), Err(bad_sky), "the sky");
+        let bad_box = LightBvhError::BadBounds {
+            light: LightId(0),
+            reason: LightBoundsError::Box,
+        };
+        assert_eq!(validate(&[empty, no_sky]), Err(bad_box), "the box");
+    }
+}

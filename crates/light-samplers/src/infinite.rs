@@ -1,0 +1,86 @@
+use alloc::vec::Vec;
+
+use light_bounds::{LightExtent, LightId, SampledLight};
+
+use crate::uniform::choose_uniformly;
+
+/// The choice before any other: each light at infinity has one share, all lights that are somewhere have one together.
+///
+/// `p_infinite = n / (n + 1)` for `n` lights at infinity, or `n / n` when there are no others. Lights without fluence stay
+/// out.
+///
+/// # Source
+/// `[PBRT4]`, section 12.6.3.
+#[derive(Clone, Debug)]
+pub(crate) struct InfiniteShares {
+    /// In ascending order.
+    lights: Vec<LightId>,
+    /// All shares, one for each infinite light and one for the others if there are any.
+    shares: u32,
+}
+
+/// What the first choice leads to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FirstChoice {
+    /// A light at infinity.
+    Infinite(SampledLight),
+    /// One of the others, by what is left of `u`.
+    Others { u: f64 },
+}
+
+impl InfiniteShares {
+    /// The infinite ones of `lights` beside others, if `has_others`; fewer than 2^32.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "ids are 32 bits, so there are no more lights"
+    )]
+    pub(crate) fn new(lights: &[LightExtent], has_others: HasOthers) -> Self {
+        let ids = (0..).map(LightId).zip(lights);
+        let shining = ids.filter(|(_, extent)| extent.infinite().is_some_and(|i| i.fluence > 0.0));
+        let lights: Vec<_> = shining.map(|(id, _)| id).collect();
+        let others = match has_others {
+            HasOthers::Yes => 1,
+            HasOthers::No => 0,
+        };
+        Self {
+            shares: lights.len() as u32 + others,
+            lights,
+        }
+    }
+
+    /// The first choice; `None` if there is no light at all.
+    #[inline]
+    pub(crate) fn choose(&self, u: f64) -> Option<FirstChoice> {
+        let (share, u) = choose_uniformly(self.shares, u)?;
+        Some(match self.lights.get(share as usize) {
+            Some(&light) => FirstChoice::Infinite(SampledLight {
+                light,
+                pmf: self.pmf_share(),
+                u,
+            }),
+            None => FirstChoice::Others { u },
+        })
+    }
+
+    /// The probability of each share.
+    #[inline]
+    pub(crate) fn pmf_share(&self) -> f32 {
+        1.0 / self.shares.max(1) as f32
+    }
+
+    /// The probability of a light at infinity; `None` if it is none.
+    #[inline]
+    pub(crate) fn pmf_infinite(&self, light: LightId) -> Option<f32> {
+        self.lights
+            .binary_search(&light)
+            .is_ok()
+            .then(|| self.pmf_share())
+    }
+}
+
+/// Whether there are lights beside those at infinity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HasOthers {
+    Yes,
+    No,
+}

@@ -1,0 +1,164 @@
+use alloc::vec::Vec;
+use core::fmt;
+
+use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_math::distribution::{AliasBin, AliasTable, TableError};
+
+use crate::{LightSampler, UniformLightSampler};
+
+/// The least share of the total power with which a light is chosen: its probability must not vanish by rounding.
+const LEAST_SHARE: f64 = 2.0 * f32::MIN_POSITIVE as f64;
+
+/// Strong lights more often, wherever they are.
+///
+/// 12 bytes a light; a query takes constant time. The baseline for scenes in which every light reaches every point; lights without
+/// power are never chosen, unless all are without.
+#[derive(Clone, Debug)]
+pub struct PowerLightSampler {
+    choice: Choice,
+}
+
+#[derive(Clone, Debug)]
+enum Choice {
+    ByPower(AliasTable<Vec<AliasBin>>),
+    /// No light has power.
+    Uniform(UniformLightSampler),
+}
+
+impl PowerLightSampler {
+    /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or any other common unit, of a
+    /// spectrum its mean over wavelengths.
+    ///
+    /// # Errors
+    /// A power is negative or not finite, or there are more than 2^32 - 1 lights.
+    pub fn new(powers: &[f32]) -> Result<Self, PowerLightSamplerError> {
+        let count =
+            u32::try_from(powers.len()).map_err(|_| PowerLightSamplerError::TooManyLights)?;
+        for (light, &power) in (0..).map(LightId).zip(powers) {
+            if !(power >= 0.0 && power.is_finite()) {
+                return Err(PowerLightSamplerError::BadPower { light });
+            }
+        }
+        let choice = match AliasTable::new(&lifted(powers)) {
+            Ok(table) => Choice::ByPower(table),
+            Err(TableError::Empty | TableError::AllZero) => {
+                Choice::Uniform(UniformLightSampler::new(count))
+            }
+            Err(_) => return Err(PowerLightSamplerError::TooManyLights),
+        };
+        Ok(Self { choice })
+    }
+}
+
+/// The powers, those above zero but far below the total lifted to [`LEAST_SHARE`] of it.
+#[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
+fn lifted(powers: &[f32]) -> Vec<f32> {
+    let total: f64 = powers.iter().map(|&power| f64::from(power)).sum();
+    let least = (LEAST_SHARE * total) as f32;
+    let lift = |&power: &f32| if power > 0.0 { power.max(least) } else { 0.0 };
+    powers.iter().map(lift).collect()
+}
+
+impl LightSampler for PowerLightSampler {
+    #[inline]
+    fn sample(&self, _: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.sample_emitter(u)
+    }
+
+    #[inline]
+    fn pmf(&self, _: &LightSampleContext, light: LightId) -> f32 {
+        self.pmf_emitter(light)
+    }
+
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the table is no longer than ids are numerous"
+    )]
+    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+        match &self.choice {
+            Choice::ByPower(table) => {
+                let sample = table.sample(u);
+                Some(SampledLight {
+                    light: LightId(sample.index as u32),
+                    pmf: sample.pmf,
+                    u: sample.u,
+                })
+            }
+            Choice::Uniform(sampler) => sampler.sample_emitter(u),
+        }
+    }
+
+    #[inline]
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        match &self.choice {
+            Choice::ByPower(table) => table.pmf(light.index()),
+            Choice::Uniform(sampler) => sampler.pmf_emitter(light),
+        }
+    }
+}
+
+/// Why powers cannot be sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PowerLightSamplerError {
+    /// A power is negative, infinite or not a number.
+    BadPower {
+        /// Which light.
+        light: LightId,
+    },
+    /// There are more lights than ids.
+    TooManyLights,
+}
+
+impl fmt::Display for PowerLightSamplerError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BadPower { light } => {
+                write!(f, "light {}: the power is negative or not finite", light.0)
+            }
+            Self::TooManyLights => f.write_str("more lights than ids"),
+        }
+    }
+}
+
+impl core::error::Error for PowerLightSamplerError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_proportion_to_power() {
+        let sampler = PowerLightSampler::new(&[1.0, 0.0, 3.0]).expect("powers");
+        let pmfs = [0, 1, 2, 3].map(|i| sampler.pmf_emitter(LightId(i)));
+        assert_eq!(pmfs, [0.25, 0.0, 0.75, 0.0], "the last is unknown");
+    }
+
+    #[test]
+    fn uniform_when_no_light_has_power() {
+        let sampler = PowerLightSampler::new(&[0.0; 4]).expect("powers");
+        assert_eq!(sampler.pmf_emitter(LightId(3)), 0.25, "each alike");
+        let empty = PowerLightSampler::new(&[]).expect("no power is wrong");
+        assert_eq!(empty.sample_emitter(0.5), None, "no light");
+    }
+
+    #[test]
+    fn weak_lights_do_not_vanish() {
+        let sampler = PowerLightSampler::new(&[f32::MAX, 1e-45, 0.0]).expect("powers");
+        assert!(sampler.pmf_emitter(LightId(1)) > 0.0, "weak");
+        assert_eq!(sampler.pmf_emitter(LightId(2)), 0.0, "dark");
+    }
+
+    #[test]
+    fn powers_that_are_none_are_refused() {
+        for bad in [-1.0, f32::NAN, f32::INFINITY] {
+            let light = LightId(1);
+            assert_eq!(
+                PowerLightSampler::new(&[1.0, bad]).map(|_| ()),
+                Err(PowerLightSamplerError::BadPower { light }),
+                "{bad}"
+            );
+        }
+    }
+}

@@ -1,0 +1,85 @@
+use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+use light_bvh::LightBvhError;
+use light_bvh::reference::ReferenceLightBvh;
+
+use crate::LightSampler;
+use crate::infinite::{FirstChoice, HasOthers, InfiniteShares};
+
+/// The published way to use a light hierarchy: lights at infinity share one uniform choice with the reference tree.
+///
+/// Reads `ctx.ns`. Without a context, lights of the tree are chosen in proportion to power. 68 bytes a light; a query takes
+/// two importances a level.
+///
+/// # Source
+/// `[PBRT4]`, section 12.6.3.
+#[derive(Clone, Debug)]
+pub struct ReferenceBvhLightSampler {
+    tree: ReferenceLightBvh,
+    infinite: InfiniteShares,
+}
+
+impl ReferenceBvhLightSampler {
+    /// A sampler of `lights`; the index of a light is its id.
+    ///
+    /// # Errors
+    /// As for [`ReferenceLightBvh::build`].
+    pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
+        let tree = ReferenceLightBvh::build(lights)?;
+        let has_others = if tree.is_empty() {
+            HasOthers::No
+        } else {
+            HasOthers::Yes
+        };
+        Ok(Self {
+            infinite: InfiniteShares::new(lights, has_others),
+            tree,
+        })
+    }
+
+    /// The tree of the lights that are somewhere.
+    #[must_use]
+    pub const fn tree(&self) -> &ReferenceLightBvh {
+        &self.tree
+    }
+
+    #[inline]
+    fn choose(
+        &self,
+        u: f64,
+        in_tree: impl FnOnce(&ReferenceLightBvh, f64) -> Option<SampledLight>,
+    ) -> Option<SampledLight> {
+        match self.infinite.choose(u)? {
+            FirstChoice::Infinite(sample) => Some(sample),
+            FirstChoice::Others { u } => {
+                let sample = in_tree(&self.tree, u)?;
+                let pmf = self.infinite.pmf_share() * sample.pmf;
+                Some(SampledLight { pmf, ..sample })
+            }
+        }
+    }
+
+    #[inline]
+    fn probability(&self, light: LightId, in_tree: impl FnOnce(&ReferenceLightBvh) -> f32) -> f32 {
+        self.infinite
+            .pmf_infinite(light)
+            .unwrap_or_else(|| self.infinite.pmf_share() * in_tree(&self.tree))
+    }
+}
+
+impl LightSampler for ReferenceBvhLightSampler {
+    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.choose(u, |tree, u| tree.sample(ctx, u))
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.probability(light, |tree| tree.pmf(ctx, light))
+    }
+
+    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+        self.choose(u, ReferenceLightBvh::sample_emitter)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.probability(light, |tree| tree.pmf_emitter(light))
+    }
+}
