@@ -78,10 +78,13 @@ pub fn pmfs_and_none_sum_to_one(set: &LightSet, sampler: &impl LightSampler) {
             })
             .count();
         let p_none = none as f64 / f64::from(STRATA);
-        let spread = (p_none * (1.0 - p_none) / f64::from(STRATA)).sqrt();
+        // Of the count that the pmfs predict; a share too small to be seen is seen once in a while nevertheless.
+        let predicted = (1.0 - sum).clamp(0.0, 1.0);
+        let spread = (predicted * (1.0 - predicted) / f64::from(STRATA)).sqrt();
+        let margin = 5.0 * spread + 3.0 / f64::from(STRATA);
         let error = (sum + p_none - 1.0).abs();
         assert!(
-            sum <= 1.0 + ROUNDING && error <= ROUNDING + 5.0 * spread,
+            sum <= 1.0 + ROUNDING && error <= ROUNDING + margin,
             "{}: the pmfs sum to {sum}, none is returned with {p_none} at {query:?}",
             set.name
         );
