@@ -4,19 +4,33 @@
 
 mod accel;
 pub mod bench;
+pub mod bsdf;
 mod compare;
 mod false_color;
 mod film;
+pub mod integrator;
+mod light_sample_time;
+mod light_sampler;
 mod ray;
+mod render;
 mod sample_stream;
+mod scene_lights;
 mod surface;
 mod tone_map;
+mod view;
+mod world;
 
 pub use accel::{Accel, Hit, TriangleId};
 pub use compare::Comparison;
 pub use false_color::difference;
 pub use film::Film;
+pub use light_sample_time::light_sample_time;
+pub use light_sampler::{AnyLightSampler, SamplerKind};
 pub use ray::Ray;
+pub use render::{Progress, RenderSettings, Rendering, render};
 pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};
+pub use scene_lights::SceneLightsError;
 pub use surface::Surface;
 pub use tone_map::{ToneMap, luminance};
+pub use view::{View, ViewError};
+pub use world::World;

@@ -33,11 +33,11 @@ impl ToneMap {
         Self { exposure }
     }
 
-    /// The 8-bit sRGB colour of a pixel: exposed, with highlights rolled off channel by channel.
+    /// The linear colour in `[0, 1]` that a screen should show for a pixel: exposed, with highlights rolled off channel by
+    /// channel.
     #[must_use]
-    pub fn apply(&self, radiance: Vec3) -> [u8; 3] {
-        let exposed = (radiance * self.exposure).max(Vec3::ZERO);
-        (exposed).to_array().map(|x| srgb_byte(roll_off(x)))
+    pub fn apply(&self, radiance: Vec3) -> Vec3 {
+        (radiance * self.exposure).max(Vec3::ZERO).map(roll_off)
     }
 }
 
@@ -58,26 +58,7 @@ fn roll_off(x: f32) -> f32 {
         return x;
     }
     let over = (x - KNEE) / (1.0 - KNEE);
-    KNEE + (1.0 - KNEE) * (over / (1.0 + over))
-}
-
-/// The sRGB code of a linear value in `[0, 1]`.
-///
-/// # Source
-/// IEC 61966-2-1, section 5.2.
-fn srgb_byte(x: f32) -> u8 {
-    let encoded = if x <= 0.003_130_8 {
-        12.92 * x
-    } else {
-        1.055 * x.powf(1.0 / 2.4) - 0.055
-    };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped; NaN becomes 0"
-    )]
-    let byte = (encoded.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    byte
+    KNEE + (1.0 - KNEE) * (1.0 - 1.0 / (1.0 + over))
 }
 
 #[cfg(test)]
@@ -86,27 +67,20 @@ mod tests {
 
     #[test]
     fn the_curve_is_fixed_at_its_ends() {
-        assert_eq!(ToneMap::UNIT.apply(Vec3::ZERO), [0; 3], "black");
-        assert_eq!(
-            ToneMap::UNIT.apply(Vec3::splat(f32::INFINITY)),
-            [0; 3],
-            "not a number"
-        );
-        assert_eq!(ToneMap::UNIT.apply(Vec3::splat(1e9)), [255; 3], "white");
-        assert_eq!(
-            ToneMap::UNIT.apply(Vec3::splat(0.5)),
-            [188; 3],
-            "the sRGB code of one half"
-        );
+        let show = |x| ToneMap::UNIT.apply(Vec3::splat(x)).x;
+        assert_eq!(show(0.0), 0.0, "black");
+        assert_eq!(show(0.5), 0.5, "below the knee nothing changes");
+        assert_eq!(show(f32::INFINITY), 1.0, "white");
+        assert_eq!(show(f32::MAX), 1.0, "white without overflow");
     }
 
     #[test]
     fn the_curve_rises() {
-        let mut last = 0;
+        let mut last = -1.0;
         for i in 0..200u8 {
-            let [code, ..] = ToneMap::UNIT.apply(Vec3::splat(f32::from(i) * 0.02));
-            assert!(code >= last, "monotonic at {i}");
-            last = code;
+            let x = ToneMap::UNIT.apply(Vec3::splat(f32::from(i) * 0.02)).x;
+            assert!(x > last && x <= 1.0, "monotonic at {i}");
+            last = x;
         }
     }
 

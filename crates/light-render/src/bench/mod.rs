@@ -13,7 +13,6 @@ mod variance;
 
 pub use laws::Laws;
 pub use row::BenchRow;
-pub use subject::SamplerKind;
 pub use timing::QueryTime;
 pub use truth::Truth;
 pub use variance::Variance;
@@ -21,6 +20,7 @@ pub use variance::Variance;
 use light_scene::light_set::LightSetFile;
 use lights::bounds::{LightExtent, LightSampleContext};
 
+use crate::SamplerKind;
 use subject::Subject;
 
 /// What to measure.

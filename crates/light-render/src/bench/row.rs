@@ -2,10 +2,10 @@ use core::fmt;
 
 use serde_json::{Value, json};
 
-use super::SamplerKind;
 use super::laws::Laws;
 use super::timing::QueryTime;
 use super::variance::Variance;
+use crate::SamplerKind;
 
 /// What was measured of one sampler on one set.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@ use core::str::FromStr;
 use std::path::PathBuf;
 
 use clap::Args;
-use light_render::bench::{BenchOptions, BenchRow, SamplerKind, Truth, bench};
+use light_render::SamplerKind;
+use light_render::bench::{BenchOptions, BenchRow, Truth, bench};
 use light_scene::light_set::{LightSetFile, SetKind};
 
 /// Measure light samplers side by side on a set of lights.

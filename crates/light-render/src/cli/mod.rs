@@ -1,3 +1,51 @@
-//! The commands of the program.
+//! The commands of the program, one a file, and what they share.
 
-pub(crate) mod bench;
+mod arguments;
+mod bench;
+mod compare;
+mod failure;
+mod output_image;
+mod progress;
+mod render;
+mod scene_input;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+
+/// Lights and light sampling for physically based rendering.
+///
+/// Without a command: renders the shipped scenes into out/ and compares light samplers on them.
+#[derive(Debug, Parser)]
+#[command(name = "lights", version, max_term_width = 100)]
+struct Program {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Bench(bench::BenchArgs),
+    Compare(compare::CompareArgs),
+    Render(render::RenderArgs),
+}
+
+/// Runs the program with the arguments of the process.
+pub(crate) fn main() -> ExitCode {
+    let program = match Program::try_parse() {
+        Ok(program) => program,
+        Err(error) => return failure::report_usage(&error),
+    };
+    let result = match program.command {
+        Some(Command::Bench(args)) => args.run().map_err(Failure::input),
+        Some(Command::Compare(args)) => args.run(),
+        Some(Command::Render(args)) => args.run(),
+        None => Ok(()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,83 @@
+use core::str::FromStr;
+
+use lights::glam::Vec3;
+
+/// Where the camera stands and looks: `ex,ey,ez,tx,ty,tz,ux,uy,uz`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LookAt {
+    /// Where the camera stands.
+    pub(crate) eye: Vec3,
+    /// What it looks at.
+    pub(crate) target: Vec3,
+    /// What is up in the picture.
+    pub(crate) up: Vec3,
+}
+
+impl FromStr for LookAt {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [ex, ey, ez, tx, ty, tz, ux, uy, uz] = numbers(text)?;
+        Ok(Self {
+            eye: Vec3::new(ex, ey, ez),
+            target: Vec3::new(tx, ty, tz),
+            up: Vec3::new(ux, uy, uz),
+        })
+    }
+}
+
+/// A finite number above zero.
+pub(crate) fn positive(text: &str) -> Result<f32, String> {
+    let number: f32 = text
+        .parse()
+        .map_err(|_| String::from("expected a number"))?;
+    if number > 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err("expected a finite number above 0".into())
+    }
+}
+
+/// A finite number, zero or above.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    let number: f64 = text
+        .parse()
+        .map_err(|_| String::from("expected a number"))?;
+    if number >= 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err("expected a finite number that is not negative".into())
+    }
+}
+
+/// Exactly `N` finite numbers with commas between.
+fn numbers<const N: usize>(text: &str) -> Result<[f32; N], String> {
+    let parsed: Result<Vec<f32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+    parsed
+        .ok()
+        .filter(|numbers| numbers.iter().all(|n: &f32| n.is_finite()))
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| format!("expected {N} finite numbers with commas between"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nine_numbers_look_at_something() {
+        let look_at: LookAt = "0,1,2, 3,4,5, 0,1,0".parse().expect("nine numbers");
+        assert_eq!(look_at.target, Vec3::new(3.0, 4.0, 5.0), "the middle three");
+        for bad in ["", "1,2,3", "0,1,2,3,4,5,0,1,x", "0,1,2,3,4,5,0,1,nan"] {
+            assert!(bad.parse::<LookAt>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn positive_numbers_are_positive() {
+        assert_eq!(positive("0.5"), Ok(0.5), "a number");
+        for bad in ["0", "-1", "inf", "nan", "x", ""] {
+            assert!(positive(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use light_render::{Comparison, difference};
+use light_scene::{Diagnostic, Image, read_image, write_image};
+use serde_json::json;
+
+use super::arguments::not_negative;
+use super::failure::Failure;
+
+/// Compare an image with a reference.
+#[derive(Args, Debug)]
+pub(crate) struct CompareArgs {
+    /// The image.
+    image: PathBuf,
+    /// What it should be.
+    reference: PathBuf,
+    /// Exit with status 1 above this relMSE.
+    #[arg(long, value_name = "X", value_parser = not_negative)]
+    max_relmse: Option<f64>,
+    /// Exit with status 1 when the mean signed bias of a channel is larger than this, either way.
+    #[arg(long, value_name = "X", value_parser = not_negative)]
+    max_bias: Option<f64>,
+    /// Write a false-colour difference: red too bright, blue too dark.
+    #[arg(long, value_name = "IMAGE")]
+    diff: Option<PathBuf>,
+    /// Print one line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl CompareArgs {
+    /// Compares, prints the figures, and checks them.
+    ///
+    /// # Errors
+    /// Images that cannot be read or differ in size; figures above their limits.
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let image = read(&self.image)?;
+        let reference = read(&self.reference)?;
+        let size = |image: &Image| [image.width(), image.height()];
+        if size(&image) != size(&reference) {
+            let [w, h] = size(&reference);
+            let [x, y] = size(&image);
+            let message = format!(
+                "is {x} x {y}, expected {w} x {h} as {}",
+                self.reference.display()
+            );
+            return Err(Failure::input(Diagnostic::file(&self.image, message)));
+        }
+        let comparison = Comparison::new(image.texels(), reference.texels())
+            .ok_or_else(|| Failure::Input("nothing to compare".into()))?;
+        if let Some(path) = &self.diff {
+            write_difference(path, &image, &reference)?;
+        }
+        self.print(&comparison);
+        self.check(&comparison)
+    }
+
+    fn print(&self, c: &Comparison) {
+        let (bias, error) = (c.bias.to_array(), c.bias_error.to_array());
+        if self.json {
+            let line = json!({
+                "relmse": c.rel_mse,
+                "mse": c.mse,
+                "bias": bias,
+                "bias_se": error,
+            });
+            println!("{line}");
+            return;
+        }
+        println!("relMSE {:.6e}", c.rel_mse);
+        println!("MSE    {:.6e}", c.mse);
+        for (name, (bias, error)) in ["R", "G", "B"].into_iter().zip(bias.into_iter().zip(error)) {
+            println!("bias {name} {bias:+.6e} +- {error:.1e}");
+        }
+    }
+
+    fn check(&self, c: &Comparison) -> Result<(), Failure> {
+        let bias = c.bias.abs().max_element();
+        let checks = [
+            ("relMSE", c.rel_mse, self.max_relmse),
+            ("bias", bias, self.max_bias),
+        ];
+        for (name, value, limit) in checks {
+            if let Some(limit) = limit.filter(|limit| value > *limit) {
+                return Err(Failure::Check(format!(
+                    "{name} {value:e} is above {limit:e}"
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn read(path: &Path) -> Result<Image, Failure> {
+    read_image(path)
+        .map(|file| file.image)
+        .map_err(Failure::input)
+}
+
+fn write_difference(path: &Path, image: &Image, reference: &Image) -> Result<(), Failure> {
+    let pairs = image.texels().iter().zip(reference.texels());
+    let colors = pairs.map(|(&x, &r)| difference(x, r)).collect();
+    let picture = Image::new(image.width(), image.height(), colors).map_err(Failure::input)?;
+    write_image(path, &picture).map_err(Failure::input)
+}

@@ -1,0 +1,72 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use light_render::ToneMap;
+use light_scene::{Diagnostic, Image, write_exr, write_png};
+
+use super::failure::Failure;
+
+/// The file that a picture will be written to, tried before the work whose result it will hold.
+#[derive(Debug)]
+pub(crate) struct OutputImage {
+    path: PathBuf,
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Format {
+    Exr,
+    Png,
+}
+
+impl OutputImage {
+    /// Makes sure that a picture can be written to `path`; nothing appears there yet.
+    ///
+    /// # Errors
+    /// When the name ends otherwise than in .exr or .png, or the folder cannot be written to.
+    pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
+        let format = match path.extension().and_then(|ending| ending.to_str()) {
+            Some("exr") => Format::Exr,
+            Some("png") => Format::Png,
+            _ => {
+                return Err(refuse(
+                    path,
+                    "expected a file name that ends in .exr or .png",
+                ));
+            }
+        };
+        if path.is_dir() {
+            return Err(refuse(path, "cannot be written: it is a folder"));
+        }
+        let probe = path.with_extension(format!("{}.probe", std::process::id()));
+        fs::write(&probe, [])
+            .and_then(|()| fs::remove_file(&probe))
+            .map_err(|error| refuse(path, format!("cannot be written: {error}")))?;
+        Ok(Self {
+            path: path.to_path_buf(),
+            format,
+        })
+    }
+
+    /// Writes linear radiance: as it is into an EXR, with `tone_map` into a PNG.
+    ///
+    /// # Errors
+    /// When the file cannot be written; nothing is left behind then.
+    pub(crate) fn write(&self, image: &Image, tone_map: &ToneMap) -> Result<(), Failure> {
+        match self.format {
+            Format::Exr => write_exr(&self.path, image),
+            Format::Png => write_png(&self.path, &shown(image, tone_map)?),
+        }
+        .map_err(Failure::input)
+    }
+}
+
+/// What a screen shows of linear radiance.
+fn shown(image: &Image, tone_map: &ToneMap) -> Result<Image, Failure> {
+    let texels = image.texels().iter().map(|&t| tone_map.apply(t)).collect();
+    Image::new(image.width(), image.height(), texels).map_err(Failure::input)
+}
+
+fn refuse(path: &Path, message: impl Into<String>) -> Failure {
+    Failure::input(Diagnostic::file(path, message))
+}

@@ -1,0 +1,196 @@
+use core::time::Duration;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use light_render::integrator::{self, PathSettings};
+use light_render::{
+    AnyLightSampler, Progress, RenderSettings, Rendering, SamplerKind, ToneMap, View, World,
+    light_sample_time, render,
+};
+use light_scene::{Camera, Diagnostic, Image, Scene};
+use serde_json::json;
+
+use super::arguments::{LookAt, positive};
+use super::failure::Failure;
+use super::output_image::OutputImage;
+use super::progress::{ProgressLine, Volume};
+use super::scene_input::{SceneInput, report_warnings};
+
+/// Render a scene into an image.
+#[derive(Args, Debug)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    input: SceneInput,
+    /// The image to write: .exr (float32 linear RGB) or .png.
+    #[arg(short, long, value_name = "IMAGE")]
+    output: PathBuf,
+    /// Samples a pixel; without it 64, or as many as fit into --time.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// Stop at this budget.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time: Option<f32>,
+    /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    max_depth: u32,
+    /// Same seed, same image.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u32,
+    /// Threads; 0 = one a core.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// How lights are chosen.
+    #[arg(long, value_name = "SAMPLER", default_value_t = SamplerKind::DEFAULT)]
+    light_sampler: SamplerKind,
+    /// How light is found: by light samples, by material samples, or by both, weighted.
+    #[arg(long, value_enum, default_value_t = Estimator::Mis)]
+    estimator: Estimator,
+    /// Width of the image in pixels.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    width: Option<u32>,
+    /// Height of the image in pixels.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    height: Option<u32>,
+    /// Where the camera stands, what it looks at, what is up.
+    #[arg(
+        long,
+        value_name = "ex,ey,ez,tx,ty,tz,ux,uy,uz",
+        allow_hyphen_values = true
+    )]
+    look_at: Option<LookAt>,
+    /// Angle of view across the shorter side.
+    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    fov: Option<f32>,
+    /// Print one line of JSON about the rendering.
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but results: no progress, no warnings.
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The names of the estimators on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Estimator {
+    Mis,
+    Light,
+    Bsdf,
+}
+
+impl RenderArgs {
+    /// Renders, and writes the image.
+    ///
+    /// # Errors
+    /// Bad input, or an output that cannot be written.
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let output = OutputImage::new(&self.output)?;
+        let scene = self.input.read()?;
+        if !self.quiet {
+            report_warnings(&scene.warnings);
+        }
+        let view = self.view(&scene)?;
+        let world = self.input.build(scene)?;
+        if world.lights().is_empty() {
+            let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";
+            return Err(Failure::input(Diagnostic::file(&self.input.scene, nothing)));
+        }
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(Failure::input)?;
+        let start = Instant::now();
+        let sampler = pool.install(|| AnyLightSampler::new(self.light_sampler, world.lights()));
+        let build_ms = start.elapsed().as_secs_f64() * 1e3;
+        let volume = if self.quiet {
+            Volume::Quiet
+        } else {
+            Volume::Normal
+        };
+        let line = ProgressLine::new(self.input.scene.display().to_string(), volume);
+        let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
+        let rendering = pool.install(|| render(&world, &view, &sampler, &self.settings(), show));
+        drop(line);
+        if rendering.rejected > 0 && !self.quiet {
+            eprintln!(
+                "lights: warning: {} samples were not finite",
+                rendering.rejected
+            );
+        }
+        let (width, height) = view.resolution();
+        let pixels = rendering.film.develop();
+        let image = Image::new(width, height, pixels).map_err(Failure::input)?;
+        output.write(&image, &ToneMap::fit(image.texels()))?;
+        if self.json {
+            let sample_ns = light_sample_time(&world, &view, &sampler);
+            println!("{}", self.report(&world, &rendering, build_ms, sample_ns));
+        }
+        Ok(())
+    }
+
+    fn settings(&self) -> RenderSettings {
+        let spp = match (self.spp, self.time) {
+            (Some(spp), _) => spp,
+            (None, Some(_)) => u32::MAX,
+            (None, None) => 64,
+        };
+        RenderSettings {
+            samples: 0..spp,
+            time_limit: self.time.map(Duration::from_secs_f32),
+            seed: self.seed,
+            path: PathSettings {
+                max_depth: self.max_depth,
+                estimator: match self.estimator {
+                    Estimator::Mis => integrator::Estimator::Mis,
+                    Estimator::Light => integrator::Estimator::Light,
+                    Estimator::Bsdf => integrator::Estimator::Bsdf,
+                },
+            },
+        }
+    }
+
+    /// The scene's camera, with what the arguments change, in the picture's size.
+    fn view(&self, scene: &Scene) -> Result<View, Failure> {
+        let mut camera = scene.camera_or_default();
+        let fov = self.fov.map_or(camera.fov, f32::to_radians);
+        if let Some(LookAt { eye, target, up }) = self.look_at {
+            let resolution = camera.resolution;
+            camera = Camera::look_at(eye, target, up, fov)
+                .map_err(|error| Failure::Input(format!("--look-at: {error}")))?;
+            camera.resolution = resolution;
+        }
+        camera.fov = fov;
+        let [w, h] = camera.resolution.unwrap_or([512, 512]);
+        let scaled = |n: u32, of: u32, to: u32| {
+            u32::try_from(u64::from(n) * u64::from(to) / u64::from(of.max(1)))
+                .map_or(1, |n| n.max(1))
+        };
+        let (width, height) = match (self.width, self.height) {
+            (Some(width), Some(height)) => (width, height),
+            (Some(width), None) => (width, scaled(h, w, width)),
+            (None, Some(height)) => (scaled(w, h, height), height),
+            (None, None) => (w, h),
+        };
+        View::new(&camera, width, height).map_err(Failure::input)
+    }
+
+    fn report(
+        &self,
+        world: &World,
+        rendering: &Rendering,
+        build_ms: f64,
+        sample_time: Option<Duration>,
+    ) -> serde_json::Value {
+        json!({
+            "scene": self.input.scene.display().to_string(),
+            "sampler": self.light_sampler.name(),
+            "seconds": rendering.elapsed.as_secs_f64(),
+            "spp": rendering.film.samples(),
+            "lights": world.lights().len(),
+            "triangles": world.triangle_count(),
+            "tree_build_ms": build_ms,
+            "ns_per_light_sample": sample_time.map(|time| time.as_secs_f64() * 1e9),
+            "rays": rendering.rays,
+        })
+    }
+}

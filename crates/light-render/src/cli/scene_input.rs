@@ -1,0 +1,66 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use light_render::World;
+use light_scene::{Diagnostic, Scene, SceneLight, SkyImage, read_image, read_obj};
+use lights::glam::{Quat, Vec3};
+
+use super::failure::Failure;
+
+/// Which scene, and what is changed in it.
+#[derive(Args, Debug)]
+pub(crate) struct SceneInput {
+    /// The scene: an .obj file.
+    pub(crate) scene: PathBuf,
+    /// A lat-long environment around the scene: .exr or .hdr.
+    #[arg(long, value_name = "IMAGE")]
+    pub(crate) env: Option<PathBuf>,
+}
+
+impl SceneInput {
+    /// Reads the scene with all that belongs to it.
+    ///
+    /// # Errors
+    /// When a file cannot be read or makes no sense.
+    pub(crate) fn read(&self) -> Result<Scene, Failure> {
+        let mut scene = read_scene(&self.scene)?;
+        if let Some(path) = &self.env {
+            let file = read_image(path).map_err(Failure::input)?;
+            scene.warnings.extend(file.warning);
+            let image = scene.add_image(file.image);
+            scene.lights.push(SceneLight::ImageSky(SkyImage {
+                image,
+                scale: Vec3::ONE,
+                rotation: Quat::IDENTITY,
+            }));
+        }
+        Ok(scene)
+    }
+
+    /// Makes a scene ready for rays.
+    ///
+    /// # Errors
+    /// When a light makes no sense.
+    pub(crate) fn build(&self, scene: Scene) -> Result<World, Failure> {
+        World::new(scene)
+            .map_err(|error| Failure::input(Diagnostic::file(&self.scene, error.to_string())))
+    }
+}
+
+/// The scene in a file, by the ending of its name.
+fn read_scene(path: &Path) -> Result<Scene, Failure> {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("obj") => read_obj(path).map_err(Failure::input),
+        _ => Err(Failure::input(Diagnostic::file(
+            path,
+            "expected a scene file: .obj",
+        ))),
+    }
+}
+
+/// Tells on standard error what the readers repaired or left out.
+pub(crate) fn report_warnings(warnings: &[Diagnostic]) {
+    for warning in warnings {
+        eprintln!("lights: warning: {warning}");
+    }
+}

@@ -1,0 +1,54 @@
+use lights::math::mis;
+use lights::sources::PdfCoverage;
+
+/// Which strategies find the light that arrives at a surface. All have the same mean; they differ in noise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Estimator {
+    /// Light samples and material samples, weighted against each other.
+    #[default]
+    Mis,
+    /// Light samples alone; only Dirac materials (mirrors) find lights by the way they scatter.
+    Light,
+    /// Material samples alone: lights without extent are never found.
+    Bsdf,
+}
+
+impl Estimator {
+    /// Whether lights are sampled.
+    #[must_use]
+    pub const fn samples_lights(self) -> bool {
+        matches!(self, Self::Mis | Self::Light)
+    }
+
+    /// What light samples have to cover: everything, unless material samples complete them.
+    #[must_use]
+    pub const fn coverage(self) -> PdfCoverage {
+        match self {
+            Self::Mis => PdfCoverage::Incomplete,
+            Self::Light | Self::Bsdf => PdfCoverage::Complete,
+        }
+    }
+
+    /// The weight of a light sample of density `light`, where the material has density `bsdf`; both in sr^-1.
+    #[inline]
+    #[must_use]
+    pub fn light_weight(self, light: f32, bsdf: f32) -> f32 {
+        match self {
+            Self::Mis => mis::power(light, bsdf),
+            Self::Light => 1.0,
+            Self::Bsdf => 0.0,
+        }
+    }
+
+    /// The weight of a material sample of density `bsdf` that found a light, where light samples have the density that
+    /// `light` answers; both in sr^-1.
+    #[inline]
+    #[must_use]
+    pub fn bsdf_weight(self, bsdf: f32, light: impl FnOnce() -> f32) -> f32 {
+        match self {
+            Self::Mis => mis::power(bsdf, light()),
+            Self::Light => 0.0,
+            Self::Bsdf => 1.0,
+        }
+    }
+}

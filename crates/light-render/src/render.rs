@@ -1,0 +1,137 @@
+use core::ops::Range;
+use core::sync::atomic::{AtomicU64, Ordering};
+use core::time::Duration;
+use std::time::Instant;
+
+use lights::samplers::LightSampler;
+use rayon::prelude::*;
+
+use crate::integrator::{PathSettings, trace};
+use crate::{Film, SampleStream, View, World};
+
+/// What to render.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// The numbers of the samples of each pixel.
+    pub samples: Range<u32>,
+    /// When to stop before the last sample: no pass is begun that is not expected to end in time.
+    pub time_limit: Option<Duration>,
+    /// Chooses the random numbers: equal seeds, equal pictures.
+    pub seed: u32,
+    /// How paths are traced.
+    pub path: PathSettings,
+}
+
+/// How far a rendering has come, told after each pass over the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The share of the work that is done, in `[0, 1]`.
+    pub done: f64,
+    /// Samples a pixel so far.
+    pub samples: u32,
+}
+
+/// A finished picture and what it took.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    /// The picture.
+    pub film: Film,
+    /// Wall-clock time of the rendering alone.
+    pub elapsed: Duration,
+    /// Rays, shadow rays included.
+    pub rays: u64,
+    /// Samples left out because they were not finite: 0 unless something is wrong.
+    pub rejected: u64,
+}
+
+/// Renders `view` of `world` with lights chosen by `sampler`, on the threads of the current `rayon` pool.
+///
+/// The picture depends on the arguments alone, never on the number of threads; with a time limit it depends on how many
+/// samples fit into it.
+#[must_use]
+pub fn render<S: LightSampler + Sync>(
+    world: &World,
+    view: &View,
+    sampler: &S,
+    settings: &RenderSettings,
+    mut report: impl FnMut(Progress),
+) -> Rendering {
+    let (width, height) = view.resolution();
+    let mut film = Film::new(width, height);
+    let (rays, rejected) = (AtomicU64::new(0), AtomicU64::new(0));
+    let start = Instant::now();
+    let Range { start: first, end } = settings.samples;
+    let mut next = first;
+    while next < end {
+        let pass = next..pass_end(settings, next, start.elapsed());
+        if pass.is_empty() {
+            break;
+        }
+        let count = pass.end - pass.start;
+        film.expose(count)
+            .par_chunks_mut(width as usize)
+            .zip(0..height)
+            .for_each(|(row, y)| {
+                let mut row_rays = 0;
+                for (pixel, x) in row.iter_mut().zip(0..width) {
+                    for sample in pass.clone() {
+                        let stream = SampleStream::new(settings.seed, (x, y), sample);
+                        let numbers = stream.camera();
+                        let corner = lights::glam::Vec2::new(x as f32, y as f32);
+                        let ray = view.ray(corner + numbers.film, numbers.lens);
+                        let traced = trace(world, sampler, &settings.path, ray, &stream);
+                        row_rays += u64::from(traced.rays);
+                        if traced.radiance.is_finite() {
+                            *pixel += traced.radiance.as_dvec3();
+                        } else {
+                            rejected.fetch_add(1, Ordering::Relaxed);
+                        }
+                    }
+                }
+                rays.fetch_add(row_rays, Ordering::Relaxed);
+            });
+        next = pass.end;
+        report(Progress {
+            done: done(settings, next, start.elapsed()),
+            samples: next - first,
+        });
+    }
+    Rendering {
+        film,
+        elapsed: start.elapsed(),
+        rays: rays.into_inner(),
+        rejected: rejected.into_inner(),
+    }
+}
+
+/// The end of the pass that begins at sample `next`: passes double, and shrink to what the time limit leaves.
+fn pass_end(settings: &RenderSettings, next: u32, elapsed: Duration) -> u32 {
+    /// Longer passes would tell the progress too rarely.
+    const LONGEST: u32 = 8;
+    let before = next - settings.samples.start;
+    let mut count = before.clamp(1, LONGEST);
+    if let Some(limit) = settings.time_limit {
+        if before > 0 {
+            let each = elapsed.as_secs_f64() / f64::from(before);
+            let left = limit.as_secs_f64() - elapsed.as_secs_f64();
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "saturates at 0 and at the longest"
+            )]
+            let fits = (left / each) as u32;
+            count = count.min(fits);
+        }
+    }
+    settings.samples.end.min(next.saturating_add(count))
+}
+
+/// The share of the samples or of the time, whichever is further.
+fn done(settings: &RenderSettings, next: u32, elapsed: Duration) -> f64 {
+    let total = settings.samples.end - settings.samples.start;
+    let of_samples = f64::from(next - settings.samples.start) / f64::from(total);
+    let of_time = settings
+        .time_limit
+        .map_or(0.0, |limit| elapsed.as_secs_f64() / limit.as_secs_f64());
+    of_samples.max(of_time).min(1.0)
+}

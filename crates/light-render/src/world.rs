@@ -1,0 +1,299 @@
+use std::sync::Arc;
+
+use light_scene::{Color, ColorImage, Image, Material, Scene, Surface as Finish};
+use lights::bounds::{LightId, LightSampleContext};
+use lights::glam::{Vec2, Vec3};
+use lights::math::Aabb;
+use lights::sources::{LightSet, Rgb, SurfacePoint};
+
+use crate::bsdf::{
+    Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, Microfacets, Mirror, Scattering,
+    ThinDielectric,
+};
+use crate::scene_lights::{SceneLights, SceneLightsError};
+use crate::{Accel, Ray, Surface, TriangleId};
+
+/// A scene made ready for rays: triangles in a hierarchy, materials, lights.
+#[derive(Debug)]
+pub struct World {
+    meshes: Vec<WorldMesh>,
+    /// Mesh and number in the mesh, a triangle.
+    triangles: Vec<MeshTriangle>,
+    accel: Accel,
+    materials: Vec<Material>,
+    images: Vec<Image>,
+    bounds: Aabb,
+    lights: LightSet<Rgb>,
+    infinite: Vec<LightId>,
+}
+
+/// The triangles of one material, with vertices that the lights share.
+#[derive(Debug)]
+pub(crate) struct WorldMesh {
+    pub(crate) positions: Arc<[Vec3]>,
+    pub(crate) normals: Option<Vec<Vec3>>,
+    pub(crate) uvs: Option<Arc<[Vec2]>>,
+    pub(crate) indices: Arc<[[u32; 3]]>,
+    pub(crate) material: usize,
+    /// The id of the first triangle as a light, if the mesh shines.
+    pub(crate) first_light: Option<LightId>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct MeshTriangle {
+    mesh: u32,
+    index: u32,
+}
+
+impl World {
+    /// The world that `scene` describes.
+    ///
+    /// # Errors
+    /// When a light of the scene makes no sense.
+    pub fn new(scene: Scene) -> Result<Self, SceneLightsError> {
+        let bounds = scene.bounds();
+        let Scene {
+            meshes,
+            materials,
+            images,
+            lights,
+            ..
+        } = scene;
+        let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
+        let SceneLights { lights, infinite } =
+            SceneLights::new(&mut meshes, &materials, &images, &lights, &bounds)?;
+        let triangles: Vec<MeshTriangle> = (0u32..)
+            .zip(&meshes)
+            .flat_map(|(mesh, m)| {
+                (0u32..)
+                    .zip(m.indices.iter())
+                    .map(move |(index, _)| MeshTriangle { mesh, index })
+            })
+            .collect();
+        let corners: Vec<[Vec3; 3]> = meshes
+            .iter()
+            .flat_map(|m| m.indices.iter().map(|&t| m.corners(t)))
+            .collect();
+        Ok(Self {
+            accel: Accel::new(&corners),
+            meshes,
+            triangles,
+            materials,
+            images,
+            bounds,
+            lights,
+            infinite,
+        })
+    }
+
+    /// The box around all triangles.
+    #[must_use]
+    pub const fn bounds(&self) -> &Aabb {
+        &self.bounds
+    }
+
+    /// All lights.
+    #[must_use]
+    pub const fn lights(&self) -> &LightSet<Rgb> {
+        &self.lights
+    }
+
+    /// How many triangles there are.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The first point of a surface along `ray`, which starts on the triangle `from`.
+    #[inline]
+    #[must_use]
+    pub fn closest(&self, ray: &Ray, from: Option<TriangleId>) -> Option<Surface> {
+        let hit = self.accel.closest(ray, from)?;
+        let (mesh, indices) = self.mesh(hit.triangle);
+        let mut surface =
+            Surface::on_triangle(hit.triangle, mesh.corners(indices), hit.barycentric);
+        let Vec2 { x, y } = hit.barycentric;
+        let weights = [1.0 - x - y, x, y];
+        if let Some(uvs) = &mesh.uvs {
+            let [a, b, c] = indices.map(|i| uvs[i as usize]);
+            surface.uv = a * weights[0] + b * weights[1] + c * weights[2];
+        }
+        if let Some(normals) = &mesh.normals {
+            let [a, b, c] = indices.map(|i| normals[i as usize]);
+            let ns = a * weights[0] + b * weights[1] + c * weights[2];
+            let ns = ns.normalize_or(surface.n);
+            surface.ns = if ns.dot(surface.n) < 0.0 { -ns } else { ns };
+        }
+        Some(surface)
+    }
+
+    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
+    #[inline]
+    #[must_use]
+    pub fn occluded(&self, surface: &Surface, wi: Vec3, p_light: Vec3) -> bool {
+        /// How much of the way is looked at: the light itself must not be in the way.
+        const PART: f32 = 1.0 - 1e-4;
+        let origin = surface.spawn(wi).origin;
+        let way = p_light - origin;
+        let distance = way.length();
+        let ray = Ray {
+            origin,
+            direction: way / distance,
+        };
+        distance > 0.0
+            && self
+                .accel
+                .occluded(&ray, distance * PART, Some(surface.triangle))
+    }
+
+    /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where it sends none.
+    #[inline]
+    #[must_use]
+    pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
+        let MeshTriangle { mesh, index } = self.triangles[surface.triangle.0 as usize];
+        let LightId(first) = self.meshes[mesh as usize].first_light?;
+        let id = LightId(first + index);
+        let at = SurfacePoint {
+            p: surface.p,
+            n: surface.n,
+            uv: surface.uv,
+        };
+        let l = self.lights.get(id)?.l(&at, wo, &());
+        (l != Vec3::ZERO).then_some((id, l))
+    }
+
+    /// The lights that rays find by leaving the scene.
+    #[must_use]
+    pub fn infinite_lights(&self) -> &[LightId] {
+        &self.infinite
+    }
+
+    /// The radiance of an infinite light along a ray that leaves the scene.
+    #[inline]
+    #[must_use]
+    pub fn sky_radiance(&self, light: LightId, ray: &Ray) -> Vec3 {
+        self.lights
+            .get(light)
+            .map_or(Vec3::ZERO, |light| light.le(ray.origin, ray.direction, &()))
+    }
+
+    /// How the material at `surface` scatters light.
+    #[inline]
+    #[must_use]
+    pub fn scattering(&self, surface: &Surface) -> Scattering {
+        let (mesh, _) = self.mesh(surface.triangle);
+        let uv = surface.uv;
+        let bsdf = match &self.materials[mesh.material].surface {
+            Finish::Diffuse { reflectance } => {
+                Bsdf::Lambert(Lambert::opaque(self.color(reflectance, uv)))
+            }
+            Finish::DiffuseTransmission {
+                reflectance,
+                transmittance,
+            } => Bsdf::Lambert(Lambert {
+                reflectance: self.color(reflectance, uv),
+                transmittance: self.color(transmittance, uv),
+            }),
+            Finish::Mirror { reflectance } => Bsdf::Mirror(Mirror {
+                reflectance: *reflectance,
+            }),
+            Finish::Conductor { eta, k, alpha } => Bsdf::Conductor(Conductor {
+                eta: *eta,
+                k: *k,
+                facets: Microfacets::new(*alpha),
+            }),
+            Finish::Dielectric { eta, alpha } => Bsdf::Dielectric(Dielectric {
+                eta: *eta,
+                facets: Microfacets::new(*alpha),
+            }),
+            Finish::ThinDielectric { eta } => Bsdf::ThinDielectric(ThinDielectric { eta: *eta }),
+            Finish::CoatedDiffuse {
+                reflectance,
+                eta,
+                alpha,
+            } => Bsdf::CoatedDiffuse(CoatedDiffuse::new(
+                self.color(reflectance, uv),
+                *eta,
+                Microfacets::new(*alpha),
+            )),
+            // A boundary between equal indices bends and reflects nothing.
+            Finish::Interface => Bsdf::ThinDielectric(ThinDielectric { eta: 1.0 }),
+            _ => unreachable!("every kind of surface is handled above"),
+        };
+        Scattering::new(bsdf, surface)
+    }
+
+    /// The question that light samplers and lights answer at `surface`, seen from `wo`.
+    #[inline]
+    #[must_use]
+    pub fn light_context(
+        &self,
+        surface: &Surface,
+        scattering: &Scattering,
+        wo: Vec3,
+    ) -> LightSampleContext {
+        if scattering.bsdf().transmits() {
+            // Light counts from both sides, as it does in a medium.
+            return LightSampleContext::medium(surface.p).with_error(surface.p_error);
+        }
+        surface.light_context(wo)
+    }
+
+    fn color(&self, color: &Color, uv: Vec2) -> Vec3 {
+        match color {
+            Color::Constant(color) => *color,
+            Color::Image(ColorImage { image, scale }) => {
+                bilinear(&self.images[image.0 as usize], uv) * *scale
+            }
+        }
+    }
+
+    #[inline]
+    fn mesh(&self, triangle: TriangleId) -> (&WorldMesh, [u32; 3]) {
+        let MeshTriangle { mesh, index } = self.triangles[triangle.0 as usize];
+        let mesh = &self.meshes[mesh as usize];
+        (mesh, mesh.indices[index as usize])
+    }
+}
+
+impl WorldMesh {
+    fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
+        triangle.map(|i| self.positions[i as usize])
+    }
+}
+
+impl From<light_scene::Mesh> for WorldMesh {
+    fn from(mesh: light_scene::Mesh) -> Self {
+        Self {
+            positions: mesh.positions.into(),
+            normals: mesh.normals,
+            uvs: mesh.uvs.map(Arc::from),
+            indices: mesh.indices.into(),
+            material: mesh.material.0 as usize,
+            first_light: None,
+        }
+    }
+}
+
+/// The colour of a repeating image at `uv`, whose (0, 0) is the lower left corner.
+fn bilinear(image: &Image, uv: Vec2) -> Vec3 {
+    let (width, height) = (image.width(), image.height());
+    let x = uv.x * width as f32 - 0.5;
+    let y = (1.0 - uv.y) * height as f32 - 0.5;
+    let (x0, y0) = (x.floor(), y.floor());
+    let at = |dx: f32, dy: f32| image.texel(wrapped(x0 + dx, width), wrapped(y0 + dy, height));
+    let top = at(0.0, 0.0).lerp(at(1.0, 0.0), x - x0);
+    let bottom = at(0.0, 1.0).lerp(at(1.0, 1.0), x - x0);
+    top.lerp(bottom, y - y0)
+}
+
+/// The whole number `i` modulo `n`; 0 where `i` is no number.
+fn wrapped(i: f32, n: u32) -> u32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "below n, saturating otherwise"
+    )]
+    let index = i.rem_euclid(n as f32) as u32;
+    index.min(n - 1)
+}
