@@ -2,6 +2,8 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+extern crate alloc;
+
 mod accel;
 pub mod bench;
 pub mod bsdf;
@@ -25,7 +27,7 @@ pub use compare::Comparison;
 pub use false_color::difference;
 pub use film::Film;
 pub use light_sample_time::light_sample_time;
-pub use light_sampler::{AnyLightSampler, SamplerKind};
+pub use light_sampler::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 pub use ray::Ray;
 pub use render::{Progress, RenderSettings, Rendering, render};
 pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};

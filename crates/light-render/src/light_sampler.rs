@@ -1,8 +1,13 @@
+use core::error::Error;
 use core::fmt;
 use core::str::FromStr;
 
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
-use lights::samplers::{LightSampler, UniformLightSampler};
+use lights::bvh::LightBvhError;
+use lights::samplers::{
+    LightSampler, PowerLightSampler, PowerLightSamplerError, ReferenceBvhLightSampler,
+    UniformLightSampler,
+};
 use lights::sources::{LightSet, Rgb};
 
 /// A way to choose one light of many, by its name on the command line.
@@ -10,6 +15,10 @@ use lights::sources::{LightSet, Rgb};
 pub enum SamplerKind {
     /// Every light alike.
     Uniform,
+    /// Strong lights more often, wherever they are.
+    Power,
+    /// The published light hierarchy.
+    BvhReference,
 }
 
 /// A light sampler of any kind, chosen at run time without a virtual call.
@@ -18,20 +27,36 @@ pub enum SamplerKind {
 pub enum AnyLightSampler {
     /// Every light alike.
     Uniform(UniformLightSampler),
+    /// Strong lights more often, wherever they are.
+    Power(PowerLightSampler),
+    /// The published light hierarchy.
+    BvhReference(ReferenceBvhLightSampler),
+}
+
+/// Why lights cannot be sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AnyLightSamplerError {
+    /// A power is no power.
+    Power(PowerLightSamplerError),
+    /// Bounds make no sense.
+    Bvh(LightBvhError),
 }
 
 impl SamplerKind {
     /// The kind that a program uses unless told otherwise.
-    pub const DEFAULT: Self = Self::Uniform;
+    pub const DEFAULT: Self = Self::BvhReference;
 
     /// All kinds.
-    pub const ALL: [Self; 1] = [Self::Uniform];
+    pub const ALL: [Self; 3] = [Self::Uniform, Self::Power, Self::BvhReference];
 
     /// The kind's name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
+            Self::Power => "power",
+            Self::BvhReference => "bvh-reference",
         }
     }
 }
@@ -39,71 +64,120 @@ impl SamplerKind {
 impl AnyLightSampler {
     /// The sampler of the given kind over `lights`.
     ///
-    /// # Panics
-    /// When there are 2^32 lights or more.
-    #[must_use]
-    pub fn new(kind: SamplerKind, lights: &LightSet<Rgb>) -> Self {
-        Self::over(kind, &lights.extents())
-    }
-
-    /// The sampler of the given kind over lights of the given extents; the index is the id.
-    ///
-    /// # Panics
-    /// When there are 2^32 lights or more.
-    #[must_use]
-    pub fn over(kind: SamplerKind, extents: &[LightExtent]) -> Self {
-        let count = u32::try_from(extents.len()).expect("fewer than 2^32 lights");
+    /// # Errors
+    /// When the lights are more than ids, or more than the sampler can hold.
+    pub fn new(kind: SamplerKind, lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
         match kind {
-            SamplerKind::Uniform => Self::Uniform(UniformLightSampler::new(count)),
+            SamplerKind::Power => Ok(Self::Power(PowerLightSampler::new(&lights.powers())?)),
+            SamplerKind::Uniform | SamplerKind::BvhReference => Self::over(kind, &lights.extents()),
         }
     }
 
-    /// Bytes that queries may touch.
+    /// The sampler of the given kind over lights of the given extents; the index is the id. Powers are those of the bounds.
+    ///
+    /// # Errors
+    /// When the lights are more than ids, or bounds make no sense.
+    pub fn over(kind: SamplerKind, extents: &[LightExtent]) -> Result<Self, AnyLightSamplerError> {
+        Ok(match kind {
+            SamplerKind::Uniform => {
+                let count = u32::try_from(extents.len())
+                    .map_err(|_| PowerLightSamplerError::TooManyLights)?;
+                Self::Uniform(UniformLightSampler::new(count))
+            }
+            SamplerKind::Power => {
+                let powers: Vec<f32> = extents.iter().map(power).collect();
+                Self::Power(PowerLightSampler::new(&powers)?)
+            }
+            SamplerKind::BvhReference => {
+                Self::BvhReference(ReferenceBvhLightSampler::new(extents)?)
+            }
+        })
+    }
+
+    /// Bytes that queries may touch, for a set of `lights`.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn bytes(&self, lights: usize) -> usize {
         match self {
             Self::Uniform(sampler) => size_of_val(sampler),
+            // A bin of the alias table, as its documentation says.
+            Self::Power(_) => 12 * lights,
+            Self::BvhReference(sampler) => sampler.tree().stats().bytes,
         }
     }
 
     /// Nodes on the longest way down a hierarchy; 0 without one.
     #[must_use]
-    pub const fn depth(&self) -> usize {
+    pub fn depth(&self) -> usize {
         match self {
-            Self::Uniform(_) => 0,
+            Self::Uniform(_) | Self::Power(_) => 0,
+            Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
         }
     }
+}
+
+/// The power that bounds tell of.
+fn power(extent: &LightExtent) -> f32 {
+    match extent {
+        LightExtent::Bounded(bounds) => bounds.phi,
+        LightExtent::Infinite(bounds) => bounds.fluence,
+    }
+}
+
+/// The same question for whichever sampler it is.
+macro_rules! for_each_kind {
+    ($sampler:expr, $it:ident => $answer:expr) => {
+        match $sampler {
+            AnyLightSampler::Uniform($it) => $answer,
+            AnyLightSampler::Power($it) => $answer,
+            AnyLightSampler::BvhReference($it) => $answer,
+        }
+    };
 }
 
 impl LightSampler for AnyLightSampler {
     #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        match self {
-            Self::Uniform(sampler) => sampler.sample(ctx, u),
-        }
+        for_each_kind!(self, sampler => sampler.sample(ctx, u))
     }
 
     #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        match self {
-            Self::Uniform(sampler) => sampler.pmf(ctx, light),
-        }
+        for_each_kind!(self, sampler => sampler.pmf(ctx, light))
     }
 
     #[inline]
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
-        match self {
-            Self::Uniform(sampler) => sampler.sample_emitter(u),
-        }
+        for_each_kind!(self, sampler => sampler.sample_emitter(u))
     }
 
     #[inline]
     fn pmf_emitter(&self, light: LightId) -> f32 {
+        for_each_kind!(self, sampler => sampler.pmf_emitter(light))
+    }
+}
+
+impl From<PowerLightSamplerError> for AnyLightSamplerError {
+    fn from(error: PowerLightSamplerError) -> Self {
+        Self::Power(error)
+    }
+}
+
+impl From<LightBvhError> for AnyLightSamplerError {
+    fn from(error: LightBvhError) -> Self {
+        Self::Bvh(error)
+    }
+}
+
+impl fmt::Display for AnyLightSamplerError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Uniform(sampler) => sampler.pmf_emitter(light),
+            Self::Power(error) => error.fmt(f),
+            Self::Bvh(error) => error.fmt(f),
         }
     }
 }
+
+impl Error for AnyLightSamplerError {}
 
 impl fmt::Display for SamplerKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use light_scene::{Color, ColorImage, Image, Material, Scene, Surface as Finish};
 use lights::bounds::{LightId, LightSampleContext};

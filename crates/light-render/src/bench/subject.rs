@@ -16,7 +16,7 @@ impl Subject {
         Self {
             kind,
             n_lights: extents.len(),
-            sampler: AnyLightSampler::over(kind, extents),
+            sampler: AnyLightSampler::over(kind, extents).expect("a set's lights are valid"),
         }
     }
 
@@ -31,12 +31,14 @@ impl Subject {
     pub(super) fn sampler(&self) -> &(dyn LightSampler + Sync) {
         match &self.sampler {
             AnyLightSampler::Uniform(sampler) => sampler,
+            AnyLightSampler::Power(sampler) => sampler,
+            AnyLightSampler::BvhReference(sampler) => sampler,
         }
     }
 
     /// Bytes that queries may touch.
     pub(super) fn bytes(&self) -> usize {
-        self.sampler.bytes()
+        self.sampler.bytes(self.n_lights)
     }
 
     /// Nodes on the longest way down.

@@ -9,7 +9,7 @@ pub(crate) struct ProgressLine {
 }
 
 impl ProgressLine {
-    const STEPS: f64 = 1000.0;
+    const STEPS: u16 = 1000;
 
     /// A line that begins with `label`; with [`Volume::Quiet`] never shown.
     pub(crate) fn new(label: impl Into<String>, volume: Volume) -> Self {
@@ -20,7 +20,7 @@ impl ProgressLine {
         };
         let style =
             ProgressStyle::with_template("{prefix:>24} [{bar:40}] {percent:>3}% {elapsed} {msg}");
-        let bar = ProgressBar::with_draw_target(Some(Self::STEPS as u64), target);
+        let bar = ProgressBar::with_draw_target(Some(Self::STEPS.into()), target);
         if let Ok(style) = style {
             bar.set_style(style.progress_chars("=> "));
         }
@@ -35,7 +35,8 @@ impl ProgressLine {
             clippy::cast_sign_loss,
             reason = "0..=1000"
         )]
-        self.bar.set_position((done * Self::STEPS) as u64);
+        self.bar
+            .set_position((done * f64::from(Self::STEPS)) as u64);
         self.bar.set_message(message);
     }
 }

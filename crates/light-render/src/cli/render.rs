@@ -100,7 +100,9 @@ impl RenderArgs {
             .build()
             .map_err(Failure::input)?;
         let start = Instant::now();
-        let sampler = pool.install(|| AnyLightSampler::new(self.light_sampler, world.lights()));
+        let sampler = pool
+            .install(|| AnyLightSampler::new(self.light_sampler, world.lights()))
+            .map_err(Failure::input)?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
         let volume = if self.quiet {
             Volume::Quiet
