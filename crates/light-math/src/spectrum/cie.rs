@@ -83,19 +83,23 @@ pub(super) fn nearest_nanometre(lambda: f32) -> Option<usize> {
         .then_some((lambda - LAMBDA_MIN + 0.5) as usize)
 }
 
+/// The weights of rows `i - 1` to `i + 2` for the cubic through them, at `t` in `[0, 1)` from row `i` to the next.
+pub(super) const fn cubic(t: f64) -> [f64; 4] {
+    [
+        -t * (t - 1.0) * (t - 2.0) / 6.0,
+        (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+        -(t + 1.0) * t * (t - 2.0) / 2.0,
+        (t + 1.0) * t * (t - 1.0) / 6.0,
+    ]
+}
+
 /// Cubics through four neighbours, clamped to what an eye can do.
 const fn interpolate(rows: &[[f64; 3]; 95]) -> [Vec3; SAMPLES] {
     let mut out = [Vec3::ZERO; SAMPLES];
     let mut i = 0;
     while i < SAMPLES {
         let row = i / 5;
-        let t = (i % 5) as f64 / 5.0;
-        let weights = [
-            -t * (t - 1.0) * (t - 2.0) / 6.0,
-            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-            -(t + 1.0) * t * (t - 2.0) / 2.0,
-            (t + 1.0) * t * (t - 1.0) / 6.0,
-        ];
+        let weights = cubic((i % 5) as f64 / 5.0);
         let mut xyz = [0.0; 3];
         let mut k = 0;
         while k < 4 {

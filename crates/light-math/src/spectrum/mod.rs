@@ -5,20 +5,32 @@
 
 mod blackbody;
 pub mod cie;
+mod color_space;
 mod constant;
 mod daylight;
 mod dense;
 pub mod photometric;
 mod piecewise_linear;
+mod rgb;
 mod sampled;
+mod sigmoid;
+mod uplift;
+mod uplift_solver;
+mod uplift_table;
 mod wavelengths;
 
 pub use blackbody::{Blackbody, BlackbodyError};
+pub use color_space::{RgbColorSpace, RgbColorSpaceError};
 pub use constant::Constant;
 pub use daylight::{Daylight, DaylightError};
 pub use dense::{DenselySampled, DenselySampledError};
 pub use piecewise_linear::{PiecewiseLinear, PiecewiseLinearError};
+pub use rgb::{RgbIlluminant, RgbSpectrumError, RgbUnbounded};
 pub use sampled::SampledSpectrum;
+pub use sigmoid::SigmoidPolynomial;
+pub use uplift::Uplift;
+pub use uplift_solver::UpliftSolver;
+pub use uplift_table::{UpliftTable, UpliftTableError};
 pub use wavelengths::SampledWavelengths;
 
 /// A function of wavelength.
@@ -26,7 +38,7 @@ pub trait Spectrum {
     /// The value at the wavelength `lambda` in nm.
     fn eval(&self, lambda: f32) -> f32;
 
-    /// An upper bound of the values, tight up to round-off.
+    /// An upper bound of the values, tight unless an implementor says otherwise.
     fn max_value(&self) -> f32;
 
     /// The values at the sampled wavelengths.
