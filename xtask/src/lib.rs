@@ -13,6 +13,7 @@ mod fuzz;
 mod no_std;
 mod references;
 mod steps;
+mod uplift;
 
 use steps::{StepResult, Steps};
 
@@ -28,6 +29,7 @@ usage: cargo xtask [COMMAND]
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
+  uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
 
 /// Runs the command that the program's `arguments` (without its name) ask for.
@@ -45,6 +47,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),
         ("thin-vectors", rest) => conformance::thin::run(rest),
+        ("uplift-table", []) => uplift::run(),
         ("help" | "--help" | "-h", _) => {
             print!("{USAGE}");
             ExitCode::SUCCESS

@@ -18,8 +18,10 @@ pub trait Uplift {
 /// None for black.
 #[inline]
 pub(super) fn face(rgb: Vec3) -> Option<(usize, f32, f32)> {
-    // The maximum with NaN is the other number; infinity has no ratio.
-    let [r, g, b] = rgb.to_array().map(|c| c.max(0.0).min(f32::MAX));
+    // NaN fails the comparison; infinity has no ratio.
+    let [r, g, b] = rgb
+        .to_array()
+        .map(|c| if c > 0.0 { c.min(f32::MAX) } else { 0.0 });
     let (face, max, x, y) = if r >= g && r >= b {
         (0, r, g, b)
     } else if g >= b {
