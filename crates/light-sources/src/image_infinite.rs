@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 use core::error::Error;
-use core::f32::consts::{FRAC_1_PI, PI};
+use core::f32::consts::PI;
 use core::fmt;
 use core::marker::PhantomData;
 
@@ -17,9 +17,9 @@ use crate::rgb_sum::{RgbSum, single};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scene_sphere::SceneSphere;
+use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
 use light_math::DirectionCone;
-use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
 /// An [`ImageInfiniteLight`] as a user describes it.
@@ -54,8 +54,8 @@ pub struct ImageInfiniteLight<C> {
     scale: f32,
     scene: SceneSphere,
     extent: InfiniteBounds,
-    distribution: Option<PiecewiseConstant2D<Vec<f32>>>,
-    compensated: Option<PiecewiseConstant2D<Vec<f32>>>,
+    distribution: SphereTable,
+    compensated: SphereTable,
     color: PhantomData<C>,
 }
 
@@ -88,14 +88,12 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
             return Err(ImageInfiniteLightError::Amount);
         }
         let averages = image.averages();
-        let n = image.size()[0] as usize;
-        // No table means that all weights are zero: the image is black.
-        let table = |weights: &[f32]| PiecewiseConstant2D::new(weights, n, n).ok();
+        let n = image.size()[0];
         Ok(Self {
             transform,
             extent: extent(&averages, n, scale, &transform),
-            compensated: table(&compensate(&averages)),
-            distribution: table(&averages),
+            compensated: SphereTable::new(&compensate(&averages), n),
+            distribution: SphereTable::new(&averages, n),
             image,
             mean,
             scale,
@@ -104,10 +102,10 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         })
     }
 
-    fn distribution(&self, coverage: PdfCoverage) -> Option<&PiecewiseConstant2D<Vec<f32>>> {
+    fn distribution(&self, coverage: PdfCoverage) -> &SphereTable {
         match coverage {
-            PdfCoverage::Complete => self.distribution.as_ref(),
-            PdfCoverage::Incomplete => self.compensated.as_ref(),
+            PdfCoverage::Complete => &self.distribution,
+            PdfCoverage::Incomplete => &self.compensated,
         }
     }
 
@@ -138,12 +136,12 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         wavelengths: &C::Wavelengths,
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<C::Radiance>> {
-        let Sample2D { p: uv, pdf, .. } = self.distribution(coverage)?.sample(u);
-        let wi = self.transform.vector(square_to_sphere(uv));
+        let SphereSample { uv, w, pdf } = self.distribution(coverage).sample(u)?;
+        let wi = self.transform.vector(w);
         Some(LightLiSample {
             l: self.radiance(uv, wavelengths),
             wi,
-            pdf: pdf * PER_STERADIAN,
+            pdf,
             p_light: self.scene.beyond(ctx.p, wi),
             n_light: Vec3::ZERO,
             uv,
@@ -151,8 +149,8 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
     }
 
     fn pdf_li(&self, _ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
-        let pdf = |table: &PiecewiseConstant2D<_>| table.pdf(self.uv(wi)) * PER_STERADIAN;
-        self.distribution(coverage).map_or(0.0, pdf)
+        self.distribution(coverage)
+            .pdf(self.transform.inverse_vector(wi))
     }
 
     /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
@@ -162,24 +160,23 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>> {
-        let Sample2D { p: uv, pdf, .. } = self.distribution.as_ref()?.sample(u1);
-        let wi = self.transform.vector(square_to_sphere(uv));
+        let SphereSample { uv, w, pdf } = self.distribution.sample(u1)?;
+        let wi = self.transform.vector(w);
         Some(LightLeSample {
             l: self.radiance(uv, wavelengths),
             ray: ray_through_scene(&self.scene, -wi, u2),
             pdf: LePdf {
                 pos: 1.0 / self.scene.disk_area(),
-                dir: pdf * PER_STERADIAN,
+                dir: pdf,
             },
         })
     }
 
     fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        let wi = -ray.direction;
-        let pdf = |table: &PiecewiseConstant2D<_>| table.pdf(self.uv(wi)) * PER_STERADIAN;
+        let w = self.transform.inverse_vector(-ray.direction);
         LePdf {
             pos: 1.0 / self.scene.disk_area(),
-            dir: self.distribution.as_ref().map_or(0.0, pdf),
+            dir: self.distribution.pdf(w),
         }
     }
 
@@ -195,7 +192,7 @@ impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
 }
 
 impl EnvironmentMap {
-    fn into_equal_area(self) -> Result<Image, ImageInfiniteLightError> {
+    pub(crate) fn into_equal_area(self) -> Result<Image, ImageInfiniteLightError> {
         match self {
             Self::EqualArea(image) if image.size()[0] != image.size()[1] => {
                 Err(ImageInfiniteLightError::NotSquare)
@@ -208,9 +205,6 @@ impl EnvironmentMap {
         }
     }
 }
-
-/// The whole square is the whole sphere.
-const PER_STERADIAN: f32 = 0.25 * FRAC_1_PI;
 
 /// The distribution for samples that may leave out directions of little light: what is above the mean.
 ///
@@ -228,9 +222,9 @@ fn compensate(averages: &[f32]) -> Vec<f32> {
 }
 
 /// What a light sampler knows of an image of `n` rows.
-fn extent(averages: &[f32], n: usize, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
+fn extent(averages: &[f32], n: u32, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
     let (mut sum, mut weighted) = (0.0, RgbSum::default());
-    for (i, &average) in averages.iter().enumerate() {
+    for (i, &average) in (0..).zip(averages) {
         let texel = Vec2::new((i % n) as f32, (i / n) as f32) + 0.5;
         sum += f64::from(average);
         weighted.add(square_to_sphere(texel / n as f32), f64::from(average));

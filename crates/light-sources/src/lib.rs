@@ -15,13 +15,18 @@ pub use light_bounds::light_math;
 mod amount;
 #[cfg(feature = "alloc")]
 mod area;
+#[cfg(feature = "alloc")]
+mod area_desc;
 mod color;
 mod coverage;
+mod delta;
 #[cfg(feature = "alloc")]
 mod desc;
 #[cfg(feature = "alloc")]
 mod diffuse_emission;
 mod distant;
+#[cfg(feature = "alloc")]
+mod goniometric;
 #[cfg(feature = "alloc")]
 mod image;
 #[cfg(feature = "alloc")]
@@ -39,6 +44,12 @@ mod media;
 mod mesh;
 mod point;
 #[cfg(feature = "alloc")]
+mod portal;
+#[cfg(feature = "alloc")]
+mod portal_infinite;
+#[cfg(feature = "alloc")]
+mod projection;
+#[cfg(feature = "alloc")]
 mod resample;
 mod rgb;
 #[cfg(feature = "alloc")]
@@ -49,12 +60,17 @@ mod scaled_emission;
 mod scene_sphere;
 pub mod shape;
 mod sides;
+#[cfg(feature = "alloc")]
+mod sphere_table;
+mod spot;
 mod surface_point;
 mod uniform_infinite;
 
 pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
 #[cfg(feature = "alloc")]
 pub use area::DiffuseAreaLight;
+#[cfg(feature = "alloc")]
+pub use area_desc::{AreaLightDesc, AreaLightError};
 pub use color::{ColorModel, Radiance};
 pub use coverage::PdfCoverage;
 #[cfg(feature = "alloc")]
@@ -64,6 +80,8 @@ pub use diffuse_emission::{
     DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError, EmissionMask, SurfaceColor,
 };
 pub use distant::{DistantLight, DistantLightDesc, DistantLightError};
+#[cfg(feature = "alloc")]
+pub use goniometric::{GoniometricLight, GoniometricLightDesc, GoniometricLightError};
 #[cfg(feature = "alloc")]
 pub use image::{Channels, Image, ImageError};
 #[cfg(feature = "alloc")]
@@ -83,6 +101,10 @@ pub use media::{MediumId, MediumInterface};
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
 pub use point::{PointLight, PointLightDesc, PointLightError};
 #[cfg(feature = "alloc")]
+pub use portal_infinite::{PortalInfiniteLight, PortalInfiniteLightDesc, PortalInfiniteLightError};
+#[cfg(feature = "alloc")]
+pub use projection::{ProjectionLight, ProjectionLightDesc, ProjectionLightError};
+#[cfg(feature = "alloc")]
 pub use resample::{equal_area_size, equal_area_to_lat_long, lat_long_to_equal_area};
 pub use rgb::Rgb;
 pub use rigid_transform::{RigidTransform, RigidTransformError};
@@ -90,5 +112,6 @@ pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 pub use scaled_emission::{EmissionError, ScaledEmission};
 pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;
+pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
 pub use surface_point::SurfacePoint;
 pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};

@@ -3,13 +3,17 @@ use crate::color::{ColorModel, Radiance};
 use crate::coverage::PdfCoverage;
 use crate::distant::DistantLight;
 use crate::glam::{Vec2, Vec3};
+use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::kind::LightType;
 use crate::light::{AreaLight, InfiniteLight, Light};
 use crate::media::MediumInterface;
 use crate::point::PointLight;
+use crate::portal_infinite::PortalInfiniteLight;
+use crate::projection::ProjectionLight;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
-use crate::shape::Triangle;
+use crate::shape::{AnyShape, Triangle};
+use crate::spot::SpotLight;
 use crate::surface_point::SurfacePoint;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightSampleContext};
@@ -20,6 +24,14 @@ use light_bounds::{LightExtent, LightSampleContext};
 pub enum LightRef<'a, C: ColorModel> {
     /// A point light.
     Point(&'a PointLight<C>),
+    /// A spot light.
+    Spot(&'a SpotLight<C>),
+    /// A light that throws a picture.
+    Projection(&'a ProjectionLight<C>),
+    /// A light with a measured distribution.
+    Goniometric(&'a GoniometricLight<C>),
+    /// A shape that shines.
+    Area(DiffuseAreaLight<'a, C, &'a AnyShape>),
     /// A triangle of an emissive mesh.
     Triangle(DiffuseAreaLight<'a, C, Triangle>),
     /// A light from one direction.
@@ -28,6 +40,8 @@ pub enum LightRef<'a, C: ColorModel> {
     UniformInfinite(&'a UniformInfiniteLight<C>),
     /// An environment map.
     ImageInfinite(&'a ImageInfiniteLight<C>),
+    /// An environment map behind a window.
+    PortalInfinite(&'a PortalInfiniteLight<C>),
 }
 
 /// The same expression for whichever light it is.
@@ -35,10 +49,15 @@ macro_rules! for_each_kind {
     ($light:expr, $it:ident => $answer:expr) => {
         match $light {
             LightRef::Point($it) => $answer,
+            LightRef::Spot($it) => $answer,
+            LightRef::Projection($it) => $answer,
+            LightRef::Goniometric($it) => $answer,
+            LightRef::Area($it) => $answer,
             LightRef::Triangle($it) => $answer,
             LightRef::Distant($it) => $answer,
             LightRef::UniformInfinite($it) => $answer,
             LightRef::ImageInfinite($it) => $answer,
+            LightRef::PortalInfinite($it) => $answer,
         }
     };
 }
@@ -49,11 +68,16 @@ impl<C: ColorModel> LightRef<'_, C> {
     #[must_use]
     pub fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         match self {
+            Self::Area(light) => light.l(at, w, wavelengths),
             Self::Triangle(light) => light.l(at, w, wavelengths),
             Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projection(_)
+            | Self::Goniometric(_)
             | Self::Distant(_)
             | Self::UniformInfinite(_)
-            | Self::ImageInfinite(_) => C::Radiance::BLACK,
+            | Self::ImageInfinite(_)
+            | Self::PortalInfinite(_) => C::Radiance::BLACK,
         }
     }
 
@@ -64,7 +88,14 @@ impl<C: ColorModel> LightRef<'_, C> {
         match self {
             Self::UniformInfinite(light) => light.le(origin, direction, wavelengths),
             Self::ImageInfinite(light) => light.le(origin, direction, wavelengths),
-            Self::Point(_) | Self::Triangle(_) | Self::Distant(_) => C::Radiance::BLACK,
+            Self::PortalInfinite(light) => light.le(origin, direction, wavelengths),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projection(_)
+            | Self::Goniometric(_)
+            | Self::Area(_)
+            | Self::Triangle(_)
+            | Self::Distant(_) => C::Radiance::BLACK,
         }
     }
 }

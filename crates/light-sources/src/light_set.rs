@@ -1,13 +1,18 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
 use crate::distant::DistantLight;
+use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::light::Light;
 use crate::light_ref::LightRef;
 use crate::mesh::MeshLight;
 use crate::point::PointLight;
+use crate::portal_infinite::PortalInfiniteLight;
+use crate::projection::ProjectionLight;
+use crate::spot::SpotLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightId};
 
@@ -18,10 +23,15 @@ use light_bounds::{LightExtent, LightId};
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
     pub(crate) points: Vec<PointLight<C>>,
+    pub(crate) spots: Vec<SpotLight<C>>,
+    pub(crate) projections: Vec<ProjectionLight<C>>,
+    pub(crate) goniometrics: Vec<GoniometricLight<C>>,
+    pub(crate) areas: Vec<AreaSource<C>>,
     pub(crate) meshes: Vec<MeshLight<C>>,
     pub(crate) distants: Vec<DistantLight<C>>,
     pub(crate) uniform_infinites: Vec<UniformInfiniteLight<C>>,
     pub(crate) image_infinites: Vec<ImageInfiniteLight<C>>,
+    pub(crate) portal_infinites: Vec<PortalInfiniteLight<C>>,
     /// The first id behind each kind.
     ends: [u32; Kind::COUNT],
     /// How many triangles there are up to and with each mesh.
@@ -38,20 +48,30 @@ pub struct SourceId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Point,
+    Spot,
+    Projection,
+    Goniometric,
+    Area,
     Triangle,
     Distant,
     UniformInfinite,
     ImageInfinite,
+    PortalInfinite,
 }
 
 impl Kind {
-    const COUNT: usize = 5;
+    const COUNT: usize = 10;
     const ALL: [Self; Self::COUNT] = [
         Self::Point,
+        Self::Spot,
+        Self::Projection,
+        Self::Goniometric,
+        Self::Area,
         Self::Triangle,
         Self::Distant,
         Self::UniformInfinite,
         Self::ImageInfinite,
+        Self::PortalInfinite,
     ];
     const LAST_BOUNDED: Self = Self::Triangle;
 }
@@ -61,10 +81,15 @@ impl<C: ColorModel> LightSet<C> {
     pub(crate) const fn empty() -> Self {
         Self {
             points: Vec::new(),
+            spots: Vec::new(),
+            projections: Vec::new(),
+            goniometrics: Vec::new(),
+            areas: Vec::new(),
             meshes: Vec::new(),
             distants: Vec::new(),
             uniform_infinites: Vec::new(),
             image_infinites: Vec::new(),
+            portal_infinites: Vec::new(),
             ends: [0; Kind::COUNT],
             mesh_ends: Vec::new(),
             sources: Vec::new(),
@@ -108,6 +133,10 @@ impl<C: ColorModel> LightSet<C> {
         let index = (light.0 - start) as usize;
         Some(match kind {
             Kind::Point => LightRef::Point(&self.points[index]),
+            Kind::Spot => LightRef::Spot(&self.spots[index]),
+            Kind::Projection => LightRef::Projection(&self.projections[index]),
+            Kind::Goniometric => LightRef::Goniometric(&self.goniometrics[index]),
+            Kind::Area => LightRef::Area(self.areas[index].light()),
             Kind::Triangle => {
                 let mesh = self.mesh_ends.partition_point(|&end| end as usize <= index);
                 let first = if mesh == 0 {
@@ -120,6 +149,7 @@ impl<C: ColorModel> LightSet<C> {
             Kind::Distant => LightRef::Distant(&self.distants[index]),
             Kind::UniformInfinite => LightRef::UniformInfinite(&self.uniform_infinites[index]),
             Kind::ImageInfinite => LightRef::ImageInfinite(&self.image_infinites[index]),
+            Kind::PortalInfinite => LightRef::PortalInfinite(&self.portal_infinites[index]),
         })
     }
 

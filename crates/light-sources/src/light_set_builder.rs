@@ -1,11 +1,18 @@
+use alloc::vec::Vec;
+
+use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
 use crate::desc::{LightDesc, LightDescError};
 use crate::distant::DistantLight;
+use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::light_set::{Kind, LightSet, SourceId};
 use crate::mesh::MeshLight;
 use crate::point::PointLight;
+use crate::portal_infinite::PortalInfiniteLight;
+use crate::projection::ProjectionLight;
 use crate::scene_sphere::SceneSphere;
+use crate::spot::SpotLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 
 /// Makes a [`LightSet`] from descriptions, one by one.
@@ -25,45 +32,61 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes; the answer is a name for it, by which its id is known once the set is built.
+    /// Adds the light that `desc` describes; the answer is a name for it, by which its id is known once the set is
+    /// built.
     ///
     /// # Errors
     /// When the description makes no sense; the set is unchanged then.
     pub fn add(&mut self, desc: LightDesc<C>) -> Result<SourceId, LightDescError> {
-        let set = &mut self.set;
-        let too_many = LightDescError::TooMany;
+        use LightDescError as Error;
+        let scene = self.scene;
         match desc {
             LightDesc::Point(desc) => {
-                let light = PointLight::new(desc).map_err(LightDescError::Point)?;
-                let source = set.count_in(Kind::Point, 1).ok_or(too_many)?;
-                set.points.push(light);
-                Ok(source)
+                let light = PointLight::new(desc).map_err(Error::Point)?;
+                self.keep(Kind::Point, 1, light, |set| &mut set.points)
+            }
+            LightDesc::Spot(desc) => {
+                let light = SpotLight::new(desc).map_err(Error::Spot)?;
+                self.keep(Kind::Spot, 1, light, |set| &mut set.spots)
+            }
+            LightDesc::Projection(desc) => {
+                let light = ProjectionLight::new(desc).map_err(Error::Projection)?;
+                self.keep(Kind::Projection, 1, light, |set| &mut set.projections)
+            }
+            LightDesc::Goniometric(desc) => {
+                let light = GoniometricLight::new(desc).map_err(Error::Goniometric)?;
+                self.keep(Kind::Goniometric, 1, light, |set| &mut set.goniometrics)
+            }
+            LightDesc::Area(desc) => {
+                let light = AreaSource::new(desc).map_err(Error::Area)?;
+                self.keep(Kind::Area, 1, light, |set| &mut set.areas)
             }
             LightDesc::Mesh(desc) => {
-                let light = MeshLight::new(desc).map_err(LightDescError::Mesh)?;
-                let source = set.count_in(Kind::Triangle, light.len()).ok_or(too_many)?;
-                set.meshes.push(light);
-                Ok(source)
+                let light = MeshLight::new(desc).map_err(Error::Mesh)?;
+                self.keep(Kind::Triangle, light.len(), light, |set| &mut set.meshes)
             }
             LightDesc::Distant(desc) => {
-                let light = DistantLight::new(desc, self.scene).map_err(LightDescError::Distant)?;
-                let source = set.count_in(Kind::Distant, 1).ok_or(too_many)?;
-                set.distants.push(light);
-                Ok(source)
+                let light = DistantLight::new(desc, scene).map_err(Error::Distant)?;
+                self.keep(Kind::Distant, 1, light, |set| &mut set.distants)
             }
             LightDesc::UniformInfinite(desc) => {
-                let light = UniformInfiniteLight::new(desc, self.scene)
-                    .map_err(LightDescError::UniformInfinite)?;
-                let source = set.count_in(Kind::UniformInfinite, 1).ok_or(too_many)?;
-                set.uniform_infinites.push(light);
-                Ok(source)
+                let light =
+                    UniformInfiniteLight::new(desc, scene).map_err(Error::UniformInfinite)?;
+                self.keep(Kind::UniformInfinite, 1, light, |set| {
+                    &mut set.uniform_infinites
+                })
             }
             LightDesc::ImageInfinite(desc) => {
-                let light = ImageInfiniteLight::new(desc, self.scene)
-                    .map_err(LightDescError::ImageInfinite)?;
-                let source = set.count_in(Kind::ImageInfinite, 1).ok_or(too_many)?;
-                set.image_infinites.push(light);
-                Ok(source)
+                let light = ImageInfiniteLight::new(desc, scene).map_err(Error::ImageInfinite)?;
+                self.keep(Kind::ImageInfinite, 1, light, |set| {
+                    &mut set.image_infinites
+                })
+            }
+            LightDesc::PortalInfinite(desc) => {
+                let light = PortalInfiniteLight::new(desc, scene).map_err(Error::PortalInfinite)?;
+                self.keep(Kind::PortalInfinite, 1, light, |set| {
+                    &mut set.portal_infinites
+                })
             }
         }
     }
@@ -72,5 +95,19 @@ impl<C: ColorModel> LightSetBuilder<C> {
     #[must_use]
     pub fn build(self) -> LightSet<C> {
         self.set
+    }
+
+    /// Puts a source that is `lights` lights of a kind into the list of that kind.
+    fn keep<T>(
+        &mut self,
+        kind: Kind,
+        lights: usize,
+        source: T,
+        list: impl FnOnce(&mut LightSet<C>) -> &mut Vec<T>,
+    ) -> Result<SourceId, LightDescError> {
+        let id = self.set.count_in(kind, lights);
+        let id = id.ok_or(LightDescError::TooMany)?;
+        list(&mut self.set).push(source);
+        Ok(id)
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
 use crate::coverage::PdfCoverage;
+use crate::delta::sample_point;
 use crate::glam::{Vec2, Vec3};
 use crate::kind::LightType;
 use crate::light::Light;
@@ -83,15 +84,7 @@ impl<C: ColorModel> Light<C> for PointLight<C> {
         wavelengths: &C::Wavelengths,
         _coverage: PdfCoverage,
     ) -> Option<LightLiSample<C::Radiance>> {
-        let (wi, inv_dist_sq) = toward(ctx, self.position)?;
-        Some(LightLiSample {
-            l: self.intensity.at(wavelengths) * inv_dist_sq,
-            wi,
-            pdf: 1.0,
-            p_light: self.position,
-            n_light: Vec3::ZERO,
-            uv: Vec2::ZERO,
-        })
+        sample_point(ctx, self.position, |_| self.intensity.at(wavelengths))
     }
 
     fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
@@ -136,15 +129,6 @@ impl<C: ColorModel> Light<C> for PointLight<C> {
     fn media(&self) -> MediumInterface {
         self.media
     }
-}
-
-/// Unit direction from `ctx.p` to a light at `position` and the inverse of the squared distance; `None` where the two
-/// meet, or are so near or so far that the inverse is no finite positive number.
-pub(crate) fn toward(ctx: &LightSampleContext, position: Vec3) -> Option<(Vec3, f32)> {
-    let d = position - ctx.p;
-    let wi = d.try_normalize()?;
-    let inv_dist_sq = 1.0 / d.length_squared();
-    (inv_dist_sq > 0.0 && inv_dist_sq.is_finite()).then_some((wi, inv_dist_sq))
 }
 
 impl fmt::Display for PointLightError {

@@ -1,7 +1,19 @@
 //! Surfaces that area lights shine from, one a file.
 
+mod any;
+mod bilinear_patch;
+mod cylinder;
+mod disk;
+mod rectangle;
+mod sphere;
 mod triangle;
 
+pub use any::{AnyShape, ShapeDesc, ShapeError};
+pub use bilinear_patch::{BilinearPatch, BilinearPatchError};
+pub use cylinder::{Cylinder, CylinderError};
+pub use disk::{Disk, DiskError};
+pub use rectangle::{Rectangle, RectangleError};
+pub use sphere::{Sphere, SphereError};
 pub use triangle::{Triangle, TriangleError};
 
 use crate::glam::{Vec2, Vec3};

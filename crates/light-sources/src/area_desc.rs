@@ -1,0 +1,57 @@
+use core::error::Error;
+use core::fmt;
+
+use crate::area::DiffuseAreaLight;
+use crate::color::ColorModel;
+use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
+use crate::shape::{AnyShape, ShapeDesc, ShapeError};
+
+/// A shape that shines, as a user describes it.
+#[derive(Clone, Debug)]
+pub struct AreaLightDesc<C: ColorModel> {
+    /// What shines.
+    pub shape: ShapeDesc,
+    /// How it shines.
+    pub emission: DiffuseEmissionDesc<C>,
+}
+
+/// A shape that shines, as a set keeps it: it becomes a [`DiffuseAreaLight`] when it is looked at.
+#[derive(Clone, Debug)]
+pub(crate) struct AreaSource<C: ColorModel> {
+    shape: AnyShape,
+    emission: DiffuseEmission<C>,
+}
+
+/// Why a description is no area light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AreaLightError {
+    /// `shape` makes no sense.
+    Shape(ShapeError),
+    /// `emission` makes no sense.
+    Emission(DiffuseEmissionError),
+}
+
+impl<C: ColorModel> AreaSource<C> {
+    pub(crate) fn new(desc: AreaLightDesc<C>) -> Result<Self, AreaLightError> {
+        Ok(Self {
+            shape: desc.shape.build().map_err(AreaLightError::Shape)?,
+            emission: DiffuseEmission::new(desc.emission).map_err(AreaLightError::Emission)?,
+        })
+    }
+
+    pub(crate) const fn light(&self) -> DiffuseAreaLight<'_, C, &AnyShape> {
+        DiffuseAreaLight::new(&self.shape, &self.emission)
+    }
+}
+
+impl fmt::Display for AreaLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Shape(error) => error.fmt(f),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for AreaLightError {}

@@ -1,0 +1,190 @@
+use core::error::Error;
+use core::f32::consts::PI;
+use core::fmt;
+
+use crate::amount::IntensityAmount;
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::delta::sample_point;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::image::{Channels, Image};
+use crate::kind::LightType;
+use crate::light::Light;
+use crate::media::MediumInterface;
+use crate::rigid_transform::{RigidTransform, RigidTransformError};
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scaled_emission::{EmissionError, ScaledEmission};
+use crate::sphere_table::{SphereSample, SphereTable};
+use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_math::Aabb;
+use light_math::equal_area::sphere_to_square;
+
+/// A [`GoniometricLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct GoniometricLightDesc<C: ColorModel> {
+    /// From light space to the scene.
+    pub transform: Affine3A,
+    /// The part of the full intensity by direction: a grey square, by [`equal_area`](light_math::equal_area).
+    pub distribution: Image,
+    /// Colour of the light.
+    pub emission: C::Emission,
+    /// How bright it is where the distribution is 1.
+    pub amount: IntensityAmount,
+    /// The medium around it, `outside`.
+    pub media: MediumInterface,
+}
+
+/// A light at a point whose intensity in each direction was measured.
+///
+/// # Source
+/// `[PBRT4]`, section 12.2.3.
+#[derive(Clone, Debug)]
+pub struct GoniometricLight<C: ColorModel> {
+    transform: RigidTransform,
+    image: Image,
+    mean: f32,
+    table: SphereTable,
+    intensity: ScaledEmission<C>,
+    media: MediumInterface,
+}
+
+/// Why a description is no goniometric light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GoniometricLightError {
+    /// `transform` is not rigid.
+    Transform(RigidTransformError),
+    /// `distribution` is not square.
+    NotSquare,
+    /// `distribution` has colours.
+    NotGray,
+    /// `emission` or `amount` makes no sense, or the amount is too large for the distribution.
+    Emission(EmissionError),
+}
+
+impl<C: ColorModel> GoniometricLight<C> {
+    /// The light that `desc` describes.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: GoniometricLightDesc<C>) -> Result<Self, GoniometricLightError> {
+        let IntensityAmount::Radiometric(scale) = desc.amount;
+        let transform = RigidTransform::new(desc.transform)?;
+        let image = desc.distribution;
+        let [width, height] = image.size();
+        if width != height {
+            return Err(GoniometricLightError::NotSquare);
+        }
+        if image.channels() != Channels::Gray {
+            return Err(GoniometricLightError::NotGray);
+        }
+        let intensity = ScaledEmission::new(desc.emission, scale)?;
+        let brightest = image.texels().fold(0.0, |max: f32, texel| max.max(texel.x));
+        if !(brightest * intensity.maximum()).is_finite() {
+            return Err(EmissionError::Amount.into());
+        }
+        Ok(Self {
+            transform,
+            mean: image.mean().x,
+            table: SphereTable::new(&image.averages(), width),
+            image,
+            intensity,
+            media: desc.media,
+        })
+    }
+
+    /// The part of the full intensity in the direction `w` away from the light.
+    fn distribution(&self, w: Vec3) -> f32 {
+        let uv = sphere_to_square(self.transform.inverse_vector(w));
+        self.image.nearest(uv).x
+    }
+}
+
+impl<C: ColorModel> Light<C> for GoniometricLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::DeltaPosition
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.intensity.at(wavelengths) * (4.0 * PI * self.mean)
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        _u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        sample_point(ctx, self.transform.origin(), |w| {
+            self.intensity.at(wavelengths) * self.distribution(w)
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        0.0
+    }
+
+    /// The direction is chosen by `u1` in proportion to the intensity.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        _u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let SphereSample { uv, w, pdf } = self.table.sample(u1)?;
+        let l = self.intensity.at(wavelengths) * self.image.nearest(uv).x;
+        (!l.is_black()).then_some(LightLeSample {
+            l,
+            ray: EmittedRay::from_point(self.transform.origin(), self.transform.vector(w)),
+            pdf: LePdf { pos: 1.0, dir: pdf },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        LePdf {
+            pos: 0.0,
+            dir: self.table.pdf(self.transform.inverse_vector(ray.direction)),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        LightExtent::Bounded(LightBounds {
+            bounds: Aabb::from_point(self.transform.origin()),
+            w: Vec3::Z,
+            phi: 4.0 * PI * self.intensity.maximum() * self.mean,
+            cos_theta_o: -1.0,
+            cos_theta_e: 0.0,
+            two_sided: false,
+        })
+    }
+
+    fn media(&self) -> MediumInterface {
+        self.media
+    }
+}
+
+impl fmt::Display for GoniometricLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Transform(error) => error.fmt(f),
+            Self::NotSquare => f.write_str("distribution: an equal-area image must be square"),
+            Self::NotGray => f.write_str("distribution: must have one channel"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for GoniometricLightError {}
+
+impl From<RigidTransformError> for GoniometricLightError {
+    fn from(error: RigidTransformError) -> Self {
+        Self::Transform(error)
+    }
+}
+
+impl From<EmissionError> for GoniometricLightError {
+    fn from(error: EmissionError) -> Self {
+        Self::Emission(error)
+    }
+}

@@ -1,0 +1,169 @@
+use crate::glam::{Vec2, Vec3};
+use light_math::Frame;
+use light_math::distribution::Window;
+use light_math::float::{atan2, tan};
+
+use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+
+/// A rectangle through which the sky is seen, and the map of directions that makes it a rectangle of the unit square
+/// from wherever it is seen.
+///
+/// In the portal's own frame, where light comes from +z, a direction has the angles `atan(x / z)` and `atan(y / z)`;
+/// the square holds them scaled from `[-pi/2, pi/2]`.
+///
+/// # Source
+/// `[Bitterli2015]`, section 3.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Portal {
+    corner: Vec3,
+    /// From the first corner to the last and to the second, along x and y of the frame.
+    size: Vec2,
+    frame: Frame,
+}
+
+/// How far cosines of angles between the sides may lie from those of a rectangle: files write few digits.
+const TOLERANCE: f32 = 1e-3;
+
+impl Portal {
+    /// The portal with these corners, one after the other around it; `None` unless they are a planar rectangle with an
+    /// area. Light comes from where the corners run clockwise.
+    pub(crate) fn new([p0, p1, p2, p3]: [Vec3; 4]) -> Option<Self> {
+        let x = (p3 - p0).try_normalize()?;
+        let y = (p1 - p0).try_normalize()?;
+        let (opposite_x, opposite_y) = ((p2 - p1).try_normalize()?, (p2 - p3).try_normalize()?);
+        let is_parallel = |a: Vec3, b: Vec3| (a.dot(b) - 1.0).abs() <= TOLERANCE;
+        if !(is_parallel(x, opposite_x)
+            && is_parallel(y, opposite_y)
+            && x.dot(y).abs() <= TOLERANCE)
+        {
+            return None;
+        }
+        let z = x.cross(y).normalize();
+        let frame = Frame::from_xz((x - z * x.dot(z)).normalize(), z);
+        let portal = Self {
+            corner: p0,
+            size: Vec2::new(p0.distance(p3), p0.distance(p1)),
+            frame,
+        };
+        let area = portal.area();
+        (area.is_finite() && (1.0 / area).is_finite()).then_some(portal)
+    }
+
+    pub(crate) const fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    pub(crate) fn area(&self) -> f32 {
+        self.size.x * self.size.y
+    }
+
+    /// The direction of a point of the square, and the solid angle per area there.
+    ///
+    /// # Source
+    /// `[PBRT4]`, section 12.5.3: `pi^2 (1 - x^2) (1 - y^2) / z`.
+    pub(crate) fn direction(&self, uv: Vec2) -> (Vec3, f32) {
+        let angles = (uv - 0.5) * PI;
+        let w = Vec3::new(tan(angles.x), tan(angles.y), 1.0).normalize();
+        (self.frame.from_local(w), solid_angle_per_area(w))
+    }
+
+    /// The point of the square of a direction, and the solid angle per area there; `None` for directions from which no
+    /// light comes.
+    pub(crate) fn uv(&self, w: Vec3) -> Option<(Vec2, f32)> {
+        let w = self.frame.to_local(w);
+        (w.z > 0.0).then(|| (square(w), solid_angle_per_area(w)))
+    }
+
+    /// The rectangle of the square that the portal fills, seen from `p`; `None` from behind.
+    pub(crate) fn window(&self, p: Vec3) -> Option<Window> {
+        let first = self.frame.to_local(self.corner - p);
+        (first.z > 0.0).then(|| Window::new(square(first), square(first + self.size.extend(0.0))))
+    }
+
+    /// The point of the portal at `u` of its sides.
+    pub(crate) fn point(&self, u: Vec2) -> Vec3 {
+        self.corner + self.frame.from_local((u * self.size).extend(0.0))
+    }
+
+    /// Whether the line through `p` along `w` passes the portal.
+    pub(crate) fn is_on_line(&self, p: Vec3, w: Vec3) -> bool {
+        let to_corner = self.frame.to_local(self.corner - p);
+        let w = self.frame.to_local(w);
+        let t = to_corner.z / w.z;
+        let at = w.truncate() * t - to_corner.truncate();
+        // What the point rounds off is added to the portal.
+        let slack = 8.0 * f32::EPSILON * (t.abs() + to_corner.length());
+        at.cmpge(Vec2::splat(-slack)).all() && at.cmple(self.size + slack).all()
+    }
+}
+
+/// Both angles of a direction in front, scaled to the unit square.
+fn square(w: Vec3) -> Vec2 {
+    (Vec2::new(atan2(w.x, w.z), atan2(w.y, w.z)) + FRAC_PI_2) * FRAC_1_PI
+}
+
+fn solid_angle_per_area(w: Vec3) -> f32 {
+    PI * PI * (1.0 - w.x * w.x) * (1.0 - w.y * w.y) / w.z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [Vec3; 4] = [
+        Vec3::ZERO,
+        Vec3::new(0.0, 2.0, 0.0),
+        Vec3::new(3.0, 2.0, 0.0),
+        Vec3::new(3.0, 0.0, 0.0),
+    ];
+
+    #[test]
+    fn refuses_what_is_no_rectangle() {
+        assert!(Portal::new(SQUARE).is_some(), "a rectangle");
+        let [p0, p1, p2, p3] = SQUARE;
+        assert!(
+            Portal::new([p0, p1, p2 + Vec3::X, p3]).is_none(),
+            "a trapezium"
+        );
+        assert!(
+            Portal::new([p0, p1 + Vec3::X, p2 + Vec3::X, p3]).is_none(),
+            "slanted"
+        );
+        assert!(
+            Portal::new([p0, p1, p2 + Vec3::Z, p3]).is_none(),
+            "not planar"
+        );
+        assert!(Portal::new([p0; 4]).is_none(), "a point");
+        assert!(Portal::new([p0, p1, Vec3::NAN, p3]).is_none(), "NaN");
+        assert!(Portal::new([p0, p2, p1, p3]).is_none(), "crossed");
+    }
+
+    #[test]
+    fn the_window_is_where_the_portal_is_seen() {
+        let Some(portal) = Portal::new(SQUARE) else {
+            unreachable!("a rectangle")
+        };
+        let p = Vec3::new(1.0, -1.0, -2.0);
+        assert!(portal.window(Vec3::Z).is_none(), "from behind");
+        let Some(window) = portal.window(p) else {
+            unreachable!("in front")
+        };
+        for i in 0..64u8 {
+            let u = Vec2::new(f32::from(i % 8), f32::from(i / 8)) / 7.0;
+            let w = (portal.point(u) - p).normalize();
+            let Some((uv, _)) = portal.uv(w) else {
+                unreachable!("in front")
+            };
+            let inside = uv.clamp(window.min, window.max);
+            assert!(
+                uv.distance(inside) < 1e-6,
+                "{u} is seen at {uv}, not in {window:?}"
+            );
+            assert!(portal.direction(uv).0.distance(w) < 1e-6, "round trip");
+            assert!(
+                portal.is_on_line(p, w) && !portal.is_on_line(p + Vec3::X * 4.0, w),
+                "on line"
+            );
+        }
+    }
+}

@@ -1,0 +1,259 @@
+use alloc::vec::Vec;
+use core::error::Error;
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::amount::RadianceAmount;
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::image::Image;
+use crate::image_infinite::{EnvironmentMap, ImageInfiniteLightError};
+use crate::kind::LightType;
+use crate::light::{InfiniteLight, Light};
+use crate::portal::Portal;
+use crate::rgb_sum::RgbSum;
+use crate::rigid_transform::RigidTransform;
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scene_sphere::SceneSphere;
+use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
+use light_math::DirectionCone;
+use light_math::distribution::{Sample2D, SummedAreaTable, Window, WindowedPiecewiseConstant2D};
+use light_math::equal_area::sphere_to_square;
+
+/// A [`PortalInfiniteLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct PortalInfiniteLightDesc {
+    /// From light space to the scene; only its rotation counts.
+    pub transform: Affine3A,
+    /// The picture of the sky.
+    pub map: EnvironmentMap,
+    /// How bright it is, as a factor of the picture.
+    pub amount: RadianceAmount,
+    /// Corners of the portal in the scene, one after the other; light comes from where they run clockwise.
+    pub portal: [Vec3; 4],
+}
+
+/// An environment map that is seen through one rectangle only: a window.
+///
+/// The picture is resampled once into a square in which the portal, seen from anywhere, is a rectangle with sides along
+/// the axes; a point then samples the part of the sky that it sees, and nothing else.
+///
+/// # Source
+/// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not all around the
+/// scene, so that none is wasted, and the power has the cosine at the portal.
+#[derive(Clone, Debug)]
+pub struct PortalInfiniteLight<C> {
+    portal: Portal,
+    image: Image,
+    scale: f32,
+    /// Integral of the picture's colour times the cosine at the portal.
+    irradiance: Vec3,
+    scene: SceneSphere,
+    extent: InfiniteBounds,
+    /// None when the picture is black.
+    table: Option<WindowedPiecewiseConstant2D<Vec<u64>>>,
+    color: PhantomData<C>,
+}
+
+/// Why a description is no portal light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PortalInfiniteLightError {
+    /// `transform`, `map` or `amount` makes no sense.
+    Sky(ImageInfiniteLightError),
+    /// `portal` is not a planar rectangle with an area.
+    Portal,
+}
+
+impl<C: ColorModel> PortalInfiniteLight<C> {
+    /// The light that `desc` describes, over the given scene.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(
+        desc: PortalInfiniteLightDesc,
+        scene: SceneSphere,
+    ) -> Result<Self, PortalInfiniteLightError> {
+        let RadianceAmount::Radiometric(scale) = desc.amount;
+        let transform =
+            RigidTransform::new(desc.transform).map_err(ImageInfiniteLightError::from)?;
+        let sky = desc.map.into_equal_area()?;
+        let portal = Portal::new(desc.portal).ok_or(PortalInfiniteLightError::Portal)?;
+
+        // The sky in the portal's own map, and its integrals over the half space in front.
+        let [n, _] = sky.size();
+        let mut texels = Vec::new();
+        let mut weights = Vec::new();
+        let (mut irradiance, mut mean, mut fluence) = (RgbSum::default(), RgbSum::default(), 0.0);
+        for y in 0..n {
+            for x in 0..n {
+                let uv = (Vec2::new(x as f32, y as f32) + 0.5) / n as f32;
+                let (w, solid_angle) = portal.direction(uv);
+                let uv_sky = sphere_to_square(transform.inverse_vector(w));
+                let texel = sky.bilinear_equal_area(uv_sky);
+                let weight = texel.average() * solid_angle;
+                let cos_theta = portal.frame().z.dot(w);
+                irradiance.add(texel, f64::from(solid_angle * cos_theta));
+                mean.add(w, f64::from(weight));
+                fluence += f64::from(weight);
+                texels.extend_from_slice(&texel.to_array());
+                weights.push(weight);
+            }
+        }
+        let count = f64::from(n) * f64::from(n);
+        let irradiance = irradiance.over(count);
+        let amount = PortalInfiniteLightError::Sky(ImageInfiniteLightError::Amount);
+        if !(scale >= 0.0 && (irradiance * scale).is_finite()) {
+            return Err(amount);
+        }
+        let size = sky.size();
+        let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
+        Ok(Self {
+            extent: InfiniteBounds {
+                fluence: crate::rgb_sum::single(fluence / count) * scale,
+                mean: mean.over(fluence),
+                cone: DirectionCone::new(portal.frame().z, 0.0),
+            },
+            portal,
+            image: Image::from_f32(size, crate::image::Channels::Rgb, texels)
+                .map_err(|_| amount)?,
+            scale,
+            irradiance,
+            scene,
+            table: table.ok().map(WindowedPiecewiseConstant2D::new),
+            color: PhantomData,
+        })
+    }
+
+    /// The sky in the portal's own map, a square.
+    #[must_use]
+    pub const fn rectified(&self) -> &Image {
+        &self.image
+    }
+
+    fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
+    }
+
+    /// A direction toward the sky in `window`, chosen by `u`, with its place in the map and its density.
+    fn sample_direction(&self, u: Vec2, window: &Window) -> Option<(Vec2, Vec3, f32)> {
+        let Sample2D { p: uv, pdf, .. } = self.table.as_ref()?.sample(u, window)?;
+        let (wi, solid_angle) = self.portal.direction(uv);
+        let pdf = pdf / solid_angle;
+        (pdf > 0.0 && pdf.is_finite()).then_some((uv, wi, pdf))
+    }
+
+    /// The density of [`sample_direction`](Self::sample_direction).
+    fn pdf_direction(&self, wi: Vec3, window: &Window) -> f32 {
+        let pdf = || {
+            let (uv, solid_angle) = self.portal.uv(wi)?;
+            let pdf = self.table.as_ref()?.pdf(uv, window) / solid_angle;
+            pdf.is_finite().then_some(pdf)
+        };
+        pdf().unwrap_or(0.0)
+    }
+
+    /// Density of a ray's origin on the portal, per area across the ray.
+    fn pdf_position(&self, direction: Vec3) -> f32 {
+        1.0 / (self.portal.area() * self.portal.frame().z.dot(direction).abs())
+    }
+}
+
+impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::Infinite
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit_texel(self.irradiance, wavelengths) * (self.portal.area() * self.scale)
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        let window = self.portal.window(ctx.p)?;
+        let (uv, wi, pdf) = self.sample_direction(u, &window)?;
+        Some(LightLiSample {
+            l: self.radiance(uv, wavelengths),
+            wi,
+            pdf,
+            p_light: self.scene.beyond(ctx.p, wi),
+            n_light: Vec3::ZERO,
+            uv,
+        })
+    }
+
+    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        let window = self.portal.window(ctx.p);
+        window.map_or(0.0, |window| self.pdf_direction(wi, &window))
+    }
+
+    /// The direction is chosen by `u1` from the whole half space, the place on the portal by `u2`; the ray starts
+    /// before it, outside of the scene.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let (uv, wi, pdf) = self.sample_direction(u1, &Window::UNIT)?;
+        let on_portal = self.portal.point(u2);
+        let away = self.scene.radius() + on_portal.distance(self.scene.center());
+        Some(LightLeSample {
+            l: self.radiance(uv, wavelengths),
+            ray: EmittedRay::from_point(on_portal + wi * away, -wi),
+            pdf: LePdf {
+                pos: self.pdf_position(wi),
+                dir: pdf,
+            },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        let is_through = self.portal.is_on_line(ray.origin, ray.direction);
+        LePdf {
+            pos: if is_through {
+                self.pdf_position(ray.direction)
+            } else {
+                0.0
+            },
+            dir: self.pdf_direction(-ray.direction, &Window::UNIT),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        self.extent.into()
+    }
+}
+
+impl<C: ColorModel> InfiniteLight<C> for PortalInfiniteLight<C> {
+    fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let uv = self.portal.uv(direction).map(|(uv, _)| uv);
+        match uv.zip(self.portal.window(origin)) {
+            Some((uv, window)) if window.contains(uv) => self.radiance(uv, wavelengths),
+            _ => C::Radiance::BLACK,
+        }
+    }
+}
+
+impl fmt::Display for PortalInfiniteLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sky(error) => error.fmt(f),
+            Self::Portal => f.write_str("portal: must be a planar rectangle with an area"),
+        }
+    }
+}
+
+impl Error for PortalInfiniteLightError {}
+
+impl From<ImageInfiniteLightError> for PortalInfiniteLightError {
+    fn from(error: ImageInfiniteLightError) -> Self {
+        Self::Sky(error)
+    }
+}

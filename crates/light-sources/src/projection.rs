@@ -1,0 +1,243 @@
+use alloc::vec::Vec;
+use core::error::Error;
+use core::f32::consts::PI;
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::amount::IntensityAmount;
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::delta::sample_point;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::image::Image;
+use crate::kind::LightType;
+use crate::light::Light;
+use crate::media::MediumInterface;
+use crate::rgb_sum::RgbSum;
+use crate::rigid_transform::{RigidTransform, RigidTransformError};
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scaled_emission::EmissionError;
+use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_math::Aabb;
+use light_math::distribution::{PiecewiseConstant2D, Sample2D};
+use light_math::float::{sqrt, tan};
+
+/// A [`ProjectionLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct ProjectionLightDesc {
+    /// From light space, where the light stands at the origin and shines along +z, to the scene.
+    pub transform: Affine3A,
+    /// The picture; its texel (0, 0) is thrown to the smallest x and y.
+    pub image: Image,
+    /// Angle that the shorter side of the picture spans, in `(0, pi)`.
+    pub fov: f32,
+    /// How bright it is, as a factor of the picture.
+    pub amount: IntensityAmount,
+    /// The medium around it, `outside`.
+    pub media: MediumInterface,
+}
+
+/// A light at a point that throws a picture: a slide projector.
+///
+/// # Source
+/// `[PBRT4]`, section 12.2.2. A direction `w` meets the plane z = 1 at `(w.x, w.y) / w.z`; the picture fills a
+/// rectangle of that plane around the axis.
+#[derive(Clone, Debug)]
+pub struct ProjectionLight<C> {
+    transform: RigidTransform,
+    image: Image,
+    scale: f32,
+    /// Half width and half height of the picture on the plane z = 1.
+    half: Vec2,
+    /// Sum over the texels of colour times solid angle, in W/sr times sr for a scale of 1.
+    power: Vec3,
+    extent: LightBounds,
+    /// Over the rectangle on the plane; none when the picture is black.
+    table: Option<PiecewiseConstant2D<Vec<f32>>>,
+    media: MediumInterface,
+    color: PhantomData<C>,
+}
+
+/// Why a description is no projection light; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ProjectionLightError {
+    /// `transform` is not rigid.
+    Transform(RigidTransformError),
+    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has no size or no end.
+    Fov,
+    /// `amount` is negative, not finite, or too large for the picture.
+    Emission(EmissionError),
+}
+
+impl<C: ColorModel> ProjectionLight<C> {
+    /// The light that `desc` describes.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: ProjectionLightDesc) -> Result<Self, ProjectionLightError> {
+        let IntensityAmount::Radiometric(scale) = desc.amount;
+        let transform = RigidTransform::new(desc.transform)?;
+        let image = desc.image;
+        let [width, height] = image.size().map(|n| n as f32);
+        let half = Vec2::new(width, height) * (tan(0.5 * desc.fov) / width.min(height));
+        let area = 4.0 * half.x * half.y;
+        if !(desc.fov > 0.0 && desc.fov < PI && area > 0.0 && area.is_finite()) {
+            return Err(ProjectionLightError::Fov);
+        }
+
+        // Each texel counts by its solid angle.
+        let texel_area = area / (width * height);
+        let (mut power, mut maxima) = (RgbSum::default(), RgbSum::default());
+        let mut weights = image.averages();
+        for (i, (texel, weight)) in (0..).zip(image.texels().zip(&mut weights)) {
+            let place = Vec2::new((i % image.size()[0]) as f32, (i / image.size()[0]) as f32);
+            let on_plane = (2.0 * (place + 0.5) / Vec2::new(width, height) - 1.0) * half;
+            let cos_cubed = solid_angle_per_area(on_plane);
+            *weight *= cos_cubed;
+            power.add(texel, f64::from(cos_cubed * texel_area));
+            maxima.add(Vec3::splat(texel.max_element()), 1.0);
+        }
+        let mean_maximum = maxima.over(f64::from(width) * f64::from(height)).x;
+        let power = power.over(1.0);
+        if !(scale >= 0.0 && (power * scale).is_finite() && (mean_maximum * scale).is_finite()) {
+            return Err(EmissionError::Amount.into());
+        }
+        let table =
+            PiecewiseConstant2D::new(&weights, image.size()[0] as usize, image.size()[1] as usize);
+        let table = table.and_then(|table| table.over(-half, half));
+        Ok(Self {
+            extent: LightBounds {
+                bounds: Aabb::from_point(transform.origin()),
+                w: transform.axis(),
+                phi: mean_maximum * scale,
+                cos_theta_o: 1.0,
+                cos_theta_e: 1.0 / sqrt(1.0 + half.length_squared()),
+                two_sided: false,
+            },
+            transform,
+            image,
+            scale,
+            half,
+            power,
+            // The one error that is left is that the picture is black.
+            table: table.ok(),
+            media: desc.media,
+            color: PhantomData,
+        })
+    }
+
+    /// Intensity in the direction `w` away from the light.
+    fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        match self.on_plane(w) {
+            Some(p) if p.abs().cmple(self.half).all() => self.picture(p, wavelengths),
+            _ => C::Radiance::BLACK,
+        }
+    }
+
+    /// Intensity toward the point `p` of the plane z = 1, inside of the picture.
+    fn picture(&self, p: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let uv = 0.5 * (p / self.half) + 0.5;
+        C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
+    }
+
+    /// Where a direction away from the light meets the plane z = 1.
+    fn on_plane(&self, w: Vec3) -> Option<Vec2> {
+        let w = self.transform.inverse_vector(w);
+        (w.z > 0.0).then(|| w.truncate() / w.z)
+    }
+}
+
+impl<C: ColorModel> Light<C> for ProjectionLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::DeltaPosition
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit_texel(self.power, wavelengths) * self.scale
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        _u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        sample_point(ctx, self.transform.origin(), |w| {
+            self.intensity(w, wavelengths)
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        0.0
+    }
+
+    /// The direction is chosen by `u1` in proportion to the intensity.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        _u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        let Sample2D { p, pdf, .. } = self.table.as_ref()?.sample(u1);
+        let direction = self.transform.vector(p.extend(1.0).normalize());
+        let l = self.picture(p, wavelengths);
+        (!l.is_black()).then_some(LightLeSample {
+            l,
+            ray: EmittedRay::from_point(self.transform.origin(), direction),
+            pdf: LePdf {
+                pos: 1.0,
+                dir: pdf / solid_angle_per_area(p),
+            },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        let on_plane = self.on_plane(ray.direction);
+        let dir = self
+            .table
+            .as_ref()
+            .zip(on_plane)
+            .map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p));
+        LePdf { pos: 0.0, dir }
+    }
+
+    fn extent(&self) -> LightExtent {
+        self.extent.into()
+    }
+
+    fn media(&self) -> MediumInterface {
+        self.media
+    }
+}
+
+/// Solid angle per area of the plane z = 1 at `p`: the cubed cosine of the angle to the axis.
+fn solid_angle_per_area(p: Vec2) -> f32 {
+    let cos_theta = 1.0 / sqrt(1.0 + p.length_squared());
+    cos_theta * cos_theta * cos_theta
+}
+
+impl fmt::Display for ProjectionLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Transform(error) => error.fmt(f),
+            Self::Fov => f.write_str("fov: must lie in (0, pi)"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for ProjectionLightError {}
+
+impl From<RigidTransformError> for ProjectionLightError {
+    fn from(error: RigidTransformError) -> Self {
+        Self::Transform(error)
+    }
+}
+
+impl From<EmissionError> for ProjectionLightError {
+    fn from(error: EmissionError) -> Self {
+        Self::Emission(error)
+    }
+}

@@ -1,0 +1,235 @@
+use core::error::Error;
+use core::fmt;
+
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use crate::glam::{Vec2, Vec3};
+use crate::surface_point::SurfacePoint;
+use light_bounds::LightSampleContext;
+use light_math::float::sqrt;
+use light_math::warp::bilinear;
+use light_math::{Aabb, DirectionCone};
+
+/// A bilinear patch: the surface that a straight line sweeps while its ends run along two opposite sides of any
+/// quadrilateral, planar or not. Its front is the side of the cross product of the derivatives along u and v.
+///
+/// Points are chosen by area, nearly uniformly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BilinearPatch {
+    p00: Vec3,
+    /// Derivative along u at v = 0.
+    du: Vec3,
+    /// Derivative along v at u = 0.
+    dv: Vec3,
+    /// How both change along the other parameter; 0 for a parallelogram.
+    duv: Vec3,
+    area: f32,
+}
+
+/// Why four points are no patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BilinearPatchError {
+    /// A corner is not finite.
+    Corner,
+    /// The patch has no area, or one that is no positive number.
+    Area,
+}
+
+impl BilinearPatch {
+    /// The patch with the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+    ///
+    /// # Errors
+    /// When a corner is not finite or the patch has no area.
+    pub fn new([p00, p10, p01, p11]: [Vec3; 4]) -> Result<Self, BilinearPatchError> {
+        if ![p00, p10, p01, p11].iter().all(|p| p.is_finite()) {
+            return Err(BilinearPatchError::Corner);
+        }
+        let mut patch = Self {
+            p00,
+            du: p10 - p00,
+            dv: p01 - p00,
+            duv: (p11 - p01) - (p10 - p00),
+            area: 0.0,
+        };
+        patch.area = patch.integrate_area();
+        if !(patch.area > 0.0 && patch.area.is_finite()) {
+            return Err(BilinearPatchError::Area);
+        }
+        Ok(patch)
+    }
+
+    /// The corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+    #[must_use]
+    pub fn corners(&self) -> [Vec3; 4] {
+        CORNERS.map(|uv| self.point(uv))
+    }
+
+    fn point(&self, uv: Vec2) -> Vec3 {
+        self.p00 + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
+    }
+
+    /// The normal at `uv`, as long as the area per area of the parameters. It is affine in u and in v.
+    fn scaled_normal(&self, uv: Vec2) -> Vec3 {
+        (self.du + self.duv * uv.y).cross(self.dv + self.duv * uv.x)
+    }
+
+    fn at(&self, uv: Vec2) -> Option<SurfacePoint> {
+        Some(SurfacePoint {
+            p: self.point(uv),
+            n: self.scaled_normal(uv).try_normalize()?,
+            uv,
+        })
+    }
+
+    /// Area per area of the parameters at the corners, by which points are chosen.
+    fn weights(&self) -> [f32; 4] {
+        CORNERS.map(|uv| self.scaled_normal(uv).length())
+    }
+
+    fn pdf_at(&self, uv: Vec2) -> f32 {
+        bilinear::pdf(uv, self.weights()) / self.scaled_normal(uv).length()
+    }
+
+    /// The integral of the normal's length.
+    fn integrate_area(&self) -> f32 {
+        let mut area = 0.0;
+        for (x, wx) in GAUSS {
+            for (y, wy) in GAUSS {
+                area += self.scaled_normal(Vec2::new(x, y)).length() * (wx * wy);
+            }
+        }
+        area
+    }
+
+    /// Parameters and distance of the ray's first meeting with the patch.
+    ///
+    /// The line at u, from one side to the other, meets the ray where the three vectors between them are in one plane:
+    /// a quadratic equation for u.
+    ///
+    /// # Source
+    /// `[Reshetov2019]`, section 8.2; a hair outside of the edges counts.
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec2, f32)> {
+        let from = self.p00 - origin;
+        let cross_dv = direction.cross(self.dv);
+        let cross_duv = direction.cross(self.duv);
+        let c = from.dot(cross_dv);
+        let b = self.du.dot(cross_dv) + from.dot(cross_duv);
+        let a = self.du.dot(cross_duv);
+        let discriminant = b * b - 4.0 * a * c;
+        if !(discriminant >= 0.0) {
+            return None;
+        }
+        let q = -0.5 * (b + sqrt(discriminant).copysign(b));
+        let near = |u: f32| {
+            // Where the line at u and the ray are closest.
+            let start = from + self.du * u;
+            let line = self.dv + self.duv * u;
+            let across = line.cross(direction);
+            let v = -start.cross(direction).dot(across) / across.length_squared();
+            let t = (start + line * v).dot(direction);
+            // What the distance rounds off, as a part of the side.
+            let inside = |x: f32, side: Vec3| {
+                let slack = (4.0 * f32::EPSILON * (1.0 + t / side.length())).min(0.5);
+                (-slack..=1.0 + slack).contains(&x)
+            };
+            let is_hit = t > 0.0 && inside(u, self.du + self.duv * v) && inside(v, line);
+            is_hit.then(|| (Vec2::new(u, v).clamp(Vec2::ZERO, Vec2::ONE), t))
+        };
+        match (near(q / a), near(c / q)) {
+            (Some(first), Some(second)) if second.1 < first.1 => Some(second),
+            (Some(first), _) => Some(first),
+            (None, second) => second,
+        }
+    }
+}
+
+impl Shape for BilinearPatch {
+    fn area(&self) -> f32 {
+        self.area
+    }
+
+    fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.corners())
+    }
+
+    /// The normals lie in the cone of those at the corners: they are their means.
+    fn normal_cone(&self) -> DirectionCone {
+        let normals = CORNERS.map(|uv| self.scaled_normal(uv).try_normalize());
+        let cones = normals
+            .into_iter()
+            .flatten()
+            .map(DirectionCone::from_direction);
+        let cone = cones.fold(DirectionCone::EMPTY, DirectionCone::union);
+        // A cone wider than a half space is not convex and promises nothing.
+        if cone.cos_theta > 0.0 {
+            cone
+        } else {
+            DirectionCone::WHOLE_SPHERE
+        }
+    }
+
+    fn sample(&self, u: Vec2) -> Option<ShapeSample> {
+        let uv = bilinear::sample(u, self.weights());
+        let at = self.at(uv)?;
+        let pdf = self.pdf_at(uv);
+        (pdf > 0.0 && pdf.is_finite()).then_some(ShapeSample { at, pdf })
+    }
+
+    fn pdf(&self, at: &SurfacePoint) -> f32 {
+        self.pdf_at(at.uv)
+    }
+
+    /// A point by area, unless another part of the patch hides it.
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        const SAME: f32 = 1.0 - 1e-3;
+        let ShapeSample { at, pdf } = self.sample(u)?;
+        let to_light = at.p - ctx.p;
+        let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+        let is_hidden = self.duv != Vec3::ZERO
+            && self
+                .intersect(ctx.p, wi)
+                .is_some_and(|(_, t)| t < SAME * to_light.length());
+        (!is_hidden).then_some(DirectionSample { at, wi, pdf })
+    }
+
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        let pdf = || {
+            let (uv, t) = self.intersect(ctx.p, wi)?;
+            let at = self.at(uv)?;
+            area_to_solid_angle(self.pdf_at(uv), wi * t, at.n)
+        };
+        pdf().map_or(0.0, |(_, pdf)| pdf)
+    }
+
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        let (uv, _) = self.intersect(origin, direction)?;
+        self.at(uv)
+    }
+}
+
+/// The corners in the order of the weights of [`bilinear`].
+const CORNERS: [Vec2; 4] = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
+
+/// Nodes and weights on [0, 1] that integrate polynomials up to degree 11 exactly.
+///
+/// # Source
+/// `[DLMF]`, table 3.5.2, moved from [-1, 1].
+const GAUSS: [(f32, f32); 6] = [
+    (0.033_765_243, 0.085_662_246),
+    (0.169_395_307, 0.180_380_787),
+    (0.380_690_407, 0.233_956_967),
+    (0.619_309_593, 0.233_956_967),
+    (0.830_604_693, 0.180_380_787),
+    (0.966_234_757, 0.085_662_246),
+];
+
+impl fmt::Display for BilinearPatchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Corner => "corners: must be finite",
+            Self::Area => "corners: must span an area above 0",
+        })
+    }
+}
+
+impl Error for BilinearPatchError {}

@@ -1,0 +1,147 @@
+use core::error::Error;
+use core::f32::consts::{PI, TAU};
+use core::fmt;
+
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use crate::glam::{Vec2, Vec3};
+use crate::rigid_transform::RigidTransform;
+use crate::surface_point::SurfacePoint;
+use light_bounds::LightSampleContext;
+use light_math::float::{atan2, sqrt};
+use light_math::warp::concentric_disk;
+use light_math::{Aabb, DirectionCone};
+
+/// A disk, or an annulus when it has an inner radius; its front is the side of +z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk {
+    transform: RigidTransform,
+    radius: f32,
+    inner_radius: f32,
+}
+
+/// Why there is no such disk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DiskError {
+    /// The radius is not positive and finite.
+    Radius,
+    /// The inner radius is negative, not below the radius, or so near to it that no area is left.
+    InnerRadius,
+}
+
+impl Disk {
+    /// The disk in the xy-plane of the transform, around its origin. Surface parameters: u runs around the axis, v from
+    /// the rim to the inner radius.
+    ///
+    /// # Errors
+    /// When a radius makes no sense, or no area is left.
+    pub fn new(
+        transform: RigidTransform,
+        radius: f32,
+        inner_radius: f32,
+    ) -> Result<Self, DiskError> {
+        if !(radius > 0.0 && (radius * radius).is_finite() && radius * radius > 0.0) {
+            return Err(DiskError::Radius);
+        }
+        let disk = Self {
+            transform,
+            radius,
+            inner_radius,
+        };
+        if !(inner_radius >= 0.0 && disk.area() > 0.0 && (1.0 / disk.area()).is_finite()) {
+            return Err(DiskError::InnerRadius);
+        }
+        Ok(disk)
+    }
+
+    /// The point at `local` of the disk's own plane.
+    fn at(&self, local: Vec2) -> SurfacePoint {
+        let phi = atan2(local.y, local.x);
+        let u = if phi < 0.0 { phi + TAU } else { phi } / TAU;
+        let v = (self.radius - local.length()) / (self.radius - self.inner_radius);
+        SurfacePoint {
+            p: self.transform.point(local.extend(0.0)),
+            n: self.transform.axis(),
+            uv: Vec2::new(u, v.clamp(0.0, 1.0)),
+        }
+    }
+}
+
+impl Shape for Disk {
+    fn area(&self) -> f32 {
+        PI * (self.radius - self.inner_radius) * (self.radius + self.inner_radius)
+    }
+
+    fn bounds(&self) -> Aabb {
+        // How far the rim reaches along each axis of the scene: what the normal leaves of it.
+        let n = self.transform.axis();
+        let reach = (Vec3::ONE - n * n).max(Vec3::ZERO).map(sqrt) * self.radius;
+        Aabb {
+            min: self.transform.origin() - reach,
+            max: self.transform.origin() + reach,
+        }
+    }
+
+    fn normal_cone(&self) -> DirectionCone {
+        DirectionCone::from_direction(self.transform.axis())
+    }
+
+    /// The rings of a disk are moved outward, each to where it keeps its area, so that none falls into the hole.
+    fn sample(&self, u: Vec2) -> Option<ShapeSample> {
+        let on_disk = concentric_disk::sample(u);
+        let share = on_disk.length_squared();
+        let inner = self.inner_radius / self.radius;
+        let local = if inner == 0.0 {
+            on_disk
+        } else {
+            let r = sqrt(inner * inner + (1.0 - inner * inner) * share);
+            on_disk.try_normalize().unwrap_or(Vec2::X) * r
+        };
+        Some(ShapeSample {
+            at: self.at(local * self.radius),
+            pdf: 1.0 / self.area(),
+        })
+    }
+
+    fn pdf(&self, _at: &SurfacePoint) -> f32 {
+        1.0 / self.area()
+    }
+
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        let ShapeSample { at, pdf } = self.sample(u)?;
+        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+        Some(DirectionSample { at, wi, pdf })
+    }
+
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
+        self.hit(ctx.p, wi)
+            .and_then(pdf)
+            .map_or(0.0, |(_, pdf)| pdf)
+    }
+
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        let o = self.transform.inverse_point(origin);
+        let d = self.transform.inverse_vector(direction);
+        let t = -o.z / d.z;
+        if !(t > 0.0 && t.is_finite()) {
+            return None;
+        }
+        let local = o.truncate() + d.truncate() * t;
+        // What the point rounds off is added to the disk, so that a direction toward any point of it hits.
+        let slack = 4.0 * f32::EPSILON * (o.length() + t);
+        let r = local.length();
+        (r <= self.radius + slack && r >= self.inner_radius - slack).then(|| self.at(local))
+    }
+}
+
+impl fmt::Display for DiskError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Radius => "radius: must be finite and positive",
+            Self::InnerRadius => "inner_radius: must lie in [0, radius)",
+        })
+    }
+}
+
+impl Error for DiskError {}

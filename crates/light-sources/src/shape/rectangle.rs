@@ -1,0 +1,137 @@
+use core::error::Error;
+use core::fmt;
+
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use crate::glam::{Vec2, Vec3};
+use crate::surface_point::SurfacePoint;
+use light_bounds::LightSampleContext;
+use light_math::{Aabb, DirectionCone};
+
+/// A rectangle; its front is the side of the cross product of its two edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle {
+    corner: Vec3,
+    edges: [Vec3; 2],
+    normal: Vec3,
+}
+
+/// Why there is no such rectangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RectangleError {
+    /// The corner is not finite.
+    Corner,
+    /// An edge is zero or not finite, or the area is no positive number.
+    Edge,
+    /// The edges are not perpendicular.
+    NotPerpendicular,
+}
+
+/// How far the cosine between the edges may lie from 0: files write few digits.
+const TOLERANCE: f32 = 1e-4;
+
+impl Rectangle {
+    /// The rectangle with one corner and the edges from there along u and v.
+    ///
+    /// # Errors
+    /// When the edges are not perpendicular or there is no area.
+    pub fn new(corner: Vec3, edges: [Vec3; 2]) -> Result<Self, RectangleError> {
+        if !corner.is_finite() {
+            return Err(RectangleError::Corner);
+        }
+        let axes = edges.map(Vec3::try_normalize);
+        let [Some(x), Some(y)] = axes else {
+            return Err(RectangleError::Edge);
+        };
+        if !(x.dot(y).abs() <= TOLERANCE) {
+            return Err(RectangleError::NotPerpendicular);
+        }
+        let rectangle = Self {
+            corner,
+            // Exactly perpendicular, or what is seen of it would not be a spherical rectangle.
+            edges: [edges[0], edges[1] - x * x.dot(edges[1])],
+            normal: x.cross(y).normalize(),
+        };
+        let area = rectangle.area();
+        if !(area > 0.0 && area.is_finite() && (1.0 / area).is_finite()) {
+            return Err(RectangleError::Edge);
+        }
+        Ok(rectangle)
+    }
+
+    fn at(&self, uv: Vec2) -> SurfacePoint {
+        SurfacePoint {
+            p: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
+            n: self.normal,
+            uv,
+        }
+    }
+}
+
+impl Shape for Rectangle {
+    fn area(&self) -> f32 {
+        self.edges[0].length() * self.edges[1].length()
+    }
+
+    fn bounds(&self) -> Aabb {
+        let [x, y] = self.edges;
+        Aabb::from_points([Vec3::ZERO, x, y, x + y].map(|d| self.corner + d))
+    }
+
+    fn normal_cone(&self) -> DirectionCone {
+        DirectionCone::from_direction(self.normal)
+    }
+
+    fn sample(&self, u: Vec2) -> Option<ShapeSample> {
+        Some(ShapeSample {
+            at: self.at(u),
+            pdf: 1.0 / self.area(),
+        })
+    }
+
+    fn pdf(&self, _at: &SurfacePoint) -> f32 {
+        1.0 / self.area()
+    }
+
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        let ShapeSample { at, pdf } = self.sample(u)?;
+        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+        Some(DirectionSample { at, wi, pdf })
+    }
+
+    fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
+        self.hit(ctx.p, wi)
+            .and_then(pdf)
+            .map_or(0.0, |(_, pdf)| pdf)
+    }
+
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        let to_corner = self.corner - origin;
+        let t = to_corner.dot(self.normal) / direction.dot(self.normal);
+        if !(t > 0.0 && t.is_finite()) {
+            return None;
+        }
+        let p = direction * t - to_corner;
+        // What the point rounds off is added to the rectangle, so that a direction toward any point of it hits.
+        let slack = 4.0 * f32::EPSILON * (t + to_corner.length());
+        let along = |edge: Vec3| {
+            let x = p.dot(edge) / edge.length_squared();
+            let slack = slack / edge.length();
+            (x >= -slack && x <= 1.0 + slack).then(|| x.clamp(0.0, 1.0))
+        };
+        Some(self.at(Vec2::new(along(self.edges[0])?, along(self.edges[1])?)))
+    }
+}
+
+impl fmt::Display for RectangleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Corner => "corner: must be finite",
+            Self::Edge => "edges: must be finite and span an area above 0",
+            Self::NotPerpendicular => "edges: must be perpendicular",
+        })
+    }
+}
+
+impl Error for RectangleError {}

@@ -1,0 +1,47 @@
+use alloc::vec::Vec;
+use core::f32::consts::FRAC_1_PI;
+
+use crate::glam::{Vec2, Vec3};
+use light_math::distribution::{PiecewiseConstant2D, Sample2D};
+use light_math::equal_area::{sphere_to_square, square_to_sphere};
+
+/// Directions of the sphere in proportion to the texels of an equal-area image; none when it is black.
+#[derive(Clone, Debug)]
+pub(crate) struct SphereTable(Option<PiecewiseConstant2D<Vec<f32>>>);
+
+/// A direction that a [`SphereTable`] chose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SphereSample {
+    /// The place in the image.
+    pub(crate) uv: Vec2,
+    /// The unit direction.
+    pub(crate) w: Vec3,
+    /// Its density in sr^-1, above 0.
+    pub(crate) pdf: f32,
+}
+
+/// The whole square is the whole sphere.
+const PER_STERADIAN: f32 = 0.25 * FRAC_1_PI;
+
+impl SphereTable {
+    /// The table for `weights`, `n` rows of as many finite numbers, none negative.
+    pub(crate) fn new(weights: &[f32], n: u32) -> Self {
+        // The one error that is left is that all weights are zero.
+        Self(PiecewiseConstant2D::new(weights, n as usize, n as usize).ok())
+    }
+
+    pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {
+        let Sample2D { p: uv, pdf, .. } = self.0.as_ref()?.sample(u);
+        Some(SphereSample {
+            uv,
+            w: square_to_sphere(uv),
+            pdf: pdf * PER_STERADIAN,
+        })
+    }
+
+    pub(crate) fn pdf(&self, w: Vec3) -> f32 {
+        self.0
+            .as_ref()
+            .map_or(0.0, |table| table.pdf(sphere_to_square(w)) * PER_STERADIAN)
+    }
+}
