@@ -1,0 +1,134 @@
+//! Small scenes and the means of their pictures.
+#![allow(dead_code, reason = "each test crate uses a part of this")]
+
+use light_render::integrator::{Estimator, PathSettings};
+use light_render::{AnyLightSampler, RenderSettings, Rendering, SamplerKind, View, World, render};
+use light_scene::glam::{DVec3, Vec3};
+use light_scene::{Camera, Emission, Material, Mesh, Scene};
+
+/// The corners of a box `[0, 1]^3`, face by face, counter-clockwise seen from inside: floor, ceiling, back, left, right,
+/// front.
+pub(crate) fn room() -> [[Vec3; 4]; 6] {
+    let v = |x: u8, y: u8, z: u8| Vec3::new(f32::from(x), f32::from(y), f32::from(z));
+    [
+        [v(0, 0, 0), v(0, 0, 1), v(1, 0, 1), v(1, 0, 0)],
+        [v(0, 1, 0), v(1, 1, 0), v(1, 1, 1), v(0, 1, 1)],
+        [v(0, 0, 0), v(1, 0, 0), v(1, 1, 0), v(0, 1, 0)],
+        [v(0, 0, 0), v(0, 1, 0), v(0, 1, 1), v(0, 0, 1)],
+        [v(1, 0, 0), v(1, 0, 1), v(1, 1, 1), v(1, 1, 0)],
+        [v(0, 0, 1), v(0, 1, 1), v(1, 1, 1), v(1, 0, 1)],
+    ]
+}
+
+/// A room in the manner of the Cornell box: one red and one green wall, a lamp under the ceiling, a block.
+pub(crate) fn cornell() -> Scene {
+    let mut scene = Scene::default();
+    let [white, red, green] = [
+        ("white", Vec3::splat(0.75)),
+        ("red", Vec3::new(0.6, 0.1, 0.1)),
+        ("green", Vec3::new(0.1, 0.5, 0.1)),
+    ]
+    .map(|(name, color)| scene.add_material(Material::diffuse(name, color)));
+    let lamp = scene.add_material(Material {
+        emission: Some(Emission::one_sided(Vec3::new(9.0, 7.0, 5.0))),
+        ..Material::diffuse("lamp", Vec3::splat(0.5))
+    });
+    let materials = [white, white, white, red, green, white];
+    for (corners, material) in room().into_iter().zip(materials) {
+        scene.meshes.push(Mesh::quad("wall", material, corners));
+    }
+    let lamp_corners =
+        room()[1].map(|p| Vec3::new(0.35, 0.98, 0.35) + p * Vec3::new(0.3, 0.0, 0.3));
+    scene.meshes.push(Mesh::quad("lamp", lamp, lamp_corners));
+    for face in room() {
+        let [a, b, c, d] = face.map(|p| Vec3::new(0.2, 0.0, 0.3) + p * Vec3::new(0.3, 0.5, 0.3));
+        scene.meshes.push(Mesh::quad("block", white, [a, d, c, b]));
+    }
+    scene.camera = Camera::look_at(
+        Vec3::new(0.5, 0.5, 0.97),
+        Vec3::new(0.5, 0.4, 0.0),
+        Vec3::Y,
+        1.3,
+    )
+    .ok();
+    scene
+}
+
+/// A matt square of `albedo` around the origin, seen from straight above: its normal is +y.
+pub(crate) fn plane(albedo: f32, half_size: f32) -> Scene {
+    let mut scene = Scene::default();
+    let matt = scene.add_material(Material::diffuse("matt", Vec3::splat(albedo)));
+    let corners = room()[0].map(|p| (p - Vec3::new(0.5, 0.0, 0.5)) * 2.0 * half_size);
+    scene.meshes.push(Mesh::quad("plane", matt, corners));
+    scene.camera = Camera::look_at(Vec3::Y * 2.0, Vec3::ZERO, Vec3::Z, 0.02).ok();
+    scene
+}
+
+/// How a picture is made.
+pub(crate) struct Shot {
+    pub(crate) size: u32,
+    pub(crate) spp: u32,
+    pub(crate) max_depth: u32,
+    pub(crate) estimator: Estimator,
+    pub(crate) sampler: SamplerKind,
+}
+
+impl Default for Shot {
+    fn default() -> Self {
+        Self {
+            size: 16,
+            spp: 16,
+            max_depth: 6,
+            estimator: Estimator::Mis,
+            sampler: SamplerKind::BvhReference,
+        }
+    }
+}
+
+impl Shot {
+    /// Renders `scene` with this seed.
+    pub(crate) fn render(&self, scene: &Scene, seed: u32) -> Rendering {
+        let camera = scene.camera_or_default();
+        let world = World::new(scene.clone()).expect("valid lights");
+        let view = View::new(&camera, self.size, self.size).expect("a valid view");
+        let sampler = AnyLightSampler::new(self.sampler, world.lights()).expect("valid lights");
+        let settings = RenderSettings {
+            samples: 0..self.spp,
+            time_limit: None,
+            seed,
+            path: PathSettings {
+                max_depth: self.max_depth,
+                estimator: self.estimator,
+            },
+        };
+        let rendering = render(&world, &view, &sampler, &settings, |_| ());
+        assert_eq!(rendering.rejected, 0, "every sample is finite");
+        rendering
+    }
+
+    /// The mean of the picture over pixels, and its standard error from sixteen independent pictures.
+    pub(crate) fn mean(&self, scene: &Scene) -> (DVec3, DVec3) {
+        const RUNS: u32 = 16;
+        let means: Vec<DVec3> = (0..RUNS)
+            .map(|seed| {
+                let pixels = self.render(scene, seed).film.develop();
+                pixels.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / pixels.len() as f64
+            })
+            .collect();
+        let n = f64::from(RUNS);
+        let mean = means.iter().sum::<DVec3>() / n;
+        let squares = means
+            .iter()
+            .map(|&m| (m - mean) * (m - mean))
+            .sum::<DVec3>();
+        (mean, (squares / (n * (n - 1.0))).map(f64::sqrt))
+    }
+}
+
+/// Whether two means agree within four and a half of their common standard errors, in every channel.
+pub(crate) fn agree((a, a_error): (DVec3, DVec3), (b, b_error): (DVec3, DVec3)) -> bool {
+    let error = (a_error * a_error + b_error * b_error).map(f64::sqrt);
+    // What f32 arithmetic may be off by, where there is no noise at all.
+    let rounding = b.abs() * 2e-5;
+    (a - b).abs().cmple(error * 4.5 + rounding).all()
+}
