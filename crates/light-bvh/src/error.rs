@@ -20,6 +20,11 @@ pub enum LightBvhError {
         /// What is wrong with it.
         reason: InfiniteBoundsError,
     },
+    /// A coordinate is beyond ±1e36, where the default tree cannot take differences of positions any more.
+    TooFar {
+        /// Of which light.
+        light: LightId,
+    },
     /// There are more lights than the tree can address.
     TooManyLights,
 }
@@ -29,6 +34,7 @@ impl fmt::Display for LightBvhError {
         match self {
             Self::BadBounds { light, reason } => write!(f, "light {}: {reason}", light.0),
             Self::BadInfiniteBounds { light, reason } => write!(f, "light {}: {reason}", light.0),
+            Self::TooFar { light } => write!(f, "light {}: a coordinate is beyond 1e36", light.0),
             Self::TooManyLights => f.write_str("more lights than the tree can address"),
         }
     }
@@ -39,7 +45,7 @@ impl core::error::Error for LightBvhError {
         match self {
             Self::BadBounds { reason, .. } => Some(reason),
             Self::BadInfiniteBounds { reason, .. } => Some(reason),
-            Self::TooManyLights => None,
+            Self::TooFar { .. } | Self::TooManyLights => None,
         }
     }
 }

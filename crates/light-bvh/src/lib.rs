@@ -13,6 +13,13 @@ mod error;
 mod join;
 pub mod reference;
 mod validate;
+mod wide;
 
 pub use error::LightBvhError;
 pub use validate::validate;
+#[cfg(feature = "alloc")]
+pub use wide::LightBvh;
+pub use wide::{
+    Lane, LightBvhRef, MAX_DEPTH, MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver,
+    WideNode,
+};

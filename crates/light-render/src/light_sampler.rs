@@ -5,8 +5,8 @@ use core::str::FromStr;
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::LightBvhError;
 use lights::samplers::{
-    LightSampler, PowerLightSampler, PowerLightSamplerError, ReferenceBvhLightSampler,
-    UniformLightSampler,
+    BvhLightSampler, LightSampler, PowerLightSampler, PowerLightSamplerError,
+    ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
 
@@ -19,6 +19,8 @@ pub enum SamplerKind {
     Power,
     /// The published light hierarchy.
     BvhReference,
+    /// The default light hierarchy.
+    Bvh,
 }
 
 /// A light sampler of any kind, chosen at run time without a virtual call.
@@ -31,6 +33,8 @@ pub enum AnyLightSampler {
     Power(PowerLightSampler),
     /// The published light hierarchy.
     BvhReference(ReferenceBvhLightSampler),
+    /// The default light hierarchy.
+    Bvh(BvhLightSampler),
 }
 
 /// Why lights cannot be sampled.
@@ -45,10 +49,10 @@ pub enum AnyLightSamplerError {
 
 impl SamplerKind {
     /// The kind that a program uses unless told otherwise.
-    pub const DEFAULT: Self = Self::BvhReference;
+    pub const DEFAULT: Self = Self::Bvh;
 
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Uniform, Self::Power, Self::BvhReference];
+    pub const ALL: [Self; 4] = [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
 
     /// The kind's name on the command line.
     #[must_use]
@@ -57,6 +61,7 @@ impl SamplerKind {
             Self::Uniform => "uniform",
             Self::Power => "power",
             Self::BvhReference => "bvh-reference",
+            Self::Bvh => "bvh",
         }
     }
 }
@@ -69,7 +74,7 @@ impl AnyLightSampler {
     pub fn new(kind: SamplerKind, lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
         match kind {
             SamplerKind::Power => Ok(Self::Power(PowerLightSampler::new(&lights.powers())?)),
-            SamplerKind::Uniform | SamplerKind::BvhReference => Self::over(kind, &lights.extents()),
+            _ => Self::over(kind, &lights.extents()),
         }
     }
 
@@ -91,6 +96,7 @@ impl AnyLightSampler {
             SamplerKind::BvhReference => {
                 Self::BvhReference(ReferenceBvhLightSampler::new(extents)?)
             }
+            SamplerKind::Bvh => Self::Bvh(BvhLightSampler::new(extents)?),
         })
     }
 
@@ -102,6 +108,7 @@ impl AnyLightSampler {
             // A bin of the alias table, as its documentation says.
             Self::Power(_) => 12 * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
+            Self::Bvh(sampler) => sampler.tree().bytes(),
         }
     }
 
@@ -111,6 +118,7 @@ impl AnyLightSampler {
         match self {
             Self::Uniform(_) | Self::Power(_) => 0,
             Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
+            Self::Bvh(sampler) => sampler.tree().depth(),
         }
     }
 }
@@ -130,6 +138,7 @@ macro_rules! for_each_kind {
             AnyLightSampler::Uniform($it) => $answer,
             AnyLightSampler::Power($it) => $answer,
             AnyLightSampler::BvhReference($it) => $answer,
+            AnyLightSampler::Bvh($it) => $answer,
         }
     };
 }

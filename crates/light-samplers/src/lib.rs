@@ -10,14 +10,20 @@ pub use light_bounds;
 pub use light_bounds::SampledLight;
 
 #[cfg(feature = "alloc")]
+mod bvh;
+#[cfg(feature = "alloc")]
 mod infinite;
 mod light_sampler;
 #[cfg(feature = "alloc")]
 mod power;
 #[cfg(feature = "alloc")]
 mod reference_bvh;
+#[cfg(feature = "alloc")]
+mod sky;
 mod uniform;
 
+#[cfg(feature = "alloc")]
+pub use bvh::BvhLightSampler;
 pub use light_sampler::LightSampler;
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};

@@ -1,6 +1,8 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
-use light_samplers::{PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler};
+use light_samplers::{
+    BvhLightSampler, PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler,
+};
 
 light_testkit::sampler_laws! {
     /// Every light alike.
@@ -16,5 +18,10 @@ light_testkit::sampler_laws! {
     /// The published hierarchy.
     mod reference_bvh {
         |set| ReferenceBvhLightSampler::new(&set.extents()).expect("valid bounds")
+    }
+
+    /// The default hierarchy.
+    mod bvh {
+        |set| BvhLightSampler::new(&set.extents()).expect("valid bounds")
     }
 }

@@ -33,6 +33,7 @@ impl Subject {
             AnyLightSampler::Uniform(sampler) => sampler,
             AnyLightSampler::Power(sampler) => sampler,
             AnyLightSampler::BvhReference(sampler) => sampler,
+            AnyLightSampler::Bvh(sampler) => sampler,
         }
     }
 

@@ -1,0 +1,101 @@
+use light_math::float;
+use light_math::glam::Vec3;
+
+use super::moments::{Moments, Shape};
+use super::node::{BOTH_SIDES, WIDTH, WideNode, encode_power};
+
+/// The least scale of a node: lights closer together than this are taken as one point.
+const MIN_SCALE: f32 = 1e-30;
+
+impl WideNode {
+    /// A node whose children have the given moments, at most eight; `child_base`, `light_base`, `inner` and `parent` are left to
+    /// the caller.
+    pub(crate) fn encode(children: &[Moments]) -> Self {
+        debug_assert!(children.len() <= WIDTH, "at most eight children");
+        let mut node = Self {
+            count: u8::try_from(children.len()).unwrap_or(0),
+            ..Self::EMPTY
+        };
+        let low = children
+            .iter()
+            .fold(Vec3::INFINITY, |low, c| low.min(c.mean));
+        node.set_frame(children, low);
+        let units: [f32; WIDTH] = core::array::from_fn(|k| children.get(k).map_or(0.0, unit));
+        let power = |k: usize| children[k].power * units[k];
+        let max_power = (0..children.len())
+            .map(power)
+            .fold(f32::MIN_POSITIVE, f32::max);
+        node.gain = encode_gain(max_power);
+        for (k, child) in children.iter().enumerate() {
+            node.set_box(k, child);
+            node.set_emission(k, child, units[k]);
+            node.power[k] = encode_power(power(k) / max_power);
+        }
+        node
+    }
+
+    fn set_frame(&mut self, children: &[Moments], low: Vec3) {
+        let mut scale = MIN_SCALE;
+        for child in children {
+            let reach = (child.mean - low).max_element();
+            let half = (child.bounds.max - child.mean).max(child.mean - child.bounds.min);
+            scale = scale.max(reach / 255.0).max(half.max_element() / 253.0);
+        }
+        self.origin = low.to_array();
+        // A little more, so that rounding cannot push a code beyond its range.
+        self.scale = scale * (1.0 + 4.0 * f32::EPSILON);
+    }
+
+    /// Mean position and a box around it, both exact in double precision, so that the box holds what it must.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the range of the code; NaN cannot occur with finite bounds"
+    )]
+    fn set_box(&mut self, k: usize, child: &Moments) {
+        let scale = f64::from(self.scale);
+        for axis in 0..3 {
+            let origin = f64::from(self.origin[axis]);
+            let at = (f64::from(child.mean[axis]) - origin) / scale;
+            let code = (at + 0.5).clamp(0.0, 255.0) as u8;
+            let decoded = origin + scale * f64::from(code);
+            let above = f64::from(child.bounds.max[axis]) - decoded;
+            let below = decoded - f64::from(child.bounds.min[axis]);
+            let half = above.max(below) / scale;
+            self.mean[axis][k] = code;
+            // Truncation plus one is above, and never 0: a child without extent keeps a floor of uncertainty.
+            self.extent[axis][k] = (half.clamp(0.0, 254.0) as u8).saturating_add(1);
+        }
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "float to integer casts saturate"
+    )]
+    fn set_emission(&mut self, k: usize, child: &Moments, unit: f32) {
+        let inv_unit = 1.0 / unit;
+        for axis in 0..3 {
+            self.axis[axis][k] = float::round(child.axis[axis] * inv_unit) as i8;
+        }
+        self.offset[k] = if child.shape == Shape::BothSides {
+            BOTH_SIDES
+        } else {
+            (float::round(child.offset * inv_unit) as i8).max(-127)
+        };
+        let spread = float::ceil(float::sqrt(child.spread_sq) * inv_unit);
+        self.spread[k] = spread.clamp(1.0, 255.0) as u8;
+    }
+}
+
+/// The unit of a child's axis, offset and spread: what makes the largest of them fit its code.
+fn unit(child: &Moments) -> f32 {
+    let axis = child.axis.abs().max_element();
+    let spread = float::sqrt(child.spread_sq);
+    axis.max(child.offset.abs()).max(0.5 * spread).max(1e-6) / 127.0
+}
+
+/// The upper half of the float: always finite and above 0.
+fn encode_gain(power: f32) -> u16 {
+    ((power.clamp(f32::MIN_POSITIVE, 1e30).to_bits() + 0x8000) >> 16) as u16
+}

@@ -1,0 +1,202 @@
+use light_bounds::LightSampleContext;
+use light_math::float;
+use light_math::glam::Vec3;
+
+use super::lane::Lane;
+
+/// Coordinates are clamped to this on either side, so that no difference of two overflows.
+pub(crate) const FAR: f32 = 1e36;
+
+/// Round-off of a child's position, in units of the distance (see [`Lane`]): what a sound test has to leave.
+const SLACK: f32 = 1e-5;
+
+/// How much of the variance of a height over the horizon counts, and how much of the emission ramp's variance by position and by
+/// spread, and of the variance of the distance.
+const HEIGHT: f32 = 0.45;
+const RAMP_BY_POSITION: f32 = 0.11;
+const RAMP_BY_SPREAD: f32 = 0.30;
+const DISTANCE: f32 = 0.05;
+
+/// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
+///
+/// A policy may return 0 only when no light of the group can contribute: that test has to be sound. Everything else is an estimate.
+pub trait Receiver: Copy {
+    /// The point that groups are seen from.
+    fn position(&self) -> Vec3;
+
+    /// How far from [`position`](Self::position) the receiver reaches: 0 unless it is a segment.
+    #[inline]
+    fn reach(&self) -> f32 {
+        0.0
+    }
+
+    /// About four times the group's irradiance, in units of its power over the squared `1 / inv_unit`.
+    ///
+    /// `inv_unit` converts lengths to those of the lane.
+    fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32;
+}
+
+/// A point on a surface that light reaches from the side of its normal only.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceReceiver {
+    p: Vec3,
+    n: Vec3,
+}
+
+impl SurfaceReceiver {
+    /// The point `p` with the unit normal `n`.
+    #[inline]
+    #[must_use]
+    pub fn new(p: Vec3, n: Vec3) -> Self {
+        Self { p: near(p), n }
+    }
+}
+
+impl Receiver for SurfaceReceiver {
+    #[inline]
+    fn position(&self) -> Vec3 {
+        self.p
+    }
+
+    #[inline(always)]
+    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
+        let (height, height_var, support) = lane.height(self.n);
+        let lit = height + support > -SLACK;
+        let expected =
+            height + float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
+        if lit { expected * lane.emitted() } else { 0.0 }
+    }
+}
+
+/// A point on a surface that light reaches from both sides.
+#[derive(Clone, Copy, Debug)]
+pub struct TwoSidedReceiver {
+    p: Vec3,
+    n: Vec3,
+}
+
+impl TwoSidedReceiver {
+    /// The point `p` with the unit normal `n`.
+    #[inline]
+    #[must_use]
+    pub fn new(p: Vec3, n: Vec3) -> Self {
+        Self { p: near(p), n }
+    }
+}
+
+impl Receiver for TwoSidedReceiver {
+    #[inline]
+    fn position(&self) -> Vec3 {
+        self.p
+    }
+
+    #[inline(always)]
+    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
+        let (height, height_var, _) = lane.height(self.n);
+        let expected = float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
+        2.0 * expected * lane.emitted()
+    }
+}
+
+/// A point in a medium, where light counts from all directions alike.
+#[derive(Clone, Copy, Debug)]
+pub struct MediumReceiver {
+    p: Vec3,
+}
+
+impl MediumReceiver {
+    /// The point `p`.
+    #[inline]
+    #[must_use]
+    pub fn new(p: Vec3) -> Self {
+        Self { p: near(p) }
+    }
+}
+
+impl Receiver for MediumReceiver {
+    #[inline]
+    fn position(&self) -> Vec3 {
+        self.p
+    }
+
+    #[inline(always)]
+    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
+        2.0 * lane.dist * lane.emitted()
+    }
+}
+
+/// Nobody in particular: groups count by their peak intensity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NoReceiver;
+
+impl Receiver for NoReceiver {
+    #[inline]
+    fn position(&self) -> Vec3 {
+        Vec3::ZERO
+    }
+
+    #[inline(always)]
+    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
+        lane.power
+    }
+}
+
+/// Where both normals are zero, the context's point is in a medium; otherwise on a surface with its shading normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ContextReceiver {
+    Surface(SurfaceReceiver),
+    Medium(MediumReceiver),
+}
+
+impl From<&LightSampleContext> for ContextReceiver {
+    #[inline]
+    fn from(ctx: &LightSampleContext) -> Self {
+        // Where coordinates had to be clamped, directions to lights mean nothing.
+        if ctx.is_medium() || near(ctx.p) != ctx.p {
+            Self::Medium(MediumReceiver::new(ctx.p))
+        } else {
+            Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns))
+        }
+    }
+}
+
+#[inline]
+fn near(p: Vec3) -> Vec3 {
+    p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
+}
+
+impl Lane {
+    /// Mean height over the plane through the receiver with normal `n`, its variance, and the highest point's excess over the mean.
+    #[inline(always)]
+    fn height(&self, n: Vec3) -> (f32, f32, f32) {
+        let [hx, hy, hz] = self.extent;
+        let [vx, vy, vz] = self.mean;
+        let (sx, sy, sz) = (n.x.abs() * hx, n.y.abs() * hy, n.z.abs() * hz);
+        (
+            n.x * vx + n.y * vy + n.z * vz,
+            sx * sx + sy * sy + sz * sz,
+            sx + sy + sz,
+        )
+    }
+
+    /// About twice the intensity toward the receiver over the distance to the fifth power and a half: everything but the cosine at
+    /// the receiver.
+    #[inline(always)]
+    fn emitted(&self) -> f32 {
+        let [hx, hy, hz] = self.extent;
+        let [vx, vy, vz] = self.mean;
+        let [mx, my, mz] = self.axis;
+        let (d, o) = (self.dist, self.offset);
+        let toward = -(mx * vx + my * vy + mz * vz + o * d) * d;
+        let gx = (mx * d + o * vx) * hx;
+        let gy = (my * d + o * vy) * hy;
+        let gz = (mz * d + o * vz) * hz;
+        let by_spread = self.spread * self.dist_sq;
+        let variance = RAMP_BY_POSITION * (gx * gx + gy * gy + gz * gz)
+            + RAMP_BY_SPREAD * (by_spread * by_spread);
+        let root = float::sqrt(toward * toward + variance);
+        let ramp = if self.both_sides { root } else { toward } + root;
+        let fuzzy_dist_sq = self.dist_sq + DISTANCE * (hx * hx + hy * hy + hz * hz);
+        self.power * ramp / (d * (fuzzy_dist_sq * fuzzy_dist_sq))
+    }
+}

@@ -1,0 +1,26 @@
+//! The default tree: wide nodes of quantised moments.
+
+#[cfg(feature = "alloc")]
+mod build;
+#[cfg(feature = "alloc")]
+mod encode;
+mod importance;
+mod lane;
+#[cfg(feature = "alloc")]
+mod light_bvh;
+#[cfg(feature = "alloc")]
+mod moments;
+mod node;
+#[cfg(feature = "alloc")]
+mod prim;
+mod select;
+#[cfg(feature = "alloc")]
+mod split;
+mod tree;
+
+pub use importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
+pub use lane::Lane;
+#[cfg(feature = "alloc")]
+pub use light_bvh::LightBvh;
+pub use node::WideNode;
+pub use tree::{LightBvhRef, MAX_DEPTH};

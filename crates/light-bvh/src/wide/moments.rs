@@ -1,0 +1,189 @@
+use core::f32::consts::PI;
+
+use light_bounds::LightBounds;
+use light_math::glam::Vec3;
+use light_math::{Aabb, float};
+
+/// Cosine of `theta_e` below which an emitter counts as diffuse.
+const DIFFUSE: f32 = 1e-3;
+
+/// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak intensity.
+///
+/// Toward a unit vector `w` the group emits about `power * max(0, dot(axis, w) - offset)`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moments {
+    /// Peak intensity, as a share of the power of all lights; above 0.
+    pub(crate) power: f32,
+    /// Box of all emitting points.
+    pub(crate) bounds: Aabb,
+    /// Mean position.
+    pub(crate) mean: Vec3,
+    /// Mean axis, as long as the emission is directed.
+    pub(crate) axis: Vec3,
+    /// Mean offset.
+    pub(crate) offset: f32,
+    /// Mean squared deviation of axis and offset.
+    pub(crate) spread_sq: f32,
+    /// How the emission is shaped.
+    pub(crate) shape: Shape,
+}
+
+/// How a group of lights emits, as far as their moments join differently.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// Anything.
+    Mixed,
+    /// Every light emits alike to both sides; the axis has no sign.
+    BothSides,
+    /// Every light is a spot.
+    Spots,
+}
+
+impl Moments {
+    /// The moments of one light; `inv_total` is one over the power of all lights together.
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+    pub(crate) fn of_light(light: &LightBounds, inv_total: f64) -> Self {
+        let lobe = Lobe::new(light);
+        let power = (f64::from(light.phi) * inv_total) as f32 * lobe.peak;
+        Self {
+            power: power.max(f32::MIN_POSITIVE),
+            bounds: light.bounds,
+            mean: light.bounds.center(),
+            axis: light.w * lobe.axis,
+            offset: lobe.offset,
+            spread_sq: lobe.spread_sq,
+            shape: lobe.shape,
+        }
+    }
+
+    /// The moments of several groups together.
+    pub(crate) fn join(parts: &[Self]) -> Self {
+        let shape = match parts.first() {
+            Some(first) if parts.iter().all(|p| p.shape == first.shape) => first.shape,
+            _ => Shape::Mixed,
+        };
+        let bounds = parts.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
+        let power: f32 = parts.iter().map(|p| p.power).sum();
+        let mut joined = Self {
+            power,
+            bounds,
+            mean: Vec3::ZERO,
+            axis: Vec3::ZERO,
+            offset: 0.0,
+            spread_sq: 0.0,
+            shape,
+        };
+        let inv_power = 1.0 / power;
+        for part in parts {
+            let share = part.power * inv_power;
+            let part = part.in_group(shape, joined.axis);
+            // Relative to the lower corner, the mean keeps its precision far from the origin.
+            joined.mean += (part.mean - bounds.min) * share;
+            joined.axis += part.axis * share;
+            joined.offset += part.offset * share;
+        }
+        joined.mean = (joined.mean + bounds.min).clamp(bounds.min, bounds.max);
+        let along = joined.axis.normalize_or_zero();
+        for part in parts {
+            let share = part.power * inv_power;
+            let part = part.in_group(shape, joined.axis);
+            let axis = part.axis - joined.axis;
+            let offset = part.offset - joined.offset;
+            joined.spread_sq += share * (part.spread_sq + shape.deviation_sq(axis, offset, along));
+        }
+        joined
+    }
+
+    /// The same lights as a part of a group of the given shape and the axis so far.
+    fn in_group(&self, shape: Shape, axis: Vec3) -> Self {
+        match (self.shape, shape) {
+            (Shape::BothSides, Shape::BothSides) if self.axis.dot(axis) < 0.0 => Self {
+                axis: -self.axis,
+                ..*self
+            },
+            // Mean and variance of |cos| over the sphere: what is left when the axis may not be averaged.
+            (Shape::BothSides, Shape::Mixed) => Self {
+                axis: Vec3::ZERO,
+                offset: -0.5,
+                spread_sq: 1.0 / 3.0 - 0.25,
+                ..*self
+            },
+            _ => *self,
+        }
+    }
+}
+
+impl Shape {
+    /// How much a part that deviates by `axis` and `offset` from the mean adds to the squared spread.
+    fn deviation_sq(self, axis: Vec3, offset: f32, along: Vec3) -> f32 {
+        if self == Self::Spots {
+            // Only directions near the common axis matter, where deviations of axis and offset cancel.
+            let forward = axis.dot(along);
+            let aside_sq = (axis.length_squared() - forward * forward).max(0.0);
+            0.25 * aside_sq + (forward - offset) * (forward - offset)
+        } else {
+            axis.length_squared() + offset * offset
+        }
+    }
+}
+
+/// How one light emits: `peak * phi * max(0, axis * cos - offset)`, at most `peak * phi`.
+struct Lobe {
+    peak: f32,
+    axis: f32,
+    offset: f32,
+    spread_sq: f32,
+    shape: Shape,
+}
+
+impl Lobe {
+    fn new(light: &LightBounds) -> Self {
+        let (cos_o, cos_e) = (light.cos_theta_o, light.cos_theta_e);
+        if cos_e.abs() < DIFFUSE {
+            return Self::diffuse(cos_o, light.two_sided);
+        }
+        let sin_o = float::safe_sqrt(1.0 - cos_o * cos_o);
+        let sin_e = float::safe_sqrt(1.0 - cos_e * cos_e);
+        // Beyond pi the sum of the angles is a full turn: `sin(o + e) < 0`.
+        let wraps = sin_o * cos_e + cos_o * sin_e < 0.0;
+        let cos_total = if wraps {
+            -1.0
+        } else {
+            cos_o * cos_e - sin_o * sin_e
+        };
+        if cos_total <= -0.5 || light.two_sided {
+            return Self::diffuse(-1.0, false);
+        }
+        // A line in the cosine, from 1 on the axis to 0 at the edge of the cone.
+        let slope = 1.0 / (1.0 - cos_total).max(1e-4);
+        Self {
+            peak: 1.0 / (4.0 * PI),
+            axis: slope,
+            offset: slope - 1.0,
+            spread_sq: 0.0,
+            shape: Shape::Spots,
+        }
+    }
+
+    /// A diffuse surface whose normals fill a cone of half angle `theta_o`; a point or a sphere fills all directions.
+    fn diffuse(cos_theta_o: f32, two_sided: bool) -> Self {
+        let mean_cos = 0.5 + 0.5 * cos_theta_o;
+        let rest = 1.0 - mean_cos;
+        if two_sided {
+            return Self {
+                peak: 1.0 / PI,
+                axis: mean_cos,
+                offset: 0.0,
+                spread_sq: rest * (1.0 + mean_cos),
+                shape: Shape::BothSides,
+            };
+        }
+        Self {
+            peak: (1.0 - 0.75 * rest) / PI,
+            axis: mean_cos,
+            offset: -rest,
+            spread_sq: rest * mean_cos,
+            shape: Shape::Mixed,
+        }
+    }
+}

@@ -1,0 +1,130 @@
+/// Children of a node.
+pub(crate) const WIDTH: usize = 8;
+
+/// `slots` entry of a light that is not in the tree, and `parent` of the root.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// A node of the default tree: up to eight children, each a subtree or one light, described by 8-bit moments.
+///
+/// Lengths are in units of the node's `scale`. A child's emission toward a unit vector `w` is about
+/// `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a unit that is folded into `power`.
+/// The first `inner` children are subtrees, in the nodes `child_base..`; the others are lights, in the order entries
+/// `light_base..`.
+///
+/// | byte | field | |
+/// | --- | --- | --- |
+/// | 0 | `mean[axis][child]` | mean position: `origin + scale * mean` |
+/// | 24 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
+/// | 48 | `axis[axis][child]` | mean emission axis, signed |
+/// | 72 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
+/// | 80 | `spread[child]` | how far axis and offset vary within the child |
+/// | 88 | `power[child]` | five bits of exponent, three of mantissa, relative to the node's `gain`; 0 for an empty slot |
+/// | 96 | `origin` | |
+/// | 108 | `scale` | |
+/// | 112 | `child_base` | |
+/// | 116 | `light_base` | |
+/// | 120 | `gain` | upper half of an `f32`: the largest power of a child, as a share of the tree's |
+/// | 122 | `inner` | |
+/// | 123 | `count` | children in all |
+/// | 124 | `parent` | `8 * node + child`; all ones at the root |
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
+#[allow(missing_docs, reason = "the table above documents every field")]
+pub struct WideNode {
+    pub mean: [[u8; WIDTH]; 3],
+    pub extent: [[u8; WIDTH]; 3],
+    pub axis: [[i8; WIDTH]; 3],
+    pub offset: [i8; WIDTH],
+    pub spread: [u8; WIDTH],
+    pub power: [u8; WIDTH],
+    pub origin: [f32; 3],
+    pub scale: f32,
+    pub child_base: u32,
+    pub light_base: u32,
+    pub gain: u16,
+    pub inner: u8,
+    pub count: u8,
+    pub parent: u32,
+}
+
+const _: () = assert!(size_of::<WideNode>() == 128, "two cache lines");
+
+/// The offset that marks a child that emits alike to both sides.
+pub(crate) const BOTH_SIDES: i8 = i8::MIN;
+
+impl WideNode {
+    /// A node without children.
+    pub const EMPTY: Self = Self {
+        mean: [[0; WIDTH]; 3],
+        extent: [[0; WIDTH]; 3],
+        axis: [[0; WIDTH]; 3],
+        offset: [0; WIDTH],
+        spread: [0; WIDTH],
+        power: [0; WIDTH],
+        origin: [0.0; 3],
+        scale: 1.0,
+        child_base: 0,
+        light_base: 0,
+        gain: 0,
+        inner: 0,
+        count: 0,
+        parent: NOWHERE,
+    };
+
+    /// The largest power of a child, as a share of the tree's.
+    #[inline]
+    #[must_use]
+    pub const fn gain(&self) -> f32 {
+        f32::from_bits((self.gain as u32) << 16)
+    }
+}
+
+/// The power that a code stands for: 0 for 0, otherwise a number of `[2^-31, 2)`.
+#[inline]
+pub(crate) const fn decode_power(code: u8) -> f32 {
+    if code == 0 {
+        0.0
+    } else {
+        f32::from_bits(((code as u32) << 20) + (96 << 23))
+    }
+}
+
+/// The code nearest to `power` of `[0, 1]`; never 0, which would make a light unreachable.
+#[cfg(feature = "alloc")]
+#[expect(clippy::cast_sign_loss, reason = "clamped to 1..=255 before the cast")]
+pub(crate) fn encode_power(power: f32) -> u8 {
+    // The code is the float's top bits, so rounding to nearest adds half of the last of them.
+    let bits = i64::from((power.max(0.0)).to_bits()) + (1 << 19);
+    ((bits >> 20) - (96 << 3)).clamp(1, 255) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_decode_to_within_a_sixteenth() {
+        let mut power = 1.0;
+        while power > 1e-9 {
+            let ratio = decode_power(encode_power(power)) / power;
+            assert!((ratio - 1.0).abs() <= 1.0 / 16.0, "{power}: {ratio}");
+            power *= 0.97;
+        }
+    }
+
+    #[test]
+    fn no_power_is_encoded_as_none() {
+        for power in [0.0, 1e-30, f32::MIN_POSITIVE] {
+            assert!(decode_power(encode_power(power)) > 0.0, "{power}");
+        }
+        assert_eq!(decode_power(0), 0.0, "an empty slot");
+    }
+
+    #[test]
+    fn codes_come_back() {
+        for code in 1..=248 {
+            assert_eq!(encode_power(decode_power(code)), code, "code");
+        }
+    }
+}

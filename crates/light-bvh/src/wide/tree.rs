@@ -1,0 +1,191 @@
+use light_bounds::{LightId, LightSampleContext, SampledLight};
+
+use super::importance::{ContextReceiver, NoReceiver, Receiver};
+use super::lane::Weights;
+use super::node::{NOWHERE, WIDTH, WideNode};
+use super::select::both;
+
+/// Levels of nodes that a tree may have: the builder keeps to it whatever the lights are.
+pub const MAX_DEPTH: usize = 24;
+
+/// The default light hierarchy on borrowed memory: what queries need and nothing else.
+///
+/// Three plain arrays that can be copied to a GPU as they are.
+#[derive(Clone, Copy, Debug)]
+pub struct LightBvhRef<'a> {
+    nodes: &'a [WideNode],
+    order: &'a [u32],
+    slots: &'a [u32],
+}
+
+impl<'a> LightBvhRef<'a> {
+    /// A view of the arrays of a [`LightBvh`](crate::LightBvh). Arrays of another origin give answers without meaning, but no panic and no
+    /// endless loop.
+    #[must_use]
+    pub const fn new(nodes: &'a [WideNode], order: &'a [u32], slots: &'a [u32]) -> Self {
+        Self {
+            nodes,
+            order,
+            slots,
+        }
+    }
+
+    /// The nodes, the root first.
+    #[must_use]
+    pub const fn nodes(&self) -> &'a [WideNode] {
+        self.nodes
+    }
+
+    /// The lights as the nodes refer to them.
+    #[must_use]
+    pub const fn order(&self) -> &'a [u32] {
+        self.order
+    }
+
+    /// The place of each light: `8 * node + child`, all ones for a light that is not in the tree.
+    #[must_use]
+    pub const fn slots(&self) -> &'a [u32] {
+        self.slots
+    }
+
+    /// Whether there is no light in the tree.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// One light that may light `ctx`; `None` if no light in the tree can.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.sample_after(ctx, 1.0, u)
+    }
+
+    /// [`sample`](Self::sample) after another choice of probability `pmf` led to the tree.
+    #[inline]
+    #[must_use]
+    pub fn sample_after(&self, ctx: &LightSampleContext, pmf: f32, u: f64) -> Option<SampledLight> {
+        match ctx.into() {
+            ContextReceiver::Surface(receiver) => self.descend(&receiver, 0, pmf, u),
+            ContextReceiver::Medium(receiver) => self.descend(&receiver, 0, pmf, u),
+        }
+    }
+
+    /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
+    #[inline]
+    #[must_use]
+    pub fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.pmf_after(ctx, 1.0, light)
+    }
+
+    /// [`pmf`](Self::pmf) after another choice of probability `pmf` led to the tree.
+    #[inline]
+    #[must_use]
+    pub fn pmf_after(&self, ctx: &LightSampleContext, pmf: f32, light: LightId) -> f32 {
+        match ctx.into() {
+            ContextReceiver::Surface(receiver) => self.ascend(&receiver, pmf, light),
+            ContextReceiver::Medium(receiver) => self.ascend(&receiver, pmf, light),
+        }
+    }
+
+    /// One light that may light `receiver`; `None` if no light in the tree can.
+    #[inline]
+    #[must_use]
+    pub fn sample_for<R: Receiver>(&self, receiver: &R, u: f64) -> Option<SampledLight> {
+        self.descend(receiver, 0, 1.0, u)
+    }
+
+    /// Probability that [`sample_for`](Self::sample_for) returns `light`, to the bit.
+    #[inline]
+    #[must_use]
+    pub fn pmf_for<R: Receiver>(&self, receiver: &R, light: LightId) -> f32 {
+        self.ascend(receiver, 1.0, light)
+    }
+
+    /// One light to emit from, about in proportion to its peak intensity, after another choice of probability `pmf` led to the tree;
+    /// `None` if the tree is empty.
+    #[must_use]
+    pub fn sample_emitter_after(&self, pmf: f32, u: f64) -> Option<SampledLight> {
+        self.descend(&NoReceiver, 0, pmf, u)
+    }
+
+    /// Probability that [`sample_emitter_after`](Self::sample_emitter_after) returns `light`, to the bit.
+    #[must_use]
+    pub fn pmf_emitter_after(&self, pmf: f32, light: LightId) -> f32 {
+        self.ascend(&NoReceiver, pmf, light)
+    }
+
+    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
+    #[must_use]
+    pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
+        let Some(root) = self.nodes.first() else {
+            return 0.0;
+        };
+        let weights = match ctx.into() {
+            ContextReceiver::Surface(receiver) => Weights::new(root, &receiver),
+            ContextReceiver::Medium(receiver) => Weights::new(root, &receiver),
+        };
+        let inv_unit = f64::from(weights.inv_unit);
+        // Heights and intensities are counted twice each.
+        0.25 * f64::from(weights.total()) * f64::from(root.gain()) * inv_unit * inv_unit
+    }
+
+    /// The probability of `light` after another choice of probability `pmf` led to the tree.
+    #[inline]
+    fn ascend<R: Receiver>(&self, receiver: &R, pmf: f32, light: LightId) -> f32 {
+        let mut shares = [0.0; MAX_DEPTH];
+        let mut slot = self.slot(light);
+        let mut levels = 0;
+        // Up along the parents: which nodes to visit does not depend on what they weigh, so their latencies overlap.
+        while slot != NOWHERE {
+            let (Some(node), Some(share)) = (
+                self.nodes.get(slot as usize / WIDTH),
+                shares.get_mut(levels),
+            ) else {
+                return 0.0;
+            };
+            *share = Weights::new(node, receiver).probability(slot as usize % WIDTH);
+            levels += 1;
+            slot = node.parent;
+        }
+        if levels == 0 {
+            return 0.0;
+        }
+        // Multiplied from the root down, as a sample does it.
+        shares[..levels]
+            .iter()
+            .rev()
+            .fold(pmf, |pmf, &s| both(pmf, s))
+    }
+
+    /// From `node`, which was reached with probability `pmf`, down to a light.
+    #[inline]
+    pub(crate) fn descend<R: Receiver>(
+        &self,
+        receiver: &R,
+        node: usize,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        let (mut index, mut pmf, mut u) = (node, pmf, u);
+        for _ in 0..MAX_DEPTH {
+            let node = self.nodes.get(index)?;
+            let choice = Weights::new(node, receiver).choose(u)?;
+            pmf = both(pmf, choice.probability);
+            u = choice.u;
+            let inner = usize::from(node.inner);
+            if choice.child >= inner {
+                let entry = node.light_base as usize + choice.child - inner;
+                let light = LightId(*self.order.get(entry)?);
+                return Some(SampledLight { light, pmf, u });
+            }
+            index = node.child_base as usize + choice.child;
+        }
+        None
+    }
+
+    #[inline]
+    pub(crate) fn slot(&self, light: LightId) -> u32 {
+        self.slots.get(light.index()).copied().unwrap_or(NOWHERE)
+    }
+}

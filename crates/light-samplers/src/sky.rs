@@ -1,0 +1,126 @@
+use alloc::vec::Vec;
+
+use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
+use light_math::float;
+
+/// Cosine that is never taken for less while any light may arrive, and what a test for none of it leaves to round-off.
+const SLACK: f32 = 1e-5;
+
+/// The lights at infinity, and what each of them is worth to a point.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sky {
+    /// In ascending order of ids; those without fluence stay out.
+    lights: Vec<(LightId, InfiniteBounds)>,
+}
+
+impl Sky {
+    /// The infinite ones of `lights`.
+    pub(crate) fn new(lights: &[LightExtent]) -> Self {
+        let lights = (0..)
+            .map(LightId)
+            .zip(lights)
+            .filter_map(|(id, extent)| Some((id, *extent.infinite()?)))
+            .filter(|(_, bounds)| bounds.fluence > 0.0)
+            .collect();
+        Self { lights }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lights.is_empty()
+    }
+
+    /// The bounds of `light`, if it is one of these.
+    pub(crate) fn get(&self, light: LightId) -> Option<&InfiniteBounds> {
+        let at = self.lights.binary_search_by_key(&light, |(id, _)| *id);
+        at.ok().map(|index| &self.lights[index].1)
+    }
+
+    /// The sum of `worth` over all lights.
+    pub(crate) fn total(&self, worth: impl Fn(&InfiniteBounds) -> f64) -> f64 {
+        self.lights.iter().map(|(_, bounds)| worth(bounds)).sum()
+    }
+
+    /// The light that `target` falls on, between 0 and the total, with a probability as it is given by `pmf`.
+    pub(crate) fn choose(
+        &self,
+        target: f64,
+        worth: impl Fn(&InfiniteBounds) -> f64,
+        pmf: impl Fn(f64) -> f32,
+    ) -> Option<SampledLight> {
+        let mut below = 0.0;
+        let mut chosen = None;
+        for (light, bounds) in &self.lights {
+            let weight = worth(bounds);
+            if weight > 0.0 {
+                chosen = Some((*light, below, weight));
+                if target < below + weight {
+                    break;
+                }
+                below += weight;
+            }
+        }
+        let (light, start, weight) = chosen?;
+        Some(SampledLight {
+            light,
+            pmf: pmf(weight),
+            u: ((target - start) / weight).clamp(0.0, SampledLight::MAX_U),
+        })
+    }
+}
+
+/// About the irradiance at `ctx` by a light at infinity; 0 only if all of it is below the horizon.
+pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f64 {
+    f64::from(bounds.fluence) * f64::from(mean_cosine(bounds, ctx))
+}
+
+fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
+    if ctx.is_medium() {
+        return 1.0;
+    }
+    let cone = &bounds.cone;
+    let sin = float::safe_sqrt(1.0 - cone.cos_theta * cone.cos_theta);
+    if cone.cos_theta >= 0.0 && ctx.ns.dot(cone.w) + sin < -SLACK {
+        return 0.0;
+    }
+    let height = ctx.ns.dot(bounds.mean);
+    let variance = (1.0 - bounds.mean.length_squared()).max(0.0);
+    // Of a uniform sky a quarter arrives, of a distant light the cosine.
+    let expected = 0.5 * (height + float::sqrt(height * height + 0.25 * variance));
+    expected.max(SLACK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_math::glam::Vec3;
+
+    fn floor() -> LightSampleContext {
+        LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
+    }
+
+    #[test]
+    fn a_uniform_sky_gives_pi_times_its_radiance() {
+        let e = irradiance(&InfiniteBounds::uniform(2.0), &floor());
+        assert!((e - core::f64::consts::TAU).abs() < 1e-5, "{e}");
+    }
+
+    #[test]
+    fn a_sun_gives_its_irradiance_times_the_cosine() {
+        let up = Vec3::new(0.6, 0.0, 0.8);
+        let e = irradiance(&InfiniteBounds::distant(10.0, up), &floor());
+        assert!((e - 8.0).abs() < 1e-5, "{e}");
+        let e = irradiance(&InfiniteBounds::distant(10.0, -up), &floor());
+        assert_eq!(e, 0.0, "set");
+        let grazing = InfiniteBounds::distant(10.0, Vec3::X);
+        assert!(irradiance(&grazing, &floor()) > 0.0, "rising");
+    }
+
+    #[test]
+    fn a_medium_takes_all_of_it() {
+        let e = irradiance(
+            &InfiniteBounds::distant(10.0, Vec3::NEG_Z),
+            &LightSampleContext::medium(Vec3::ZERO),
+        );
+        assert_eq!(e, 10.0, "from below as well");
+    }
+}
