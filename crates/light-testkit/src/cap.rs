@@ -84,7 +84,8 @@ impl Cap {
         for cell in 0..grid * grid {
             let low = [f64::from(cell % grid) * step, f64::from(cell / grid) * step];
             let high = [low[0] + step, low[1] + step];
-            let share = tolerance / (omega * f64::from(grid * grid));
+            // The errors of the cells have random signs.
+            let share = tolerance / (omega * f64::from(grid));
             total += integrate(low, high, share, |x| f(self.direction(x)));
         }
         total * omega

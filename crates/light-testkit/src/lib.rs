@@ -9,6 +9,8 @@
 pub use light_math::glam;
 #[cfg(feature = "samplers")]
 pub use light_samplers;
+#[cfg(feature = "sources")]
+pub use light_sources;
 
 #[cfg(feature = "samplers")]
 mod adversarial_sets;
@@ -17,6 +19,7 @@ mod chi_squared;
 mod density;
 #[cfg(feature = "samplers")]
 mod emitter;
+mod estimate;
 mod gamma;
 #[cfg(feature = "samplers")]
 mod generated_sets;
@@ -35,6 +38,7 @@ pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
 pub use density::{DensityOutcome, DensityTest};
 #[cfg(feature = "samplers")]
 pub use emitter::Emitter;
+pub use estimate::Estimate;
 pub use gamma::{ln_gamma, regularized_gamma_q};
 pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 #[cfg(feature = "samplers")]

@@ -1,5 +1,9 @@
 //! Naive twins: what clever code must agree with, written so that nothing can be wrong with it. All in `f64`.
 
+use light_math::glam::Vec3;
+
+use crate::real3::{cross, dot, normalize, real3, sub};
+
 /// A choice made by walking along the weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
@@ -74,6 +78,21 @@ pub fn integrate_square(n: u32, mut f: impl FnMut([f64; 2]) -> f64) -> f64 {
     cells.sum::<f64>() * step * step
 }
 
+/// The cosine between `-wi` and the counter-clockwise normal where the ray from `p` along `wi` meets the triangle;
+/// `None` when it misses.
+#[must_use]
+pub fn hit_triangle(p: Vec3, wi: Vec3, corners: [Vec3; 3]) -> Option<f64> {
+    let wi = real3(wi);
+    let [a, b, c] = corners.map(|corner| sub(real3(corner), real3(p)));
+    // The ray passes all three edges on the same side.
+    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| dot(wi, cross(from, to)));
+    let inside = sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0);
+    let normal = normalize(cross(sub(b, a), sub(c, a)));
+    let cos = -dot(wi, normal);
+    let ahead = -dot(a, normal) * cos > 0.0;
+    (inside && ahead).then_some(cos)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,5 +142,24 @@ mod tests {
         );
         let mean = integrate_square(100, |[x, y]| x + y);
         assert!((mean - 1.0).abs() < 1e-12, "mean of x + y: {mean}");
+    }
+
+    #[test]
+    fn rays_and_triangles() {
+        let triangle = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let from = Vec3::new(0.2, 0.2, 2.0);
+        assert_eq!(
+            hit_triangle(from, Vec3::NEG_Z, triangle),
+            Some(1.0),
+            "front"
+        );
+        assert_eq!(hit_triangle(-from, Vec3::Z, triangle), None, "beside");
+        assert_eq!(
+            hit_triangle(from, Vec3::Z, triangle),
+            None,
+            "behind the ray"
+        );
+        let below = Vec3::new(0.2, 0.2, -2.0);
+        assert_eq!(hit_triangle(below, Vec3::Z, triangle), Some(-1.0), "back");
     }
 }

@@ -1,5 +1,7 @@
 //! What every implementation of a trait must obey, written once.
 
+#[cfg(feature = "sources")]
+pub mod light;
 #[cfg(feature = "samplers")]
 pub mod sampler;
 #[cfg(feature = "samplers")]
