@@ -4,6 +4,7 @@ mod arguments;
 mod bench;
 mod compare;
 mod failure;
+mod info;
 mod output_image;
 mod progress;
 mod render;
@@ -29,6 +30,7 @@ struct Program {
 enum Command {
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
+    Info(info::InfoArgs),
     Render(render::RenderArgs),
 }
 
@@ -41,6 +43,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match program.command {
         Some(Command::Bench(args)) => args.run().map_err(Failure::input),
         Some(Command::Compare(args)) => args.run(),
+        Some(Command::Info(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),
         None => Ok(()),
     };

@@ -19,6 +19,7 @@ use super::scene_input::{SceneInput, report_warnings};
 
 /// Render a scene into an image.
 #[derive(Args, Debug)]
+#[command(allow_negative_numbers = true)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     input: SceneInput,

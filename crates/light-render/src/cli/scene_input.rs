@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{Diagnostic, Scene, SceneLight, SkyImage, read_image, read_obj};
+use light_scene::{BuiltinScene, Diagnostic, Scene, SceneLight, SkyImage, read_image, read_obj};
 use lights::glam::{Quat, Vec3};
 
 use super::failure::Failure;
@@ -10,7 +10,7 @@ use super::failure::Failure;
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
 pub(crate) struct SceneInput {
-    /// The scene: an .obj file.
+    /// The scene: an .obj file, or the name of a scene that ships.
     pub(crate) scene: PathBuf,
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
@@ -47,14 +47,18 @@ impl SceneInput {
     }
 }
 
-/// The scene in a file, by the ending of its name.
+/// The scene in a file, by the ending of its name, or the one that ships under a name without ending.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {
+    let refuse = |message: String| Failure::input(Diagnostic::file(path, message));
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("obj") => read_obj(path).map_err(Failure::input),
-        _ => Err(Failure::input(Diagnostic::file(
-            path,
-            "expected a scene file: .obj",
-        ))),
+        Some(_) => Err(refuse("expected a scene file: .obj".into())),
+        None => {
+            let shipped = path.to_string_lossy().parse::<BuiltinScene>();
+            shipped
+                .map(BuiltinScene::load)
+                .map_err(|error| refuse(format!("expected a scene file, .obj; or {error}")))
+        }
     }
 }
 

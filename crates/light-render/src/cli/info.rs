@@ -1,0 +1,120 @@
+use std::time::Instant;
+
+use clap::Args;
+use light_render::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
+use light_scene::Diagnostic;
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::scene_input::SceneInput;
+
+/// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
+#[derive(Args, Debug)]
+pub(crate) struct InfoArgs {
+    #[command(flatten)]
+    input: SceneInput,
+    /// Print one line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The light hierarchy over a scene's lights.
+struct Tree {
+    sampler: SamplerKind,
+    build_ms: f64,
+    depth: usize,
+    bytes: usize,
+}
+
+impl InfoArgs {
+    /// Reads the scene and prints what it holds.
+    ///
+    /// # Errors
+    /// Bad input.
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let mut scene = self.input.read()?;
+        let warnings = core::mem::take(&mut scene.warnings);
+        let world = self.input.build(scene)?;
+        let tree = Tree::over(&world)?;
+        let kinds = inventory(world.lights());
+        if self.json {
+            println!("{}", self.report(&world, &kinds, &tree, &warnings));
+        } else {
+            self.print(&world, &kinds, &tree, &warnings);
+        }
+        Ok(())
+    }
+
+    fn report(
+        &self,
+        world: &World,
+        kinds: &[LightInventory],
+        tree: &Tree,
+        warnings: &[Diagnostic],
+    ) -> Value {
+        let count = world.lights().len();
+        let kinds: Vec<Value> = kinds
+            .iter()
+            .map(|k| {
+                json!({
+                    "kind": k.kind,
+                    "count": k.count,
+                    "power": k.power.to_array(),
+                    "area": k.area,
+                })
+            })
+            .collect();
+        let bounds = world.bounds();
+        json!({
+            "scene": self.input.scene.display().to_string(),
+            "triangles": world.triangle_count(),
+            "bounds": [bounds.min.to_array(), bounds.max.to_array()],
+            "lights": count,
+            "kinds": kinds,
+            "tree": {
+                "sampler": tree.sampler.name(),
+                "build_ms": tree.build_ms,
+                "depth": tree.depth,
+                "bytes": tree.bytes,
+                "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
+            },
+            "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        })
+    }
+
+    fn print(&self, world: &World, kinds: &[LightInventory], tree: &Tree, warnings: &[Diagnostic]) {
+        let bounds = world.bounds();
+        println!("{}", self.input.scene.display());
+        println!("  triangles  {}", world.triangle_count());
+        println!("  bounds     {} to {}", bounds.min, bounds.max);
+        println!("  lights     {}", world.lights().len());
+        for k in kinds {
+            let [r, g, b] = k.power.to_array();
+            println!(
+                "    {:<12} {:>8}   power {r:.4e} {g:.4e} {b:.4e} W   area {:.4e}",
+                k.kind, k.count, k.area
+            );
+        }
+        println!(
+            "  hierarchy  {}: depth {}, {} bytes, built in {:.2} ms",
+            tree.sampler, tree.depth, tree.bytes, tree.build_ms
+        );
+        for warning in warnings {
+            println!("  ignored    {warning}");
+        }
+    }
+}
+
+impl Tree {
+    fn over(world: &World) -> Result<Self, Failure> {
+        let kind = SamplerKind::DEFAULT;
+        let start = Instant::now();
+        let sampler = AnyLightSampler::new(kind, world.lights()).map_err(Failure::input)?;
+        Ok(Self {
+            sampler: kind,
+            build_ms: start.elapsed().as_secs_f64() * 1e3,
+            depth: sampler.depth(),
+            bytes: sampler.bytes(world.lights().len()),
+        })
+    }
+}

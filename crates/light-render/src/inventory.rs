@@ -1,0 +1,84 @@
+use lights::glam::DVec3;
+use lights::sources::shape::Shape;
+use lights::sources::{Light, LightRef, LightSet, Rgb};
+
+/// All lights of one kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightInventory {
+    /// The kind's name.
+    pub kind: &'static str,
+    /// How many there are.
+    pub count: usize,
+    /// Their power in W, a channel.
+    pub power: DVec3,
+    /// The area that shines, each side of a two-sided light once; 0 for lights without a surface.
+    pub area: f64,
+}
+
+/// What a set consists of, one entry for each kind that is there.
+#[must_use]
+pub fn inventory(lights: &LightSet<Rgb>) -> Vec<LightInventory> {
+    let mut kinds: Vec<LightInventory> = Vec::new();
+    for (_, light) in lights.iter() {
+        let (kind, area) = describe(&light);
+        let power = light.phi(&()).as_dvec3();
+        match kinds.iter_mut().find(|entry| entry.kind == kind) {
+            Some(entry) => {
+                entry.count += 1;
+                entry.power += power;
+                entry.area += f64::from(area);
+            }
+            None => kinds.push(LightInventory {
+                kind,
+                count: 1,
+                power,
+                area: area.into(),
+            }),
+        }
+    }
+    kinds
+}
+
+/// The name and the area of a light.
+fn describe(light: &LightRef<'_, Rgb>) -> (&'static str, f32) {
+    match light {
+        LightRef::Point(_) => ("point", 0.0),
+        LightRef::Spot(_) => ("spot", 0.0),
+        LightRef::Projection(_) => ("projection", 0.0),
+        LightRef::Goniometric(_) => ("goniometric", 0.0),
+        LightRef::Area(light) => ("area", light.shape().area()),
+        LightRef::Triangle(light) => ("triangle", light.shape().area()),
+        LightRef::Distant(_) => ("distant", 0.0),
+        LightRef::UniformInfinite(_) => ("uniform sky", 0.0),
+        LightRef::ImageInfinite(_) => ("image sky", 0.0),
+        LightRef::PortalInfinite(_) => ("portal", 0.0),
+        _ => ("other", 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::World;
+    use light_scene::{Emission, Material, Mesh, Scene};
+    use lights::glam::Vec3;
+
+    #[test]
+    fn lights_are_counted_with_their_power_and_area() {
+        let mut scene = Scene::default();
+        let lamp = scene.add_material(Material {
+            emission: Some(Emission::two_sided(Vec3::new(1.0, 2.0, 3.0))),
+            ..Material::diffuse("lamp", Vec3::ZERO)
+        });
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y].map(|p| p * 2.0);
+        scene.meshes.push(Mesh::quad("lamp", lamp, corners));
+        let world = World::new(scene).expect("valid lights");
+        let [entry] = inventory(world.lights())[..] else {
+            panic!("one kind");
+        };
+        assert_eq!((entry.kind, entry.count), ("triangle", 2), "a quad");
+        assert!((entry.area - 4.0).abs() < 1e-6, "two by two");
+        let power = DVec3::new(1.0, 2.0, 3.0) * 8.0 * core::f64::consts::PI;
+        assert!(entry.power.distance(power) < 1e-4, "pi L A on both sides");
+    }
+}
