@@ -118,6 +118,7 @@ pub fn wrap_texel(x: i32, y: i32, n: u32) -> (u32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use light_testkit::DensityTest;
     use proptest::prelude::*;
 
     #[test]
@@ -137,6 +138,22 @@ mod tests {
             let back = square_to_sphere(sphere_to_square(d));
             assert!(back.distance(d) < 1e-6, "{d} to {back}");
         }
+    }
+
+    /// Uniform points of the square are uniform directions, and the other way round.
+    #[test]
+    fn area_is_preserved_both_ways() {
+        let test = DensityTest::default();
+        let to_sphere = test.sphere(
+            |rng| Some(square_to_sphere(rng.vec2())),
+            |_| 0.25 * core::f32::consts::FRAC_1_PI,
+        );
+        assert_eq!(to_sphere.fault(2), None, "{to_sphere:?}");
+        let to_square = test.square(
+            |rng| Some(sphere_to_square(rng.direction())),
+            |_| 1.0,
+        );
+        assert_eq!(to_square.fault(2), None, "{to_square:?}");
     }
 
     /// Every coordinate of 16 bits on lines through the square, poles and equator included.

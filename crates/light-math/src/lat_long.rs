@@ -38,6 +38,28 @@ pub fn solid_angle_per_area(v: f32) -> f32 {
     2.0 * PI * PI * sin(PI * v).max(0.0)
 }
 
+/// The texel of an image of the given columns and rows at `(x, y)`, which lies at most one image outside.
+///
+/// Rows close upon themselves; beyond a pole the map goes on half a turn further, downwards again.
+#[inline]
+#[must_use]
+#[allow(
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "sizes are far below 2^31, wrapped indices are positive"
+)]
+pub fn wrap_texel(x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
+    let (columns, rows) = (size[0] as i32, size[1] as i32);
+    let (x, y) = if y < 0 {
+        (x + columns / 2, -1 - y)
+    } else if y >= rows {
+        (x + columns / 2, 2 * rows - 1 - y)
+    } else {
+        (x, y)
+    };
+    (x.rem_euclid(columns) as u32, y as u32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

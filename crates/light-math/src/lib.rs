@@ -24,7 +24,9 @@ pub mod lat_long;
 pub mod mis;
 mod octahedral;
 pub mod quantize;
+mod resample;
 pub mod spectrum;
+mod sphere_image;
 pub mod warp;
 
 pub use aabb::Aabb;
@@ -32,3 +34,5 @@ pub use cone::DirectionCone;
 pub use frame::Frame;
 pub use octahedral::OctahedralVector;
 pub use quantize::QuantizedBox;
+pub use resample::Resampler;
+pub use sphere_image::{SphereImage, SphereImageError, SphereMap};
