@@ -149,10 +149,7 @@ mod tests {
             |_| 0.25 * core::f32::consts::FRAC_1_PI,
         );
         assert_eq!(to_sphere.fault(2), None, "{to_sphere:?}");
-        let to_square = test.square(
-            |rng| Some(sphere_to_square(rng.direction())),
-            |_| 1.0,
-        );
+        let to_square = test.square(|rng| Some(sphere_to_square(rng.direction())), |_| 1.0);
         assert_eq!(to_square.fault(2), None, "{to_square:?}");
     }
 

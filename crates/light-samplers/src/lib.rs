@@ -12,6 +12,8 @@ pub use light_bounds::SampledLight;
 #[cfg(feature = "alloc")]
 mod bvh;
 #[cfg(feature = "alloc")]
+mod exhaustive;
+#[cfg(feature = "alloc")]
 mod infinite;
 mod light_sampler;
 #[cfg(feature = "alloc")]
@@ -24,6 +26,8 @@ mod uniform;
 
 #[cfg(feature = "alloc")]
 pub use bvh::BvhLightSampler;
+#[cfg(feature = "alloc")]
+pub use exhaustive::ExhaustiveLightSampler;
 pub use light_sampler::LightSampler;
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};

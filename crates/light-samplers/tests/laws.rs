@@ -1,7 +1,8 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
 use light_samplers::{
-    BvhLightSampler, PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, PowerLightSampler, ReferenceBvhLightSampler,
+    UniformLightSampler,
 };
 
 light_testkit::sampler_laws! {
@@ -13,6 +14,11 @@ light_testkit::sampler_laws! {
     /// In proportion to power.
     mod power {
         |set| PowerLightSampler::new(&set.powers()).expect("valid powers")
+    }
+
+    /// In proportion to importance.
+    mod exhaustive {
+        |set| ExhaustiveLightSampler::new(&set.extents()).expect("valid bounds")
     }
 
     /// The published hierarchy.

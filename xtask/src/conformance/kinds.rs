@@ -9,9 +9,12 @@ mod direction_cone;
 mod equal_area;
 mod light_bounds_importance;
 mod light_bounds_union;
+mod light_samplers;
 mod octahedral;
 mod piecewise_constant_1d;
 mod piecewise_constant_2d;
+mod pmf_range;
+mod sampler_answers;
 mod summed_area_table;
 mod tables;
 mod windowed_piecewise_constant_2d;
@@ -25,6 +28,7 @@ pub(super) fn checker(kind: &str) -> Option<Box<dyn Checker>> {
         "equal_area" => Box::new(equal_area::check),
         "light_bounds_importance" => Box::new(light_bounds_importance::check),
         "light_bounds_union" => Box::new(light_bounds_union::check),
+        "light_samplers" => Box::<light_samplers::LightSamplers>::default(),
         "octahedral" => Box::new(octahedral::check),
         "piecewise_constant_1d" => Box::new(piecewise_constant_1d::check),
         "piecewise_constant_2d" => Box::new(piecewise_constant_2d::check),

@@ -133,16 +133,24 @@ impl Subtree<'_> {
     }
 }
 
-/// Moves the lights of the first side to the front and returns their number.
+/// Moves the lights of the first side to the front and returns their number; exchanges from both ends inward.
 fn partition(lights: &mut [Leaf], split: &Split) -> usize {
-    let mut middle = 0;
-    for i in 0..lights.len() {
-        if split.is_first(lights[i].centroid) {
-            lights.swap(i, middle);
-            middle += 1;
+    let is_first = |light: &Leaf| split.is_first(light.centroid);
+    let (mut front, mut back) = (0, lights.len());
+    loop {
+        while front < back && is_first(&lights[front]) {
+            front += 1;
         }
+        while front < back && !is_first(&lights[back - 1]) {
+            back -= 1;
+        }
+        if front == back {
+            return front;
+        }
+        lights.swap(front, back - 1);
+        front += 1;
+        back -= 1;
     }
-    middle
 }
 
 /// Moves the half of the lights that is lower along the widest axis to the front and returns its number.

@@ -25,17 +25,20 @@ impl Split {
 /// The cheapest split of the lights between two buckets of any axis, each side with at least one light; `None` if all
 /// centroids are the same.
 ///
+/// The first and the last bucket of an axis are never empty. The first two always stay together, as in the source. A split
+/// that costs nothing is taken, unlike there, except that two such lights stay in their order.
+///
 /// # Source
-/// `[PBRT4]`, section 12.6.3, with every bucket's end tried.
+/// `[PBRT4]`, section 12.6.3, and its implementation.
 pub(super) fn cheapest_split(
-    lights: impl Iterator<Item = (LightBounds, Vec3)> + Clone,
+    lights: impl ExactSizeIterator<Item = (LightBounds, Vec3)> + Clone,
     bounds: &Aabb,
     centroids: &Aabb,
 ) -> Option<Split> {
     let mut best = None;
     let mut least = f64::INFINITY;
     for axis in 0..3 {
-        if !(centroids.min[axis] < centroids.max[axis]) {
+        if !(half_extent(centroids, axis) > 0.0) {
             continue;
         }
         let mut buckets = [LightBounds::EMPTY; BUCKETS];
@@ -44,9 +47,10 @@ pub(super) fn cheapest_split(
             *bucket = bucket.union(&light);
         }
         let filled = buckets.map(|bucket| bucket.phi > 0.0);
-        let mut first = LightBounds::EMPTY;
-        for end in 0..BUCKETS - 1 {
-            if !filled[end] || !filled[end + 1..].contains(&true) {
+        let mut first = buckets[0];
+        for end in 1..BUCKETS - 1 {
+            // An empty bucket at the end of a side changes nothing.
+            if end > 1 && !filled[end] {
                 continue;
             }
             first = first.union(&buckets[end]);
@@ -54,7 +58,7 @@ pub(super) fn cheapest_split(
                 .iter()
                 .fold(LightBounds::EMPTY, |all, bucket| all.union(bucket));
             let cost = side_cost(&first, bounds, axis) + side_cost(&second, bounds, axis);
-            if cost < least {
+            if cost < least && (cost > 0.0 || lights.len() > 2) {
                 least = cost;
                 best = Some(Split {
                     axis,
@@ -74,8 +78,11 @@ pub(super) fn cheapest_split(
     reason = "in [0, 12]; the cast truncates on purpose"
 )]
 fn bucket(centroid: Vec3, centroids: &Aabb, axis: usize) -> usize {
-    // Halves, so that no difference overflows.
-    let [c, min, max] = [centroid, centroids.min, centroids.max].map(|v| 0.5 * v[axis]);
-    let offset = (c - min) / (max - min);
+    let offset = (0.5 * centroid[axis] - 0.5 * centroids.min[axis]) / half_extent(centroids, axis);
     ((BUCKETS as f32 * offset) as usize).min(BUCKETS - 1)
+}
+
+/// Half, so that no difference overflows.
+fn half_extent(centroids: &Aabb, axis: usize) -> f32 {
+    0.5 * centroids.max[axis] - 0.5 * centroids.min[axis]
 }

@@ -38,24 +38,43 @@ fn compare_codes(
     theirs: &Case<'_>,
     findings: &mut Findings,
 ) -> Result<(), Malformed> {
-    let w = theirs.get("w_oct")?;
-    let w = OctahedralVector::from_xy(code(&w.at(0)?)?, code(&w.at(1)?)?);
-    findings.equal("w_oct", ours.w(), w);
+    let codes = compact_codes(theirs)?;
+    findings.equal("w_oct", ours.w(), codes.w);
     findings.equal("phi", ours.phi(), theirs.get("phi")?.float()?);
+    findings.equal("codes of cosines", ours.packed(), codes.packed);
     let packed = theirs.get("packed_bits")?.index()?;
     findings.equal("packed_bits", ours.packed() as usize, packed);
-
-    let qb = theirs.get("qb")?;
-    let qb = QuantizedBox {
-        min: codes(&qb.at(0)?)?,
-        max: codes(&qb.at(1)?)?,
-    };
+    let qb = codes.bounds;
     if qb != ours.bounds() && !qb.decode(all).contains_box(&lb.bounds) {
         findings.exempt(&BOX_TOO_SMALL);
     } else {
         findings.equal("qb", ours.bounds(), qb);
     }
     Ok(())
+}
+
+/// The codes of compact bounds.
+pub(super) struct Codes {
+    pub(super) w: OctahedralVector,
+    pub(super) packed: u32,
+    pub(super) bounds: QuantizedBox,
+}
+
+/// The codes in an object with the fields of compact bounds.
+pub(super) fn compact_codes(case: &Case<'_>) -> Result<Codes, Malformed> {
+    let w = case.get("w_oct")?;
+    let qb = case.get("qb")?;
+    let cos_theta_o = code(&case.get("q_cos_theta_o")?)?;
+    let cos_theta_e = code(&case.get("q_cos_theta_e")?)?;
+    let two_sided = case.get("two_sided")?.flag()?;
+    Ok(Codes {
+        w: OctahedralVector::from_xy(code(&w.at(0)?)?, code(&w.at(1)?)?),
+        packed: u32::from(cos_theta_o) | u32::from(cos_theta_e) << 15 | u32::from(two_sided) << 30,
+        bounds: QuantizedBox {
+            min: codes(&qb.at(0)?)?,
+            max: codes(&qb.at(1)?)?,
+        },
+    })
 }
 
 fn check_containment(decoded: &LightBounds, lb: &LightBounds, findings: &mut Findings) {
