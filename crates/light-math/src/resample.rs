@@ -98,7 +98,7 @@ mod tests {
     use super::*;
     use core::f32::consts::PI;
     use glam::Vec3;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
 
     const LAT_LONG: (SphereMap, [u32; 2]) = (SphereMap::LatLong, [64, 32]);
     const EQUAL_AREA: (SphereMap, [u32; 2]) = (SphereMap::EqualArea, [40, 40]);

@@ -162,7 +162,7 @@ pub(crate) fn extent(size: [u32; 2]) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
 
     /// Something smooth without symmetry.
     fn sky(d: Vec3) -> f32 {
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn every_rule_is_checked() {
         let new = |map, size, n: usize| {
-            let texels = std::vec![0.0f32; n];
+            let texels = alloc::vec![0.0f32; n];
             SphereImage::new(map, size, &texels).err()
         };
         use SphereImageError::{Empty, LengthMismatch, NotSquare};

@@ -113,8 +113,8 @@ mod tests {
         let nan = DenselySampled::new([f32::NAN; 471]).expect_err("NaN");
         assert_eq!(nan, DenselySampledError::NotFinite, "values");
         assert_ne!(
-            std::format!("{short}"),
-            std::format!("{nan}"),
+            alloc::format!("{short}"),
+            alloc::format!("{nan}"),
             "messages differ"
         );
     }
