@@ -1,26 +1,28 @@
-use lights::glam::{DVec3, Vec3};
+use lights::glam::Vec3;
+
+use crate::ExactSum;
 
 /// The picture while it is made: the sum of the samples of every pixel, rows from the top.
 ///
-/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no other. Sums are
-/// kept in f64, so that a picture of many samples is not limited by rounding.
-#[derive(Clone, Debug)]
+/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no other.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     width: u32,
     height: u32,
     samples: u32,
-    sums: Vec<DVec3>,
+    sums: Vec<ExactSum>,
 }
 
 impl Film {
     /// A black film of `width` by `height` pixels.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
+        let sums = vec![ExactSum::default(); width as usize * height as usize];
         Self {
             width,
             height,
             samples: 0,
-            sums: vec![DVec3::ZERO; width as usize * height as usize],
+            sums,
         }
     }
 
@@ -36,8 +38,14 @@ impl Film {
         self.samples
     }
 
-    /// The sums of all pixels, row by row: what one pass of `samples` further samples a pixel adds to.
-    pub fn expose(&mut self, samples: u32) -> &mut [DVec3] {
+    /// The sums of all pixels, row by row.
+    #[must_use]
+    pub fn sums(&self) -> &[ExactSum] {
+        &self.sums
+    }
+
+    /// The sums of all pixels, row by row, for a pass that adds `samples` samples to each.
+    pub fn expose(&mut self, samples: u32) -> &mut [ExactSum] {
         self.samples += samples;
         &mut self.sums
     }
@@ -45,11 +53,7 @@ impl Film {
     /// The mean of each pixel's samples as linear RGB, row by row; black without samples.
     #[must_use]
     pub fn develop(&self) -> Vec<Vec3> {
-        let scale = 1.0 / f64::from(self.samples.max(1));
-        self.sums
-            .iter()
-            .map(|&sum| (sum * scale).as_vec3())
-            .collect()
+        self.sums.iter().map(|sum| sum.mean(self.samples)).collect()
     }
 }
 
@@ -65,8 +69,8 @@ mod tests {
             [Vec3::ZERO; 2],
             "black before the first sample"
         );
-        film.expose(1)[1] += DVec3::splat(1.0);
-        film.expose(1)[1] += DVec3::splat(3.0);
+        film.expose(1)[1] += Vec3::splat(1.0);
+        film.expose(1)[1] += Vec3::splat(3.0);
         assert_eq!(
             film.develop(),
             [Vec3::ZERO, Vec3::splat(2.0)],

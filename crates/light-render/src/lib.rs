@@ -8,6 +8,7 @@ mod accel;
 pub mod bench;
 pub mod bsdf;
 mod compare;
+mod exact_sum;
 mod false_color;
 mod film;
 pub mod integrator;
@@ -25,6 +26,7 @@ mod world;
 
 pub use accel::{Accel, Hit, TriangleId};
 pub use compare::Comparison;
+pub use exact_sum::ExactSum;
 pub use false_color::difference;
 pub use film::Film;
 pub use inventory::{LightInventory, inventory};

@@ -82,7 +82,7 @@ pub fn render<S: LightSampler + Sync>(
                         let traced = trace(world, sampler, &settings.path, ray, &stream);
                         row_rays += u64::from(traced.rays);
                         if traced.radiance.is_finite() {
-                            *pixel += traced.radiance.as_dvec3();
+                            *pixel += traced.radiance;
                         } else {
                             rejected.fetch_add(1, Ordering::Relaxed);
                         }
