@@ -53,12 +53,18 @@ enum Install {
 fn run_targets(tool: &PathBuf, targets: &[String], seconds: u32) -> StepResult {
     for target in targets {
         println!("    {target}, {seconds} s");
+        // What is found goes to the first folder, the committed corpus is only read.
+        let found = root().join("target/fuzz-corpus").join(target);
+        std::fs::create_dir_all(&found).map_err(|e| e.to_string())?;
         let mut command = Command::new(tool);
         command
             .current_dir(root())
-            .args(["run", "--fuzz-dir", "fuzz", target, "--"])
+            .args(["run", "--fuzz-dir", "fuzz", target])
+            .arg(found)
+            .arg(root().join("fuzz/corpus").join(target))
+            .arg("--")
             .arg(format!("-max_total_time={seconds}"))
-            .args(["-print_final_stats=0", "-verbosity=0"])
+            .args(["-max_len=700", "-verbosity=0"])
             .env("RUSTUP_TOOLCHAIN", "nightly")
             .env_remove("CARGO");
         run(&mut command)?;

@@ -20,6 +20,8 @@ mod density;
 #[cfg(feature = "samplers")]
 mod emitter;
 mod estimate;
+#[cfg(feature = "fuzz")]
+pub mod fuzz;
 mod gamma;
 #[cfg(feature = "samplers")]
 mod generated_sets;

@@ -1,5 +1,4 @@
 //! Each law of samplers finds the fault that it is there for.
-#![cfg(feature = "samplers")]
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,0 +1,29 @@
+//! What the fuzz targets do with their bytes: plain functions, so that tests on stable replay the same input.
+//!
+//! Each panics when a promise is broken, and answers nothing otherwise.
+
+mod compact_bounds;
+mod distributions;
+mod input;
+mod light_trees;
+mod octahedral;
+mod quantisation;
+
+pub use compact_bounds::compact_bounds;
+pub use distributions::distributions;
+pub use light_trees::light_trees;
+pub use octahedral::octahedral;
+pub use quantisation::{box_quantisation, cosine_quantisation};
+
+/// A target: what one input has to survive.
+pub type Target = fn(&[u8]);
+
+/// All targets by name, which is also the name of the folder of their corpus.
+pub const TARGETS: [(&str, Target); 6] = [
+    ("box_quantisation", box_quantisation),
+    ("compact_bounds", compact_bounds),
+    ("cosine_quantisation", cosine_quantisation),
+    ("distributions", distributions),
+    ("light_trees", light_trees),
+    ("octahedral", octahedral),
+];
