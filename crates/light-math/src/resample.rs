@@ -96,9 +96,9 @@ fn lattice_point(i: u32, n: u32) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
     use core::f32::consts::PI;
     use glam::Vec3;
-    use alloc::vec::Vec;
 
     const LAT_LONG: (SphereMap, [u32; 2]) = (SphereMap::LatLong, [64, 32]);
     const EQUAL_AREA: (SphereMap, [u32; 2]) = (SphereMap::EqualArea, [40, 40]);

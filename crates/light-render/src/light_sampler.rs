@@ -163,6 +163,22 @@ impl LightSampler for AnyLightSampler {
     fn pmf_emitter(&self, light: LightId) -> f32 {
         for_each_kind!(self, sampler => sampler.pmf_emitter(light))
     }
+
+    #[inline]
+    fn sample_many(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        for_each_kind!(self, sampler => sampler.sample_many(ctx, u, count, each));
+    }
+
+    #[inline]
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        for_each_kind!(self, sampler => sampler.pmf_many(ctx, light))
+    }
 }
 
 impl From<PowerLightSamplerError> for AnyLightSamplerError {

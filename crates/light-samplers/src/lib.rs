@@ -12,6 +12,8 @@ pub use light_bounds::SampledLight;
 #[cfg(feature = "alloc")]
 mod bvh;
 #[cfg(feature = "alloc")]
+mod bvh_cut;
+#[cfg(feature = "alloc")]
 mod exhaustive;
 #[cfg(feature = "alloc")]
 mod infinite;
@@ -26,6 +28,8 @@ mod uniform;
 
 #[cfg(feature = "alloc")]
 pub use bvh::BvhLightSampler;
+#[cfg(feature = "alloc")]
+pub use bvh_cut::BvhLightCut;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
 pub use light_sampler::LightSampler;

@@ -21,6 +21,35 @@ pub trait LightSampler {
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`.
     fn pmf_emitter(&self, light: LightId) -> f32;
+
+    /// Calls `each` with `count` lights that may light `ctx`, or fewer: one for each of the equal parts of `[0, 1)`, at the place that `u` has
+    /// within its part.
+    ///
+    /// A sampler may look at the lights more closely for several choices than for one. Their probabilities are those of
+    /// [`pmf_many`](Self::pmf_many) then.
+    fn sample_many(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        for i in 0..count {
+            if let Some(sample) = self.sample(ctx, stratum(i, count, u)) {
+                each(sample);
+            }
+        }
+    }
+
+    /// Probability that one of the choices of [`sample_many`](Self::sample_many) at `ctx` is `light`.
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.pmf(ctx, light)
+    }
+}
+
+/// The number in the `i`th of `count` equal parts of `[0, 1)` at the place that `u` has in the whole.
+pub(crate) fn stratum(i: u32, count: u32, u: f64) -> f64 {
+    ((f64::from(i) + u) / f64::from(count)).min(SampledLight::MAX_U)
 }
 
 impl<S: LightSampler + ?Sized> LightSampler for &S {
@@ -42,5 +71,21 @@ impl<S: LightSampler + ?Sized> LightSampler for &S {
     #[inline]
     fn pmf_emitter(&self, light: LightId) -> f32 {
         (**self).pmf_emitter(light)
+    }
+
+    #[inline]
+    fn sample_many(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        (**self).sample_many(ctx, u, count, each);
+    }
+
+    #[inline]
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        (**self).pmf_many(ctx, light)
     }
 }

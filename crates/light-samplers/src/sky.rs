@@ -30,18 +30,51 @@ impl Sky {
     }
 
     /// The bounds of `light`, if it is one of these.
-    pub(crate) fn get(&self, light: LightId) -> Option<&InfiniteBounds> {
+    fn get(&self, light: LightId) -> Option<&InfiniteBounds> {
         let at = self.lights.binary_search_by_key(&light, |(id, _)| *id);
         at.ok().map(|index| &self.lights[index].1)
     }
 
+    /// The choice between these and the lights of a tree, which is worth `in_tree`.
+    pub(crate) fn first(
+        &self,
+        u: f64,
+        in_tree: f64,
+        worth: impl Fn(&InfiniteBounds) -> f64,
+    ) -> FirstChoice {
+        let total = in_tree + self.total(&worth);
+        let target = u * total;
+        if target < in_tree {
+            return FirstChoice::Tree {
+                pmf: share(in_tree, total),
+                u: (target / in_tree).clamp(0.0, SampledLight::MAX_U),
+            };
+        }
+        let pmf = |weight| share(weight, total);
+        FirstChoice::Sky(self.choose(target - in_tree, &worth, pmf))
+    }
+
+    /// The probability of the first choice that leads to `light`.
+    pub(crate) fn first_pmf(
+        &self,
+        light: LightId,
+        in_tree: f64,
+        worth: impl Fn(&InfiniteBounds) -> f64,
+    ) -> FirstPmf {
+        let total = in_tree + self.total(&worth);
+        match self.get(light) {
+            Some(bounds) => FirstPmf::Sky(share(worth(bounds), total)),
+            None => FirstPmf::Tree(share(in_tree, total)),
+        }
+    }
+
     /// The sum of `worth` over all lights.
-    pub(crate) fn total(&self, worth: impl Fn(&InfiniteBounds) -> f64) -> f64 {
+    fn total(&self, worth: impl Fn(&InfiniteBounds) -> f64) -> f64 {
         self.lights.iter().map(|(_, bounds)| worth(bounds)).sum()
     }
 
     /// The light that `target` falls on, between 0 and the total, with a probability as it is given by `pmf`.
-    pub(crate) fn choose(
+    fn choose(
         &self,
         target: f64,
         worth: impl Fn(&InfiniteBounds) -> f64,
@@ -68,9 +101,38 @@ impl Sky {
     }
 }
 
+/// What the first choice leads to.
+pub(crate) enum FirstChoice {
+    /// The tree, with this probability, and the unused part of `u`.
+    Tree { pmf: f32, u: f64 },
+    /// A light at infinity, or none.
+    Sky(Option<SampledLight>),
+}
+
+/// The probability of the first choice.
+pub(crate) enum FirstPmf {
+    /// The light is in the tree, if anywhere.
+    Tree(f32),
+    /// The light is at infinity.
+    Sky(f32),
+}
+
 /// About the irradiance at `ctx` by a light at infinity; 0 only if all of it is below the horizon.
 pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f64 {
     f64::from(bounds.fluence) * f64::from(mean_cosine(bounds, ctx))
+}
+
+/// `weight / total`: 0 only if the weight is.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding is what is meant; the floor keeps it above 0"
+)]
+fn share(weight: f64, total: f64) -> f32 {
+    if weight > 0.0 {
+        ((weight / total) as f32).max(f32::MIN_POSITIVE)
+    } else {
+        0.0
+    }
 }
 
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {

@@ -1,8 +1,9 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
+use light_samplers::light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, PowerLightSampler, ReferenceBvhLightSampler,
-    UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    ReferenceBvhLightSampler, UniformLightSampler,
 };
 
 light_testkit::sampler_laws! {
@@ -29,5 +30,33 @@ light_testkit::sampler_laws! {
     /// The default hierarchy.
     mod bvh {
         |set| BvhLightSampler::new(&set.extents()).expect("valid bounds")
+    }
+
+    /// The default hierarchy as it chooses several lights at once.
+    mod bvh_cut {
+        |set| OfMany(BvhLightSampler::new(&set.extents()).expect("valid bounds"))
+    }
+}
+
+/// One of several choices.
+struct OfMany<S>(S);
+
+impl<S: LightSampler> LightSampler for OfMany<S> {
+    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        let mut sample = None;
+        self.0.sample_many(ctx, u, 1, &mut |s| sample = Some(s));
+        sample
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.0.pmf_many(ctx, light)
+    }
+
+    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+        self.0.sample_emitter(u)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.0.pmf_emitter(light)
     }
 }

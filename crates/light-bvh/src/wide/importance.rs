@@ -64,7 +64,9 @@ impl Receiver for SurfaceReceiver {
         let lit = height + support > -SLACK;
         let expected =
             height + float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
-        if lit { expected * lane.emitted() } else { 0.0 }
+        // Masked rather than branched over: all lanes of a node are computed together.
+        let mask = if lit { u32::MAX } else { 0 };
+        f32::from_bits((expected * lane.emitted()).to_bits() & mask)
     }
 }
 
@@ -152,12 +154,19 @@ impl From<&LightSampleContext> for ContextReceiver {
     #[inline]
     fn from(ctx: &LightSampleContext) -> Self {
         // Where coordinates had to be clamped, directions to lights mean nothing.
-        if ctx.is_medium() || near(ctx.p) != ctx.p {
+        if ctx.is_medium() || is_far(ctx.p) {
             Self::Medium(MediumReceiver::new(ctx.p))
         } else {
             Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns))
         }
     }
+}
+
+/// Whether `p` is beyond ±1e36 on any axis, where it is taken to be nearer and directions from it mean nothing.
+#[inline]
+#[must_use]
+pub fn is_far(p: Vec3) -> bool {
+    near(p) != p
 }
 
 #[inline]

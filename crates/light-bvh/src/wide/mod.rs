@@ -2,6 +2,7 @@
 
 #[cfg(feature = "alloc")]
 mod build;
+mod cut;
 #[cfg(feature = "alloc")]
 mod encode;
 mod importance;
@@ -18,7 +19,8 @@ mod select;
 mod split;
 mod tree;
 
-pub use importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
+pub use cut::{CutDetail, LightCut};
+pub use importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far};
 pub use lane::Lane;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;

@@ -19,27 +19,11 @@ impl Weights {
         if !(total > 0.0) {
             return None;
         }
-        let target = u * f64::from(total);
-        // The last child that can contribute takes what rounding leaves beyond the sum.
-        let mut below = 0.0;
-        let mut chosen = (usize::MAX, 0.0);
-        for (k, &weight) in self.lanes.iter().enumerate() {
-            if weight > 0.0 {
-                let end = below + f64::from(weight);
-                chosen = (k, below);
-                if target < end {
-                    break;
-                }
-                below = end;
-            }
-        }
-        let (child, start) = chosen;
-        let weight = self.lanes[child & (WIDTH - 1)];
-        let rest = (target - start) / f64::from(weight);
+        let (child, u) = pick(&self.lanes, u * f64::from(total))?;
         Some(Choice {
             child,
-            probability: share(weight, total),
-            u: rest.clamp(0.0, SampledLight::MAX_U),
+            probability: share(self.lanes[child], total),
+            u,
         })
     }
 
@@ -50,9 +34,32 @@ impl Weights {
     }
 }
 
+/// The child that `target`, from 0 to the sum of the weights, falls on, and how far into it as a part of 1.
+///
+/// Summed in double precision: 24 bits cannot address the lights below eight children that differ much.
+#[inline(always)]
+pub(crate) fn pick(lanes: &[f32; WIDTH], target: f64) -> Option<(usize, f64)> {
+    let mut below = 0.0;
+    // The last child with any weight takes what rounding leaves beyond the sum.
+    let mut chosen = None;
+    for (child, &weight) in lanes.iter().enumerate() {
+        if weight > 0.0 {
+            let weight = f64::from(weight);
+            chosen = Some((child, below, weight));
+            if target < below + weight {
+                break;
+            }
+            below += weight;
+        }
+    }
+    let (child, start, weight) = chosen?;
+    let rest = (target - start) / weight;
+    Some((child, rest.clamp(0.0, SampledLight::MAX_U)))
+}
+
 /// `weight / total`: 0 only if the weight is.
 #[inline(always)]
-fn share(weight: f32, total: f32) -> f32 {
+pub(crate) fn share(weight: f32, total: f32) -> f32 {
     if weight > 0.0 {
         (weight / total).max(f32::MIN_POSITIVE)
     } else {

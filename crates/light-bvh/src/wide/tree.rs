@@ -18,6 +18,12 @@ pub struct LightBvhRef<'a> {
     slots: &'a [u32],
 }
 
+/// What a slot of a node leads to.
+enum Child {
+    Node(usize),
+    Light(LightId),
+}
+
 impl<'a> LightBvhRef<'a> {
     /// A view of the arrays of a [`LightBvh`](crate::LightBvh). Arrays of another origin give answers without meaning, but no panic and no
     /// endless loop.
@@ -173,15 +179,38 @@ impl<'a> LightBvhRef<'a> {
             let choice = Weights::new(node, receiver).choose(u)?;
             pmf = both(pmf, choice.probability);
             u = choice.u;
-            let inner = usize::from(node.inner);
-            if choice.child >= inner {
-                let entry = node.light_base as usize + choice.child - inner;
-                let light = LightId(*self.order.get(entry)?);
-                return Some(SampledLight { light, pmf, u });
+            match self.child(node, choice.child)? {
+                Child::Light(light) => return Some(SampledLight { light, pmf, u }),
+                Child::Node(child) => index = child,
             }
-            index = node.child_base as usize + choice.child;
         }
         None
+    }
+
+    /// From a child of `node`, which was reached with probability `pmf`, down to a light.
+    #[inline]
+    pub(crate) fn descend_from<R: Receiver>(
+        &self,
+        receiver: &R,
+        node: u32,
+        child: usize,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        match self.child(self.nodes.get(node as usize)?, child)? {
+            Child::Light(light) => Some(SampledLight { light, pmf, u }),
+            Child::Node(child) => self.descend(receiver, child, pmf, u),
+        }
+    }
+
+    #[inline]
+    fn child(&self, node: &WideNode, child: usize) -> Option<Child> {
+        let inner = usize::from(node.inner);
+        if child < inner {
+            return Some(Child::Node(node.child_base as usize + child));
+        }
+        let entry = node.light_base as usize + child - inner;
+        Some(Child::Light(LightId(*self.order.get(entry)?)))
     }
 
     #[inline]

@@ -29,7 +29,7 @@ pub struct BenchOptions {
     /// The samplers, in the order of the rows.
     pub samplers: Vec<SamplerKind>,
     /// Samples of one call.
-    pub k: usize,
+    pub k: u32,
     /// How many of the set's points the variance is taken over; `None`: all of them up to 10 thousand lights, 256 above.
     pub var_points: Option<usize>,
     /// Threads that build a tree and sum the variance. Queries are timed on one.
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use light_scene::light_set::SetKind;
 
-    fn options(k: usize) -> BenchOptions {
+    fn options(k: u32) -> BenchOptions {
         BenchOptions {
             samplers: vec![SamplerKind::Uniform],
             k,

@@ -17,7 +17,7 @@ pub struct BenchRow {
     /// The sampler.
     pub sampler: SamplerKind,
     /// Samples of one call.
-    pub k: usize,
+    pub k: u32,
     /// Milliseconds to build.
     pub build_ms: f64,
     /// Bytes that a query may touch.

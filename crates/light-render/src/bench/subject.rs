@@ -1,4 +1,4 @@
-use lights::bounds::{LightExtent, LightSampleContext, SampledLight};
+use lights::bounds::LightExtent;
 use lights::samplers::LightSampler;
 
 use crate::{AnyLightSampler, SamplerKind};
@@ -45,21 +45,5 @@ impl Subject {
     /// Nodes on the longest way down.
     pub(super) fn depth(&self) -> usize {
         self.sampler.depth()
-    }
-
-    /// `k` samples of one call, stratified over `u`.
-    pub(super) fn sample_many(
-        &self,
-        ctx: &LightSampleContext,
-        u: f64,
-        k: usize,
-        each: &mut dyn FnMut(SampledLight),
-    ) {
-        for i in 0..k {
-            let u = (i as f64 + u) / k as f64;
-            if let Some(sample) = self.sampler().sample(ctx, u.min(SampledLight::MAX_U)) {
-                each(sample);
-            }
-        }
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn build<T>(make: impl Fn() -> T) -> (f64, T) {
 pub(super) fn queries(
     subjects: &[&Subject],
     contexts: &[LightSampleContext],
-    k: usize,
+    k: u32,
 ) -> Vec<QueryTime> {
     let mut rng = Pcg64Mcg::seed_from_u64(0x7131);
     let us: Vec<f64> = contexts.iter().map(|_| unit(&mut rng)).collect();
@@ -63,14 +63,14 @@ pub(super) fn queries(
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
         for ((subject, plan), time) in subjects.iter().zip(&plans).zip(&mut times) {
-            let sample = per_call(contexts.len() * k, || {
+            let sample = per_call(contexts.len() * k as usize, || {
                 if k == 1 {
                     for (ctx, &u) in contexts.iter().zip(&us) {
                         black_box(subject.sampler().sample(ctx, u));
                     }
                 } else {
                     for (ctx, &u) in contexts.iter().zip(&us) {
-                        subject.sample_many(ctx, u, k, &mut |sample| {
+                        subject.sampler().sample_many(ctx, u, k, &mut |sample| {
                             black_box(sample);
                         });
                     }
@@ -79,7 +79,10 @@ pub(super) fn queries(
             let pmf = |queries: &[(LightSampleContext, LightId)]| {
                 per_call(queries.len(), || {
                     for (ctx, light) in queries {
-                        black_box(subject.sampler().pmf(ctx, *light));
+                        black_box(match k {
+                            1 => subject.sampler().pmf(ctx, *light),
+                            _ => subject.sampler().pmf_many(ctx, *light),
+                        });
                     }
                 })
             };

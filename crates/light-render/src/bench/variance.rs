@@ -75,7 +75,7 @@ pub(super) fn repeated(
     set: &LightSetFile,
     contexts: &[LightSampleContext],
     truth: Truth,
-    k: usize,
+    k: u32,
 ) -> Variance {
     let at_points = contexts
         .par_iter()
@@ -91,16 +91,18 @@ pub(super) fn repeated(
             let mut squares = 0.0;
             for _ in 0..CALLS {
                 let mut mean = 0.0;
-                subject.sample_many(ctx, unit(&mut rng), k, &mut |sample| {
-                    let f = truth.contribution(&set.lights[sample.light.index()], at);
-                    mean += f / f64::from(sample.pmf) / k as f64;
-                });
+                subject
+                    .sampler()
+                    .sample_many(ctx, unit(&mut rng), k, &mut |sample| {
+                        let f = truth.contribution(&set.lights[sample.light.index()], at);
+                        mean += f / f64::from(sample.pmf) / f64::from(k);
+                    });
                 squares += (mean - total) * (mean - total) / CALLS as f64;
             }
             AtPoint {
                 total,
                 lost: 0.0,
-                relative: k as f64 * squares / (total * total),
+                relative: f64::from(k) * squares / (total * total),
             }
         })
         .collect();

@@ -33,7 +33,7 @@ pub(crate) struct BenchArgs {
     samplers: String,
     /// Samples of one call.
     #[arg(long, default_value_t = 1)]
-    k: usize,
+    k: u32,
     /// Points that the variance is taken over: all, or 256 above 10 thousand lights, unless told.
     #[arg(long, value_name = "M")]
     var_points: Option<usize>,
