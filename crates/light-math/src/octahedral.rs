@@ -40,16 +40,15 @@ impl OctahedralVector {
         } else {
             fold(v.x, v.y)
         };
-        Self::from_xy(quantize(x), quantize(y))
+        Self(quantize(x) | quantize(y) << 16)
     }
 
     /// The unit vector of the code, up to 2 units in the last place of its length.
     #[inline]
     #[must_use]
     pub fn decode(self) -> Vec3 {
-        let (x, y) = self.xy();
-        let x = dequantize(x);
-        let y = dequantize(y);
+        let x = dequantize(self.0 & 0xFFFF);
+        let y = dequantize(self.0 >> 16);
         let z = 1.0 - (x.abs() + y.abs());
         let (x, y) = if z >= 0.0 { (x, y) } else { fold(x, y) };
         let v = Vec3::new(x, y, z);
@@ -98,13 +97,13 @@ fn fold(x: f32, y: f32) -> (f32, f32) {
     clippy::cast_sign_loss,
     reason = "between 0.5 and 65535.5; the conversion saturates and sends NaN to 0"
 )]
-fn quantize(f: f32) -> u16 {
-    (0.5 * (f.clamp(-1.0, 1.0) + 1.0) * 65535.0 + 0.5) as u16
+fn quantize(f: f32) -> u32 {
+    (0.5 * (f.clamp(-1.0, 1.0) + 1.0) * 65535.0 + 0.5) as u32
 }
 
 #[inline]
-fn dequantize(q: u16) -> f32 {
-    2.0 * (f32::from(q) / 65535.0) - 1.0
+fn dequantize(q: u32) -> f32 {
+    2.0 * (q as f32 / 65535.0) - 1.0
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@ use core::ops::{Add, Mul};
 use glam::Vec2;
 
 use crate::float::ceil;
-use crate::sphere_image::{SphereImage, SphereImageError, SphereMap, extent};
+use crate::sphere_image::{SphereImage, SphereImageError, SphereMap, check, extent};
 
 /// Turns an image of the sphere into one of another size or map: lat-long to equal-area, as environment maps need it, and back.
 ///
@@ -16,15 +16,15 @@ use crate::sphere_image::{SphereImage, SphereImageError, SphereMap, extent};
 /// Each texel is a function of the source alone, so callers may take them [in order](Self::texels) into a buffer of theirs, or
 /// [one by one](Self::texel) on many threads.
 #[derive(Clone, Copy, Debug)]
-pub struct Resampler<'a, T> {
-    source: SphereImage<'a, T>,
+pub struct Resampler<F> {
+    source: SphereImage<F>,
     map: SphereMap,
     size: [u32; 2],
     /// Directions in each texel.
     samples: u32,
 }
 
-impl<'a, T: Copy + Add<Output = T> + Mul<f32, Output = T>> Resampler<'a, T> {
+impl<F> Resampler<F> {
     /// How many directions fall at least into a source texel, and into a texel of the result.
     pub const DENSITY: u32 = 8;
 
@@ -38,16 +38,11 @@ impl<'a, T: Copy + Add<Output = T> + Mul<f32, Output = T>> Resampler<'a, T> {
         reason = "positive, and saturates"
     )]
     pub fn new(
-        source: SphereImage<'a, T>,
+        source: SphereImage<F>,
         map: SphereMap,
         size: [u32; 2],
     ) -> Result<Self, SphereImageError> {
-        if size.contains(&0) {
-            return Err(SphereImageError::Empty);
-        }
-        if map == SphereMap::EqualArea && size[0] != size[1] {
-            return Err(SphereImageError::NotSquare);
-        }
+        check(map, size)?;
         let largest_texel = |map: SphereMap, size: [u32; 2]| {
             map.solid_angle_per_area(Vec2::splat(0.5)) / extent(size).element_product()
         };
@@ -62,7 +57,11 @@ impl<'a, T: Copy + Add<Output = T> + Mul<f32, Output = T>> Resampler<'a, T> {
 
     /// The texel at column `x` and row `y` of the result.
     #[must_use]
-    pub fn texel(&self, x: u32, y: u32) -> T {
+    pub fn texel<T>(&self, x: u32, y: u32) -> T
+    where
+        F: Fn(u32, u32) -> T,
+        T: Add<Output = T> + Mul<f32, Output = T>,
+    {
         let corner = Vec2::new(x as f32, y as f32);
         let size = extent(self.size);
         let sample = |i: u32| {
@@ -80,7 +79,11 @@ impl<'a, T: Copy + Add<Output = T> + Mul<f32, Output = T>> Resampler<'a, T> {
     }
 
     /// All texels, row by row from the top left.
-    pub fn texels(&self) -> impl Iterator<Item = T> {
+    pub fn texels<T>(&self) -> impl Iterator<Item = T>
+    where
+        F: Fn(u32, u32) -> T,
+        T: Add<Output = T> + Mul<f32, Output = T>,
+    {
         (0..self.size[1]).flat_map(move |y| (0..self.size[0]).map(move |x| self.texel(x, y)))
     }
 }
@@ -129,7 +132,8 @@ mod tests {
     }
 
     fn convert(from: (SphereMap, [u32; 2]), texels: &[f32], to: (SphereMap, [u32; 2])) -> Vec<f32> {
-        let source = SphereImage::new(from.0, from.1, texels).expect("valid");
+        let texel = |x, y| texels[(y * from.1[0] + x) as usize];
+        let source = SphereImage::new(from.0, from.1, texel).expect("valid");
         let resampler = Resampler::new(source, to.0, to.1).expect("valid");
         resampler.texels().collect()
     }
@@ -197,7 +201,7 @@ mod tests {
     #[test]
     fn refuses_sizes_that_the_map_does_not_have() {
         use SphereImageError::{Empty, NotSquare};
-        let image = SphereImage::new(SphereMap::LatLong, [2, 1], &[0.0, 1.0]).expect("valid");
+        let image = SphereImage::new(SphereMap::LatLong, [2, 1], |_, _| 0.0f32).expect("valid");
         let new = |map, size| Resampler::new(image, map, size).err();
         assert_eq!(new(SphereMap::LatLong, [3, 0]), Some(Empty), "rows");
         assert_eq!(new(SphereMap::EqualArea, [3, 2]), Some(NotSquare), "square");

@@ -58,30 +58,28 @@ impl SphereMap {
     }
 }
 
-/// A borrowed image of the sphere, row by row from the top left.
+/// An image of the sphere, its texels wherever the caller has them.
+///
+/// `F` answers the texel at column `x` and row `y`, counted from the top left: for a slice,
+/// `|x, y| texels[(y * columns + x) as usize]`.
 #[derive(Clone, Copy, Debug)]
-pub struct SphereImage<'a, T> {
+pub struct SphereImage<F> {
     map: SphereMap,
     size: [u32; 2],
-    texels: &'a [T],
+    texel: F,
 }
 
-impl<'a, T: Copy> SphereImage<'a, T> {
+impl<F> SphereImage<F> {
     /// The image of `size[0]` columns and `size[1]` rows.
     ///
     /// # Errors
-    /// If there are no texels or not as many as the size says, or if an equal-area image is not square.
-    pub fn new(map: SphereMap, size: [u32; 2], texels: &'a [T]) -> Result<Self, SphereImageError> {
-        if size.contains(&0) {
-            return Err(SphereImageError::Empty);
-        }
-        if (size[0] as usize).checked_mul(size[1] as usize) != Some(texels.len()) {
-            return Err(SphereImageError::LengthMismatch);
-        }
-        if map == SphereMap::EqualArea && size[0] != size[1] {
-            return Err(SphereImageError::NotSquare);
-        }
-        Ok(Self { map, size, texels })
+    /// If there are no texels, or if an equal-area image is not square.
+    pub fn new<T>(map: SphereMap, size: [u32; 2], texel: F) -> Result<Self, SphereImageError>
+    where
+        F: Fn(u32, u32) -> T,
+    {
+        check(map, size)?;
+        Ok(Self { map, size, texel })
     }
 
     /// How the image lies around the sphere.
@@ -98,31 +96,23 @@ impl<'a, T: Copy> SphereImage<'a, T> {
         self.size
     }
 
-    /// The texel at column `x` and row `y`.
-    ///
-    /// # Panics
-    /// If there is none.
-    #[inline]
-    #[must_use]
-    pub fn texel(&self, x: u32, y: u32) -> T {
-        self.texels[y as usize * self.size[0] as usize + x as usize]
-    }
-}
-
-impl<T: Copy + Add<Output = T> + Mul<f32, Output = T>> SphereImage<'_, T> {
     /// The value in the direction of the unit vector `d`, bilinear between the centres of texels, across edges and
     /// poles too.
     #[inline]
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "between -1 and the size")]
-    pub fn bilinear(&self, d: Vec3) -> T {
+    pub fn bilinear<T>(&self, d: Vec3) -> T
+    where
+        F: Fn(u32, u32) -> T,
+        T: Add<Output = T> + Mul<f32, Output = T>,
+    {
         let p = self.map.point(d) * extent(self.size) - 0.5;
         let (x, y) = (floor(p.x), floor(p.y));
         let (s, t) = (p.x - x, p.y - y);
         let (x, y) = (x as i32, y as i32);
         let at = |x: i32, y: i32| {
             let (x, y) = self.map.wrap_texel(x, y, self.size);
-            self.texel(x, y)
+            (self.texel)(x, y)
         };
         (at(x, y) * (1.0 - s) + at(x + 1, y) * s) * (1.0 - t)
             + (at(x, y + 1) * (1.0 - s) + at(x + 1, y + 1) * s) * t
@@ -135,8 +125,6 @@ impl<T: Copy + Add<Output = T> + Mul<f32, Output = T>> SphereImage<'_, T> {
 pub enum SphereImageError {
     /// A side is zero.
     Empty,
-    /// There are not as many texels as the size says.
-    LengthMismatch,
     /// The image is to be an equal-area map, and its sides differ.
     NotSquare,
 }
@@ -145,13 +133,23 @@ impl core::fmt::Display for SphereImageError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
             Self::Empty => "an image of the sphere has at least one texel",
-            Self::LengthMismatch => "an image has as many texels as its size says",
             Self::NotSquare => "an equal-area image of the sphere is square",
         })
     }
 }
 
 impl core::error::Error for SphereImageError {}
+
+/// Whether an image may have the size.
+pub(crate) fn check(map: SphereMap, size: [u32; 2]) -> Result<(), SphereImageError> {
+    if size.contains(&0) {
+        return Err(SphereImageError::Empty);
+    }
+    if map == SphereMap::EqualArea && size[0] != size[1] {
+        return Err(SphereImageError::NotSquare);
+    }
+    Ok(())
+}
 
 /// Columns and rows as floats.
 #[inline]
@@ -184,7 +182,8 @@ mod tests {
             (SphereMap::EqualArea, [40, 40]),
         ] {
             let texels = render(map, size);
-            let image = SphereImage::new(map, size, &texels).expect("valid");
+            let texel = |x, y| texels[(y * size[0] + x) as usize];
+            let image = SphereImage::new(map, size, texel).expect("valid");
             for d in [Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z, Vec3::X, -Vec3::X] {
                 let near = (d + Vec3::new(1e-3, 2e-3, -1e-3)).normalize();
                 let value = image.bilinear(near);
@@ -195,21 +194,11 @@ mod tests {
 
     #[test]
     fn every_rule_is_checked() {
-        let new = |map, size, n: usize| {
-            let texels = alloc::vec![0.0f32; n];
-            SphereImage::new(map, size, &texels).err()
-        };
-        use SphereImageError::{Empty, LengthMismatch, NotSquare};
-        assert_eq!(new(SphereMap::LatLong, [0, 4], 0), Some(Empty), "columns");
-        assert_eq!(
-            new(SphereMap::LatLong, [4, 2], 7),
-            Some(LengthMismatch),
-            "length"
-        );
-        assert_eq!(
-            new(SphereMap::EqualArea, [4, 2], 8),
-            Some(NotSquare),
-            "square"
-        );
+        let new = |map, size| SphereImage::new(map, size, |_, _| 0.0f32).err();
+        use SphereImageError::{Empty, NotSquare};
+        assert_eq!(new(SphereMap::LatLong, [0, 4]), Some(Empty), "columns");
+        assert_eq!(new(SphereMap::LatLong, [4, 0]), Some(Empty), "rows");
+        assert_eq!(new(SphereMap::EqualArea, [4, 2]), Some(NotSquare), "square");
+        assert_eq!(new(SphereMap::LatLong, [4, 2]), None, "fine");
     }
 }

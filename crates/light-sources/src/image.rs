@@ -43,6 +43,8 @@ pub enum ImageError {
     Empty,
     /// There are not `width * height * channels` numbers.
     Length,
+    /// An image that is to be an equal-area map is not square.
+    NotSquare,
     /// A texel is NaN.
     NotANumber {
         /// Its column and row.
@@ -279,6 +281,7 @@ impl fmt::Display for ImageError {
         let (texel, channel, rule) = match self {
             Self::Empty => return f.write_str("width and height must be at least 1"),
             Self::Length => return f.write_str("width * height * channels numbers are needed"),
+            Self::NotSquare => return f.write_str("an equal-area image must be square"),
             Self::NotANumber { texel, channel } => (texel, channel, "is not a number"),
             Self::Infinite { texel, channel } => (texel, channel, "is infinite"),
             Self::Negative { texel, channel } => (texel, channel, "is negative"),

@@ -3,36 +3,41 @@
 
 use alloc::vec::Vec;
 
-use crate::glam::{Vec2, Vec3};
+use crate::glam::Vec3;
 use crate::image::{Channels, Image, ImageError};
 use crate::rgb_sum::RgbSum;
 use light_math::float::sin;
-use light_math::{equal_area, lat_long};
-
-/// Samples of a texel along each axis.
-const SAMPLES: u32 = 4;
+use light_math::{Resampler, SphereImage, SphereImageError, SphereMap};
 
 /// The equal-area image of `n` x `n` texels, at least 1, that a latitude-longitude image becomes.
 ///
-/// Texels are means over 4 x 4 samples. Then each channel is scaled so that the light of the whole sphere stays what it
-/// was: small suns would gain or lose otherwise.
+/// Texels are means over directions spread evenly in them ([`Resampler`]). Then each channel is scaled so that the light of
+/// the whole sphere stays what it was: small suns would gain or lose otherwise.
 ///
 /// # Errors
 /// When `n` is 0.
 pub fn lat_long_to_equal_area(image: &Image, n: u32) -> Result<Image, ImageError> {
-    let look_up = |uv| image.nearest(lat_long::uv(equal_area::square_to_sphere(uv)));
-    let (texels, mean) = supersample([n, n], look_up, |_| 1.0);
-    finish([n, n], image.channels(), texels, mean, lat_long_mean(image))
+    let texels = resample(image, SphereMap::LatLong, SphereMap::EqualArea, [n, n])?;
+    let mut sum = RgbSum::default();
+    texels.iter().for_each(|&texel| sum.add(texel, 1.0));
+    let mean = sum.over(f64::from(n) * f64::from(n));
+    finish(
+        [n, n],
+        image.channels(),
+        &texels,
+        mean,
+        lat_long_mean(image.size(), |x, y| image.texel(x, y)),
+    )
 }
 
 /// The latitude-longitude image of the given size that an equal-area image becomes, in the same way.
 ///
 /// # Errors
-/// When the size is 0.
+/// When the size is 0, or the image is not square.
 pub fn equal_area_to_lat_long(image: &Image, size: [u32; 2]) -> Result<Image, ImageError> {
-    let look_up = |uv| image.nearest(equal_area::sphere_to_square(lat_long::direction(uv)));
-    let (texels, mean) = supersample(size, look_up, lat_long::solid_angle_per_area);
-    finish(size, image.channels(), texels, mean, image.mean())
+    let texels = resample(image, SphereMap::EqualArea, SphereMap::LatLong, size)?;
+    let mean = lat_long_mean(size, |x, y| texels[(y * size[0] + x) as usize]);
+    finish(size, image.channels(), &texels, mean, image.mean())
 }
 
 /// Rows and columns that keep the solid angle of a texel at the horizon of a latitude-longitude image of this height.
@@ -47,40 +52,27 @@ pub fn equal_area_size(height: u32) -> u32 {
     (f64::from(height) * core::f64::consts::FRAC_2_SQRT_PI + 0.5) as u32
 }
 
-/// The texels of an image of the given size, each the mean of samples of `look_up`, and the mean over all of them by
-/// `weight`, a function of v.
-fn supersample(
+/// The texels of an image, row by row, in another map and size.
+fn resample(
+    image: &Image,
+    from: SphereMap,
+    to: SphereMap,
     size: [u32; 2],
-    look_up: impl Fn(Vec2) -> Vec3,
-    weight: impl Fn(f32) -> f32,
-) -> (Vec<Vec3>, Vec3) {
-    let mut texels = Vec::new();
-    let [width, height] = size;
-    let scale = 1.0 / Vec2::new(width as f32, height as f32);
-    let (mut sum, mut total) = (RgbSum::default(), 0.0);
-    let step = 1.0 / SAMPLES as f32;
-    for y in 0..height {
-        let row_weight = f64::from(weight((y as f32 + 0.5) * scale.y));
-        for x in 0..width {
-            let mut texel = Vec3::ZERO;
-            for i in 0..SAMPLES * SAMPLES {
-                let offset = Vec2::new((i % SAMPLES) as f32, (i / SAMPLES) as f32) + 0.5;
-                let uv = (Vec2::new(x as f32, y as f32) + offset * step) * scale;
-                texel += look_up(uv) * (step * step);
-            }
-            texels.push(texel);
-            sum.add(texel, row_weight);
-            total += row_weight;
-        }
-    }
-    (texels, sum.over(total))
+) -> Result<Vec<Vec3>, ImageError> {
+    SphereImage::new(from, image.size(), |x, y| image.texel(x, y))
+        .and_then(|source| Resampler::new(source, to, size))
+        .map(|resampler| resampler.texels().collect())
+        .map_err(|error| match error {
+            SphereImageError::NotSquare => ImageError::NotSquare,
+            _ => ImageError::Empty,
+        })
 }
 
 /// The image of `texels`, whose mean over the sphere becomes `wanted`.
 fn finish(
     size: [u32; 2],
     channels: Channels,
-    texels: Vec<Vec3>,
+    texels: &[Vec3],
     mean: Vec3,
     wanted: Vec3,
 ) -> Result<Image, ImageError> {
@@ -98,14 +90,13 @@ fn finish(
 }
 
 /// The mean over the sphere of a latitude-longitude image, each texel by its exact solid angle.
-fn lat_long_mean(image: &Image) -> Vec3 {
-    let [width, height] = image.size();
+fn lat_long_mean([width, height]: [u32; 2], texel: impl Fn(u32, u32) -> Vec3) -> Vec3 {
     let half_row = core::f32::consts::FRAC_PI_2 / height as f32;
     let mut sum = RgbSum::default();
     for y in 0..height {
         // Half of the difference of the cosines at both edges, without cancellation at the poles.
         let share = sin(half_row * (2 * y + 1) as f32) * sin(half_row);
-        (0..width).for_each(|x| sum.add(image.texel(x, y), f64::from(share)));
+        (0..width).for_each(|x| sum.add(texel(x, y), f64::from(share)));
     }
     sum.over(f64::from(width))
 }

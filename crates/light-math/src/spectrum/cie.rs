@@ -22,7 +22,7 @@ pub const Y_INTEGRAL: f32 = 106.856_895;
 pub(super) const SAMPLES: usize = 471;
 
 /// The matching functions at each nanometre, interpolated when the crate is compiled.
-pub(super) const OBSERVER: [Vec3; SAMPLES] = interpolate(&OBSERVER_5_NM);
+pub(super) const OBSERVER: &[Vec3; SAMPLES] = &interpolate(&OBSERVER_5_NM);
 
 /// The colour matching functions x, y, z at `lambda` nm, the nearest nanometre's value; 0 outside of the range.
 ///
