@@ -26,6 +26,21 @@ impl Film {
         }
     }
 
+    /// The film with the given sums, row by row, of `samples` samples a pixel; `None` when the sums do not fit the size.
+    #[must_use]
+    pub fn from_sums(
+        (width, height): (u32, u32),
+        samples: u32,
+        sums: Vec<ExactSum>,
+    ) -> Option<Self> {
+        (sums.len() == width as usize * height as usize).then_some(Self {
+            width,
+            height,
+            samples,
+            sums,
+        })
+    }
+
     /// Width and height in pixels.
     #[must_use]
     pub const fn resolution(&self) -> (u32, u32) {

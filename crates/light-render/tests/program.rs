@@ -132,6 +132,34 @@ fn renders_reports_and_compares() {
 }
 
 #[test]
+fn parts_merge_into_the_same_bytes() {
+    let folder = Folder::new("merge");
+    let scene = folder.scene(LIT);
+    let [whole, a, b, merged] =
+        ["whole.exr", "a.exr", "b.exr", "merged.exr"].map(|name| folder.path(name));
+    let render = |out: &str, flag: &str, value: &str| {
+        stdout(&["render", &scene, "-o", out, "--width", "12", flag, value]);
+    };
+    render(&whole, "--spp", "7");
+    render(&a, "--samples", "0..3");
+    render(&b, "--samples", "3..7");
+    stdout(&["merge", &b, &a, "-o", &merged]);
+    let bytes = |path: &str| fs::read(path).expect("a picture");
+    assert_eq!(bytes(&merged), bytes(&whole), "as if rendered at once");
+    stdout(&["compare", &a, &whole]);
+    assert_refused(&["merge", &a, &a, "-o", &merged], &["0..3"]);
+    assert_refused(
+        &["merge", &a, &whole, "-o", &merged],
+        &["whole.exr", "--samples"],
+    );
+    let png = folder.path("a.png");
+    assert_refused(
+        &["render", &scene, "-o", &png, "--samples", "0..3"],
+        &["a.png", ".exr"],
+    );
+}
+
+#[test]
 fn info_counts_the_lights() {
     let folder = Folder::new("info");
     let line = stdout(&["info", &folder.scene(LIT), "--json"]);

@@ -26,7 +26,9 @@ pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use environment::{SceneLight, SkyImage};
-pub use image::{Image, ImageError, ImageFile, read_image, write_exr, write_image, write_png};
+pub use image::{
+    ChannelFile, Image, ImageError, ImageFile, read_image, write_exr, write_image, write_png,
+};
 pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::read_obj;

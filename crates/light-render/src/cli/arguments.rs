@@ -1,3 +1,4 @@
+use core::ops::Range;
 use core::str::FromStr;
 
 use lights::glam::Vec3;
@@ -50,6 +51,15 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A range of samples: `A..B`, with A below B.
+pub(crate) fn sample_range(text: &str) -> Result<Range<u32>, String> {
+    let ends = text.split_once("..");
+    let parsed = ends.and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?));
+    parsed
+        .filter(|range: &Range<u32>| !range.is_empty())
+        .ok_or_else(|| "expected A..B, with whole numbers and A below B".into())
+}
+
 /// Exactly `N` finite numbers with commas between.
 fn numbers<const N: usize>(text: &str) -> Result<[f32; N], String> {
     let parsed: Result<Vec<f32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
@@ -70,6 +80,14 @@ mod tests {
         assert_eq!(look_at.target, Vec3::new(3.0, 4.0, 5.0), "the middle three");
         for bad in ["", "1,2,3", "0,1,2,3,4,5,0,1,x", "0,1,2,3,4,5,0,1,nan"] {
             assert!(bad.parse::<LookAt>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_have_samples() {
+        assert_eq!(sample_range("3..7"), Ok(3..7), "four samples");
+        for bad in ["", "3", "7..3", "3..3", "-1..2", "a..b"] {
+            assert!(sample_range(bad).is_err(), "{bad}");
         }
     }
 

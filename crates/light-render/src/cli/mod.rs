@@ -5,6 +5,7 @@ mod bench;
 mod compare;
 mod failure;
 mod info;
+mod merge;
 mod output_image;
 mod progress;
 mod render;
@@ -31,6 +32,7 @@ enum Command {
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
     Info(info::InfoArgs),
+    Merge(merge::MergeArgs),
     Render(render::RenderArgs),
 }
 
@@ -44,6 +46,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Bench(args)) => args.run().map_err(Failure::input),
         Some(Command::Compare(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),
+        Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),
         None => Ok(()),
     };

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use light_render::ToneMap;
+use light_render::{PartialPicture, ToneMap};
 use light_scene::{Diagnostic, Image, write_exr, write_png};
 
 use super::failure::Failure;
@@ -48,6 +48,26 @@ impl OutputImage {
         })
     }
 
+    /// Writes a part of a picture with its exact sums.
+    ///
+    /// # Errors
+    /// When the file is no EXR or cannot be written; nothing is left behind then.
+    pub(crate) fn write_part(&self, part: &PartialPicture) -> Result<(), Failure> {
+        self.expect_part()?;
+        part.to_file().write(&self.path).map_err(Failure::input)
+    }
+
+    /// Makes sure that a part of a picture can be written.
+    ///
+    /// # Errors
+    /// When the file is no EXR.
+    pub(crate) fn expect_part(&self) -> Result<(), Failure> {
+        match self.format {
+            Format::Exr => Ok(()),
+            Format::Png => Err(refuse(&self.path, "expected .exr for a part of a picture")),
+        }
+    }
+
     /// Writes linear radiance: as it is into an EXR, with `tone_map` into a PNG.
     ///
     /// # Errors
@@ -62,7 +82,7 @@ impl OutputImage {
 }
 
 /// What a screen shows of linear radiance.
-fn shown(image: &Image, tone_map: &ToneMap) -> Result<Image, Failure> {
+pub(crate) fn shown(image: &Image, tone_map: &ToneMap) -> Result<Image, Failure> {
     let texels = image.texels().iter().map(|&t| tone_map.apply(t)).collect();
     Image::new(image.width(), image.height(), texels).map_err(Failure::input)
 }

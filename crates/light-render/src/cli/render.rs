@@ -1,3 +1,4 @@
+use core::ops::Range;
 use core::time::Duration;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -5,13 +6,13 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 use light_render::integrator::{self, PathSettings};
 use light_render::{
-    AnyLightSampler, Progress, RenderSettings, Rendering, SamplerKind, ToneMap, View, World,
-    light_sample_time, render,
+    AnyLightSampler, PartialPicture, Progress, RenderSettings, Rendering, SamplerKind, ToneMap,
+    View, World, light_sample_time, render,
 };
 use light_scene::{Camera, Diagnostic, Image, Scene};
 use serde_json::json;
 
-use super::arguments::{LookAt, positive};
+use super::arguments::{LookAt, positive, sample_range};
 use super::failure::Failure;
 use super::output_image::OutputImage;
 use super::progress::{ProgressLine, Volume};
@@ -29,6 +30,9 @@ pub(crate) struct RenderArgs {
     /// Samples a pixel; without it 64, or as many as fit into --time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
+    /// Render these samples alone, into an .exr that `lights merge` adds to others.
+    #[arg(long, value_name = "A..B", value_parser = sample_range, conflicts_with = "spp")]
+    samples: Option<Range<u32>>,
     /// Stop at this budget.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     time: Option<f32>,
@@ -86,6 +90,9 @@ impl RenderArgs {
     /// Bad input, or an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let output = OutputImage::new(&self.output)?;
+        if self.samples.is_some() {
+            output.expect_part()?;
+        }
         let scene = self.input.read()?;
         if !self.quiet {
             report_warnings(&scene.warnings);
@@ -120,10 +127,7 @@ impl RenderArgs {
                 rendering.rejected
             );
         }
-        let (width, height) = view.resolution();
-        let pixels = rendering.film.develop();
-        let image = Image::new(width, height, pixels).map_err(Failure::input)?;
-        output.write(&image, &ToneMap::fit(image.texels()))?;
+        self.write(&output, &world, &view, &rendering)?;
         if self.json {
             let sample_ns = light_sample_time(&world, &view, &sampler);
             println!("{}", self.report(&world, &rendering, build_ms, sample_ns));
@@ -131,14 +135,50 @@ impl RenderArgs {
         Ok(())
     }
 
+    /// Writes the picture, or the part of it that was asked for.
+    fn write(
+        &self,
+        output: &OutputImage,
+        world: &World,
+        view: &View,
+        rendering: &Rendering,
+    ) -> Result<(), Failure> {
+        let film = &rendering.film;
+        if let Some(Range { start, .. }) = self.samples {
+            return output.write_part(&PartialPicture {
+                film: film.clone(),
+                samples: start..start + film.samples(),
+                subject: self.subject(world, view),
+            });
+        }
+        let (width, height) = film.resolution();
+        let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
+        output.write(&image, &ToneMap::fit(image.texels()))
+    }
+
+    /// All that decides what the picture is, but the samples.
+    fn subject(&self, world: &World, view: &View) -> String {
+        let name = self.input.scene.file_name().unwrap_or_default();
+        let RenderSettings { seed, path, .. } = self.settings();
+        format!(
+            "{} with {} triangles and {} lights within {:?}, seed {seed}, {path:?}, {}, {view:?}",
+            name.to_string_lossy(),
+            world.triangle_count(),
+            world.lights().len(),
+            world.bounds(),
+            self.light_sampler,
+        )
+    }
+
     fn settings(&self) -> RenderSettings {
-        let spp = match (self.spp, self.time) {
-            (Some(spp), _) => spp,
-            (None, Some(_)) => u32::MAX,
-            (None, None) => 64,
+        let samples = match (&self.samples, self.spp, self.time) {
+            (Some(samples), _, _) => samples.clone(),
+            (None, Some(spp), _) => 0..spp,
+            (None, None, Some(_)) => 0..u32::MAX,
+            (None, None, None) => 0..64,
         };
         RenderSettings {
-            samples: 0..spp,
+            samples,
             time_limit: self.time.map(Duration::from_secs_f32),
             seed: self.seed,
             path: PathSettings {

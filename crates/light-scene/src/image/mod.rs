@@ -1,5 +1,6 @@
 //! Images in memory and in files.
 
+mod channels;
 mod checked;
 mod display;
 mod file;
@@ -10,6 +11,7 @@ use core::fmt;
 
 use crate::glam::Vec3;
 
+pub use channels::ChannelFile;
 use checked::checked;
 pub use display::write_png;
 pub use file::{ImageFile, read_image, write_image};

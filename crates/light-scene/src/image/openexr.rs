@@ -118,7 +118,7 @@ pub fn write_exr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     write_whole(path, bytes.get_ref())
 }
 
-fn message(error: &Error) -> String {
+pub(super) fn message(error: &Error) -> String {
     match error {
         Error::NotSupported(what) => format!("this kind of OpenEXR file is not supported: {what}"),
         Error::Invalid(what) => format!("expected an OpenEXR file: {what}"),

@@ -1,0 +1,41 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use light_render::{PartialPicture, PartialPictureError, ToneMap};
+use light_scene::{ChannelFile, Diagnostic, Image};
+
+use super::failure::Failure;
+use super::output_image::OutputImage;
+
+/// Put parts of a picture together that were rendered with --samples.
+#[derive(Args, Debug)]
+pub(crate) struct MergeArgs {
+    /// The parts, in any order.
+    #[arg(required = true)]
+    parts: Vec<PathBuf>,
+    /// The image to write: .exr (float32 linear RGB) or .png.
+    #[arg(short, long, value_name = "IMAGE")]
+    output: PathBuf,
+}
+
+impl MergeArgs {
+    /// Reads the parts, adds them up, and writes the picture: the same bits as if it had been rendered at once.
+    ///
+    /// # Errors
+    /// Parts that cannot be read or do not belong together; an output that cannot be written.
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let output = OutputImage::new(&self.output)?;
+        let mut parts = Vec::new();
+        for path in &self.parts {
+            let file = ChannelFile::read(path).map_err(Failure::input)?;
+            let refuse = |error: PartialPictureError| {
+                Failure::input(Diagnostic::file(path, error.to_string()))
+            };
+            parts.push(PartialPicture::from_file(&file).map_err(refuse)?);
+        }
+        let film = PartialPicture::merge(parts).map_err(Failure::input)?;
+        let (width, height) = film.resolution();
+        let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
+        output.write(&image, &ToneMap::fit(image.texels()))
+    }
+}
