@@ -1,6 +1,10 @@
 //! Scenes that ship with the crate.
 
 mod cornell;
+mod dice;
+mod modeller;
+mod night;
+mod rotunda;
 
 use core::fmt;
 use core::str::FromStr;
@@ -13,17 +17,23 @@ use crate::Scene;
 pub enum BuiltinScene {
     /// Two blocks in a coloured room under one lamp; the classic test, from its published measurements.
     CornellBox,
+    /// A town canal by night: twenty thousand small lights, most of them hidden from any one point.
+    NightCanal,
+    /// Columns in still water around four spheres, under a photographed sky.
+    Rotunda,
 }
 
 impl BuiltinScene {
     /// All scenes, from the simplest on.
-    pub const ALL: [Self; 1] = [Self::CornellBox];
+    pub const ALL: [Self; 3] = [Self::CornellBox, Self::Rotunda, Self::NightCanal];
 
     /// The name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::CornellBox => "cornell-box",
+            Self::NightCanal => "night-canal",
+            Self::Rotunda => "rotunda",
         }
     }
 
@@ -32,6 +42,8 @@ impl BuiltinScene {
     pub fn load(self) -> Scene {
         match self {
             Self::CornellBox => cornell::cornell_box(),
+            Self::NightCanal => night::night_canal(NIGHT_SEED),
+            Self::Rotunda => rotunda::rotunda(),
         }
     }
 }
@@ -41,6 +53,9 @@ impl fmt::Display for BuiltinScene {
         f.write_str(self.name())
     }
 }
+
+/// The night that ships.
+const NIGHT_SEED: u64 = 1;
 
 /// A name that no scene that ships has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,9 +18,13 @@ const MAX_TEXELS: usize = 1 << 27;
 
 /// Reads the first layer of an OpenEXR file: channels R, G and B, or Y alone, of half or float samples.
 pub(super) fn read_exr(path: &Path) -> Result<ImageFile, Diagnostic> {
-    let bytes = read_bytes(path)?;
+    parse_exr(path, &read_bytes(path)?)
+}
+
+/// As [`read_exr`], from the bytes of the file; `path` names it in messages.
+pub(crate) fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
     let refuse = |error: Error| Diagnostic::file(path, message(&error));
-    let meta = MetaData::read_from_buffered(Cursor::new(&bytes), false).map_err(refuse)?;
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
     let header = meta.headers.iter().find(|header| !header.deep);
     let header =
         header.ok_or_else(|| Diagnostic::file(path, "expected an image, found deep data only"))?;
@@ -44,7 +48,7 @@ pub(super) fn read_exr(path: &Path) -> Result<ImageFile, Diagnostic> {
         let message = format!("expected channels R, G and B, found {}", names.join(", "));
         return Err(Diagnostic::file(path, message));
     };
-    let texels = decode(&bytes, wanted).map_err(refuse)?;
+    let texels = decode(bytes, wanted).map_err(refuse)?;
     if texels.len() != width * height {
         return Err(Diagnostic::file(path, "expected all of the image's rows"));
     }

@@ -1,0 +1,121 @@
+//! A canal by night, made from a seed: tall narrow houses with lit windows, arched bridges outlined with bulbs, lanterns
+//! along the quays, festoons between them, trees full of small lights, and boats.
+//!
+//! Twenty thousand emissive triangles, most of them hidden from any one point by houses, bridges and boats, none of them
+//! far brighter than the rest: what a light hierarchy is for.
+
+mod boat;
+mod bridge;
+mod course;
+mod facade;
+mod festoon;
+mod gable;
+mod house;
+mod lantern;
+mod palette;
+mod quay;
+mod tower;
+mod tree;
+mod window;
+
+use super::dice::Dice;
+use super::modeller::Modeller;
+use crate::glam::{Vec2, Vec3};
+use crate::{Camera, Scene, SceneLight};
+
+use course::{Bank, Course};
+use palette::Palette;
+
+/// The emissive triangles of the scene.
+const LIGHTS: usize = 20_000;
+
+/// From the middle of the canal to the quay wall, in metres; all lengths of the scene are metres, the water is at height 0.
+const WATER: f32 = 8.5;
+
+/// Height of the quays.
+const QUAY: f32 = 1.7;
+
+/// From the middle of the canal to the fronts of the houses.
+const FRONTS: f32 = 14.5;
+
+/// Where along the canal the bridges are.
+const BRIDGES: [f32; 3] = [33.0, 62.0, 93.0];
+
+/// The canal and all around it; the same scene for the same seed.
+pub(super) fn night_canal(seed: u64) -> Scene {
+    let mut dice = Dice::new(seed);
+    let mut modeller = Modeller::default();
+    let palette = Palette::new(&mut modeller);
+    let course = Course { radius: 105.0 };
+    quay::water_and_quays(&mut modeller, &palette, &course);
+    for bank in Bank::BOTH {
+        house::row(&mut modeller, &palette, &mut dice, &course, bank);
+        lantern::row(&mut modeller, &palette, &course, bank);
+    }
+    for along in BRIDGES {
+        bridge::bridge(&mut modeller, &palette, &course.at(along, 0.0));
+    }
+    tower::tower(&mut modeller, &palette, &course);
+    boat::boats(&mut modeller, &palette, &mut dice, &course);
+    festoon::festoons(&mut modeller, &palette, &course);
+    let branches = tree::trees(&mut modeller, &palette, &mut dice, &course);
+    // The trees take the bulbs that make the number round.
+    let left = LIGHTS.saturating_sub(modeller.emissive_triangle_count());
+    tree::bulbs(&mut modeller, &palette, &mut dice, &branches, left);
+    let mut scene = modeller.finish();
+    scene.lights.push(SceneLight::UniformSky {
+        radiance: Vec3::new(0.009, 0.015, 0.034),
+    });
+    scene.camera = Some(camera());
+    scene
+}
+
+/// From a bridge behind the picture, over the water, toward the bend.
+fn camera() -> Camera {
+    let eye = Vec3::new(0.6, 6.4, 8.5);
+    let target = eye + Vec3::new(0.15, -0.035, -1.0);
+    let camera = Camera::look_at(eye, target, Vec3::Y, 40f32.to_radians());
+    Camera {
+        resolution: Some([960, 540]),
+        ..camera.expect("two points and an upright vector")
+    }
+}
+
+/// The corners of a rectangle as [`Modeller::panel`] takes them.
+fn corners(x: [f32; 2], y: [f32; 2]) -> [Vec2; 2] {
+    [Vec2::new(x[0], y[0]), Vec2::new(x[1], y[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn has_twenty_thousand_lights_and_is_the_same_each_time() {
+        let scene = night_canal(1);
+        assert_eq!(scene.emissive_triangle_count(), LIGHTS, "as announced");
+        assert_eq!(scene.meshes, night_canal(1).meshes, "the same each time");
+        assert_ne!(scene.meshes, night_canal(2).meshes, "another seed");
+        assert_eq!(
+            night_canal(2).emissive_triangle_count(),
+            LIGHTS,
+            "as announced"
+        );
+    }
+
+    #[test]
+    fn every_light_has_an_area_and_is_small() {
+        let scene = night_canal(1);
+        for mesh in &scene.meshes {
+            assert!(mesh.bounds().is_finite(), "{} is finite", mesh.name);
+            if scene.material(mesh.material).emission.is_none() {
+                continue;
+            }
+            for index in 0..mesh.indices.len() {
+                let [a, b, c] = mesh.triangle(index);
+                let area = 0.5 * (b - a).cross(c - a).length();
+                assert!(area > 1e-5 && area < 0.5, "{area} m2 in {}", mesh.name);
+            }
+        }
+    }
+}
