@@ -25,6 +25,7 @@ pub mod mis;
 mod octahedral;
 pub mod quantize;
 mod resample;
+pub mod solid_angle;
 pub mod spectrum;
 mod sphere_image;
 pub mod warp;

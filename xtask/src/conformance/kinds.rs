@@ -15,6 +15,9 @@ mod piecewise_constant_1d;
 mod piecewise_constant_2d;
 mod pmf_range;
 mod sampler_answers;
+mod sampling;
+mod sampling_discrete;
+mod sampling_spherical;
 mod summed_area_table;
 mod tables;
 mod windowed_piecewise_constant_2d;
@@ -32,6 +35,7 @@ pub(super) fn checker(kind: &str) -> Option<Box<dyn Checker>> {
         "octahedral" => Box::new(octahedral::check),
         "piecewise_constant_1d" => Box::new(piecewise_constant_1d::check),
         "piecewise_constant_2d" => Box::new(piecewise_constant_2d::check),
+        "sampling" => Box::new(sampling::check),
         "summed_area_table" => Box::new(summed_area_table::check),
         "windowed_piecewise_constant_2d" => Box::new(windowed_piecewise_constant_2d::check),
         _ => return None,

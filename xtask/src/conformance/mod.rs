@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 mod case;
+mod exact;
 mod findings;
 mod kinds;
 mod report;

@@ -11,17 +11,22 @@ use glam::Vec2;
 #[inline]
 #[must_use]
 pub fn sample(u: Vec2) -> Vec2 {
+    let (r, phi) = polar(u);
+    let (sin_phi, cos_phi) = sin_cos(phi);
+    Vec2::new(cos_phi, sin_phi) * r
+}
+
+/// The same point as a signed radius and an azimuth.
+#[inline]
+pub(super) fn polar(u: Vec2) -> (f32, f32) {
     let offset = u * 2.0 - Vec2::ONE;
     if offset == Vec2::ZERO {
-        return Vec2::ZERO;
-    }
-    let (r, phi) = if offset.x.abs() > offset.y.abs() {
+        (0.0, 0.0)
+    } else if offset.x.abs() > offset.y.abs() {
         (offset.x, FRAC_PI_4 * (offset.y / offset.x))
     } else {
         (offset.y, FRAC_PI_2 - FRAC_PI_4 * (offset.x / offset.y))
-    };
-    let (sin_phi, cos_phi) = sin_cos(phi);
-    Vec2::new(cos_phi, sin_phi) * r
+    }
 }
 
 /// The density per area at `p`: `1 / pi` in the disk, 0 outside.

@@ -1,7 +1,7 @@
 //! Directions around +z with a density proportional to the cosine: Lambertian emission and reflection.
 
 use super::concentric_disk;
-use crate::float::safe_sqrt;
+use crate::float::{safe_sqrt, sin_cos};
 use core::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
@@ -12,9 +12,11 @@ use glam::{Vec2, Vec3};
 #[inline]
 #[must_use]
 pub fn sample(u: Vec2) -> Vec3 {
-    let p = concentric_disk::sample(u);
+    let (r, phi) = concentric_disk::polar(u);
+    let (sin_phi, cos_phi) = sin_cos(phi);
     // The rim itself has no density, so stay above it by less than a rounding of the unit length.
-    p.extend(safe_sqrt(1.0 - p.length_squared()).max(f32::EPSILON))
+    let z = safe_sqrt((1.0 - r) * (1.0 + r)).max(f32::EPSILON);
+    Vec3::new(r * cos_phi, r * sin_phi, z)
 }
 
 /// The density per solid angle of a direction with `z = cos_theta`: `cos_theta / pi`, 0 below the horizon.

@@ -15,7 +15,7 @@ pub fn sample(u: f32, a: f32, b: f32) -> f32 {
     let Some((a, b)) = scaled(a, b) else {
         return u;
     };
-    let x = u * (a + b) / (a + sqrt(a * a + u * (b * b - a * a)));
+    let x = u * (a + b) / (a + sqrt((1.0 - u) * (a * a) + u * (b * b)));
     // Where the line starts at zero, so does the density: stay off that end as the other end does.
     let lowest = if a > 0.0 { 0.0 } else { f32::EPSILON * 0.5 };
     x.max(lowest).min(ONE_MINUS_EPSILON)

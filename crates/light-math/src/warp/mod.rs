@@ -8,13 +8,20 @@
 pub mod bilinear;
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
+mod equiangular;
 pub mod linear;
 pub mod polar_disk;
 pub mod smoothstep;
+mod spherical_rectangle;
+mod spherical_triangle;
 pub mod uniform_cone;
 pub mod uniform_hemisphere;
 pub mod uniform_sphere;
 pub mod uniform_triangle;
+
+pub use equiangular::Equiangular;
+pub use spherical_rectangle::SphericalRectangle;
+pub use spherical_triangle::SphericalTriangle;
 
 use crate::float::{atan2, sin_cos};
 use core::f32::consts::TAU;

@@ -1,0 +1,195 @@
+//! Solid angles of flat shapes, in steradians.
+//!
+//! They are exact to a few roundings for shapes of any size, however small, far away or near: differences are taken
+//! between corners, never between directions or angles. What is left is the rounding of the corners themselves where
+//! the point lies almost in the plane of the shape.
+
+use crate::float::atan2;
+use glam::Vec3;
+
+/// The solid angle of the triangle `v` seen from `p`, from 0 to `2 pi`; 0 if it has no area or `p` lies in its
+/// plane.
+///
+/// # Source
+/// `[VanOosterom1983]`, with the volume from the triangle's own edges.
+#[must_use]
+pub fn triangle(v: [Vec3; 3], p: Vec3) -> f32 {
+    let (r, v) = scaled(v, p);
+    let half = HalfAngle::of(r, v);
+    positive(2.0 * atan2(half.sin.abs(), half.cos))
+}
+
+/// The solid angle of the convex quadrilateral with the corners `v` in order around it, seen from `p`.
+///
+/// A quadrilateral that is not planar counts as two triangles, beside the diagonal that looks shorter; where these face
+/// opposite ways their solid angles have opposite signs.
+///
+/// # Source
+/// As for [`triangle`]; half angles add up by multiplying complex numbers.
+#[must_use]
+pub fn quad(v: [Vec3; 4], p: Vec3) -> f32 {
+    let r = v.map(|corner| (corner - p).normalize_or_zero());
+    let v = if r[0].dot(r[2]) < r[1].dot(r[3]) {
+        [v[1], v[2], v[3], v[0]]
+    } else {
+        v
+    };
+    let half = |v: [Vec3; 3]| {
+        let (r, v) = scaled(v, p);
+        HalfAngle::of(r, v)
+    };
+    let sum = half([v[0], v[1], v[2]]).plus(half([v[0], v[2], v[3]]));
+    positive(2.0 * atan2(sum.sin, sum.cos).abs())
+}
+
+/// Zero for NaN, which stands for corners that are not finite.
+fn positive(omega: f32) -> f32 {
+    if omega > 0.0 { omega } else { 0.0 }
+}
+
+/// Half of a signed solid angle, as a complex number of any length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfAngle {
+    pub(crate) cos: f32,
+    pub(crate) sin: f32,
+}
+
+impl HalfAngle {
+    /// Half the solid angle of the triangle `v` seen from the origin of `r`, its corners; positive if the corners run
+    /// counter-clockwise seen from outside the sphere.
+    ///
+    /// With unit vectors a, b, c the cosine is `1 + ab + bc + ca = (a + b)(a + c)`, for any of the corners as a. The
+    /// opposite pair should be the one with the largest sum: the product then has no cancellation of its own.
+    pub(crate) fn of(r: [Vec3; 3], v: [Vec3; 3]) -> Self {
+        let l = r.map(Vec3::length);
+        let sum = |i: usize, j: usize| direction_sum(r[i], r[j], v[j] - v[i]);
+        let sums = [sum(1, 2), sum(2, 0), sum(0, 1)];
+        let [a, b, c] = sums.map(Vec3::length_squared);
+        let cos = if a >= b && a >= c {
+            sums[1].dot(sums[2])
+        } else if b >= c {
+            sums[2].dot(sums[0])
+        } else {
+            sums[0].dot(sums[1])
+        };
+        let sin = nearest(r, l).dot(normal(v)) / (l[0] * l[1] * l[2]);
+        // From within the plane there is nothing to see, inside of the triangle or not.
+        let cos = if sin == 0.0 { cos.abs() } else { cos };
+        Self { cos, sin }
+    }
+
+    /// Half the sum of two solid angles.
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            cos: self.cos * other.cos - self.sin * other.sin,
+            sin: self.cos * other.sin + self.sin * other.cos,
+        }
+    }
+}
+
+/// The sum of the unit vectors along `r0` and `r1`, where `edge = r1 - r0`.
+///
+/// Opposite directions leave a small sum: what counts then is how far the edge passes from the origin.
+pub(crate) fn direction_sum(r0: Vec3, r1: Vec3, edge: Vec3) -> Vec3 {
+    let (l0, l1) = (r0.length(), r1.length());
+    if r0.dot(r1) > 0.0 {
+        return r0 / l0 + r1 / l1;
+    }
+    let along = edge.normalize();
+    let near = if l0 < l1 { r0 } else { r1 };
+    let foot = near - along * near.dot(along);
+    let foot = foot - along * foot.dot(along);
+    // Both ends lie beyond the foot, each seen at 1 - cos = foot^2 / (l (l + s)) from the edge's own direction.
+    let (s0, s1) = (-r0.dot(along), r1.dot(along));
+    let excess = 1.0 / (l0 * (l0 + s0)) - 1.0 / (l1 * (l1 + s1));
+    foot * (1.0 / l0 + 1.0 / l1) + along * (foot.length_squared() * excess)
+}
+
+/// The nearest corner, whose rounding matters least.
+pub(crate) fn nearest(r: [Vec3; 3], l: [f32; 3]) -> Vec3 {
+    if l[0] <= l[1] && l[0] <= l[2] {
+        r[0]
+    } else if l[1] <= l[2] {
+        r[1]
+    } else {
+        r[2]
+    }
+}
+
+/// The normal of the triangle, as long as twice its area, by the two shorter of its edges.
+pub(crate) fn normal(v: [Vec3; 3]) -> Vec3 {
+    let edges = [v[1] - v[0], v[2] - v[1], v[0] - v[2]];
+    let l = edges.map(Vec3::length_squared);
+    if l[0] >= l[1] && l[0] >= l[2] {
+        edges[1].cross(edges[2])
+    } else if l[1] >= l[2] {
+        edges[2].cross(edges[0])
+    } else {
+        edges[0].cross(edges[1])
+    }
+}
+
+/// The corners relative to `p`, and relative to the second one, in units of the largest distance on an axis: no
+/// product of three of them overflows.
+pub(crate) fn scaled(v: [Vec3; 3], p: Vec3) -> ([Vec3; 3], [Vec3; 3]) {
+    let r = v.map(|corner| corner - p);
+    let largest = r.iter().fold(0.0, |m: f32, r| m.max(r.abs().max_element()));
+    (
+        r.map(|r| r / largest),
+        v.map(|corner| (corner - v[1]) / largest),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::{FRAC_PI_2, PI, TAU};
+
+    #[test]
+    fn fixed_points() {
+        let octant = triangle([Vec3::X, Vec3::Y, Vec3::Z], Vec3::ZERO);
+        assert!((octant - FRAC_PI_2).abs() < 1e-6, "octant {octant}");
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let face = quad(corners.map(|(x, y)| Vec3::new(x, y, 1.0)), Vec3::ZERO);
+        assert!(
+            (face - 2.0 * TAU / 6.0).abs() < 1e-6,
+            "face of a cube {face}"
+        );
+        let wide = quad(
+            corners.map(|(x, y)| Vec3::new(1e4 * x, 1e4 * y, 1e-2)),
+            Vec3::ZERO,
+        );
+        assert!((wide - TAU).abs() < 1e-5, "half space {wide}");
+    }
+
+    #[test]
+    fn nothing_to_see() {
+        let v = [Vec3::X, Vec3::Y, Vec3::Z];
+        assert_eq!(triangle([Vec3::X; 3], Vec3::ZERO), 0.0, "a point");
+        assert_eq!(triangle(v, Vec3::X), 0.0, "at a corner");
+        assert_eq!(
+            triangle([Vec3::X, Vec3::Y, -Vec3::X], Vec3::ZERO),
+            0.0,
+            "in its plane"
+        );
+        assert_eq!(triangle(v, Vec3::NAN), 0.0, "NaN");
+        assert_eq!(triangle([Vec3::ZERO; 3], Vec3::ZERO), 0.0, "nothing at all");
+        assert!(triangle(v.map(|v| v * 1e30), Vec3::ZERO) > 1.5, "huge");
+    }
+
+    #[test]
+    fn quads_are_sums_and_winding_does_not_matter() {
+        let v = [(0.0, 0.0), (2.0, 0.1), (2.2, 1.5), (0.3, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.7));
+        let p = Vec3::new(1.0, 0.4, 0.0);
+        let sum = triangle([v[0], v[1], v[2]], p) + triangle([v[0], v[2], v[3]], p);
+        assert!((quad(v, p) - sum).abs() < 1e-6, "sum");
+        assert!(
+            (quad([v[3], v[2], v[1], v[0]], p) - sum).abs() < 1e-6,
+            "other way round"
+        );
+        assert!(
+            quad(v, Vec3::new(1.0, 0.5, 0.7)).rem_euclid(PI) < 1e-6,
+            "in its plane"
+        );
+    }
+}

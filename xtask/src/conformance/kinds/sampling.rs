@@ -1,0 +1,222 @@
+use super::{sampling_discrete, sampling_spherical};
+use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
+use lights::math::glam::{Vec2, Vec3};
+use lights::math::warp::{
+    bilinear, concentric_disk, cosine_hemisphere, linear, polar_disk, smoothstep, uniform_cone,
+    uniform_hemisphere, uniform_sphere, uniform_triangle,
+};
+
+const POLE: Rule = Rule {
+    name: "pole",
+    reason: "at a pole, or in the centre of a disk, the azimuth is not determined, nor is its inverse",
+};
+
+const ZERO_DENSITY: Rule = Rule {
+    name: "zero_density",
+    reason: "the reference returns a point of density 0 for u at the end of its range; ours stays off it by 2^-24",
+};
+
+const ROOT: Rule = Rule {
+    name: "root_of_a_difference",
+    reason: "where a component is the root of 1 - cos^2 or the like, rounding under the root is magnified; squares \
+             agree to 4 roundings of 1",
+};
+
+const ROUNDED_COSINE: Rule = Rule {
+    name: "rounded_cosine",
+    reason: "the reference inverts a narrow cone by the rounded cosine, which ends within two roundings of ours",
+};
+
+const SEARCH: Rule = Rule {
+    name: "search_ends_early",
+    reason: "the reference's search ends once x is known to 1e-6 or the integral is within 1e-6 of u",
+};
+
+/// The routine that `op` names.
+pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
+    match case.get("op")?.text() {
+        Some("uniform_triangle") => {
+            let b = uniform_triangle::sample(case.get("u")?.vec2()?);
+            let theirs = case.get("b")?.vec3()?;
+            findings.near3("b", b, theirs, Tolerance::GENERAL);
+            let inverse = uniform_triangle::invert(theirs);
+            findings.near2("inv", inverse, case.get("inv")?.vec2()?, Tolerance::GENERAL);
+        }
+        Some("linear") => linear_density(case, findings)?,
+        Some("bilinear") => bilinear_density(case, findings)?,
+        Some("smoothstep") => smoothstep_density(case, findings)?,
+        Some("disk_concentric") => disk(
+            case,
+            findings,
+            concentric_disk::sample,
+            concentric_disk::invert,
+        )?,
+        Some("disk_polar") => disk(case, findings, polar_disk::sample, polar_disk::invert)?,
+        Some("uniform_hemisphere") => directions(
+            case,
+            findings,
+            uniform_hemisphere::sample,
+            |w| uniform_hemisphere::pdf(w.z),
+            uniform_hemisphere::invert,
+        )?,
+        Some("uniform_sphere") => directions(
+            case,
+            findings,
+            uniform_sphere::sample,
+            |_| uniform_sphere::pdf(),
+            uniform_sphere::invert,
+        )?,
+        Some("cosine_hemisphere") => directions(
+            case,
+            findings,
+            cosine_hemisphere::sample,
+            |w| cosine_hemisphere::pdf(w.z),
+            cosine_hemisphere::invert,
+        )?,
+        Some("uniform_cone") => {
+            let cap = 1.0 - case.get("cos_theta_max")?.float()?;
+            directions(
+                case,
+                findings,
+                |u| uniform_cone::sample(u, cap),
+                |_| uniform_cone::pdf(cap),
+                |w| uniform_cone::invert(w, cap),
+            )?;
+        }
+        Some("discrete") => sampling_discrete::check(case, findings)?,
+        Some("spherical_triangle") => sampling_spherical::triangle(case, findings)?,
+        Some("spherical_rectangle") => sampling_spherical::rectangle(case, findings)?,
+        Some("spherical_triangle_area") => sampling_spherical::triangle_area(case, findings)?,
+        Some("spherical_quad_area") => sampling_spherical::quad_area(case, findings)?,
+        _ => return Err(Malformed("unknown `op`".to_owned())),
+    }
+    Ok(())
+}
+
+/// A point of the unit disk, and its inverse.
+fn disk(
+    case: &Case<'_>,
+    findings: &mut Findings,
+    sample: impl Fn(Vec2) -> Vec2,
+    invert: impl Fn(Vec2) -> Vec2,
+) -> Result<(), Malformed> {
+    let theirs = case.get("p")?.vec2()?;
+    findings.near2(
+        "p",
+        sample(case.get("u")?.vec2()?),
+        theirs,
+        Tolerance::GENERAL,
+    );
+    inverse(case, findings, theirs, invert(theirs))
+}
+
+/// A direction, its density and its inverse.
+fn directions(
+    case: &Case<'_>,
+    findings: &mut Findings,
+    sample: impl Fn(Vec2) -> Vec3,
+    pdf: impl Fn(Vec3) -> f32,
+    invert: impl Fn(Vec3) -> Vec2,
+) -> Result<(), Malformed> {
+    let theirs = case.get("w")?.vec3()?;
+    let ours = sample(case.get("u")?.vec2()?);
+    let roots = ours * ours - theirs * theirs;
+    if !near3(ours, theirs) && roots.abs().max_element() < 4.0 * f32::EPSILON {
+        findings.exempt(&ROOT);
+    } else {
+        findings.near3("w", ours, theirs, Tolerance::GENERAL);
+    }
+    let density = case.get("pdf")?.float()?;
+    if density == 0.0 {
+        findings.check(pdf(ours) > 0.0, || format!("density {}", pdf(ours)));
+        findings.exempt(&ZERO_DENSITY);
+    } else {
+        findings.near("pdf", pdf(theirs), density, Tolerance::GENERAL);
+    }
+    inverse(case, findings, theirs.truncate(), invert(theirs))
+}
+
+fn near3(ours: Vec3, theirs: Vec3) -> bool {
+    (0..3).all(|i| Tolerance::GENERAL.accepts(ours[i], theirs[i]))
+}
+
+/// The inverse of the reference's own answer, whose projection to the disk is `p`.
+fn inverse(case: &Case<'_>, findings: &mut Findings, p: Vec2, ours: Vec2) -> Result<(), Malformed> {
+    let theirs = case.get("inv")?.vec2()?;
+    if let Some(cos_theta_max) = case.find("cos_theta_max") {
+        let error = 2.0 * f32::EPSILON / (1.0 - cos_theta_max.float()?);
+        let is_near = Tolerance::GENERAL.accepts(ours.x, theirs.x);
+        if !is_near && (ours.x - theirs.x).abs() < error {
+            findings.exempt(&ROUNDED_COSINE);
+            findings.near("inv", ours.y, theirs.y, Tolerance::GENERAL);
+            return Ok(());
+        }
+    }
+    if p.abs().max_element() < 1e-6 {
+        findings.exempt(&POLE);
+        findings.near("inv", ours.x, theirs.x, Tolerance::GENERAL);
+    } else {
+        findings.near2("inv", ours, theirs, Tolerance::GENERAL);
+    }
+    Ok(())
+}
+
+fn linear_density(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
+    let [u, a, b, x] = ["u", "a", "b", "x"].map(|name| case.get(name)?.float());
+    let (u, a, b, x) = (u?, a?, b?, x?);
+    let ours = linear::sample(u, a, b);
+    findings.near("x", ours, x, Tolerance::GENERAL);
+    findings.near(
+        "inv",
+        linear::invert(x, a, b),
+        case.get("inv")?.float()?,
+        Tolerance::GENERAL,
+    );
+    let density = case.get("pdf")?.float()?;
+    if density == 0.0 {
+        findings.check(linear::pdf(ours, a, b) > 0.0, || "density 0".to_owned());
+        findings.exempt(&ZERO_DENSITY);
+    } else {
+        findings.near("pdf", linear::pdf(x, a, b), density, Tolerance::GENERAL);
+    }
+    Ok(())
+}
+
+fn bilinear_density(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
+    let w = case.get("w")?.float_array()?;
+    let (u, p) = (case.get("u")?.vec2()?, case.get("p")?.vec2()?);
+    let ours = bilinear::sample(u, w);
+    findings.near2("p", ours, p, Tolerance::GENERAL);
+    let inverse = bilinear::invert(p, w);
+    findings.near2("inv", inverse, case.get("inv")?.vec2()?, Tolerance::GENERAL);
+    let density = case.get("pdf")?.float()?;
+    if density == 0.0 {
+        findings.check(bilinear::pdf(ours, w) > 0.0, || "density 0".to_owned());
+        findings.exempt(&ZERO_DENSITY);
+    } else {
+        findings.near("pdf", bilinear::pdf(p, w), density, Tolerance::GENERAL);
+    }
+    Ok(())
+}
+
+/// The reference's search ends at about 1e-4 of the width, so its own place is where densities are compared.
+fn smoothstep_density(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
+    let [u, a, b, x] = ["u", "a", "b", "x"].map(|name| case.get(name)?.float());
+    let (u, a, b, x) = (u?, a?, b?, x?);
+    let ours = smoothstep::sample(u, a, b);
+    let tolerance = Tolerance::new(0.0, 1e-4 * (b - a));
+    let has_ended = (ours - x).abs() <= 1e-6 || (smoothstep::invert(x, a, b) - u).abs() <= 1e-6;
+    if !tolerance.accepts(ours, x) && has_ended {
+        findings.exempt(&SEARCH);
+    } else {
+        findings.near("x", ours, x, tolerance);
+    }
+    let density = case.get("pdf")?.float()?;
+    if density == 0.0 {
+        findings.check(smoothstep::pdf(ours, a, b) > 0.0, || "density 0".to_owned());
+        findings.exempt(&ZERO_DENSITY);
+    } else {
+        findings.near("pdf", smoothstep::pdf(x, a, b), density, Tolerance::GENERAL);
+    }
+    Ok(())
+}
