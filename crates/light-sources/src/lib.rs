@@ -60,6 +60,8 @@ mod scaled_emission;
 mod scene_sphere;
 pub mod shape;
 mod sides;
+mod spectral;
+mod spectral_emission;
 #[cfg(feature = "alloc")]
 mod sphere_table;
 mod spot;
@@ -112,6 +114,8 @@ pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 pub use scaled_emission::{EmissionError, ScaledEmission};
 pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;
+pub use spectral::Spectral;
+pub use spectral_emission::SpectralEmission;
 pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
 pub use surface_point::SurfacePoint;
 pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};

@@ -32,6 +32,18 @@ impl<S: AsRef<[f32]>> PiecewiseLinear<S> {
         }
         Ok(Self { lambdas, values })
     }
+
+    /// The wavelengths, in increasing order.
+    #[must_use]
+    pub fn lambdas(&self) -> &[f32] {
+        self.lambdas.as_ref()
+    }
+
+    /// The value at each of the wavelengths.
+    #[must_use]
+    pub fn values(&self) -> &[f32] {
+        self.values.as_ref()
+    }
 }
 
 impl<S: AsRef<[f32]>> Spectrum for PiecewiseLinear<S> {
