@@ -91,17 +91,21 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>> {
         let ShapeSample { at, pdf } = self.shape.sample(u1)?;
-        let (u2, normal) = match self.emission.sides() {
-            Sides::Front => (u2, at.n),
-            Sides::Back => (u2, -at.n),
+        let direction = match self.emission.sides() {
+            Sides::Front => Frame::from_z(at.n).from_local(cosine_hemisphere::sample(u2)),
+            Sides::Back => Frame::from_z(-at.n).from_local(cosine_hemisphere::sample(u2)),
             // The first number chooses the side and is stretched again to the full interval.
             Sides::Both => {
-                let u = u2.x * 2.0;
-                let (u, n) = if u < 1.0 { (u, at.n) } else { (u - 1.0, -at.n) };
-                (Vec2::new(u.min(ONE_MINUS_EPSILON), u2.y), n)
+                let (x, side) = if u2.x < 0.5 {
+                    (u2.x, 1.0)
+                } else {
+                    (u2.x - 0.5, -1.0)
+                };
+                let u = Vec2::new((2.0 * x).min(ONE_MINUS_EPSILON), u2.y);
+                let w = cosine_hemisphere::sample(u) * Vec3::new(1.0, 1.0, side);
+                Frame::from_z(at.n).from_local(w)
             }
         };
-        let direction = Frame::from_z(normal).from_local(cosine_hemisphere::sample(u2));
         let l = self.emission.l(&at, direction, wavelengths);
         let ray = EmittedRay {
             origin: at.p,
@@ -133,7 +137,11 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
         let cone = self.shape.normal_cone();
         LightExtent::Bounded(LightBounds {
             bounds: self.shape.bounds(),
-            w: self.emission.sides().emitting_normal(cone.w),
+            w: if cone.is_whole_sphere() {
+                cone.w
+            } else {
+                self.emission.sides().emitting_normal(cone.w)
+            },
             phi: self.emission.strength() * self.shape.area(),
             cos_theta_o: cone.cos_theta,
             cos_theta_e: 0.0,

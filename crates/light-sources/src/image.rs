@@ -6,7 +6,6 @@ use core::fmt;
 use crate::glam::{Vec2, Vec3};
 use crate::rgb_sum::RgbSum;
 use half::f16;
-use light_math::equal_area;
 
 /// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere negative.
 ///
@@ -177,21 +176,6 @@ impl Image {
         top.lerp(bottom, f.y)
     }
 
-    /// The colour at `uv` of a square image of the sphere by [`equal_area`], interpolated across its edges too.
-    #[must_use]
-    pub fn bilinear_equal_area(&self, uv: Vec2) -> Vec3 {
-        let n = self.size[0];
-        let t = uv * n as f32 - 0.5;
-        let (corner, f) = (t.floor(), t - t.floor());
-        let texel = |dx: i32, dy: i32| {
-            let (x, y) = equal_area::wrap_texel(whole(corner.x) + dx, whole(corner.y) + dy, n);
-            self.texel(x, y)
-        };
-        let top = texel(0, 0).lerp(texel(1, 0), f.x);
-        let bottom = texel(0, 1).lerp(texel(1, 1), f.x);
-        top.lerp(bottom, f.y)
-    }
-
     /// All texels, row by row.
     pub fn texels(&self) -> impl Iterator<Item = Vec3> + '_ {
         let [width, height] = self.size;
@@ -234,12 +218,6 @@ impl Image {
 )]
 const fn index(t: f32) -> u32 {
     t as u32
-}
-
-/// The texel index, at most one image away, of a coordinate that is a whole number.
-#[expect(clippy::cast_possible_truncation, reason = "whole and small")]
-const fn whole(t: f32) -> i32 {
-    t as i32
 }
 
 fn check(

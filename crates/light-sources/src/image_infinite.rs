@@ -12,15 +12,15 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
 use crate::kind::LightType;
 use crate::light::{InfiniteLight, Light};
-use crate::resample::{equal_area_size, lat_long_to_equal_area};
+use crate::resample::equal_area_size;
 use crate::rgb_sum::{RgbSum, single};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scene_sphere::SceneSphere;
 use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
-use light_math::DirectionCone;
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
+use light_math::{DirectionCone, SphereMap};
 
 /// An [`ImageInfiniteLight`] as a user describes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -199,7 +199,9 @@ impl EnvironmentMap {
             }
             Self::EqualArea(image) => Ok(image),
             Self::LatLong(image) => {
-                lat_long_to_equal_area(&image, equal_area_size(image.size()[1]))
+                let n = equal_area_size(image.size()[1]);
+                image
+                    .resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])
                     .map_err(|_| ImageInfiniteLightError::Amount)
             }
         }

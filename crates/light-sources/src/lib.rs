@@ -107,7 +107,7 @@ pub use portal_infinite::{PortalInfiniteLight, PortalInfiniteLightDesc, PortalIn
 #[cfg(feature = "alloc")]
 pub use projection::{ProjectionLight, ProjectionLightDesc, ProjectionLightError};
 #[cfg(feature = "alloc")]
-pub use resample::{equal_area_size, equal_area_to_lat_long, lat_long_to_equal_area};
+pub use resample::equal_area_size;
 pub use rgb::Rgb;
 pub use rigid_transform::{RigidTransform, RigidTransformError};
 pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};

@@ -7,19 +7,18 @@ use crate::amount::RadianceAmount;
 use crate::color::{ColorModel, Radiance};
 use crate::coverage::PdfCoverage;
 use crate::glam::{Affine3A, Vec2, Vec3};
-use crate::image::Image;
+use crate::image::{Channels, Image};
 use crate::image_infinite::{EnvironmentMap, ImageInfiniteLightError};
 use crate::kind::LightType;
 use crate::light::{InfiniteLight, Light};
 use crate::portal::Portal;
-use crate::rgb_sum::RgbSum;
+use crate::rgb_sum::{RgbSum, single};
 use crate::rigid_transform::RigidTransform;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
-use light_math::DirectionCone;
 use light_math::distribution::{Sample2D, SummedAreaTable, Window, WindowedPiecewiseConstant2D};
-use light_math::equal_area::sphere_to_square;
+use light_math::{DirectionCone, SphereImage, SphereMap};
 
 /// A [`PortalInfiniteLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -83,6 +82,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
 
         // The sky in the portal's own map, and its integrals over the half space in front.
         let [n, _] = sky.size();
+        let sky = SphereImage::new(SphereMap::EqualArea, sky.size(), |x, y| sky.texel(x, y))
+            .map_err(|_| ImageInfiniteLightError::NotSquare)?;
         let mut texels = Vec::new();
         let mut weights = Vec::new();
         let (mut irradiance, mut mean, mut fluence) = (RgbSum::default(), RgbSum::default(), 0.0);
@@ -90,8 +91,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
             for x in 0..n {
                 let uv = (Vec2::new(x as f32, y as f32) + 0.5) / n as f32;
                 let (w, solid_angle) = portal.direction(uv);
-                let uv_sky = sphere_to_square(transform.inverse_vector(w));
-                let texel = sky.bilinear_equal_area(uv_sky);
+                let texel = sky.bilinear(transform.inverse_vector(w));
                 let weight = texel.average() * solid_angle;
                 let cos_theta = portal.frame().z.dot(w);
                 irradiance.add(texel, f64::from(solid_angle * cos_theta));
@@ -111,13 +111,12 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
         Ok(Self {
             extent: InfiniteBounds {
-                fluence: crate::rgb_sum::single(fluence / count) * scale,
+                fluence: single(fluence / count) * scale,
                 mean: mean.over(fluence),
                 cone: DirectionCone::new(portal.frame().z, 0.0),
             },
             portal,
-            image: Image::from_f32(size, crate::image::Channels::Rgb, texels)
-                .map_err(|_| amount)?,
+            image: Image::from_f32(size, Channels::Rgb, texels).map_err(|_| amount)?,
             scale,
             irradiance,
             scene,

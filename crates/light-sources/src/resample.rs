@@ -1,46 +1,51 @@
-//! Environment maps from one square to the other: the latitude-longitude map that users own, the equal-area map that
-//! lights sample.
-
 use alloc::vec::Vec;
 
 use crate::glam::Vec3;
-use crate::image::{Channels, Image, ImageError};
+use crate::image::{Image, ImageError};
 use crate::rgb_sum::RgbSum;
 use light_math::float::sin;
 use light_math::{Resampler, SphereImage, SphereImageError, SphereMap};
 
-/// The equal-area image of `n` x `n` texels, at least 1, that a latitude-longitude image becomes.
-///
-/// Texels are means over directions spread evenly in them ([`Resampler`]). Then each channel is scaled so that the light of
-/// the whole sphere stays what it was: small suns would gain or lose otherwise.
-///
-/// # Errors
-/// When `n` is 0.
-pub fn lat_long_to_equal_area(image: &Image, n: u32) -> Result<Image, ImageError> {
-    let texels = resample(image, SphereMap::LatLong, SphereMap::EqualArea, [n, n])?;
-    let mut sum = RgbSum::default();
-    texels.iter().for_each(|&texel| sum.add(texel, 1.0));
-    let mean = sum.over(f64::from(n) * f64::from(n));
-    finish(
-        [n, n],
-        image.channels(),
-        &texels,
-        mean,
-        lat_long_mean(image.size(), |x, y| image.texel(x, y)),
-    )
+impl Image {
+    /// This image of the sphere, laid around it as `from` says, in another map and size.
+    ///
+    /// Each channel keeps the light of the whole sphere: small suns would gain or lose otherwise.
+    ///
+    /// # Errors
+    /// When a side is 0, or an equal-area image is not square.
+    pub fn resampled(
+        &self,
+        from: SphereMap,
+        to: SphereMap,
+        size: [u32; 2],
+    ) -> Result<Self, ImageError> {
+        let texels: Vec<Vec3> = SphereImage::new(from, self.size(), |x, y| self.texel(x, y))
+            .and_then(|source| Resampler::new(source, to, size))
+            .map(|resampler| resampler.texels().collect())
+            .map_err(|error| match error {
+                SphereImageError::NotSquare => ImageError::NotSquare,
+                _ => ImageError::Empty,
+            })?;
+        let have = sphere_mean(to, size, texels.iter().copied());
+        let ratio = self.sphere_mean(from) / have;
+        let ratio = Vec3::select(have.cmpgt(Vec3::ZERO), ratio, Vec3::ONE);
+        let channels = self.channels();
+        let numbers = texels.iter().flat_map(|&texel| {
+            let numbers = (texel * ratio).to_array();
+            numbers.into_iter().take(channels.count())
+        });
+        Self::from_f32(size, channels, numbers.collect::<Vec<_>>())
+    }
+
+    /// The mean over the sphere of this image, which is laid around it as `map` says.
+    #[must_use]
+    pub fn sphere_mean(&self, map: SphereMap) -> Vec3 {
+        sphere_mean(map, self.size(), self.texels())
+    }
 }
 
-/// The latitude-longitude image of the given size that an equal-area image becomes, in the same way.
-///
-/// # Errors
-/// When the size is 0, or the image is not square.
-pub fn equal_area_to_lat_long(image: &Image, size: [u32; 2]) -> Result<Image, ImageError> {
-    let texels = resample(image, SphereMap::EqualArea, SphereMap::LatLong, size)?;
-    let mean = lat_long_mean(size, |x, y| texels[(y * size[0] + x) as usize]);
-    finish(size, image.channels(), &texels, mean, image.mean())
-}
-
-/// Rows and columns that keep the solid angle of a texel at the horizon of a latitude-longitude image of this height.
+/// Rows and columns of the equal-area image whose texels are as large as those at the horizon of a latitude-longitude
+/// image of this height.
 #[must_use]
 #[expect(
     clippy::cast_possible_truncation,
@@ -52,51 +57,70 @@ pub fn equal_area_size(height: u32) -> u32 {
     (f64::from(height) * core::f64::consts::FRAC_2_SQRT_PI + 0.5) as u32
 }
 
-/// The texels of an image, row by row, in another map and size.
-fn resample(
-    image: &Image,
-    from: SphereMap,
-    to: SphereMap,
-    size: [u32; 2],
-) -> Result<Vec<Vec3>, ImageError> {
-    SphereImage::new(from, image.size(), |x, y| image.texel(x, y))
-        .and_then(|source| Resampler::new(source, to, size))
-        .map(|resampler| resampler.texels().collect())
-        .map_err(|error| match error {
-            SphereImageError::NotSquare => ImageError::NotSquare,
-            _ => ImageError::Empty,
-        })
-}
-
-/// The image of `texels`, whose mean over the sphere becomes `wanted`.
-fn finish(
-    size: [u32; 2],
-    channels: Channels,
-    texels: &[Vec3],
-    mean: Vec3,
-    wanted: Vec3,
-) -> Result<Image, ImageError> {
-    let ratio = Vec3::select(mean.cmpgt(Vec3::ZERO), wanted / mean, Vec3::ONE);
-    let numbers: Vec<f32> = texels
-        .iter()
-        .flat_map(|&texel| {
-            (texel * ratio)
-                .to_array()
-                .into_iter()
-                .take(channels.count())
-        })
-        .collect();
-    Image::from_f32(size, channels, numbers)
-}
-
-/// The mean over the sphere of a latitude-longitude image, each texel by its exact solid angle.
-fn lat_long_mean([width, height]: [u32; 2], texel: impl Fn(u32, u32) -> Vec3) -> Vec3 {
+/// The mean over the sphere of texels, row by row.
+fn sphere_mean(
+    map: SphereMap,
+    [width, height]: [u32; 2],
+    mut texels: impl Iterator<Item = Vec3>,
+) -> Vec3 {
     let half_row = core::f32::consts::FRAC_PI_2 / height as f32;
-    let mut sum = RgbSum::default();
+    let (mut sum, mut total) = (RgbSum::default(), 0.0);
     for y in 0..height {
-        // Half of the difference of the cosines at both edges, without cancellation at the poles.
-        let share = sin(half_row * (2 * y + 1) as f32) * sin(half_row);
-        (0..width).for_each(|x| sum.add(texel(x, y), f64::from(share)));
+        let weight = match map {
+            SphereMap::EqualArea => 1.0,
+            // Up to a factor, the difference of the cosines at both edges of the row.
+            SphereMap::LatLong => f64::from(sin(half_row * (2 * y + 1) as f32)),
+        };
+        for texel in texels.by_ref().take(width as usize) {
+            sum.add(texel, weight);
+            total += weight;
+        }
     }
-    sum.over(f64::from(width))
+    sum.over(total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Channels;
+
+    #[test]
+    fn light_is_kept_both_ways() -> Result<(), ImageError> {
+        // A dim sky and a sun of a single texel.
+        let mut texels = alloc::vec![0.1; 64 * 32];
+        texels[64 * 9 + 40] = 5000.0;
+        let image = Image::from_f32([64, 32], Channels::Gray, texels)?;
+        let mean = image.sphere_mean(SphereMap::LatLong).x;
+        let n = equal_area_size(32);
+        let square = image.resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])?;
+        assert!((square.mean().x / mean - 1.0).abs() < 1e-5, "there");
+        let back = square.resampled(SphereMap::EqualArea, SphereMap::LatLong, [64, 32])?;
+        let again = back.sphere_mean(SphereMap::LatLong).x;
+        assert!((again / mean - 1.0).abs() < 1e-5, "and back");
+        assert_eq!(n, 36, "32 * 2 / sqrt(pi)");
+        Ok(())
+    }
+
+    #[test]
+    fn refuses_sizes_that_are_none() -> Result<(), ImageError> {
+        let image = Image::from_f32([2, 1], Channels::Gray, [1.0, 2.0])?;
+        let to = |map, size| image.resampled(SphereMap::LatLong, map, size).err();
+        assert_eq!(
+            to(SphereMap::LatLong, [0, 1]),
+            Some(ImageError::Empty),
+            "empty"
+        );
+        assert_eq!(
+            to(SphereMap::EqualArea, [2, 1]),
+            Some(ImageError::NotSquare),
+            "not square"
+        );
+        let square = image.resampled(SphereMap::EqualArea, SphereMap::LatLong, [2, 1]);
+        assert_eq!(
+            square.err(),
+            Some(ImageError::NotSquare),
+            "the source is not square"
+        );
+        Ok(())
+    }
 }

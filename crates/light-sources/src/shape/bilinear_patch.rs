@@ -155,14 +155,14 @@ impl Shape for BilinearPatch {
     /// The normals lie in the cone of those at the corners: they are their means.
     fn normal_cone(&self) -> DirectionCone {
         let normals = CORNERS.map(|uv| self.scaled_normal(uv).try_normalize());
-        let cones = normals
-            .into_iter()
-            .flatten()
-            .map(DirectionCone::from_direction);
-        let cone = cones.fold(DirectionCone::EMPTY, DirectionCone::union);
+        let normals = normals.into_iter().flatten();
+        let Some(axis) = normals.clone().sum::<Vec3>().try_normalize() else {
+            return DirectionCone::WHOLE_SPHERE;
+        };
+        let cos_theta = normals.map(|n| n.dot(axis)).fold(1.0, f32::min);
         // A cone wider than a half space is not convex and promises nothing.
-        if cone.cos_theta > 0.0 {
-            cone
+        if cos_theta > 0.0 {
+            DirectionCone::new(axis, cos_theta)
         } else {
             DirectionCone::WHOLE_SPHERE
         }

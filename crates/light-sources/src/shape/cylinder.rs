@@ -2,15 +2,18 @@ use core::error::Error;
 use core::f32::consts::TAU;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::cylinder_view::CylinderView;
+use super::{DirectionSample, Shape, ShapeSample, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::float::{atan2, sin_cos, sqrt};
+use light_math::float::{sin_cos, sqrt};
 use light_math::{Aabb, DirectionCone};
 
 /// An open cylinder, the wall of a tube without its ends; its front is outside.
+///
+/// Directions toward it are chosen nearly uniformly in the solid angle that it fills, from inside too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     transform: RigidTransform,
@@ -62,18 +65,9 @@ impl Cylinder {
         }
     }
 
-    /// Whether the wall hides its own point at `at` from someone who looks along `wi` from the distance `t`.
-    fn hides(&self, at: &SurfacePoint, wi: Vec3, t: f32) -> bool {
-        let n = self.transform.inverse_vector(at.n);
-        let d = self.transform.inverse_vector(wi);
-        let outward = n.dot(d);
-        if outward <= 0.0 {
-            return false;
-        }
-        // The inside is seen: the ray has crossed the tube's circle one chord earlier, through the wall or above it.
-        let chord = 2.0 * self.radius * outward / d.truncate().length_squared();
-        let z = (at.uv.y - 0.5) * self.length - chord * d.z;
-        chord < t && z.abs() <= 0.5 * self.length
+    fn view(&self, p: Vec3) -> CylinderView {
+        let p = self.transform.inverse_point(p);
+        CylinderView::new(p, self.radius, 0.5 * self.length)
     }
 }
 
@@ -108,19 +102,23 @@ impl Shape for Cylinder {
         1.0 / self.area()
     }
 
-    /// A point by area, unless the wall hides it.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
-        let ShapeSample { at, pdf } = self.sample(u)?;
-        let to_light = at.p - ctx.p;
-        let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-        (!self.hides(&at, wi, to_light.length())).then_some(DirectionSample { at, wi, pdf })
+        let sample = self.view(ctx.p).sample(u)?;
+        let n = sample.normal.extend(0.0);
+        let z = sample.height - 0.5 * self.length;
+        Some(DirectionSample {
+            at: SurfacePoint {
+                p: self.transform.point(n * self.radius + Vec3::Z * z),
+                n: self.transform.vector(n),
+                uv: Vec2::new(azimuth(n), (sample.height / self.length).clamp(0.0, 1.0)),
+            },
+            wi: self.transform.vector(sample.wi),
+            pdf: sample.pdf,
+        })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
-        self.hit(ctx.p, wi)
-            .and_then(pdf)
-            .map_or(0.0, |(_, pdf)| pdf)
+        self.view(ctx.p).pdf(self.transform.inverse_vector(wi))
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
@@ -139,9 +137,8 @@ impl Shape for Cylinder {
             let p = o + d * t;
             let slack = 4.0 * f32::EPSILON * (o.length() + t);
             let is_hit = t > 0.0 && p.z.abs() <= 0.5 * self.length + slack;
-            let phi = atan2(p.y, p.x);
-            let u = if phi < 0.0 { phi + TAU } else { phi } / TAU;
-            is_hit.then(|| self.at(Vec2::new(u, (p.z / self.length + 0.5).clamp(0.0, 1.0))))
+            let v = (p.z / self.length + 0.5).clamp(0.0, 1.0);
+            is_hit.then(|| self.at(Vec2::new(azimuth(p), v)))
         };
         on_wall(nearest - half).or_else(|| on_wall(nearest + half))
     }

@@ -1,13 +1,13 @@
 use core::error::Error;
-use core::f32::consts::{PI, TAU};
+use core::f32::consts::PI;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::float::{atan2, sqrt};
+use light_math::float::sqrt;
 use light_math::warp::concentric_disk;
 use light_math::{Aabb, DirectionCone};
 
@@ -56,8 +56,7 @@ impl Disk {
 
     /// The point at `local` of the disk's own plane.
     fn at(&self, local: Vec2) -> SurfacePoint {
-        let phi = atan2(local.y, local.x);
-        let u = if phi < 0.0 { phi + TAU } else { phi } / TAU;
+        let u = azimuth(local.extend(0.0));
         let v = (self.radius - local.length()) / (self.radius - self.inner_radius);
         SurfacePoint {
             p: self.transform.point(local.extend(0.0)),

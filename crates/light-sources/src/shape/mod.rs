@@ -3,6 +3,7 @@
 mod any;
 mod bilinear_patch;
 mod cylinder;
+mod cylinder_view;
 mod disk;
 mod rectangle;
 mod sphere;
@@ -18,7 +19,9 @@ pub use triangle::{Triangle, TriangleError};
 
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
+use core::f32::consts::TAU;
 use light_bounds::LightSampleContext;
+use light_math::float::{ONE_MINUS_EPSILON, atan2};
 use light_math::{Aabb, DirectionCone};
 
 /// A surface that area lights can shine from.
@@ -109,4 +112,11 @@ pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Opt
     let wi = to_light.try_normalize()?;
     let pdf = pdf_area * to_light.length_squared() / n.dot(wi).abs();
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
+}
+
+/// The angle around the axis z of the point at `p`, as a part of a full turn, in `[0, 1)`.
+pub(crate) fn azimuth(p: Vec3) -> f32 {
+    let turn = atan2(p.y, p.x) / TAU;
+    let turn = if turn < 0.0 { turn + 1.0 } else { turn };
+    turn.min(ONE_MINUS_EPSILON)
 }

@@ -2,12 +2,12 @@ use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::float::{atan2, safe_acos, safe_sqrt, sin_cos};
+use light_math::float::{safe_acos, safe_sqrt, sin_cos};
 use light_math::warp::{uniform_cone, uniform_sphere};
 use light_math::{Aabb, DirectionCone, Frame};
 
@@ -56,8 +56,7 @@ impl Sphere {
     /// The point of the surface with unit normal `n`.
     fn at(&self, n: Vec3) -> SurfacePoint {
         let local = self.transform.inverse_vector(n);
-        let phi = atan2(local.y, local.x);
-        let u = if phi < 0.0 { phi + TAU } else { phi } / TAU;
+        let u = azimuth(local);
         SurfacePoint {
             p: self.center() + n * self.radius,
             n,
@@ -130,13 +129,16 @@ impl Shape for Sphere {
             return None;
         }
 
-        // Angle at the receiver, and from it the angle at the centre between the receiver and the point.
+        // The angle at the receiver, and from it the one at the centre: their sum has the sine of the angle at the rim.
         let one_minus_cos = cone.one_minus_cos_max * u.x;
-        let sin_sq = one_minus_cos * (2.0 - one_minus_cos);
-        let sin_ratio = safe_sqrt(sin_sq) / cone.sin_max;
-        let cos_alpha =
-            sin_sq / cone.sin_max + (1.0 - one_minus_cos) * safe_sqrt(1.0 - sin_ratio * sin_ratio);
-        let sin_alpha = safe_sqrt(1.0 - cos_alpha * cos_alpha);
+        let (sin, cos) = (
+            safe_sqrt(one_minus_cos * (2.0 - one_minus_cos)),
+            1.0 - one_minus_cos,
+        );
+        let sin_sum = (sin / cone.sin_max).min(1.0);
+        let cos_sum = safe_sqrt(1.0 - sin_sum * sin_sum);
+        let sin_alpha = sin_sum * cos - cos_sum * sin;
+        let cos_alpha = cos_sum * cos + sin_sum * sin;
         let (sin_phi, cos_phi) = sin_cos(TAU * u.y);
 
         let frame = Frame::from_z(cone.axis);
@@ -144,7 +146,7 @@ impl Shape for Sphere {
         let n = frame
             .from_local(-(around * sin_alpha + Vec3::Z * cos_alpha))
             .normalize();
-        let wi = frame.from_local(Vec3::Z * (1.0 - one_minus_cos) - around * safe_sqrt(sin_sq));
+        let wi = frame.from_local(Vec3::Z * cos - around * sin);
         Some(DirectionSample {
             at: self.at(n),
             wi: wi.normalize(),

@@ -1,0 +1,222 @@
+use core::f32::consts::{PI, TAU};
+
+use crate::glam::{Vec2, Vec3};
+use light_math::float::{asin, safe_sqrt, sin_cos, sqrt};
+
+/// What is seen of the wall of a tube around the axis z, from a point in the tube's own space.
+///
+/// A plane through the point and parallel to the axis cuts a strip out of the near wall and one out of the far wall;
+/// from outside of the tube the far one is hidden behind the near one, but for what is seen through the open end. Planes
+/// are chosen uniformly by angle, and directions in a plane uniformly by the sine of their elevation over both strips:
+/// nearly uniform in solid angle, nothing hidden is chosen, and nothing becomes singular at the silhouette.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CylinderView {
+    /// The point across the axis, its distance from the axis, and the unit vector from there to the axis.
+    across: Vec2,
+    distance: f32,
+    inward: Vec2,
+    /// The lower and the upper rim, relative to the point.
+    rims: [f32; 2],
+    radius: f32,
+    /// Half the angle between the planes that touch the tube; `None` inside of it, where all planes cut the wall.
+    half_angle: Option<f32>,
+}
+
+/// A direction toward the wall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WallSample {
+    /// The unit direction, and its density in sr^-1.
+    pub(super) wi: Vec3,
+    pub(super) pdf: f32,
+    /// The outward normal of the wall there, across the axis.
+    pub(super) normal: Vec2,
+    /// Height above the lower rim.
+    pub(super) height: f32,
+}
+
+/// A strip of the wall, upright, at a distance; from one height to another, relative to the point.
+#[derive(Clone, Copy, Debug)]
+struct Strip {
+    distance: f32,
+    low: f32,
+    high: f32,
+}
+
+/// The strips that a plane cuts out, as far as they are seen, with the outward normals there.
+#[derive(Clone, Copy, Debug)]
+struct Column {
+    near: Option<(Strip, Vec2)>,
+    far: Option<(Strip, Vec2)>,
+}
+
+impl CylinderView {
+    /// The view from `p` of a tube of the given radius, `half_length` to each side of the origin.
+    pub(super) fn new(p: Vec3, radius: f32, half_length: f32) -> Self {
+        let across = p.truncate();
+        let distance = across.length();
+        let is_outside = distance > radius;
+        Self {
+            across,
+            distance,
+            inward: (-across).try_normalize().unwrap_or(Vec2::X),
+            rims: [-half_length - p.z, half_length - p.z],
+            radius,
+            half_angle: is_outside.then(|| asin(radius / distance)),
+        }
+    }
+
+    pub(super) fn sample(&self, u: Vec2) -> Option<WallSample> {
+        let angle = self.half_angle.unwrap_or(PI) * (2.0 * u.x - 1.0);
+        let (sin, cos) = sin_cos(angle);
+        let column = self.column(sin, cos);
+        let [near, far] =
+            [column.near, column.far].map(|strip| strip.map_or(0.0, |s| s.0.measure()));
+        let total = near + far;
+        let pdf = self.pdf_of(total);
+        if !(pdf > 0.0 && pdf.is_finite()) {
+            return None;
+        }
+        let measure = u.y * total;
+        let (strip, normal, measure) = if measure < near || far == 0.0 {
+            let (strip, normal) = column.near?;
+            (strip, normal, measure.min(near))
+        } else {
+            let (strip, normal) = column.far?;
+            (strip, normal, measure - near)
+        };
+        let height = strip.height_above_low(measure);
+        let along = self.horizontal(sin, cos) * strip.distance;
+        Some(WallSample {
+            wi: along.extend(strip.low + height).try_normalize()?,
+            pdf,
+            normal,
+            height: strip.low - self.rims[0] + height,
+        })
+    }
+
+    pub(super) fn pdf(&self, wi: Vec3) -> f32 {
+        let pdf = || {
+            let horizontal = wi.truncate().length();
+            let direction = wi.truncate().try_normalize()?;
+            let (sin, cos) = (self.inward.perp_dot(direction), self.inward.dot(direction));
+            // What a direction rounds off is added to the wall.
+            let slack = 4.0 * f32::EPSILON;
+            let is_outside = self.half_angle.is_some();
+            if is_outside
+                && !(cos > 0.0 && sin.abs() <= self.radius / self.distance + slack / horizontal)
+            {
+                return None;
+            }
+            let column = self.column(sin, cos);
+            let slope = wi.z / horizontal;
+            let is_met = |strip: Option<(Strip, Vec2)>| {
+                strip.is_some_and(|(s, _)| {
+                    let height = slope * s.distance;
+                    let slack = slack * (s.distance + height.abs()) / horizontal;
+                    (s.low - slack..=s.high + slack).contains(&height)
+                })
+            };
+            let total = [column.near, column.far].map(|strip| strip.map_or(0.0, |s| s.0.measure()));
+            let pdf = self.pdf_of(total[0] + total[1]);
+            ((is_met(column.near) || is_met(column.far)) && pdf.is_finite()).then_some(pdf)
+        };
+        pdf().unwrap_or(0.0)
+    }
+
+    fn pdf_of(&self, measure: f32) -> f32 {
+        1.0 / (self.half_angle.map_or(TAU, |half| 2.0 * half) * measure)
+    }
+
+    /// The unit vector across the axis at the given angle from inward.
+    fn horizontal(&self, sin: f32, cos: f32) -> Vec2 {
+        self.inward * cos + self.inward.perp() * sin
+    }
+
+    /// The wall that is seen in the plane at the given angle from inward.
+    fn column(&self, sin: f32, cos: f32) -> Column {
+        let [low, high] = self.rims;
+        // Half of the chord that the plane cuts out of the circle, and its middle.
+        let offset = self.distance * sin;
+        let half = safe_sqrt((self.radius - offset) * (self.radius + offset));
+        let middle = self.distance * cos;
+        let side = self.horizontal(sin, cos);
+        let normal = |along: f32| (self.across + side * along).normalize_or(side);
+        // The product of both distances, from which the smaller one comes without cancellation.
+        let power = (self.distance - self.radius) * (self.distance + self.radius);
+        if self.half_angle.is_none() {
+            let distance = if middle >= 0.0 {
+                middle + half
+            } else {
+                power / (middle - half)
+            };
+            let strip = Strip {
+                distance,
+                low,
+                high,
+            };
+            return Column {
+                near: None,
+                far: Some((strip, normal(distance))),
+            };
+        }
+        let far_distance = middle + half;
+        let near_distance = power / far_distance;
+        let near = Strip {
+            distance: near_distance,
+            low,
+            high,
+        };
+        // Over the rim of the near wall, or under it.
+        let ratio = far_distance / near_distance;
+        let far = Strip {
+            distance: far_distance,
+            low: if high < 0.0 {
+                low.max(high * ratio)
+            } else {
+                low
+            },
+            high: if low > 0.0 {
+                high.min(low * ratio)
+            } else {
+                high
+            },
+        };
+        let is_seen = (high < 0.0 || low > 0.0) && far.low < far.high;
+        Column {
+            near: Some((near, normal(near_distance))),
+            far: is_seen.then(|| (far, normal(far_distance))),
+        }
+    }
+}
+
+impl Strip {
+    /// The difference of the sines of elevation of its ends.
+    fn measure(&self) -> f32 {
+        let (sin_low, cos_low) = self.elevation(self.low);
+        let (sin_high, cos_high) = self.elevation(self.high);
+        if sin_low * sin_high < 0.0 {
+            return sin_high - sin_low;
+        }
+        // The sine of the angle between them, over twice the squared cosine of its half, times the cosines' sum.
+        let sin = (self.high - self.low) / self.distance * cos_low * cos_high;
+        let measure = sin * (cos_low + cos_high) / (1.0 + cos_low * cos_high + sin_low * sin_high);
+        if measure > 0.0 { measure } else { 0.0 }
+    }
+
+    /// The height above the lower end up to which the strip has the given measure.
+    fn height_above_low(&self, measure: f32) -> f32 {
+        let (sin_low, cos_low) = self.elevation(self.low);
+        // How much sin^2 grows on the way, and from it the sine of the angle between both ends.
+        let grown = measure * (2.0 * sin_low + measure);
+        let cos = safe_sqrt(cos_low * cos_low - grown);
+        let sin_between = measure * cos_low + sin_low * grown / (cos + cos_low);
+        let height = self.distance * sin_between / (cos * cos_low);
+        height.min(self.high - self.low).max(0.0)
+    }
+
+    /// Sine and cosine of the elevation of a height.
+    fn elevation(&self, height: f32) -> (f32, f32) {
+        let inverse = 1.0 / sqrt(self.distance * self.distance + height * height);
+        (height * inverse, self.distance * inverse)
+    }
+}

@@ -1,0 +1,77 @@
+use light_math::equal_area::sphere_to_square;
+use light_sources::glam::{Affine3A, Vec3};
+use light_sources::light_math;
+use light_sources::*;
+use light_testkit::Cap;
+use light_testkit::laws::light::*;
+
+use crate::{SCENE_RADIUS, scene};
+
+#[test]
+fn distant() {
+    let light = DistantLight::<Rgb>::new(
+        DistantLightDesc {
+            direction: Vec3::new(1.0, 2.0, 3.0),
+            emission: Vec3::ONE,
+            amount: IrradianceAmount::Radiometric(2.5),
+        },
+        scene(),
+    )
+    .expect("a distant light");
+    let case = LightCase::<Rgb, _>::around("distant", &light, Vec3::ZERO, 1.0, 12);
+    dirac_li_is(&case, |_| 2.5);
+    le_adds_up_to_phi(&case);
+    le_has_no_variance(&case);
+    bounds_hold(&case);
+    edges_are_survived(&case);
+}
+
+#[test]
+fn uniform_infinite() {
+    let light = UniformInfiniteLight::<Rgb>::new(
+        UniformInfiniteLightDesc {
+            emission: Vec3::ONE,
+            amount: RadianceAmount::Radiometric(0.7),
+        },
+        scene(),
+    )
+    .expect("a sky");
+    let case = LightCase::<Rgb, _>::around("uniform infinite", &light, Vec3::ZERO, 1.0, 3);
+    let (cap, radiance) = (|_| Cap::sphere(), |_, _| 0.7f32.into());
+    li_follows_its_density(&case, cap, radiance);
+    li_adds_up(&case, cap, radiance);
+    le_adds_up_to_phi(&case);
+    le_has_no_variance(&case);
+    infinite_flux_is_phi(&case, SCENE_RADIUS);
+    bounds_hold(&case);
+    edges_are_survived(&case);
+}
+
+#[test]
+fn image_infinite() {
+    // Half of the texels black, a few bright.
+    let texel = |i: u16| f32::from(i % 2) * (1.0 + f32::from(i * 7 % 13));
+    let texels: Vec<f32> = (0..64).flat_map(|i| [texel(i); 3]).collect();
+    let image = Image::from_f32([8, 8], Channels::Rgb, texels).expect("an image");
+    let light = ImageInfiniteLight::<Rgb>::new(
+        ImageInfiniteLightDesc {
+            map: EnvironmentMap::EqualArea(image.clone()),
+            transform: Affine3A::from_rotation_x(0.4),
+            amount: RadianceAmount::Radiometric(2.0),
+        },
+        scene(),
+    )
+    .expect("an environment");
+    let case = LightCase::<Rgb, _>::around("image infinite", &light, Vec3::ZERO, 1.0, 2);
+    let to_map = Affine3A::from_rotation_x(-0.4);
+    let radiance = |_, wi| {
+        let uv = sphere_to_square(to_map.transform_vector3(wi));
+        2.0 * f64::from(image.nearest(uv).x)
+    };
+    li_follows_its_density(&case, |_| Cap::sphere(), radiance);
+    li_adds_up(&case, |_| Cap::sphere(), radiance);
+    le_adds_up_to_phi(&case);
+    infinite_flux_is_phi(&case, SCENE_RADIUS);
+    bounds_hold(&case);
+    edges_are_survived(&case);
+}

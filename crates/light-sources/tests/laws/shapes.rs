@@ -1,0 +1,223 @@
+use light_sources::glam::{Affine3A, Quat, Vec3};
+use light_sources::light_bounds::LightSampleContext;
+use light_sources::shape::{AnyShape, BilinearPatch, Shape, ShapeDesc};
+use light_sources::*;
+use light_testkit::laws::light::*;
+use light_testkit::{Cap, Estimate, Rng, naive};
+
+#[test]
+fn triangle() {
+    let corners = [
+        Vec3::ZERO,
+        Vec3::new(2.0, 0.0, 0.3),
+        Vec3::new(0.4, 1.5, 0.0),
+    ];
+    let hit = |p, wi| naive::hit_triangle(p, wi, corners);
+    check(ShapeDesc::Triangle(corners), &corners, hit);
+}
+
+#[test]
+fn rectangle() {
+    let (x, y) = (Vec3::new(1.0, 0.5, 0.0), Vec3::new(-0.5, 1.0, 0.3));
+    let corners = [Vec3::ZERO, x, x + y, y].map(|p| p + Vec3::ONE);
+    let desc = ShapeDesc::Rectangle {
+        corner: Vec3::ONE,
+        edges: [x, y],
+    };
+    check(desc, &corners, |p, wi| hit_quad(p, wi, corners));
+}
+
+#[test]
+fn flat_quad() {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.6, 1.2, 0.0), Vec3::Y];
+    let desc = ShapeDesc::Quad([corners[0], corners[1], corners[3], corners[2]]);
+    check(desc, &corners, |p, wi| hit_quad(p, wi, corners));
+}
+
+/// Where nothing of a twisted patch hides another part of it, samples cover the solid angle that small flat pieces of it
+/// fill together.
+#[test]
+fn twisted_quad() {
+    let corners = [
+        Vec3::ZERO,
+        Vec3::new(1.0, 0.0, 0.4),
+        Vec3::new(0.0, 1.0, 0.5),
+        Vec3::new(1.2, 1.1, -0.3),
+    ];
+    let patch = BilinearPatch::new(corners).expect("a patch");
+    let solid_angle = |p: Vec3| {
+        const N: u16 = 64;
+        let at = |i: u16, j: u16| {
+            let (u, v) = (f32::from(i) / f32::from(N), f32::from(j) / f32::from(N));
+            let [a, b, c, d] = corners;
+            a.lerp(b, u).lerp(c.lerp(d, u), v)
+        };
+        let cells = (0..N * N).map(|k| (k % N, k / N));
+        let piece = |(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+            let to = 0.25 * (a + b + c + d) - p;
+            let across = 0.5 * (d - a).cross(c - b).dot(to.normalize()).abs();
+            f64::from(across / to.length_squared())
+        };
+        cells.map(piece).sum::<f64>()
+    };
+    let mut rng = Rng::new(11);
+    for p in [Vec3::new(0.5, 0.4, 2.0), Vec3::new(0.2, 0.9, -1.0)] {
+        let ctx = LightSampleContext::medium(p);
+        let mut pdfs_agree = true;
+        let estimate = Estimate::of(1 << 14, || {
+            let sample = patch.sample_toward(&ctx, rng.vec2()).expect("in full view");
+            let again = patch.pdf_toward(&ctx, sample.wi);
+            pdfs_agree &= (again - sample.pdf).abs() < 1e-3 * sample.pdf;
+            1.0 / f64::from(sample.pdf)
+        });
+        let truth = solid_angle(p);
+        assert!(
+            (estimate.mean - truth).abs() < estimate.margin(truth) + 1e-3 * truth,
+            "{p}: {estimate:?}, {truth}"
+        );
+        assert!(pdfs_agree, "{p}: densities of samples");
+    }
+}
+
+#[test]
+fn sphere() {
+    let desc = ShapeDesc::Sphere {
+        transform: tilted(),
+        radius: 0.7,
+    };
+    check(desc, &box_around(0.7, 0.7), |p, wi| {
+        let ([x, y, z], [a, b, c]) = local(p, wi);
+        let nearest = x * a + y * b + z * c;
+        let height_sq = nearest * nearest - (x * x + y * y + z * z - 0.49);
+        let half = height_sq.max(0.0).sqrt();
+        let hits = [-nearest - half, -nearest + half];
+        let t = hits.into_iter().find(|&t| t > 0.0 && height_sq > 0.0)?;
+        Some(-(nearest + t))
+    });
+}
+
+#[test]
+fn disk_and_annulus() {
+    for inner_radius in [0.0f32, 0.5] {
+        let desc = ShapeDesc::Disk {
+            transform: tilted(),
+            radius: 0.8,
+            inner_radius,
+        };
+        check(desc, &box_around(0.8, 0.0), |p, wi| {
+            let ([x, y, z], [a, b, c]) = local(p, wi);
+            let t = -z / c;
+            let r = (x + t * a).hypot(y + t * b);
+            (t > 0.0 && (f64::from(inner_radius)..0.8).contains(&r)).then_some(-c)
+        });
+    }
+}
+
+#[test]
+fn cylinder() {
+    let desc = ShapeDesc::Cylinder {
+        transform: tilted(),
+        radius: 0.4,
+        length: 1.4,
+    };
+    check(desc, &box_around(0.4, 0.7), |p, wi| {
+        let ([x, y, z], [a, b, c]) = local(p, wi);
+        let (speed_sq, along) = (a * a + b * b, x * a + y * b);
+        let half_sq = along * along - speed_sq * (x * x + y * y - 0.16);
+        let half = half_sq.max(0.0).sqrt();
+        let hits = [(-along - half) / speed_sq, (-along + half) / speed_sq];
+        let is_wall = |t: &f64| *t > 0.0 && half_sq > 0.0 && (z + t * c).abs() < 0.7;
+        let t = hits.into_iter().find(is_wall)?;
+        Some(-(along + t * speed_sq))
+    });
+}
+
+/// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the shape, as a number
+/// that is positive on its front and negative on its back; `corners` are those of something convex around it.
+fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f64>) {
+    let shape = desc.build().expect("a shape");
+    let (center, radius) = shape.bounds().bounding_sphere();
+    for sides in [Sides::Front, Sides::Back, Sides::Both] {
+        let emission = DiffuseEmission::new(DiffuseEmissionDesc::<Rgb> {
+            sides,
+            ..DiffuseEmissionDesc::new(
+                SurfaceColor::Uniform(Vec3::ONE),
+                RadianceAmount::Radiometric(1.5),
+            )
+        });
+        let emission = emission.expect("an emission");
+        let light = DiffuseAreaLight::new(&shape, &emission);
+        let name = format!("{desc:?}, {sides:?}");
+        let case = LightCase::<Rgb, _>::around(&name, &light, center, radius, 5);
+        let radiance = |p, wi| match (hit(p, wi), sides) {
+            (Some(side), Sides::Front) if side > 0.0 => 1.5,
+            (Some(side), Sides::Back) if side < 0.0 => 1.5,
+            (Some(_), Sides::Both) => 1.5,
+            _ => 0.0,
+        };
+        let is_convex = matches!(
+            shape,
+            AnyShape::Triangle(_) | AnyShape::Rectangle(_) | AnyShape::Disk(_)
+        );
+        li_follows_its_density(&case, |p| cap_around(p, corners), radiance);
+        li_adds_up(&case, |p| cap_around(p, corners), radiance);
+        le_adds_up_to_phi(&case);
+        if is_convex {
+            le_has_no_variance(&case);
+            flux_is_phi(&case);
+        }
+        bounds_hold(&case);
+        edges_are_survived(&case);
+    }
+}
+
+const POSITION: Vec3 = Vec3::new(1.0, 2.0, -1.0);
+
+/// A place and an orientation with nothing special about it.
+fn tilted() -> Affine3A {
+    let rotation = Quat::from_rotation_x(0.7) * Quat::from_rotation_y(-1.9);
+    Affine3A::from_rotation_translation(rotation, POSITION)
+}
+
+/// A ray of the scene in the shape's own space.
+fn local(p: Vec3, wi: Vec3) -> ([f64; 3], [f64; 3]) {
+    let inverse = tilted().inverse();
+    let doubles = |v: Vec3| v.to_array().map(f64::from);
+    (
+        doubles(inverse.transform_point3(p)),
+        doubles(inverse.transform_vector3(wi)),
+    )
+}
+
+/// The corners of a box of these half sizes across and along the axis z of the shape's own space.
+fn box_around(across: f32, along: f32) -> Vec<Vec3> {
+    let corner = |i: u8| {
+        let sign = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
+        tilted().transform_point3(Vec3::new(
+            across * sign(1),
+            across * sign(2),
+            along * sign(4),
+        ))
+    };
+    (0..8).map(corner).collect()
+}
+
+/// A planar quadrilateral whose corners run counter-clockwise.
+fn hit_quad(p: Vec3, wi: Vec3, [a, b, c, d]: [Vec3; 4]) -> Option<f64> {
+    naive::hit_triangle(p, wi, [a, b, c]).or_else(|| naive::hit_triangle(p, wi, [a, c, d]))
+}
+
+/// A cap around all directions from `p` to a convex shape with these corners.
+fn cap_around(p: Vec3, corners: &[Vec3]) -> Cap {
+    let to = |corner: &Vec3| (*corner - p).normalize();
+    let axis: Vec3 = corners.iter().map(to).sum();
+    let angles = corners.iter().map(|c| f64::from(to(c).angle_between(axis)));
+    let angle = angles.fold(1e-3, f64::max);
+    // Beyond a hemisphere the sides of the shape bulge out of the cap through its corners.
+    if angle < 1.5 {
+        Cap::new(axis, angle + 1e-3)
+    } else {
+        Cap::sphere()
+    }
+}
