@@ -112,6 +112,7 @@ impl InfiniteBounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{LightSampleContext, SampledLight};
 
     #[test]
     fn named_skies_are_valid() {
@@ -153,6 +154,16 @@ mod tests {
                 "{cone:?}"
             );
         }
+    }
+
+    /// As the README says.
+    #[test]
+    fn sizes() {
+        assert_eq!(size_of::<LightBounds>(), 52, "bounds");
+        assert_eq!(size_of::<InfiniteBounds>(), 32, "at infinity");
+        assert_eq!(size_of::<LightExtent>(), 52, "either");
+        assert_eq!(size_of::<LightSampleContext>(), 48, "who asks");
+        assert_eq!(size_of::<SampledLight>(), 16, "a choice");
     }
 
     #[test]

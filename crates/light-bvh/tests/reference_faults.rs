@@ -1,5 +1,7 @@
 //! One test per fault of the published implementation that the robust tree must not have.
 
+#![cfg(feature = "alloc")]
+
 use light_bvh::LightBvhError;
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{

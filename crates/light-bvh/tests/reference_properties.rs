@@ -1,5 +1,7 @@
 //! Laws of the reference tree on lights and receivers of every kind and size.
 
+#![cfg(feature = "alloc")]
+
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use light_bvh::reference::{Link, ReferenceLightBvh, ReferenceLightBvhRef, Side};
@@ -73,7 +75,7 @@ fn angle(a: Vec3, b: Vec3) -> f64 {
     let [a, b] = [a, b].map(|v| v.to_array().map(f64::from));
     let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (la, lb) = (length(a), length(b));
-    let chord: [f64; 3] = std::array::from_fn(|i| a[i] / la - b[i] / lb);
+    let chord: [f64; 3] = core::array::from_fn(|i| a[i] / la - b[i] / lb);
     2.0 * (0.5 * length(chord)).min(1.0).asin()
 }
 

@@ -1,6 +1,6 @@
 //! Pins what the tree answers, bit for bit and on every platform: a change here breaks reproducibility and belongs in the
 //! changelog as value-breaking.
-#![cfg(feature = "libm")]
+#![cfg(all(feature = "libm", feature = "alloc"))]
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightSampleContext};
