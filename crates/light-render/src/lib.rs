@@ -20,6 +20,7 @@ mod ray;
 mod render;
 mod sample_stream;
 mod scene_lights;
+mod sobol;
 mod surface;
 mod tone_map;
 mod view;

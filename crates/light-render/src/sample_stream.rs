@@ -1,5 +1,6 @@
 use lights::glam::Vec2;
-use sobol_burley::parts;
+
+use crate::sobol;
 
 /// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four dimensions at a time.
 ///
@@ -25,7 +26,7 @@ pub struct CameraNumbers {
 /// The numbers for one vertex of a path, each in `[0, 1)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexNumbers {
-    /// Which light; carries 46 bits, enough to address every light of a large set.
+    /// Which light; carries 32 bits, enough to address every light of a large set.
     pub light: f64,
     /// Where on the light.
     pub light_point: Vec2,
@@ -41,21 +42,17 @@ impl SampleStream {
     /// The numbers of sample `sample` of pixel `(x, y)` in the picture rendered with `seed`.
     #[must_use]
     pub fn new(seed: u32, (x, y): (u32, u32), sample: u32) -> Self {
-        // The generator has 2^16 points; longer sequences start a fresh scramble each time they run out.
-        let epoch = sample >> 16;
-        let seed = [x, y, epoch].into_iter().fold(parts::hash(seed), |h, key| {
-            parts::hash(h.rotate_left(5) ^ key)
-        });
+        let pixel = sobol::hash(sobol::hash(seed) ^ x);
         Self {
-            index: sample & 0xffff,
-            seed,
+            index: sample,
+            seed: sobol::hash(pixel.rotate_left(16) ^ y),
         }
     }
 
     /// The numbers for the camera ray.
     #[must_use]
     pub fn camera(&self) -> CameraNumbers {
-        let [a, b, c, d] = self.set(0);
+        let [a, b, c, d] = self.set(0).map(unit);
         CameraNumbers {
             film: Vec2::new(a, b),
             lens: Vec2::new(c, d),
@@ -67,21 +64,27 @@ impl SampleStream {
     #[must_use]
     pub fn vertex(&self, vertex: u32) -> VertexNumbers {
         let [light, x, y, roulette] = self.set(2 * vertex + 1);
-        let [u, v, lobe, low_bits] = self.set(2 * vertex + 2);
+        let [u, v, lobe, _] = self.set(2 * vertex + 2);
         VertexNumbers {
-            // Both halves are multiples of 2^-23.
-            light: f64::from(light) + f64::from(low_bits) * (1.0 / (1u32 << 23) as f64),
-            light_point: Vec2::new(x, y),
-            roulette,
-            lobe,
-            direction: Vec2::new(u, v),
+            light: f64::from(light) / 4_294_967_296.0,
+            light_point: Vec2::new(unit(x), unit(y)),
+            roulette: unit(roulette),
+            lobe: unit(lobe),
+            direction: Vec2::new(unit(u), unit(v)),
         }
     }
 
     /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.
-    fn set(&self, set: u32) -> [f32; 4] {
-        sobol_burley::sample_4d(self.index, 0, parts::hash(self.seed ^ set))
+    #[inline]
+    fn set(&self, set: u32) -> [u32; 4] {
+        sobol::point(self.index, sobol::hash(self.seed ^ set))
     }
+}
+
+/// The number over 2^32, cut to what fits into an `f32`.
+#[inline]
+fn unit(x: u32) -> f32 {
+    (x >> 8) as f32 / (1u32 << 24) as f32
 }
 
 #[cfg(test)]
@@ -108,26 +111,21 @@ mod tests {
 
     #[test]
     fn sixteen_samples_fall_into_sixteen_strata() {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the number of a cell"
+        )]
+        let cell = |x: f64, n: f64| (x * n) as usize;
         for pixel in 0..8 {
             let mut light = [0; 16];
             let mut cells = [[0; 4]; 4];
             for sample in 0..16 {
                 let v = SampleStream::new(7, (pixel, 0), sample).vertex(2);
                 assert!((0.0..1.0).contains(&v.light), "in range");
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a cell number"
-                )]
-                let cell = |x: f32| (x * 4.0) as usize;
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a cell number"
-                )]
-                let stratum = (v.light * 16.0) as usize;
-                light[stratum] += 1;
-                cells[cell(v.direction.x)][cell(v.direction.y)] += 1;
+                light[cell(v.light, 16.0)] += 1;
+                let [x, y] = v.direction.to_array().map(f64::from);
+                cells[cell(x, 4.0)][cell(y, 4.0)] += 1;
             }
             assert_eq!(light, [1; 16], "one light choice a stratum");
             assert_eq!(cells, [[1; 4]; 4], "one direction a cell");
