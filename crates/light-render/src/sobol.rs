@@ -122,12 +122,13 @@ const fn directions<const S: usize>(a: u32, m: [u32; S]) -> [u32; 32] {
 mod tests {
     use super::*;
 
-    /// The numbers of `count` points that fall into each of the `a * b` cells of two dimensions.
+    /// How many points fall into each of the `a * b` cells of two dimensions.
+    #[expect(clippy::cast_possible_truncation, reason = "below n")]
     fn cells(points: &[[u32; 4]], (i, a): (usize, u32), (j, b): (usize, u32)) -> Vec<u32> {
         let mut counts = vec![0; (a * b) as usize];
-        let cell = |x: u32, n: u32| u64::from(x) * u64::from(n) >> 32;
+        let cell = |x: u32, n: u32| ((u64::from(x) * u64::from(n)) >> 32) as usize;
         for point in points {
-            counts[(cell(point[i], a) * u64::from(b) + cell(point[j], b)) as usize] += 1;
+            counts[cell(point[i], a) * b as usize + cell(point[j], b)] += 1;
         }
         counts
     }
