@@ -1,0 +1,245 @@
+//! The laws of tables: samples follow the density, what is left of `u` is uniform again, weights that make no sense
+//! are refused, and nothing is ever returned that has no weight.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "probabilities are rounded to floats"
+)]
+
+use light_math::discrete::{self, SampledIndex};
+use light_math::distribution::{
+    AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError,
+    WeightedReservoir, Window, WindowedPiecewiseConstant2D,
+};
+use light_math::glam::Vec2;
+use light_testkit::{DensityTest, Rng, chi_squared, kolmogorov_smirnov_uniform, naive, nasty};
+use proptest::prelude::*;
+
+/// Twelve columns and rows, so that the cells of the tests are texels.
+const TEXELS: usize = 12;
+
+/// Weights over several orders of magnitude, some of them zero.
+fn weights(count: usize) -> Vec<f32> {
+    let mut rng = Rng::new(3);
+    (0..count)
+        .map(|i| {
+            if i % 5 == 2 {
+                0.0
+            } else {
+                rng.log_range(1e-2, 10.0)
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn tables_follow_their_densities() {
+    let test = DensityTest::default();
+    let line = PiecewiseConstant1D::new(&weights(TEXELS * TEXELS)).expect("weights");
+    test.interval(
+        [0.0, 1.0],
+        |rng| Some(line.sample(rng.f32()).x),
+        |x| line.pdf(x),
+    )
+    .assert("1d");
+
+    let weights = weights(TEXELS * TEXELS);
+    let plane = PiecewiseConstant2D::new(&weights, TEXELS, TEXELS).expect("weights");
+    test.square(|rng| Some(plane.sample(rng.vec2()).p), |p| plane.pdf(p))
+        .assert("2d");
+
+    let sums = SummedAreaTable::new(&weights, TEXELS, TEXELS).expect("weights");
+    let windowed = WindowedPiecewiseConstant2D::new(sums);
+    for [x0, y0, x1, y1] in [
+        [0.0, 0.0, 1.0, 1.0],
+        [0.1, 0.3, 0.77, 0.9],
+        [0.51, 0.2, 0.57, 0.24],
+    ] {
+        let window = Window::new(Vec2::new(x0, y0), Vec2::new(x1, y1));
+        test.rectangle(
+            [window.min, window.max],
+            |rng| windowed.sample(rng.vec2(), &window).map(|s| s.p),
+            |p| windowed.pdf(p, &window),
+        )
+        .assert("windowed");
+    }
+}
+
+/// Frequencies against probabilities, and the rest of `u` against the uniform distribution.
+fn check_choice(what: &str, pmf: &[f64], mut choose: impl FnMut(f64) -> SampledIndex) {
+    const SAMPLES: u32 = 1 << 16;
+    let mut rng = Rng::new(9);
+    let mut observed = vec![0; pmf.len()];
+    let mut rests = Vec::new();
+    for _ in 0..SAMPLES {
+        let chosen = choose(rng.f64());
+        assert!(
+            (f64::from(chosen.pmf) / pmf[chosen.index] - 1.0).abs() < 1e-6,
+            "{what}: {chosen:?}"
+        );
+        observed[chosen.index] += 1;
+        rests.push(chosen.u);
+    }
+    let expected: Vec<f64> = pmf.iter().map(|p| p * f64::from(SAMPLES)).collect();
+    assert!(
+        chi_squared(&observed, &expected).passes(2),
+        "{what}: frequencies"
+    );
+    assert!(
+        kolmogorov_smirnov_uniform(&mut rests).passes(2),
+        "{what}: what is left of u"
+    );
+}
+
+#[test]
+fn choices_follow_their_probabilities() {
+    let weights = weights(40);
+    let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+    let pmf: Vec<f64> = weights.iter().map(|&w| f64::from(w) / total).collect();
+    check_choice("discrete", &pmf, |u| {
+        discrete::sample(&weights, u).expect("weights")
+    });
+    let table = AliasTable::new(&weights).expect("weights");
+    check_choice("alias table", &pmf, |u| table.sample(u));
+    check_choice("reservoir", &pmf, |u| {
+        let mut reservoir = WeightedReservoir::new(u);
+        for (index, &weight) in weights.iter().enumerate() {
+            reservoir.add(index, weight);
+        }
+        let kept = reservoir.sample().expect("weights");
+        SampledIndex {
+            index: kept.value,
+            pmf: kept.pmf,
+            u: kept.u,
+        }
+    });
+}
+
+/// Stratified random numbers give every one of a million weights its exact share.
+#[test]
+fn a_million_weights_get_their_shares() {
+    const COUNT: usize = 1_000_000;
+    let weights: Vec<f32> = (0..COUNT)
+        .map(|i| if i % 1000 == 0 { 500.0 } else { 1.0 })
+        .collect();
+    let table = AliasTable::new(&weights).expect("weights");
+    let mut mass = vec![0.0; COUNT];
+    for (index, bin) in table.bins().iter().enumerate() {
+        mass[index] += f64::from(bin.q) / COUNT as f64;
+        mass[bin.alias as usize] += f64::from(1.0 - bin.q) / COUNT as f64;
+    }
+    for (index, mass) in mass.into_iter().enumerate() {
+        let error = mass / f64::from(table.pmf(index)) - 1.0;
+        assert!(error.abs() < 1e-6, "share of {index} is off by {error}");
+    }
+}
+
+#[test]
+fn sums_agree_with_adding_up() {
+    let (nx, ny) = (7, 5);
+    let weights = weights(nx * ny);
+    let table = SummedAreaTable::new(&weights, nx, ny).expect("weights");
+    for x0 in 0..nx {
+        for x1 in x0..=nx {
+            for y0 in 0..ny {
+                for y1 in y0..=ny {
+                    let rows = (y0..y1).flat_map(|y| (x0..x1).map(move |x| y * nx + x));
+                    let exact: f64 = rows.map(|i| f64::from(weights[i])).sum();
+                    let sum = table.sum(x0..x1, y0..y1);
+                    assert!(
+                        (sum - exact).abs() <= 1e-15 * exact,
+                        "{x0} {x1} {y0} {y1}: {sum} {exact}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// What a builder should say of `weights`.
+fn verdict(weights: &[f32]) -> Option<TableError> {
+    let odd = weights.iter().position(|w| !w.is_finite() || *w < 0.0);
+    match odd {
+        _ if weights.is_empty() => Some(TableError::Empty),
+        Some(index) if weights[index].is_finite() => Some(TableError::Negative { index }),
+        Some(index) => Some(TableError::NotFinite { index }),
+        None if weights.iter().all(|&w| w == 0.0) => Some(TableError::AllZero),
+        None => None,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn builders_refuse_exactly_what_makes_no_sense(
+        weights in prop::collection::vec(prop_oneof![8 => nasty::non_negative(), 1 => nasty::anything()], 0..12),
+    ) {
+        let expected = verdict(&weights);
+        prop_assert_eq!(AliasTable::new(&weights).err(), expected, "alias table");
+        prop_assert_eq!(PiecewiseConstant1D::new(&weights).err(), expected, "1d");
+        prop_assert_eq!(PiecewiseConstant2D::new(&weights, weights.len(), 1).err(), expected, "row");
+        prop_assert_eq!(PiecewiseConstant2D::new(&weights, 1, weights.len()).err(), expected, "column");
+        let sums = SummedAreaTable::new(&weights, weights.len(), 1).err();
+        let expected = expected.filter(|&e| e != TableError::AllZero);
+        prop_assert_eq!(sums, expected, "zeros have sums");
+    }
+
+    #[test]
+    fn samples_have_weight(
+        weights in prop::collection::vec(nasty::non_negative(), 1..40),
+        u in nasty::unit_square(),
+        u64 in nasty::unit_f64(),
+        columns in 1usize..5,
+    ) {
+        prop_assume!(verdict(&weights).is_none());
+        let line = PiecewiseConstant1D::new(&weights).expect("weights");
+        let s = line.sample(u.x);
+        prop_assert!(weights[s.index] > 0.0 && s.pdf > 0.0 && line.pdf(s.x) == s.pdf, "1d {s:?}");
+
+        let rows = weights.len() / columns;
+        if let Ok(plane) = PiecewiseConstant2D::new(&weights[..columns * rows], columns, rows) {
+            let s = plane.sample(u);
+            let [x, y] = s.texel;
+            prop_assert!(weights[y * columns + x] > 0.0 && s.pdf > 0.0, "2d {s:?}");
+            prop_assert_eq!(plane.pdf(s.p), s.pdf, "2d {:?}", s);
+        }
+
+        let alias = AliasTable::new(&weights).expect("weights");
+        prop_assert!(AliasTable::from_bins(alias.bins()).is_ok(), "its own bins");
+        for s in [alias.sample(u64), discrete::sample(&weights, u64).expect("weights")] {
+            prop_assert!(weights[s.index] > 0.0 && s.pmf > 0.0, "choice {s:?}");
+            prop_assert!((0.0..1.0).contains(&s.u), "rest {s:?}");
+        }
+        let s = discrete::sample(&weights, u64).expect("weights");
+        prop_assert_eq!(s.pmf, discrete::pmf(&weights, s.index), "same bits");
+        prop_assert_eq!(alias.pmf(s.index), discrete::pmf(&weights, s.index), "same probability");
+    }
+
+    #[test]
+    fn choices_agree_with_a_naive_walk(weights in nasty::weights(1..20), u in nasty::unit_f64()) {
+        let naive = naive::choose(&weights.iter().map(|&w| f64::from(w)).collect::<Vec<_>>(), u);
+        // A probability that is no float is no choice, and on an edge the last bit of u decides.
+        let is_float = naive.is_none_or(|n| n.pmf as f32 > 0.0);
+        let ours = [u, u - 1e-15, u + 1e-15].map(|u| discrete::sample(&weights, u).map(|s| s.index));
+        prop_assert!(!is_float || ours.contains(&naive.map(|n| n.index)), "{ours:?} {naive:?}");
+    }
+
+    #[test]
+    fn windows_hold_their_samples(
+        weights in prop::collection::vec(nasty::non_negative(), 20),
+        u in nasty::unit_square(),
+        corners in prop::array::uniform2(nasty::unit_square()),
+    ) {
+        let sums = SummedAreaTable::new(&weights, 4, 5).expect("no odd weights");
+        let windowed = WindowedPiecewiseConstant2D::new(sums);
+        let window = Window::new(corners[0].min(corners[1]), corners[0].max(corners[1]));
+        if let Some(s) = windowed.sample(u, &window) {
+            let [x, y] = s.texel;
+            prop_assert!(window.contains(s.p) && weights[y * 4 + x] > 0.0, "{s:?} in {window:?}");
+            prop_assert!(s.pdf > 0.0 && windowed.pdf(s.p, &window) == s.pdf, "{s:?} in {window:?}");
+        } else {
+            prop_assert!(windowed.table().integral(&window) < 1e-30, "something in {window:?}");
+        }
+    }
+}
