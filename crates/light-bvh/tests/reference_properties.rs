@@ -2,7 +2,7 @@
 
 #![cfg(feature = "alloc")]
 
-use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
+use light_bvh::light_bounds::light_math::{Aabb, Frame, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use light_bvh::reference::{Link, ReferenceLightBvh, ReferenceLightBvhRef, Side};
 use light_testkit::nasty;
@@ -127,14 +127,43 @@ proptest! {
         prop_assert!((sum - expected).abs() < 1e-5, "without a context: {}", sum);
     }
 
+    /// One emitter of each light: a point of its box, a normal in its cone.
     #[test]
-    fn a_light_that_matters_alone_can_be_sampled(
-        lights in prop::collection::vec(light(), 1..40), ctx in context(),
+    fn a_light_that_contributes_can_be_sampled(
+        lights in prop::collection::vec(light(), 1..40),
+        ctx in context(),
+        place in prop::array::uniform3(0.0f32..=1.0),
+        tilt in 0.0f32..=1.0,
+        turn in 0.0f32..core::f32::consts::TAU,
     ) {
         let tree = build(&lights);
-        for (id, light) in (0..).map(LightId).zip(&lights) {
-            let matters = light.importance(&ctx) > 0.0;
-            prop_assert!(!matters || tree.pmf(&ctx, id) > 0.0, "{:?}", light);
+        for (id, light) in (0..).map(LightId).zip(&lights).filter(|(_, l)| l.phi > 0.0) {
+            let Aabb { min, max } = light.bounds;
+            let emitter = (min + (max - min) * Vec3::from(place)).clamp(min, max);
+            let (sin, cos) = (tilt * light.cos_theta_o.acos()).sin_cos();
+            let normal = Vec3::new(sin * turn.cos(), sin * turn.sin(), cos);
+            let normal = Frame::from_z(light.w).from_local(normal);
+            let is_in_cone = angle(normal, light.w).cos() >= f64::from(light.cos_theta_o);
+
+            let to_p = difference(ctx.p, emitter);
+            let cos = dot(to_p, normal.to_array().map(f64::from));
+            let cos = if light.two_sided { cos.abs() } else { cos };
+            let length = (dot(to_p, to_p) * dot_with_itself(normal)).sqrt();
+            if is_in_cone && cos > f64::from(light.cos_theta_e) * length {
+                prop_assert!(tree.pmf(&ctx, id) > 0.0, "{:?} {} {}", light, emitter, normal);
+            }
         }
     }
+}
+
+fn difference(a: Vec3, b: Vec3) -> [f64; 3] {
+    core::array::from_fn(|i| f64::from(a[i]) - f64::from(b[i]))
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+fn dot_with_itself(a: Vec3) -> f64 {
+    dot(a.to_array().map(f64::from), a.to_array().map(f64::from))
 }
