@@ -1,1 +1,59 @@
-//! Benches live in `benches/`.
+//! What the benches in `benches/` and the counts in `examples/counts.rs` share: who asks, and for how long.
+
+use std::time::Duration;
+
+use criterion::Criterion;
+use light_testkit::{LightSet, Rng};
+use lights::bounds::LightSampleContext;
+use lights::glam::Vec2;
+
+/// Queries in turn, so many that no branch predictor learns them.
+#[derive(Clone, Debug)]
+pub struct Queries<T> {
+    queries: Vec<T>,
+    next: usize,
+}
+
+impl<T: Copy> Queries<T> {
+    /// This many queries, each made from random numbers.
+    pub fn new(make: impl FnMut(&mut Rng) -> T) -> Self {
+        const COUNT: usize = 4096;
+        let (mut rng, mut make) = (Rng::new(71), make);
+        Self {
+            queries: (0..COUNT).map(|_| make(&mut rng)).collect(),
+            next: 0,
+        }
+    }
+
+    /// The next query; after the last one the first.
+    #[inline]
+    pub fn ask(&mut self) -> T {
+        let query = self.queries[self.next];
+        self.next = (self.next + 1) % self.queries.len();
+        query
+    }
+}
+
+/// Random contexts among the lights of a set, each with a random number to choose a light by.
+#[must_use]
+pub fn queries_of(set: &LightSet) -> Queries<(LightSampleContext, f64)> {
+    let asked = LightSet::new("asked", set.emitters.clone(), 4096, 72);
+    let mut contexts = asked.contexts.into_iter().cycle();
+    Queries::new(|rng| (contexts.next().expect("a context"), rng.f64()))
+}
+
+/// Random points of the unit square.
+#[must_use]
+pub fn squares() -> Queries<Vec2> {
+    Queries::new(Rng::vec2)
+}
+
+/// Criterion with little patience: the whole suite runs in a few minutes.
+#[must_use]
+pub fn criterion() -> Criterion {
+    Criterion::default()
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(1200))
+        .sample_size(30)
+        .configure_from_args()
+}

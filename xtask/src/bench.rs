@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use serde_json::Value;
 
-use crate::steps::{Outcome, StepResult, cargo, root, run};
+use crate::steps::{Outcome, StepResult, cargo, output, root};
 
 /// The name that the baseline of a group has.
 const REFERENCE: &str = "reference";
@@ -26,16 +26,11 @@ struct Timing {
 /// The command that failed, or a result that cannot be read.
 pub fn bench(arguments: &[String]) -> StepResult {
     let start = SystemTime::now();
-    let mut command = cargo([
-        "bench",
-        "--quiet",
-        "--package",
-        "benches",
-        "--",
-        "--noplot",
-        "--quiet",
-    ]);
-    run(command.args(arguments))?;
+    for target in ["pieces", "samplers", "sources"] {
+        println!("    {target}");
+        let mut command = cargo(["bench", "--package", "benches", "--bench", target, "--"]);
+        output(command.args(arguments))?;
+    }
     let mut files = Vec::new();
     find_results(&root().join("target/criterion"), start, &mut files);
     let mut timings = files
@@ -91,7 +86,7 @@ fn table(timings: &[Timing]) -> String {
             Some(r) if t.name != REFERENCE => format!("{:.2} x", r.nanoseconds / t.nanoseconds),
             _ => String::new(),
         };
-        let name = [t.group.as_str(), &t.name, &t.input].join(" ");
+        let name = [t.group.as_str(), &t.name, &t.input].join("/");
         lines += &format!(
             "{:<44} {:>12.1} {ratio:>14}\n",
             name.trim_end(),

@@ -1,0 +1,119 @@
+//! Light samplers: a sample, a pmf of a light that was sampled, and the build, each beside the reference.
+
+use benches::{Queries, criterion, queries_of};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
+use light_testkit::LightSet;
+use lights::bounds::LightExtent;
+use lights::samplers::{
+    BvhLightSampler, LightSampler, PowerLightSampler, ReferenceBvhLightSampler,
+};
+
+/// The sets on which queries are timed. A million lights take `lights bench`, which knows of caches.
+fn sets() -> Vec<LightSet> {
+    [100, 10_000]
+        .into_iter()
+        .flat_map(|n| {
+            [
+                LightSet::uniform(n, 81),
+                LightSet::clusters(n, 82),
+                LightSet::spots(n, 83),
+                LightSet::mixed(n, 84),
+            ]
+        })
+        .collect()
+}
+
+fn name(set: &LightSet) -> String {
+    format!("{} {}", set.name, set.emitters.len())
+}
+
+fn sample_and_pmf(c: &mut Criterion) {
+    let sets = sets();
+    let mut group = c.benchmark_group("sample");
+    for set in &sets {
+        each_sampler(set, |sampler, by| {
+            bench_sample(&mut group, set, sampler, by)
+        });
+    }
+    group.finish();
+    let mut group = c.benchmark_group("pmf");
+    for set in &sets {
+        each_sampler(set, |sampler, by| bench_pmf(&mut group, set, sampler, by));
+    }
+}
+
+fn each_sampler(set: &LightSet, mut bench: impl FnMut(&dyn LightSampler, &str)) {
+    let extents = set.extents();
+    bench(
+        &ReferenceBvhLightSampler::new(&extents).expect("valid lights"),
+        "reference",
+    );
+    bench(
+        &BvhLightSampler::new(&extents).expect("valid lights"),
+        "bvh",
+    );
+    bench(
+        &PowerLightSampler::new(&set.powers()).expect("valid powers"),
+        "power",
+    );
+}
+
+fn bench_sample(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    set: &LightSet,
+    sampler: &dyn LightSampler,
+    by: &str,
+) {
+    let mut queries = queries_of(set);
+    group.bench_function(BenchmarkId::new(by, name(set)), |b| {
+        b.iter(|| {
+            let (ctx, u) = queries.ask();
+            sampler.sample(&ctx, u)
+        });
+    });
+}
+
+fn bench_pmf(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    set: &LightSet,
+    sampler: &dyn LightSampler,
+    by: &str,
+) {
+    // What multiple importance sampling asks for: lights that the sampler itself would choose there.
+    let mut asked = queries_of(set);
+    let mut queries = Queries::new(|_| {
+        loop {
+            let (ctx, u) = asked.ask();
+            if let Some(chosen) = sampler.sample(&ctx, u) {
+                break (ctx, chosen.light);
+            }
+        }
+    });
+    group.bench_function(BenchmarkId::new(by, name(set)), |b| {
+        b.iter(|| {
+            let (ctx, light) = queries.ask();
+            sampler.pmf(&ctx, light)
+        });
+    });
+}
+
+fn build(c: &mut Criterion) {
+    let mut group = c.benchmark_group("build");
+    for set in sets() {
+        let extents: Vec<LightExtent> = set.extents();
+        group.bench_function(BenchmarkId::new("reference", name(&set)), |b| {
+            b.iter(|| ReferenceBvhLightSampler::new(&extents));
+        });
+        group.bench_function(BenchmarkId::new("bvh", name(&set)), |b| {
+            b.iter(|| BvhLightSampler::new(&extents));
+        });
+    }
+}
+
+criterion_group! {
+    name = samplers;
+    config = criterion();
+    targets = sample_and_pmf, build
+}
+criterion_main!(samplers);
