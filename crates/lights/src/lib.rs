@@ -9,3 +9,8 @@ pub use light_math::glam;
 pub use light_media as media;
 pub use light_samplers as samplers;
 pub use light_sources as sources;
+
+/// The example of the project's first page.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct FirstPage;
