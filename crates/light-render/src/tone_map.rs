@@ -10,6 +10,12 @@ impl ToneMap {
     /// Radiance 1 becomes almost white.
     pub const UNIT: Self = Self { exposure: 1.0 };
 
+    /// Radiance is multiplied with `exposure`, then 1 becomes almost white.
+    #[must_use]
+    pub const fn new(exposure: f32) -> Self {
+        Self { exposure }
+    }
+
     /// The exposure that brings the log-average luminance of `pixels` to middle grey; [`UNIT`](Self::UNIT) for a black
     /// picture.
     ///

@@ -21,6 +21,8 @@ pub struct Camera {
     pub lens: Option<Lens>,
     /// Width and height of the image that the file asks for, in pixels.
     pub resolution: Option<[u32; 2]>,
+    /// What radiance is multiplied with to be shown on a screen; absent where whoever shows it decides.
+    pub exposure: Option<f32>,
 }
 
 /// A thin lens.
@@ -72,6 +74,7 @@ impl Camera {
             fov,
             lens: None,
             resolution: None,
+            exposure: None,
         })
     }
 
@@ -98,6 +101,7 @@ impl Camera {
             fov,
             lens: None,
             resolution: None,
+            exposure: None,
         })
     }
 }

@@ -98,6 +98,7 @@ impl RenderArgs {
             report_warnings(&scene.warnings);
         }
         let view = self.view(&scene)?;
+        let exposure = scene.camera.and_then(|camera| camera.exposure);
         let world = self.input.build(scene)?;
         if world.lights().is_empty() {
             let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";
@@ -127,7 +128,7 @@ impl RenderArgs {
                 rendering.rejected
             );
         }
-        self.write(&output, &world, &view, &rendering)?;
+        self.write(&output, &world, &view, &rendering, exposure)?;
         if self.json {
             let sample_ns = light_sample_time(&world, &view, &sampler);
             println!("{}", self.report(&world, &rendering, build_ms, sample_ns));
@@ -142,6 +143,7 @@ impl RenderArgs {
         world: &World,
         view: &View,
         rendering: &Rendering,
+        exposure: Option<f32>,
     ) -> Result<(), Failure> {
         let film = &rendering.film;
         if let Some(Range { start, .. }) = self.samples {
@@ -153,7 +155,8 @@ impl RenderArgs {
         }
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
-        output.write(&image, &ToneMap::fit(image.texels()))
+        let fit = || ToneMap::fit(image.texels());
+        output.write(&image, &exposure.map_or_else(fit, ToneMap::new))
     }
 
     /// All that decides what the picture is, but the samples.

@@ -18,21 +18,21 @@ pub enum BuiltinScene {
     /// Two blocks in a coloured room under one lamp; the classic test, from its published measurements.
     CornellBox,
     /// A town canal by night: twenty thousand small lights, most of them hidden from any one point.
-    NightCanal,
+    Night,
     /// Columns in still water around four spheres, under a photographed sky.
     Rotunda,
 }
 
 impl BuiltinScene {
     /// All scenes, from the simplest on.
-    pub const ALL: [Self; 3] = [Self::CornellBox, Self::Rotunda, Self::NightCanal];
+    pub const ALL: [Self; 3] = [Self::CornellBox, Self::Rotunda, Self::Night];
 
     /// The name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::CornellBox => "cornell-box",
-            Self::NightCanal => "night-canal",
+            Self::Night => "night",
             Self::Rotunda => "rotunda",
         }
     }
@@ -42,7 +42,7 @@ impl BuiltinScene {
     pub fn load(self) -> Scene {
         match self {
             Self::CornellBox => cornell::cornell_box(),
-            Self::NightCanal => night::night_canal(NIGHT_SEED),
+            Self::Night => night::night(NIGHT_SEED),
             Self::Rotunda => rotunda::rotunda(),
         }
     }

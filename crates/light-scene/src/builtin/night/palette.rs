@@ -69,7 +69,7 @@ impl Palette {
             };
             modeller.material(Material::new(name, surface))
         };
-        let water = shiny("water", 1.33, 0.06);
+        let water = shiny("water", 1.33, 0.13);
         let dark_glass = shiny("dark glass", 1.5, 0.01);
         let mut light = |name: &str, radiance: f32, r: f32, g: f32, b: f32| {
             modeller.material(Material {
