@@ -26,6 +26,9 @@ pub(crate) fn unit(u: f64) -> f64 {
 ///
 /// `u` is in `[0, 1)`; it is an `f64` because the 24 bits of an `f32` are soon used up where choices follow one
 /// another. A weight that is not a positive finite number counts as 0. Two walks over the weights.
+///
+/// # Source
+/// `[PBRT4]` 2.3.1, where zero weights at the end need no special case.
 #[inline]
 #[must_use]
 pub fn sample(weights: &[f32], u: f64) -> Option<SampledIndex> {

@@ -12,7 +12,7 @@ use light_math::distribution::{
     WeightedReservoir, Window, WindowedPiecewiseConstant2D,
 };
 use light_math::glam::Vec2;
-use light_testkit::{DensityTest, Rng, chi_squared, kolmogorov_smirnov_uniform, naive, nasty};
+use light_testkit::{DensityTest, Rng, chi_squared, kolmogorov_smirnov_uniform, nasty};
 use proptest::prelude::*;
 
 /// Twelve columns and rows, so that the cells of the tests are texels.
@@ -217,12 +217,17 @@ proptest! {
     }
 
     #[test]
-    fn choices_agree_with_a_naive_walk(weights in nasty::weights(1..20), u in nasty::unit_f64()) {
-        let naive = naive::choose(&weights.iter().map(|&w| f64::from(w)).collect::<Vec<_>>(), u);
-        // A probability that is no float is no choice, and on an edge the last bit of u decides.
-        let is_float = naive.is_none_or(|n| n.pmf as f32 > 0.0);
-        let ours = [u, u - 1e-15, u + 1e-15].map(|u| discrete::sample(&weights, u).map(|s| s.index));
-        prop_assert!(!is_float || ours.contains(&naive.map(|n| n.index)), "{ours:?} {naive:?}");
+    fn a_choice_is_where_the_running_sum_passes_u(weights in nasty::weights(1..20), u in nasty::unit_f64()) {
+        let share = |weights: &[f32]| weights.iter().map(|&w| f64::from(w)).sum::<f64>();
+        let total = share(&weights);
+        if let Some(s) = discrete::sample(&weights, u) {
+            let (low, high) = (share(&weights[..s.index]), share(&weights[..=s.index]));
+            let position = u * total;
+            let rounding = 1e-15 * total;
+            prop_assert!(low - rounding <= position && position <= high + rounding, "{s:?}");
+        } else {
+            prop_assert!(total == 0.0, "a weight of {weights:?}");
+        }
     }
 
     #[test]

@@ -3,15 +3,18 @@
 //! A table is built once from weights and then only read. Its numbers live in anything that lends a slice: a `Vec`, a
 //! borrowed buffer, an array in a `static`. Sampling never returns a value of zero density, for any `u`.
 
+mod alias_sweep;
 mod alias_table;
 mod axis;
 mod cumulative;
+mod densities;
 mod error;
 mod piecewise_constant_1d;
 mod piecewise_constant_2d;
 mod reservoir;
 mod span;
 mod summed_area_table;
+mod whole_sums;
 mod window;
 mod windowed_piecewise_constant_2d;
 

@@ -3,7 +3,8 @@ use alloc::{vec, vec::Vec};
 
 use super::axis::Axis;
 use super::cumulative;
-use super::error::{TableError, check_len, positive_total};
+use super::densities::fill_line;
+use super::error::{TableError, check_len};
 
 /// A density on an interval, constant in each of equal bins.
 ///
@@ -54,7 +55,7 @@ impl PiecewiseConstant1D<Vec<f32>> {
     /// [`TableError`] if there are no weights, all are zero, or one is negative or not finite.
     pub fn new(weights: &[f32]) -> Result<Self, TableError> {
         let mut table = vec![0.0; PiecewiseConstant1D::table_len(weights.len())];
-        let (axis, mean) = fill(weights, &mut table)?;
+        let (axis, mean) = fill_line(weights, &mut table)?;
         Ok(Self { table, axis, mean })
     }
 }
@@ -67,7 +68,7 @@ impl<const M: usize> PiecewiseConstant1D<[f32; M]> {
     /// [`table_len`](PiecewiseConstant1D::table_len) of the number of weights.
     pub const fn in_array(weights: &[f32]) -> Result<Self, TableError> {
         let mut table = [0.0; M];
-        match fill(weights, &mut table) {
+        match fill_line(weights, &mut table) {
             Ok((axis, mean)) => Ok(Self { table, axis, mean }),
             Err(error) => Err(error),
         }
@@ -81,7 +82,7 @@ impl<'a> PiecewiseConstant1D<&'a [f32]> {
     /// # Errors
     /// As for [`new`](PiecewiseConstant1D::new), and [`TableError::SizeMismatch`].
     pub fn build_into(weights: &[f32], table: &'a mut [f32]) -> Result<Self, TableError> {
-        let (axis, mean) = fill(weights, table)?;
+        let (axis, mean) = fill_line(weights, table)?;
         Ok(Self { table, axis, mean })
     }
 }
@@ -173,34 +174,6 @@ impl<S: AsRef<[f32]>> PiecewiseConstant1D<S> {
     fn parts(&self) -> (&[f32], &[f32]) {
         self.table.as_ref().split_at(self.axis.bins())
     }
-}
-
-/// Fills `table`; returns the bins and the mean weight.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds densities and the mean"
-)]
-const fn fill(weights: &[f32], table: &mut [f32]) -> Result<(Axis, f32), TableError> {
-    let axis = match Axis::unit(weights.len()) {
-        Ok(axis) => axis,
-        Err(error) => return Err(error),
-    };
-    let total = match positive_total(weights) {
-        Ok(total) => total,
-        Err(error) => return Err(error),
-    };
-    if let Err(error) = check_len(PiecewiseConstant1D::table_len(weights.len()), table.len()) {
-        return Err(error);
-    }
-    let mean = total / weights.len() as f64;
-    let (densities, sums) = table.split_at_mut(weights.len());
-    let mut i = 0;
-    while i < weights.len() {
-        densities[i] = (weights[i] as f64 / mean) as f32;
-        i += 1;
-    }
-    cumulative::accumulate(densities, sums);
-    Ok((axis, mean as f32))
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@ use alloc::{vec, vec::Vec};
 
 use super::axis::Axis;
 use super::cumulative;
-use super::error::{TableError, check_len, positive_total};
+use super::densities::fill_grid;
+use super::error::{TableError, check_len};
 use glam::Vec2;
 
 /// A density on a rectangle, constant in each texel of a grid: the usual way to sample an image.
@@ -13,7 +14,7 @@ use glam::Vec2;
 /// sum of the rows, [`table_len`](Self::table_len) in all.
 ///
 /// # Source
-/// `[PBRT4]` A.5.3: `u.y` picks the row, `u.x` the place in it.
+/// `[PBRT4]` A.5.5: `u.y` picks the row, `u.x` the place in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PiecewiseConstant2D<S> {
     table: S,
@@ -51,7 +52,7 @@ impl PiecewiseConstant2D<Vec<f32>> {
         // Checked first, so that nonsense sizes do not allocate.
         check_len(nx.saturating_mul(ny), weights.len())?;
         let mut table = vec![0.0; PiecewiseConstant2D::table_len(nx, ny)];
-        let ([x, y], mean) = fill(weights, nx, ny, &mut table)?;
+        let ([x, y], mean) = fill_grid(weights, nx, ny, &mut table)?;
         Ok(Self { table, x, y, mean })
     }
 }
@@ -64,7 +65,7 @@ impl<const M: usize> PiecewiseConstant2D<[f32; M]> {
     /// [`table_len`](PiecewiseConstant2D::table_len).
     pub const fn in_array(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
         let mut table = [0.0; M];
-        match fill(weights, nx, ny, &mut table) {
+        match fill_grid(weights, nx, ny, &mut table) {
             Ok(([x, y], mean)) => Ok(Self { table, x, y, mean }),
             Err(error) => Err(error),
         }
@@ -82,7 +83,7 @@ impl<'a> PiecewiseConstant2D<&'a [f32]> {
         ny: usize,
         table: &'a mut [f32],
     ) -> Result<Self, TableError> {
-        let ([x, y], mean) = fill(weights, nx, ny, table)?;
+        let ([x, y], mean) = fill_grid(weights, nx, ny, table)?;
         Ok(Self { table, x, y, mean })
     }
 }
@@ -209,57 +210,6 @@ impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
         let [nx, ny] = self.resolution();
         &self.table.as_ref()[ny * (2 * nx + 1)..]
     }
-}
-
-/// Fills `table`; returns the axes and the mean weight.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds densities and the mean"
-)]
-const fn fill(
-    weights: &[f32],
-    nx: usize,
-    ny: usize,
-    table: &mut [f32],
-) -> Result<([Axis; 2], f32), TableError> {
-    let axes = match (Axis::unit(nx), Axis::unit(ny)) {
-        (Ok(x), Ok(y)) => [x, y],
-        (Err(error), _) | (_, Err(error)) => return Err(error),
-    };
-    if let Err(error) = check_len(nx.saturating_mul(ny), weights.len()) {
-        return Err(error);
-    }
-    if let Err(error) = check_len(PiecewiseConstant2D::table_len(nx, ny), table.len()) {
-        return Err(error);
-    }
-    let total = match positive_total(weights) {
-        Ok(total) => total,
-        Err(error) => return Err(error),
-    };
-    let mean = total / weights.len() as f64;
-    let (mut densities, sums) = table.split_at_mut(nx * ny);
-    let (mut sums, marginal) = sums.split_at_mut(ny * (nx + 1));
-    // The sum of what is stored, so that the rows end at 1 even where the last ones are empty.
-    let mut sum = 0.0;
-    let mut i = 0;
-    while i < densities.len() {
-        densities[i] = (weights[i] as f64 / mean) as f32;
-        sum += densities[i] as f64;
-        i += 1;
-    }
-
-    let mut below = 0.0;
-    let mut row = 0;
-    while row < ny {
-        let (row_densities, other_densities) = densities.split_at_mut(nx);
-        let (row_sums, other_sums) = sums.split_at_mut(nx + 1);
-        marginal[row] = cumulative::share(below, sum);
-        below += cumulative::accumulate(row_densities, row_sums);
-        (densities, sums) = (other_densities, other_sums);
-        row += 1;
-    }
-    marginal[ny] = 1.0;
-    Ok((axes, mean as f32))
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use crate::discrete::unit;
 /// ```
 ///
 /// # Source
-/// `[Chao1982]`, with the remapped `u` of `[PBRT4]` A.1.
+/// `[Chao1982]`, with the remapped `u` of `[PBRT4]` 2.3.1 in place of a new one for each value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeightedReservoir<T> {
     kept: Option<(T, f64)>,

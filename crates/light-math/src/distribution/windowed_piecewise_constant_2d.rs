@@ -13,7 +13,7 @@ use glam::Vec2;
 /// over the columns and one over the rows.
 ///
 /// # Source
-/// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in `[PBRT4]` A.5.4; there
+/// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in `[PBRT4]` A.5.6; there
 /// by bisection of the interpolated sums, here by search over texels and a straight line within the one that is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowedPiecewiseConstant2D<S> {

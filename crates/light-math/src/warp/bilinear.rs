@@ -9,7 +9,7 @@ use glam::Vec2;
 /// The point of the square for `u`.
 ///
 /// # Source
-/// `[PBRT4]` A.5.7: first y by the line between the two rows' sums, then x by the line across the row.
+/// `[PBRT4]` 2.4.2: first y by the line between the two rows' sums, then x by the line across the row.
 #[inline]
 #[must_use]
 pub fn sample(u: Vec2, w: [f32; 4]) -> Vec2 {

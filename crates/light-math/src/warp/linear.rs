@@ -5,10 +5,13 @@
 
 use crate::float::{ONE_MINUS_EPSILON, sqrt};
 
+/// A start of the line, over its end, that counts as zero: products of two such densities would vanish.
+const NEGLIGIBLE: f32 = 1e-20;
+
 /// The `x` in `[0, 1)` for `u`.
 ///
 /// # Source
-/// `[PBRT4]` equation 2.24, with the line scaled so that its squares neither overflow nor vanish.
+/// `[PBRT4]` 2.3.2, with the line scaled so that its squares neither overflow nor vanish.
 #[inline]
 #[must_use]
 pub fn sample(u: f32, a: f32, b: f32) -> f32 {
@@ -17,7 +20,11 @@ pub fn sample(u: f32, a: f32, b: f32) -> f32 {
     };
     let x = u * (a + b) / (a + sqrt((1.0 - u) * (a * a) + u * (b * b)));
     // Where the line starts at zero, so does the density: stay off that end as the other end does.
-    let lowest = if a > 0.0 { 0.0 } else { f32::EPSILON * 0.5 };
+    let lowest = if a > NEGLIGIBLE {
+        0.0
+    } else {
+        f32::EPSILON * 0.5
+    };
     x.max(lowest).min(ONE_MINUS_EPSILON)
 }
 

@@ -7,7 +7,7 @@ use crate::float::{cbrt, next_up};
 /// The `x` in `[a, b]` for `u`.
 ///
 /// # Source
-/// `[PBRT4]` A.4.5 inverts by bisection. Ours starts above the root of the convex `t^3 (2 - t) - u`, from where
+/// `[PBRT4]` A.4.6 inverts by bisection. Ours starts above the root of the convex `t^3 (2 - t) - u`, from where
 /// Newton's steps come down to it and cannot leave the interval.
 #[inline]
 #[must_use]

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 /// Barycentric coordinates for `u`, not negative and of sum 1.
 ///
 /// # Source
-/// `[Heitz2019]`, in the form of `[PBRT4]` A.5.6: low distortion, and no square root.
+/// `[Heitz2019]`, in the form of `[PBRT4]` 6.5.2: low distortion, and no square root.
 #[inline]
 #[must_use]
 pub fn sample(u: Vec2) -> Vec3 {
