@@ -7,6 +7,8 @@ use crate::{Camera, Scene};
 /// The Cornell box from its published measurements, in millimetres: two blocks in a white room with a red wall on the
 /// left and a green one on the right, under one lamp that shines downward only.
 ///
+/// Half a turn about the y axis brings its opening to +z.
+///
 /// # Source
 /// `[Cornell]`: geometry, reflectance spectra and the lamp's spectrum.
 pub(super) fn cornell_box() -> Scene {
@@ -17,8 +19,8 @@ pub(super) fn cornell_box() -> Scene {
         .expect("the Cornell box that ships is a valid file");
     // A film of 25 mm by 25 mm behind a lens of 35 mm.
     let fov = 2.0 * (12.5f32 / 35.0).atan();
-    let eye = Vec3::new(278.0, 273.0, -800.0);
-    let camera = Camera::look_at(eye, eye + Vec3::Z, Vec3::Y, fov);
+    let eye = Vec3::new(-278.0, 273.0, 800.0);
+    let camera = Camera::look_at(eye, eye - Vec3::Z, Vec3::Y, fov);
     let camera = camera.expect("the published camera is valid");
     scene.camera = Some(Camera {
         resolution: Some([512, 512]),
@@ -54,7 +56,7 @@ mod tests {
     #[test]
     fn fronts_face_the_room() {
         let scene = cornell_box();
-        let middle = Vec3::new(278.0, 274.0, 280.0);
+        let middle = Vec3::new(-278.0, 274.0, -280.0);
         for name in [
             "floor",
             "ceiling",
@@ -83,7 +85,22 @@ mod tests {
 
     #[test]
     fn red_is_on_the_left_of_the_picture() {
-        let camera = cornell_box().camera.expect("a camera");
-        assert_eq!(camera.right, Vec3::NEG_X, "large x is on the left");
+        let scene = cornell_box();
+        let camera = scene.camera.expect("a camera");
+        let red = mesh(&scene, "left_wall").bounds().center();
+        assert!((red - camera.position).dot(camera.right) < 0.0, "left");
+    }
+
+    #[test]
+    fn the_default_camera_looks_into_the_opening() {
+        let scene = Scene {
+            camera: None,
+            ..cornell_box()
+        };
+        let camera = scene.camera_or_default();
+        let back = mesh(&scene, "back_wall");
+        let [a, b, c] = back.triangle(0);
+        let front = (b - a).cross(c - a);
+        assert!(front.dot(camera.position - a) > 0.0, "sees the inner side");
     }
 }
