@@ -10,6 +10,7 @@ mod counts;
 pub mod exhaustive;
 mod features;
 mod fuzz;
+mod gallery;
 mod no_std;
 mod references;
 mod steps;
@@ -26,6 +27,7 @@ usage: cargo xtask [COMMAND]
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
+  gallery                     remake the pictures of the README and the references of the demo
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
@@ -43,6 +45,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("no-std", []) => all(no_std::add_steps),
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
+        ("gallery", []) => one("gallery", gallery::gallery),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),

@@ -123,7 +123,6 @@ mod tests {
     use super::*;
 
     /// How many points fall into each of the `a * b` cells of two dimensions.
-    #[expect(clippy::cast_possible_truncation, reason = "below n")]
     fn cells(points: &[[u32; 4]], (i, a): (usize, u32), (j, b): (usize, u32)) -> Vec<u32> {
         let mut counts = vec![0; (a * b) as usize];
         let cell = |x: u32, n: u32| ((u64::from(x) * u64::from(n)) >> 32) as usize;

@@ -27,7 +27,8 @@ pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use environment::{SceneLight, SkyImage};
 pub use image::{
-    ChannelFile, Image, ImageError, ImageFile, read_image, write_exr, write_image, write_png,
+    ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
+    write_image, write_png,
 };
 pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;

@@ -5,7 +5,7 @@ use light_render::{PartialPicture, PartialPictureError, ToneMap};
 use light_scene::{ChannelFile, Diagnostic, Image};
 
 use super::failure::Failure;
-use super::output_image::OutputImage;
+use super::output_image::{OutputImage, Precision};
 
 /// Put parts of a picture together that were rendered with --samples.
 #[derive(Args, Debug)]
@@ -24,7 +24,7 @@ impl MergeArgs {
     /// # Errors
     /// Parts that cannot be read or do not belong together; an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let output = OutputImage::new(&self.output)?;
+        let output = OutputImage::new(&self.output, Precision::Single)?;
         let mut parts = Vec::new();
         for path in &self.parts {
             let file = ChannelFile::read(path).map_err(Failure::input)?;

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use light_render::{PartialPicture, ToneMap};
-use light_scene::{Diagnostic, Image, write_exr, write_png};
+use light_scene::{Diagnostic, Image, write_exr, write_exr_half, write_png};
 
 use super::failure::Failure;
 
@@ -15,8 +15,17 @@ pub(crate) struct OutputImage {
 
 #[derive(Clone, Copy, Debug)]
 enum Format {
-    Exr,
+    Exr(Precision),
     Png,
+}
+
+/// The numbers of an EXR file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Precision {
+    /// 32 bits.
+    Single,
+    /// 16 bits.
+    Half,
 }
 
 impl OutputImage {
@@ -24,9 +33,9 @@ impl OutputImage {
     ///
     /// # Errors
     /// When the name ends otherwise than in .exr or .png, or the folder cannot be written to.
-    pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
+    pub(crate) fn new(path: &Path, precision: Precision) -> Result<Self, Failure> {
         let format = match path.extension().and_then(|ending| ending.to_str()) {
-            Some("exr") => Format::Exr,
+            Some("exr") => Format::Exr(precision),
             Some("png") => Format::Png,
             _ => {
                 return Err(refuse(
@@ -63,7 +72,7 @@ impl OutputImage {
     /// When the file is no EXR.
     pub(crate) fn expect_part(&self) -> Result<(), Failure> {
         match self.format {
-            Format::Exr => Ok(()),
+            Format::Exr(_) => Ok(()),
             Format::Png => Err(refuse(&self.path, "expected .exr for a part of a picture")),
         }
     }
@@ -74,7 +83,8 @@ impl OutputImage {
     /// When the file cannot be written; nothing is left behind then.
     pub(crate) fn write(&self, image: &Image, tone_map: &ToneMap) -> Result<(), Failure> {
         match self.format {
-            Format::Exr => write_exr(&self.path, image),
+            Format::Exr(Precision::Single) => write_exr(&self.path, image),
+            Format::Exr(Precision::Half) => write_exr_half(&self.path, image),
             Format::Png => write_png(&self.path, &shown(image, tone_map)?),
         }
         .map_err(Failure::input)

@@ -14,7 +14,7 @@ use serde_json::json;
 
 use super::arguments::{LookAt, positive, sample_range};
 use super::failure::Failure;
-use super::output_image::OutputImage;
+use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::scene_input::{SceneInput, report_warnings};
 
@@ -24,9 +24,12 @@ use super::scene_input::{SceneInput, report_warnings};
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     input: SceneInput,
-    /// The image to write: .exr (float32 linear RGB) or .png.
-    #[arg(short, long, value_name = "IMAGE")]
-    output: PathBuf,
+    /// The image to write: .exr (float32 linear RGB) or .png; more than once for more than one.
+    #[arg(short, long, value_name = "IMAGE", required = true)]
+    output: Vec<PathBuf>,
+    /// Write .exr files of half floats.
+    #[arg(long)]
+    half: bool,
     /// Samples a pixel; without it 64, or as many as fit into --time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
@@ -89,10 +92,7 @@ impl RenderArgs {
     /// # Errors
     /// Bad input, or an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let output = OutputImage::new(&self.output)?;
-        if self.samples.is_some() {
-            output.expect_part()?;
-        }
+        let outputs = self.outputs()?;
         let scene = self.input.read()?;
         if !self.quiet {
             report_warnings(&scene.warnings);
@@ -128,7 +128,7 @@ impl RenderArgs {
                 rendering.rejected
             );
         }
-        self.write(&output, &world, &view, &rendering, exposure)?;
+        self.write(&outputs, &world, &view, &rendering, exposure)?;
         if self.json {
             let sample_ns = light_sample_time(&world, &view, &sampler);
             println!("{}", self.report(&world, &rendering, build_ms, sample_ns));
@@ -136,10 +136,27 @@ impl RenderArgs {
         Ok(())
     }
 
+    /// The files to write, all of them tried.
+    fn outputs(&self) -> Result<Vec<OutputImage>, Failure> {
+        let precision = if self.half {
+            Precision::Half
+        } else {
+            Precision::Single
+        };
+        let open = |path: &PathBuf| {
+            let output = OutputImage::new(path, precision)?;
+            if self.samples.is_some() {
+                output.expect_part()?;
+            }
+            Ok(output)
+        };
+        self.output.iter().map(open).collect()
+    }
+
     /// Writes the picture, or the part of it that was asked for.
     fn write(
         &self,
-        output: &OutputImage,
+        outputs: &[OutputImage],
         world: &World,
         view: &View,
         rendering: &Rendering,
@@ -147,16 +164,22 @@ impl RenderArgs {
     ) -> Result<(), Failure> {
         let film = &rendering.film;
         if let Some(Range { start, .. }) = self.samples {
-            return output.write_part(&PartialPicture {
+            let part = PartialPicture {
                 film: film.clone(),
                 samples: start..start + film.samples(),
                 subject: self.subject(world, view),
-            });
+            };
+            return outputs
+                .iter()
+                .try_for_each(|output| output.write_part(&part));
         }
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
         let fit = || ToneMap::fit(image.texels());
-        output.write(&image, &exposure.map_or_else(fit, ToneMap::new))
+        let tone_map = exposure.map_or_else(fit, ToneMap::new);
+        outputs
+            .iter()
+            .try_for_each(|output| output.write(&image, &tone_map))
     }
 
     /// All that decides what the picture is, but the samples.

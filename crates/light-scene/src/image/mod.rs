@@ -15,8 +15,7 @@ pub use channels::ChannelFile;
 use checked::checked;
 pub use display::write_png;
 pub use file::{ImageFile, read_image, write_image};
-pub(crate) use openexr::parse_exr;
-pub use openexr::write_exr;
+pub use openexr::{parse_exr, write_exr, write_exr_half};
 
 /// A linear RGB image in memory, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]

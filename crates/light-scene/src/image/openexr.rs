@@ -4,8 +4,8 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
-    Encoding, Error, FlatSamples, Layer, LayerAttributes, MetaData, ReadChannels, ReadLayers,
-    SpecificChannels, Text, Vec2, WritableImage, read,
+    Encoding, Error, FlatSamples, IntoSample, Layer, LayerAttributes, MetaData, ReadChannels,
+    ReadLayers, SpecificChannels, Text, Vec2, WritableImage, f16, read,
 };
 
 use super::{Image, ImageFile, checked};
@@ -21,8 +21,11 @@ pub(super) fn read_exr(path: &Path) -> Result<ImageFile, Diagnostic> {
     parse_exr(path, &read_bytes(path)?)
 }
 
-/// As [`read_exr`], from the bytes of the file; `path` names it in messages.
-pub(crate) fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+/// The image in the bytes of an OpenEXR file; `path` names it in messages.
+///
+/// # Errors
+/// As for [`read_image`](crate::read_image).
+pub fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
     let refuse = |error: Error| Diagnostic::file(path, message(&error));
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
     let header = meta.headers.iter().find(|header| !header.deep);
@@ -101,11 +104,28 @@ fn decode_grey(bytes: &[u8]) -> Result<Vec<Vec3>, Error> {
 /// # Errors
 /// When the file cannot be written; nothing is left behind then.
 pub fn write_exr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    write(path, image, |texel| texel.to_array())
+}
+
+/// Writes an OpenEXR file of half floats, half the size: numbers keep 11 bits, those above 65504 become that.
+///
+/// # Errors
+/// When the file cannot be written; nothing is left behind then.
+pub fn write_exr_half(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    let half = |x: f32| f16::from_f32(x.min(f16::MAX.to_f32()));
+    write(path, image, |texel| texel.to_array().map(half))
+}
+
+fn write<T: IntoSample>(
+    path: &Path,
+    image: &Image,
+    sample: impl Fn(Vec3) -> [T; 3] + Sync,
+) -> Result<(), Diagnostic> {
     let size = Vec2(image.width() as usize, image.height() as usize);
     let texels = image.texels();
     let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
-        let texel = texels[at.1 * size.0 + at.0];
-        (texel.x, texel.y, texel.z)
+        let [r, g, b] = sample(texels[at.1 * size.0 + at.0]);
+        (r, g, b)
     });
     let attributes = LayerAttributes {
         software_name: Some(Text::from("lights")),
