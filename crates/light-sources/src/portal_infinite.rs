@@ -147,7 +147,12 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
     fn pdf_direction(&self, wi: Vec3, window: &Window) -> f32 {
         let pdf = || {
             let (uv, solid_angle) = self.portal.uv(wi)?;
-            let pdf = self.table.as_ref()?.pdf(uv, window) / solid_angle;
+            // What a direction rounds off is added to the window.
+            let inside = uv.clamp(window.min, window.max);
+            if !(uv.distance(inside) <= 8.0 * f32::EPSILON) {
+                return None;
+            }
+            let pdf = self.table.as_ref()?.pdf(inside, window) / solid_angle;
             pdf.is_finite().then_some(pdf)
         };
         pdf().unwrap_or(0.0)

@@ -10,6 +10,7 @@ mod equal_area;
 mod light_bounds_importance;
 mod light_bounds_union;
 mod light_samplers;
+mod lights;
 mod octahedral;
 mod piecewise_constant_1d;
 mod piecewise_constant_2d;
@@ -32,6 +33,7 @@ pub(super) fn checker(kind: &str) -> Option<Box<dyn Checker>> {
         "light_bounds_importance" => Box::new(light_bounds_importance::check),
         "light_bounds_union" => Box::new(light_bounds_union::check),
         "light_samplers" => Box::<light_samplers::LightSamplers>::default(),
+        "lights" => Box::<lights::Lights>::default(),
         "octahedral" => Box::new(octahedral::check),
         "piecewise_constant_1d" => Box::new(piecewise_constant_1d::check),
         "piecewise_constant_2d" => Box::new(piecewise_constant_2d::check),

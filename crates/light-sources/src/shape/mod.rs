@@ -5,6 +5,7 @@ mod bilinear_patch;
 mod cylinder;
 mod cylinder_view;
 mod disk;
+mod receiver_cosine;
 mod rectangle;
 mod sphere;
 mod triangle;
@@ -105,6 +106,10 @@ pub struct DirectionSample {
     /// Density per solid angle, in sr^-1, positive and finite.
     pub pdf: f32,
 }
+
+/// The solid angle in sr below which shapes with straight edges are sampled by area: what is left of the variance is
+/// not worth the time.
+const SMALL: f32 = 3e-4;
 
 /// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with unit normal `n`, seen
 /// along `to_light` (not of unit length); `None` from its edge, where the density is infinite.

@@ -1,13 +1,17 @@
 use core::error::Error;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::receiver_cosine::ReceiverCosine;
+use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
+use light_math::warp::SphericalRectangle;
 use light_math::{Aabb, DirectionCone};
 
 /// A rectangle; its front is the side of the cross product of its two edges.
+///
+/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     corner: Vec3,
@@ -59,6 +63,22 @@ impl Rectangle {
         Ok(rectangle)
     }
 
+    fn corners(&self) -> [Vec3; 4] {
+        let [x, y] = self.edges;
+        [Vec3::ZERO, x, y, x + y].map(|d| self.corner + d)
+    }
+
+    /// The rectangle on the sphere of directions around `p`; `None` where it is so small that area does.
+    fn seen_from(&self, p: Vec3) -> Option<SphericalRectangle> {
+        let [x, y] = self.edges;
+        let seen = SphericalRectangle::new(self.corner, x, y, p);
+        seen.filter(|seen| seen.solid_angle() > SMALL)
+    }
+
+    fn receiver_cosine(&self, ctx: &LightSampleContext) -> ReceiverCosine {
+        ReceiverCosine::new(ctx, self.corners())
+    }
+
     fn at(&self, uv: Vec2) -> SurfacePoint {
         SurfacePoint {
             p: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
@@ -74,8 +94,7 @@ impl Shape for Rectangle {
     }
 
     fn bounds(&self) -> Aabb {
-        let [x, y] = self.edges;
-        Aabb::from_points([Vec3::ZERO, x, y, x + y].map(|d| self.corner + d))
+        Aabb::from_points(self.corners())
     }
 
     fn normal_cone(&self) -> DirectionCone {
@@ -94,16 +113,29 @@ impl Shape for Rectangle {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
-        let ShapeSample { at, pdf } = self.sample(u)?;
-        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
-        Some(DirectionSample { at, wi, pdf })
+        let Some(seen) = self.seen_from(ctx.p) else {
+            let ShapeSample { at, pdf } = self.sample(u)?;
+            let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            return Some(DirectionSample { at, wi, pdf });
+        };
+        let (u, pdf) = self.receiver_cosine(ctx).sample(u);
+        let at = self.at(seen.sample(u));
+        Some(DirectionSample {
+            at,
+            wi: (at.p - ctx.p).try_normalize()?,
+            pdf: pdf * seen.pdf(),
+        })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
-        self.hit(ctx.p, wi)
-            .and_then(pdf)
-            .map_or(0.0, |(_, pdf)| pdf)
+        let Some(at) = self.hit(ctx.p, wi) else {
+            return 0.0;
+        };
+        match self.seen_from(ctx.p) {
+            Some(seen) => self.receiver_cosine(ctx).pdf(|| seen.invert(at.uv)) * seen.pdf(),
+            None => area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
+                .map_or(0.0, |(_, pdf)| pdf),
+        }
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {

@@ -7,7 +7,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::float::{safe_acos, safe_sqrt, sin_cos};
+use light_math::float::{atan2, safe_sqrt, sin_cos};
 use light_math::warp::{uniform_cone, uniform_sphere};
 use light_math::{Aabb, DirectionCone, Frame};
 
@@ -60,7 +60,10 @@ impl Sphere {
         SurfacePoint {
             p: self.center() + n * self.radius,
             n,
-            uv: Vec2::new(u, 1.0 - safe_acos(local.z) * FRAC_1_PI),
+            uv: Vec2::new(
+                u,
+                1.0 - atan2(local.truncate().length(), local.z) * FRAC_1_PI,
+            ),
         }
     }
 

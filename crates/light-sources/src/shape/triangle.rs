@@ -1,14 +1,17 @@
 use core::error::Error;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::receiver_cosine::ReceiverCosine;
+use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::warp::uniform_triangle;
+use light_math::warp::{SphericalTriangle, uniform_triangle};
 use light_math::{Aabb, DirectionCone};
 
 /// A triangle; its front is the side from which the vertices run counter-clockwise.
+///
+/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     p: [Vec3; 3],
@@ -78,6 +81,24 @@ impl Triangle {
         }
     }
 
+    /// The triangle on the sphere of directions around `p`; `None` where it is so small that area does.
+    fn seen_from(&self, p: Vec3) -> Option<SphericalTriangle> {
+        SphericalTriangle::new(self.p, p).filter(|seen| seen.solid_angle() > SMALL)
+    }
+
+    /// The square of a [`SphericalTriangle`] has the second vertex all along its lower side.
+    fn receiver_cosine(&self, ctx: &LightSampleContext) -> ReceiverCosine {
+        let [p0, p1, p2] = self.p;
+        ReceiverCosine::new(ctx, [p1, p1, p0, p2])
+    }
+
+    /// Where the ray meets the triangle.
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec3, SurfacePoint)> {
+        let b = self.barycentric(origin, direction)?;
+        let at = self.at(b, self.normal()?);
+        ((at.p - origin).dot(direction) > 0.0).then_some((b, at))
+    }
+
     /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the edges counts.
     ///
     /// Each edge and the origin span a plane, and the ray has to pass all three on the same side. What the products
@@ -123,24 +144,33 @@ impl Shape for Triangle {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
-        let ShapeSample { at, pdf } = self.sample(u)?;
-        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
-        Some(DirectionSample { at, wi, pdf })
+        let Some(seen) = self.seen_from(ctx.p) else {
+            let ShapeSample { at, pdf } = self.sample(u)?;
+            let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            return Some(DirectionSample { at, wi, pdf });
+        };
+        let (u, pdf) = self.receiver_cosine(ctx).sample(u);
+        let at = self.at(seen.sample(u), self.normal()?);
+        Some(DirectionSample {
+            at,
+            wi: (at.p - ctx.p).try_normalize()?,
+            pdf: pdf * seen.pdf(),
+        })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let pdf = || {
-            let at = self.hit(ctx.p, wi)?;
-            area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
+        let Some((b, at)) = self.intersect(ctx.p, wi) else {
+            return 0.0;
         };
-        pdf().map_or(0.0, |(_, pdf)| pdf)
+        match self.seen_from(ctx.p) {
+            Some(seen) => self.receiver_cosine(ctx).pdf(|| seen.invert(b)) * seen.pdf(),
+            None => area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
+                .map_or(0.0, |(_, pdf)| pdf),
+        }
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        let n = self.normal()?;
-        let b = self.barycentric(origin, direction)?;
-        let at = self.at(b, n);
-        ((at.p - origin).dot(direction) > 0.0).then_some(at)
+        self.intersect(origin, direction).map(|(_, at)| at)
     }
 }
 

@@ -7,6 +7,7 @@
 
 mod at_infinity;
 mod at_points;
+mod portals;
 mod shapes;
 
 use light_sources::SceneSphere;
