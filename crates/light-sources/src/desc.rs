@@ -12,6 +12,7 @@ use crate::portal_infinite::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::projection::{ProjectionLightDesc, ProjectionLightError};
 use crate::scaled_emission::EmissionError;
 use crate::spot::{SpotLightDesc, SpotLightError};
+use crate::sun::{SunLightDesc, SunLightError};
 use crate::uniform_infinite::UniformInfiniteLightDesc;
 
 /// A light as a user describes it, in the user's units; it may hold nonsense, which the built light cannot.
@@ -32,6 +33,8 @@ pub enum LightDesc<C: ColorModel> {
     Mesh(MeshLightDesc<C>),
     /// A light from one direction.
     Distant(DistantLightDesc<C>),
+    /// A disk in the sky.
+    Sun(SunLightDesc<C>),
     /// A uniform sky.
     UniformInfinite(UniformInfiniteLightDesc<C>),
     /// An environment map.
@@ -58,6 +61,8 @@ pub enum LightDescError {
     Mesh(MeshLightError),
     /// Of a light from one direction.
     Distant(DistantLightError),
+    /// Of a disk in the sky.
+    Sun(SunLightError),
     /// Of a uniform sky.
     UniformInfinite(EmissionError),
     /// Of an environment map.
@@ -78,6 +83,7 @@ impl fmt::Display for LightDescError {
             Self::Area(error) => write!(f, "area light, {error}"),
             Self::Mesh(error) => write!(f, "mesh light, {error}"),
             Self::Distant(error) => write!(f, "distant light, {error}"),
+            Self::Sun(error) => write!(f, "sun light, {error}"),
             Self::UniformInfinite(error) => write!(f, "uniform infinite light, {error}"),
             Self::ImageInfinite(error) => write!(f, "image infinite light, {error}"),
             Self::PortalInfinite(error) => write!(f, "portal infinite light, {error}"),
@@ -96,6 +102,7 @@ impl Error for LightDescError {
             Self::Area(error) => error,
             Self::Mesh(error) => error,
             Self::Distant(error) => error,
+            Self::Sun(error) => error,
             Self::UniformInfinite(error) => error,
             Self::ImageInfinite(error) => error,
             Self::PortalInfinite(error) => error,

@@ -65,6 +65,7 @@ mod spectral_emission;
 #[cfg(feature = "alloc")]
 mod sphere_table;
 mod spot;
+mod sun;
 mod surface_point;
 mod uniform_infinite;
 
@@ -117,5 +118,6 @@ pub use sides::Sides;
 pub use spectral::Spectral;
 pub use spectral_emission::SpectralEmission;
 pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
+pub use sun::{SunAmount, SunLight, SunLightDesc, SunLightError};
 pub use surface_point::SurfacePoint;
 pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};

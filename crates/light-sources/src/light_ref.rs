@@ -14,6 +14,7 @@ use crate::projection::ProjectionLight;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::shape::{AnyShape, Triangle};
 use crate::spot::SpotLight;
+use crate::sun::SunLight;
 use crate::surface_point::SurfacePoint;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightSampleContext};
@@ -36,6 +37,8 @@ pub enum LightRef<'a, C: ColorModel> {
     Triangle(DiffuseAreaLight<'a, C, Triangle>),
     /// A light from one direction.
     Distant(&'a DistantLight<C>),
+    /// A disk in the sky.
+    Sun(&'a SunLight<C>),
     /// A uniform sky.
     UniformInfinite(&'a UniformInfiniteLight<C>),
     /// An environment map.
@@ -55,6 +58,7 @@ macro_rules! for_each_kind {
             LightRef::Area($it) => $answer,
             LightRef::Triangle($it) => $answer,
             LightRef::Distant($it) => $answer,
+            LightRef::Sun($it) => $answer,
             LightRef::UniformInfinite($it) => $answer,
             LightRef::ImageInfinite($it) => $answer,
             LightRef::PortalInfinite($it) => $answer,
@@ -75,6 +79,7 @@ impl<C: ColorModel> LightRef<'_, C> {
             | Self::Projection(_)
             | Self::Goniometric(_)
             | Self::Distant(_)
+            | Self::Sun(_)
             | Self::UniformInfinite(_)
             | Self::ImageInfinite(_)
             | Self::PortalInfinite(_) => C::Radiance::BLACK,
@@ -86,6 +91,7 @@ impl<C: ColorModel> LightRef<'_, C> {
     #[must_use]
     pub fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         match self {
+            Self::Sun(light) => light.le(origin, direction, wavelengths),
             Self::UniformInfinite(light) => light.le(origin, direction, wavelengths),
             Self::ImageInfinite(light) => light.le(origin, direction, wavelengths),
             Self::PortalInfinite(light) => light.le(origin, direction, wavelengths),

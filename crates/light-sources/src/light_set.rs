@@ -13,6 +13,7 @@ use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
 use crate::projection::ProjectionLight;
 use crate::spot::SpotLight;
+use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightId};
 
@@ -29,6 +30,7 @@ pub struct LightSet<C: ColorModel> {
     pub(crate) areas: Vec<AreaSource<C>>,
     pub(crate) meshes: Vec<MeshLight<C>>,
     pub(crate) distants: Vec<DistantLight<C>>,
+    pub(crate) suns: Vec<SunLight<C>>,
     pub(crate) uniform_infinites: Vec<UniformInfiniteLight<C>>,
     pub(crate) image_infinites: Vec<ImageInfiniteLight<C>>,
     pub(crate) portal_infinites: Vec<PortalInfiniteLight<C>>,
@@ -54,13 +56,14 @@ pub(crate) enum Kind {
     Area,
     Triangle,
     Distant,
+    Sun,
     UniformInfinite,
     ImageInfinite,
     PortalInfinite,
 }
 
 impl Kind {
-    const COUNT: usize = 10;
+    const COUNT: usize = 11;
     const ALL: [Self; Self::COUNT] = [
         Self::Point,
         Self::Spot,
@@ -69,6 +72,7 @@ impl Kind {
         Self::Area,
         Self::Triangle,
         Self::Distant,
+        Self::Sun,
         Self::UniformInfinite,
         Self::ImageInfinite,
         Self::PortalInfinite,
@@ -87,6 +91,7 @@ impl<C: ColorModel> LightSet<C> {
             areas: Vec::new(),
             meshes: Vec::new(),
             distants: Vec::new(),
+            suns: Vec::new(),
             uniform_infinites: Vec::new(),
             image_infinites: Vec::new(),
             portal_infinites: Vec::new(),
@@ -147,6 +152,7 @@ impl<C: ColorModel> LightSet<C> {
                 LightRef::Triangle(self.meshes[mesh].triangle(index - first)?)
             }
             Kind::Distant => LightRef::Distant(&self.distants[index]),
+            Kind::Sun => LightRef::Sun(&self.suns[index]),
             Kind::UniformInfinite => LightRef::UniformInfinite(&self.uniform_infinites[index]),
             Kind::ImageInfinite => LightRef::ImageInfinite(&self.image_infinites[index]),
             Kind::PortalInfinite => LightRef::PortalInfinite(&self.portal_infinites[index]),

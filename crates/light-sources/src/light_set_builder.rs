@@ -13,6 +13,7 @@ use crate::portal_infinite::PortalInfiniteLight;
 use crate::projection::ProjectionLight;
 use crate::scene_sphere::SceneSphere;
 use crate::spot::SpotLight;
+use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 
 /// Makes a [`LightSet`] from descriptions, one by one.
@@ -68,6 +69,10 @@ impl<C: ColorModel> LightSetBuilder<C> {
             LightDesc::Distant(desc) => {
                 let light = DistantLight::new(desc, scene).map_err(Error::Distant)?;
                 self.keep(Kind::Distant, 1, light, |set| &mut set.distants)
+            }
+            LightDesc::Sun(desc) => {
+                let light = SunLight::new(desc, scene).map_err(Error::Sun)?;
+                self.keep(Kind::Sun, 1, light, |set| &mut set.suns)
             }
             LightDesc::UniformInfinite(desc) => {
                 let light =

@@ -27,6 +27,37 @@ fn distant() {
 }
 
 #[test]
+fn sun() {
+    for angular_diameter in [0.0093, 0.5, 3.0] {
+        let direction = Vec3::new(1.0, 2.0, 3.0);
+        let light = SunLight::<Rgb>::new(
+            SunLightDesc {
+                direction,
+                angular_diameter,
+                emission: Vec3::ONE,
+                amount: SunAmount::Radiance(RadianceAmount::Radiometric(2.5)),
+            },
+            scene(),
+        )
+        .expect("a sun");
+        let case = LightCase::<Rgb, _>::around("sun", &light, Vec3::ZERO, 1.0, 3);
+        let half = f64::from(0.5 * angular_diameter);
+        let cap = |_| Cap::new(direction, 1.05 * half);
+        let axis = direction.normalize();
+        let radiance = |_, wi: Vec3| {
+            let is_inside = axis.cross(wi).length() < (0.5 * angular_diameter).sin();
+            2.5 * f64::from(u8::from(is_inside && axis.dot(wi) > 0.0))
+        };
+        li_follows_its_density(&case, cap, radiance);
+        li_adds_up(&case, cap, radiance);
+        le_adds_up_to_phi(&case);
+        le_has_no_variance(&case);
+        bounds_hold(&case);
+        edges_are_survived(&case);
+    }
+}
+
+#[test]
 fn uniform_infinite() {
     let light = UniformInfiniteLight::<Rgb>::new(
         UniformInfiniteLightDesc {

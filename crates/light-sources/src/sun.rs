@@ -1,0 +1,266 @@
+use core::error::Error;
+use core::f32::consts::{PI, TAU};
+use core::fmt;
+
+use crate::amount::{IrradianceAmount, RadianceAmount};
+use crate::color::{ColorModel, Radiance};
+use crate::coverage::PdfCoverage;
+use crate::distant::ray_through_scene;
+use crate::glam::{Vec2, Vec3};
+use crate::kind::LightType;
+use crate::light::{InfiniteLight, Light};
+use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::scaled_emission::{EmissionError, ScaledEmission};
+use crate::scene_sphere::SceneSphere;
+use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
+use light_math::float::sin;
+use light_math::warp::uniform_cone;
+use light_math::{DirectionCone, Frame};
+
+/// A [`SunLight`] as a user describes it.
+#[derive(Clone, Debug)]
+pub struct SunLightDesc<C: ColorModel> {
+    /// Direction toward the middle of the sun, of any length above 0.
+    pub direction: Vec3,
+    /// The angle that the sun's disk spans, in `(0, pi]`; that of the earth's sun is 0.0093.
+    pub angular_diameter: f32,
+    /// Colour of the light.
+    pub emission: C::Emission,
+    /// How bright it is.
+    pub amount: SunAmount,
+}
+
+/// How bright a sun is, as the user states it; the emission then gives the colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SunAmount {
+    /// The radiance of its disk.
+    Radiance(RadianceAmount),
+    /// The irradiance of a plane that faces it.
+    Irradiance(IrradianceAmount),
+}
+
+/// A disk in the sky, of the same radiance all over: a [`DistantLight`](crate::DistantLight) that casts soft shadows,
+/// is seen, and takes part in multiple importance sampling.
+#[derive(Clone, Debug)]
+pub struct SunLight<C: ColorModel> {
+    frame: Frame,
+    sin_theta: f32,
+    one_minus_cos_theta: f32,
+    radiance: ScaledEmission<C>,
+    scene: SceneSphere,
+}
+
+/// Why a description is no sun; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SunLightError {
+    /// `direction` is zero or not finite.
+    Direction,
+    /// `angular_diameter` does not lie in `(0, pi]`, or is so small that single precision has no number for its solid
+    /// angle.
+    AngularDiameter,
+    /// `emission` or `amount` makes no sense.
+    Emission(EmissionError),
+}
+
+/// How far a direction in single precision may lie from where it was meant to: the sine of that angle.
+const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
+
+impl<C: ColorModel> SunLight<C> {
+    /// The light that `desc` describes, over the given scene.
+    ///
+    /// # Errors
+    /// When a field of `desc` makes no sense.
+    pub fn new(desc: SunLightDesc<C>, scene: SceneSphere) -> Result<Self, SunLightError> {
+        let direction = desc.direction.try_normalize();
+        let direction = direction.ok_or(SunLightError::Direction)?;
+        let sin_theta = sin(0.5 * desc.angular_diameter);
+        let sin_half = sin(0.25 * desc.angular_diameter);
+        let one_minus_cos_theta = 2.0 * sin_half * sin_half;
+        let is_angle = desc.angular_diameter > 0.0 && desc.angular_diameter <= PI;
+        if !(is_angle && (1.0 / one_minus_cos_theta).is_finite()) {
+            return Err(SunLightError::AngularDiameter);
+        }
+        let scale = match desc.amount {
+            SunAmount::Radiance(RadianceAmount::Radiometric(radiance)) => radiance,
+            // The integral of the cosine over the disk is pi sin^2.
+            SunAmount::Irradiance(IrradianceAmount::Radiometric(irradiance)) => {
+                irradiance / (PI * sin_theta * sin_theta)
+            }
+        };
+        Ok(Self {
+            frame: Frame::from_z(direction),
+            sin_theta,
+            one_minus_cos_theta,
+            radiance: ScaledEmission::new(desc.emission, scale)?,
+            scene,
+        })
+    }
+
+    fn solid_angle(&self) -> f32 {
+        TAU * self.one_minus_cos_theta
+    }
+
+    fn contains(&self, wi: Vec3) -> bool {
+        let z = self.frame.z;
+        z.dot(wi) > 0.0 && z.cross(wi).length() <= self.sin_theta + DIRECTION_ERROR
+    }
+
+    fn pdf(&self, wi: Vec3) -> f32 {
+        if self.contains(wi) {
+            uniform_cone::pdf(self.one_minus_cos_theta)
+        } else {
+            0.0
+        }
+    }
+
+    fn sample(&self, u: Vec2) -> Vec3 {
+        let local = uniform_cone::sample(u, self.one_minus_cos_theta);
+        self.frame.from_local(local)
+    }
+}
+
+impl<C: ColorModel> Light<C> for SunLight<C> {
+    fn light_type(&self) -> LightType {
+        LightType::Infinite
+    }
+
+    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.radiance.at(wavelengths) * (self.solid_angle() * self.scene.disk_area())
+    }
+
+    fn sample_li(
+        &self,
+        ctx: &LightSampleContext,
+        u: Vec2,
+        wavelengths: &C::Wavelengths,
+        _coverage: PdfCoverage,
+    ) -> Option<LightLiSample<C::Radiance>> {
+        let wi = self.sample(u);
+        Some(LightLiSample {
+            l: self.radiance.at(wavelengths),
+            wi,
+            pdf: uniform_cone::pdf(self.one_minus_cos_theta),
+            p_light: self.scene.beyond(ctx.p, wi),
+            n_light: Vec3::ZERO,
+            uv: Vec2::ZERO,
+        })
+    }
+
+    fn pdf_li(&self, _ctx: &LightSampleContext, wi: Vec3, _coverage: PdfCoverage) -> f32 {
+        self.pdf(wi)
+    }
+
+    /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
+    fn sample_le(
+        &self,
+        u1: Vec2,
+        u2: Vec2,
+        wavelengths: &C::Wavelengths,
+    ) -> Option<LightLeSample<C::Radiance>> {
+        Some(LightLeSample {
+            l: self.radiance.at(wavelengths),
+            ray: ray_through_scene(&self.scene, -self.sample(u1), u2),
+            pdf: LePdf {
+                pos: 1.0 / self.scene.disk_area(),
+                dir: uniform_cone::pdf(self.one_minus_cos_theta),
+            },
+        })
+    }
+
+    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
+        LePdf {
+            pos: 1.0 / self.scene.disk_area(),
+            dir: self.pdf(-ray.direction),
+        }
+    }
+
+    fn extent(&self) -> LightExtent {
+        let cos_theta = 1.0 - self.one_minus_cos_theta;
+        LightExtent::Infinite(InfiniteBounds {
+            fluence: self.radiance.maximum() * self.solid_angle(),
+            mean: self.frame.z * (0.5 * (1.0 + cos_theta)),
+            cone: DirectionCone::new(self.frame.z, cos_theta),
+        })
+    }
+}
+
+impl<C: ColorModel> InfiniteLight<C> for SunLight<C> {
+    fn le(&self, _origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        if self.contains(direction) {
+            self.radiance.at(wavelengths)
+        } else {
+            C::Radiance::BLACK
+        }
+    }
+}
+
+impl fmt::Display for SunLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Direction => f.write_str("direction: must be finite and not zero"),
+            Self::AngularDiameter => f.write_str("angular_diameter: must lie in (0, pi]"),
+            Self::Emission(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for SunLightError {}
+
+impl From<EmissionError> for SunLightError {
+    fn from(error: EmissionError) -> Self {
+        Self::Emission(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rgb::Rgb;
+
+    fn sun(
+        direction: Vec3,
+        angular_diameter: f32,
+        amount: SunAmount,
+    ) -> Result<f32, SunLightError> {
+        let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
+        let desc = SunLightDesc::<Rgb> {
+            direction,
+            angular_diameter,
+            emission: Vec3::ONE,
+            amount,
+        };
+        SunLight::new(desc, scene).map(|sun| sun.radiance.maximum())
+    }
+
+    #[test]
+    fn irradiance_fixes_the_radiance() {
+        let amount = SunAmount::Irradiance(IrradianceAmount::Radiometric(1.0));
+        // Half of the sky of radiance 1 / pi.
+        let radiance = sun(Vec3::Y, PI, amount).expect("a sun");
+        assert!((radiance * PI - 1.0).abs() < 1e-6, "{radiance}");
+        // A disk of 0.0093 covers 6.793e-5 sr, all of which face the plane.
+        let radiance = sun(Vec3::Y, 0.0093, amount).expect("a sun");
+        assert!((radiance * 6.7929e-5 - 1.0).abs() < 1e-4, "{radiance}");
+    }
+
+    #[test]
+    fn refuses_nonsense_by_field() {
+        let amount = SunAmount::Radiance(RadianceAmount::Radiometric(1.0));
+        let error = |direction, diameter| sun(direction, diameter, amount).err();
+        assert_eq!(
+            error(Vec3::ZERO, 0.1),
+            Some(SunLightError::Direction),
+            "zero"
+        );
+        assert_eq!(error(Vec3::NAN, 0.1), Some(SunLightError::Direction), "NaN");
+        for diameter in [0.0, -0.1, 3.2, 1e-30, f32::NAN] {
+            let expected = Some(SunLightError::AngularDiameter);
+            assert_eq!(error(Vec3::X, diameter), expected, "{diameter}");
+        }
+        let dark = SunAmount::Radiance(RadianceAmount::Radiometric(-1.0));
+        let expected = Some(SunLightError::Emission(EmissionError::Amount));
+        assert_eq!(sun(Vec3::X, 0.1, dark).err(), expected, "negative");
+    }
+}
