@@ -11,39 +11,30 @@
     )
 )]
 
-#[cfg(feature = "alloc")]
-extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
 pub use light_math;
 pub use light_math::glam;
 
-#[cfg(feature = "alloc")]
 mod delta_tracking;
-#[cfg(feature = "alloc")]
 mod emission;
 #[cfg(feature = "alloc")]
 mod in_scattering;
-#[cfg(feature = "alloc")]
 mod march;
-#[cfg(feature = "alloc")]
 mod medium;
 pub mod phase;
-#[cfg(feature = "alloc")]
 mod ray;
-#[cfg(feature = "alloc")]
 mod ray_march;
-#[cfg(feature = "alloc")]
 mod region;
 #[cfg(feature = "alloc")]
 mod single_scattering;
 mod stratify;
-#[cfg(feature = "alloc")]
 pub mod transmittance;
 
 pub use delta_tracking::{Flight, delta_tracking};
 pub use emission::{VolumeLight, emission};
+#[cfg(feature = "alloc")]
 pub use in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
 pub use march::{March, StepSize, StepSizeError};
 pub use medium::{

@@ -31,7 +31,7 @@ fn substance(sigma_a: f32, sigma_s: f32, le: f32) -> Substance<Rgb> {
     Substance::new(tint * sigma_a, tint * sigma_s, Vec3::splat(le)).expect("valid")
 }
 
-fn cloud(sigma_a: f32, sigma_s: f32, le: f32) -> GridMedium<Rgb> {
+fn cloud(sigma_a: f32, sigma_s: f32, le: f32) -> GridMedium<Rgb, Vec<f32>> {
     let values = (0..6 * 5 * 4)
         .map(|i: u32| ((i * 37) % 11) as f32 * 0.3)
         .collect();

@@ -1,14 +1,14 @@
-use alloc::vec::Vec;
+use super::majorant_grid::MajorantGrid;
 use light_math::glam::Vec3;
 
 /// Samples of a quantity on a regular grid over the unit cube, interpolated linearly, zero outside.
 ///
-/// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest. Costs 4 bytes a sample and 16 KiB for the
-/// maxima of coarse cells.
+/// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest. The values may live anywhere: in a vector, a
+/// borrowed slice, in flash. Costs 4 bytes a sample and 16 KiB for the maxima of coarse cells.
 #[derive(Clone, Debug)]
-pub struct DensityGrid {
+pub struct DensityGrid<S> {
     size: [u32; 3],
-    values: Vec<f32>,
+    values: S,
     majorants: MajorantGrid,
 }
 
@@ -27,25 +27,26 @@ pub enum DensityGridError {
     },
 }
 
-impl DensityGrid {
+impl<S: AsRef<[f32]>> DensityGrid<S> {
     /// The grid of `size[0] * size[1] * size[2]` values.
     ///
     /// # Errors
     /// A size is zero, the number of values does not fit the sizes, or a value is negative or not finite.
-    pub fn new(size: [u32; 3], values: Vec<f32>) -> Result<Self, DensityGridError> {
+    pub fn new(size: [u32; 3], values: S) -> Result<Self, DensityGridError> {
         if size.contains(&0) {
             return Err(DensityGridError::Empty);
         }
         let expected = size
             .iter()
             .try_fold(1usize, |n, &s| n.checked_mul(s as usize));
-        if expected != Some(values.len()) {
+        let samples = values.as_ref();
+        if expected != Some(samples.len()) {
             return Err(DensityGridError::Length);
         }
-        if let Some(index) = values.iter().position(|v| !(*v >= 0.0 && v.is_finite())) {
+        if let Some(index) = samples.iter().position(|v| !(*v >= 0.0 && v.is_finite())) {
             return Err(DensityGridError::Value { index });
         }
-        let majorants = MajorantGrid::new(size, &values);
+        let majorants = MajorantGrid::new(size, samples);
         Ok(Self {
             size,
             values,
@@ -94,55 +95,8 @@ impl DensityGrid {
         let (Some(x), Some(y), Some(z)) = (inside(x, nx), inside(y, ny), inside(z, nz)) else {
             return 0.0;
         };
-        self.values[(z * ny + y) * nx + x]
+        self.values.as_ref()[(z * ny + y) * nx + x]
     }
-}
-
-/// The largest interpolated value in each of 16^3 equal cells of the unit cube.
-#[derive(Clone, Debug)]
-pub(super) struct MajorantGrid {
-    maxima: Vec<f32>,
-}
-
-impl MajorantGrid {
-    /// Cells on each axis.
-    pub(super) const CELLS: usize = 16;
-
-    fn new(size: [u32; 3], values: &[f32]) -> Self {
-        let mut maxima = alloc::vec![0.0f32; Self::CELLS.pow(3)];
-        let [nx, ny, nz] = size.map(|n| n as usize);
-        for (index, value) in values.iter().enumerate() {
-            let xs = cells_reached(index % nx, nx);
-            let ys = cells_reached(index / nx % ny, ny);
-            let zs = cells_reached(index / (nx * ny), nz);
-            for z in zs {
-                for y in ys.clone() {
-                    for x in xs.clone() {
-                        let cell = &mut maxima[(z * Self::CELLS + y) * Self::CELLS + x];
-                        *cell = cell.max(*value);
-                    }
-                }
-            }
-        }
-        Self { maxima }
-    }
-
-    /// The maximum in cell `(x, y, z)`; 0 outside.
-    pub(super) fn get(&self, cell: [i32; 3]) -> f32 {
-        let [x, y, z] = cell.map(|i| usize::try_from(i).ok().filter(|i| *i < Self::CELLS));
-        match (x, y, z) {
-            (Some(x), Some(y), Some(z)) => self.maxima[(z * Self::CELLS + y) * Self::CELLS + x],
-            _ => 0.0,
-        }
-    }
-}
-
-/// The cells in which sample `i` of `n` has a say: it reaches one sample's spacing to both sides of its place `i + 1/2`.
-fn cells_reached(i: usize, n: usize) -> core::ops::RangeInclusive<usize> {
-    // In halves of a sample: from 2 i - 1 to 2 i + 3, of 2 n in all.
-    let cell =
-        |halves: usize| (halves * MajorantGrid::CELLS / (2 * n)).min(MajorantGrid::CELLS - 1);
-    cell((2 * i).saturating_sub(1))..=cell(2 * i + 3)
 }
 
 impl core::fmt::Display for DensityGridError {
@@ -162,8 +116,9 @@ impl core::error::Error for DensityGridError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::vec::Vec;
 
-    fn ramp(size: [u32; 3]) -> DensityGrid {
+    fn ramp(size: [u32; 3]) -> DensityGrid<Vec<f32>> {
         let n: u32 = size.iter().product();
         DensityGrid::new(size, (0..n).map(|i| ((i * 7919) % 101) as f32).collect()).expect("valid")
     }
@@ -201,7 +156,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let make = |size, values: &[f32]| DensityGrid::new(size, values.to_vec()).err();
+        let make = |size, values: &[f32]| DensityGrid::new(size, values).err();
         assert_eq!(make([0, 1, 1], &[]), Some(DensityGridError::Empty), "empty");
         assert_eq!(
             make([2, 1, 1], &[1.0]),

@@ -8,15 +8,15 @@ use light_sources::ColorModel;
 
 /// A medium whose density, and whose glow if it has one, varies over a grid that fills a box.
 #[derive(Clone, Debug)]
-pub struct GridMedium<C: ColorModel> {
+pub struct GridMedium<C: ColorModel, S> {
     substance: Substance<C>,
     phase: Phase,
     region: Region,
-    density: DensityGrid,
-    glow: Option<DensityGrid>,
+    density: DensityGrid<S>,
+    glow: Option<DensityGrid<S>>,
 }
 
-impl<C: ColorModel> GridMedium<C> {
+impl<C: ColorModel, S> GridMedium<C, S> {
     /// The medium in `bounds` of a space that `to_scene` takes to the scene. `density` multiplies the coefficients of
     /// `substance`; `glow`, where given, its emission once more.
     ///
@@ -27,8 +27,8 @@ impl<C: ColorModel> GridMedium<C> {
         phase: Phase,
         bounds: Aabb,
         to_scene: Affine3A,
-        density: DensityGrid,
-        glow: Option<DensityGrid>,
+        density: DensityGrid<S>,
+        glow: Option<DensityGrid<S>>,
     ) -> Result<Self, RegionError> {
         Region::new(bounds, to_scene)?;
         // The box becomes the unit cube, so that grids are looked up without another change of space.
@@ -48,7 +48,7 @@ impl<C: ColorModel> GridMedium<C> {
     }
 }
 
-impl<C: ColorModel> Medium<C> for GridMedium<C> {
+impl<C: ColorModel, S: AsRef<[f32]>> Medium<C> for GridMedium<C, S> {
     fn phase(&self) -> &Phase {
         &self.phase
     }

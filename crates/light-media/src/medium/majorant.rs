@@ -1,5 +1,5 @@
-use super::density_grid::MajorantGrid;
 use super::exponential::Bands;
+use super::majorant_grid::MajorantGrid;
 use crate::ray::{Ray, Span};
 use light_math::glam::Vec3;
 

@@ -6,6 +6,7 @@ mod exponential;
 mod grid;
 mod homogeneous;
 mod majorant;
+mod majorant_grid;
 
 pub use coefficients::{Coefficients, CoefficientsError, Substance};
 pub use density_grid::{DensityGrid, DensityGridError};
