@@ -89,7 +89,7 @@ fn table(timings: &[Timing]) -> String {
         let name = [t.group.as_str(), &t.name, &t.input].join("/");
         lines += &format!(
             "{:<44} {:>12.1} {ratio:>14}\n",
-            name.trim_end(),
+            name.trim_end_matches('/'),
             t.nanoseconds
         );
     }
