@@ -28,7 +28,12 @@ impl Visibility for Pillar {
     }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a shade from 0 to 9"
+)]
+fn main() -> Result<(), Box<dyn core::error::Error>> {
     let mut lights = LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 20.0)?);
     for (x, intensity) in [(-2.5, 4.0), (0.3, 12.0), (3.0, 6.0)] {
         lights.add(LightDesc::Point(PointLightDesc {

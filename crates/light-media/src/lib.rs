@@ -11,6 +11,8 @@
     )
 )]
 
+#[cfg(test)]
+extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 

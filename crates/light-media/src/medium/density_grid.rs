@@ -116,7 +116,7 @@ impl core::error::Error for DensityGridError {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
 
     fn ramp(size: [u32; 3]) -> DensityGrid<Vec<f32>> {
         let n: u32 = size.iter().product();

@@ -1,7 +1,7 @@
 /// The largest interpolated value in each of 16^3 equal cells of the unit cube.
 #[derive(Clone, Debug)]
 pub(super) struct MajorantGrid {
-    maxima: [f32; MajorantGrid::COUNT],
+    maxima: [f32; Self::COUNT],
 }
 
 impl MajorantGrid {
