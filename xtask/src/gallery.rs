@@ -4,9 +4,9 @@ use crate::steps::{Outcome, StepResult, cargo, root, run};
 
 /// A scene that ships: name, width of its picture, samples a pixel.
 const PICTURES: [(&str, u32, u32); 3] = [
-    ("cornell-box", 360, 8192),
-    ("rotunda", 540, 8192),
-    ("night", 640, 4096),
+    ("cornell-box", 300, 8192),
+    ("rotunda", 450, 8192),
+    ("night", 480, 4096),
 ];
 
 /// Renders every scene that ships until no noise is left: hours of work for two cores.

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use light_scene::ChannelFile;
+
 /// A folder of its own for a test, removed at its end.
 struct Folder(PathBuf);
 
@@ -166,6 +168,12 @@ fn info_counts_the_lights() {
     let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
     assert_eq!(report["kinds"][0]["count"], 2, "{line}");
     assert_eq!(report["triangles"], 4, "{line}");
+    let turned_on = stdout(&["info", &folder.scene(UNLIT), "--emit", "floor=1,1,1"]);
+    assert!(turned_on.contains("lights     2"), "{turned_on}");
+    for wrong in ["roof=1,1,1", "floor=-1,1,1"] {
+        let words = ["scene.obj", &wrong[..4]];
+        assert_refused(&["info", &folder.scene(UNLIT), "--emit", wrong], &words);
+    }
     assert!(
         stdout(&["info", &folder.scene(UNLIT)]).contains("lights     0"),
         "none"
@@ -207,6 +215,47 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
         !folder.names().iter().any(|name| name.contains("part")),
         "nothing half written"
     );
+}
+
+/// An environment of 4 by 2 texels, one of which is `texel`.
+fn environment(folder: &Folder, texel: f32) -> String {
+    let path = folder.path("env.exr");
+    let mut numbers = vec![1.0; 8];
+    numbers[6] = texel;
+    let file = ChannelFile {
+        width: 4,
+        height: 2,
+        channels: ["R", "G", "B"]
+            .map(|name| (name.into(), numbers.clone()))
+            .into(),
+        notes: vec![],
+    };
+    file.write(Path::new(&path)).expect("an image");
+    path
+}
+
+#[test]
+fn environments_are_clamped_or_refused() {
+    let folder = Folder::new("environment");
+    let scene = folder.scene(UNLIT);
+    let out = folder.path("out.exr");
+    let env = environment(&folder, f32::NAN);
+    assert_refused(
+        &["render", &scene, "-o", &out, "--env", &env],
+        &["env.exr", "2, 1"],
+    );
+    assert_refused(&["compare", &env, &env], &["env.exr"]);
+    environment(&folder, -3.0);
+    let args = ["render", &scene, "-o", &out, "--env", &env];
+    let output = lights(&[&args[..], &SMALL].concat());
+    let warning = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "clamped: {warning}");
+    assert!(
+        warning.contains("1 of 8") && warning.lines().count() == 1,
+        "and counted: {warning}"
+    );
+    let quiet = lights(&[&args[..], &SMALL, &["--quiet"]].concat());
+    assert!(quiet.stderr.is_empty(), "unless nobody wants to know");
 }
 
 #[test]

@@ -27,6 +27,27 @@ impl FromStr for LookAt {
     }
 }
 
+/// A material to turn on, and its radiance: `MATERIAL=r,g,b`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Emit {
+    /// The material's name.
+    pub(crate) material: String,
+    /// What its front emits, in W m^-2 sr^-1 a channel.
+    pub(crate) radiance: Vec3,
+}
+
+impl FromStr for Emit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (material, radiance) = text.rsplit_once('=').ok_or("expected MATERIAL=r,g,b")?;
+        Ok(Self {
+            material: material.into(),
+            radiance: numbers::<3>(radiance)?.into(),
+        })
+    }
+}
+
 /// A finite number above zero.
 pub(crate) fn positive(text: &str) -> Result<f32, String> {
     let number: f32 = text
@@ -80,6 +101,16 @@ mod tests {
         assert_eq!(look_at.target, Vec3::new(3.0, 4.0, 5.0), "the middle three");
         for bad in ["", "1,2,3", "0,1,2,3,4,5,0,1,x", "0,1,2,3,4,5,0,1,nan"] {
             assert!(bad.parse::<LookAt>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_material_is_turned_on() {
+        let emit: Emit = "a=b=1,2,3".parse().expect("a material and a colour");
+        assert_eq!(emit.material, "a=b", "the last sign divides");
+        assert_eq!(emit.radiance, Vec3::new(1.0, 2.0, 3.0), "red, green, blue");
+        for bad in ["lamp", "lamp=1,2", "lamp=1,2,x"] {
+            assert!(bad.parse::<Emit>().is_err(), "{bad}");
         }
     }
 

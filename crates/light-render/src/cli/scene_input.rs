@@ -2,9 +2,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{BuiltinScene, Diagnostic, Scene, SceneLight, SkyImage, read_image, read_obj};
+use light_scene::{
+    BuiltinScene, Diagnostic, Emission, Scene, SceneLight, SkyImage, read_image, read_obj,
+};
 use lights::glam::{Quat, Vec3};
 
+use super::arguments::Emit;
 use super::failure::Failure;
 
 /// Which scene, and what is changed in it.
@@ -15,6 +18,9 @@ pub(crate) struct SceneInput {
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
     pub(crate) env: Option<PathBuf>,
+    /// Let the front of a material shine with this radiance; may be repeated.
+    #[arg(long, value_name = "MATERIAL=r,g,b")]
+    pub(crate) emit: Vec<Emit>,
 }
 
 impl SceneInput {
@@ -33,6 +39,18 @@ impl SceneInput {
                 scale: Vec3::ONE,
                 rotation: Quat::IDENTITY,
             }));
+        }
+        for Emit { material, radiance } in &self.emit {
+            let mut named = scene
+                .materials
+                .iter_mut()
+                .filter(|m| m.name == *material)
+                .peekable();
+            if named.peek().is_none() {
+                let message = format!("--emit: expected the name of a material, found {material}");
+                return Err(Failure::input(Diagnostic::file(&self.scene, message)));
+            }
+            named.for_each(|m| m.emission = Some(Emission::one_sided(*radiance)));
         }
         Ok(scene)
     }
