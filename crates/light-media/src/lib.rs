@@ -34,22 +34,16 @@ mod single_scattering;
 mod stratify;
 pub mod transmittance;
 
-#[cfg(feature = "alloc")]
 pub use delta_tracking::{Flight, delta_tracking};
-#[cfg(feature = "alloc")]
 pub use emission::{VolumeLight, emission};
 #[cfg(feature = "alloc")]
 pub use in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
-#[cfg(feature = "alloc")]
 pub use march::{March, StepSize, StepSizeError};
-#[cfg(feature = "alloc")]
 pub use medium::{
     Coefficients, CoefficientsError, DensityGrid, DensityGridError, ExponentialHeight,
     ExponentialHeightError, GridMedium, Homogeneous, MajorantSegment, Majorants, Medium, Substance,
 };
 pub use phase::{Phase, PhaseFunction, PhaseSample};
-#[cfg(feature = "alloc")]
 pub use ray::{Ray, Span};
-#[cfg(feature = "alloc")]
 pub use region::{Region, RegionError};
 pub use stratify::LatinHypercube;
