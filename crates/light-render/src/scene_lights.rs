@@ -1,16 +1,14 @@
 use core::error::Error;
 use core::fmt;
 
-use light_scene::{Color, EmissionSides, Image, Material, SceneLight};
+use light_scene::{Color, EmissionSides, Image, Material};
 use lights::bounds::LightId;
-use lights::glam::{Affine3A, Vec3};
+use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Channels, DiffuseEmissionDesc, DistantLightDesc, EnvironmentMap,
-    ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount, Light, LightDesc, LightDescError,
-    LightSet, LightSetBuilder, LightType, MediumInterface, MeshLightDesc, PointLightDesc,
-    RadianceAmount, Rgb, SceneSphere, SceneSphereError, Sides, SurfaceColor,
-    UniformInfiniteLightDesc,
+    self as sources, DiffuseEmissionDesc, Light, LightDesc, LightDescError, LightSet,
+    LightSetBuilder, LightType, MeshLightDesc, RadianceAmount, Rgb, SceneSphere, SceneSphereError,
+    Sides, SurfaceColor,
 };
 
 use crate::world::WorldMesh;
@@ -51,7 +49,7 @@ impl SceneLights {
         meshes: &mut [WorldMesh],
         materials: &[Material],
         images: &[Image],
-        scene_lights: &[SceneLight],
+        scene_lights: Vec<LightDesc<Rgb>>,
         bounds: &Aabb,
     ) -> Result<Self, SceneLightsError> {
         let sphere = if bounds.is_empty() {
@@ -70,13 +68,9 @@ impl SceneLights {
                 shining.push((index, source));
             }
         }
-        for (number, light) in scene_lights.iter().enumerate() {
+        for (number, light) in scene_lights.into_iter().enumerate() {
             let name = format!("light {number}");
-            let desc = free_light(light, images).map_err(|error| SceneLightsError::Image {
-                name: name.clone(),
-                error,
-            })?;
-            add(&mut builder, &name, desc)?;
+            add(&mut builder, &name, light)?;
         }
         let lights = builder.build();
         for (index, source) in shining {
@@ -118,8 +112,9 @@ fn mesh_light(
         Color::Constant(radiance) => SurfaceColor::Uniform(*radiance),
         Color::Image(texture) => {
             let image = &images[texture.image.0 as usize];
-            let image =
-                light_image(image, texture.scale).map_err(|error| SceneLightsError::Image {
+            let image = image
+                .to_light(texture.scale)
+                .map_err(|error| SceneLightsError::Image {
                     name: material.name.clone(),
                     error,
                 })?;
@@ -139,54 +134,6 @@ fn mesh_light(
             ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
         },
     })))
-}
-
-/// A light that is no mesh.
-fn free_light(light: &SceneLight, images: &[Image]) -> Result<LightDesc<Rgb>, sources::ImageError> {
-    Ok(match light {
-        SceneLight::Point {
-            position,
-            intensity,
-        } => LightDesc::Point(PointLightDesc {
-            position: *position,
-            emission: *intensity,
-            amount: IntensityAmount::default(),
-            media: MediumInterface::default(),
-        }),
-        SceneLight::Distant {
-            direction,
-            irradiance,
-        } => LightDesc::Distant(DistantLightDesc {
-            direction: -*direction,
-            emission: *irradiance,
-            amount: IrradianceAmount::default(),
-        }),
-        SceneLight::UniformSky { radiance } => {
-            LightDesc::UniformInfinite(UniformInfiniteLightDesc {
-                emission: *radiance,
-                amount: RadianceAmount::default(),
-            })
-        }
-        SceneLight::ImageSky(sky) => {
-            let image = light_image(&images[sky.image.0 as usize], sky.scale)?;
-            LightDesc::ImageInfinite(ImageInfiniteLightDesc {
-                transform: Affine3A::from_quat(sky.rotation),
-                map: EnvironmentMap::LatLong(image),
-                amount: RadianceAmount::default(),
-            })
-        }
-        _ => unreachable!("every kind of scene light is handled above"),
-    })
-}
-
-/// The image as a light holds it, each texel times `scale`.
-fn light_image(image: &Image, scale: Vec3) -> Result<sources::Image, sources::ImageError> {
-    let texels: Vec<f32> = image
-        .texels()
-        .iter()
-        .flat_map(|&texel| (texel * scale).to_array())
-        .collect();
-    sources::Image::from_f32([image.width(), image.height()], Channels::Rgb, texels)
 }
 
 impl fmt::Display for SceneLightsError {

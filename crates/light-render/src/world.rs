@@ -61,7 +61,7 @@ impl World {
         } = scene;
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
         let SceneLights { lights, infinite } =
-            SceneLights::new(&mut meshes, &materials, &images, &lights, &bounds)?;
+            SceneLights::new(&mut meshes, &materials, &images, lights, &bounds)?;
         let triangles: Vec<MeshTriangle> = (0u32..)
             .zip(&meshes)
             .flat_map(|(mesh, m)| {

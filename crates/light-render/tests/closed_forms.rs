@@ -5,14 +5,18 @@ mod support;
 use core::f64::consts::FRAC_1_PI;
 
 use light_render::integrator::Estimator;
-use light_scene::glam::{DVec3, Quat, Vec3};
-use light_scene::{Emission, Image, Material, Mesh, Scene, SceneLight, SkyImage};
+use light_scene::glam::{Affine3A, DVec3, Vec3};
+use light_scene::{Emission, Image, Material, Mesh, Scene};
+use lights::sources::{
+    DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, MediumInterface,
+    PointLightDesc, RadianceAmount, Rgb, UniformInfiniteLightDesc,
+};
 use support::{Shot, agree, plane, room};
 
 const ALBEDO: f32 = 0.6;
 
 /// Direct light on the plane, by light samples and by both kinds.
-fn assert_plane(light: SceneLight, radiance: f64, estimators: &[Estimator]) {
+fn assert_plane(light: LightDesc<Rgb>, radiance: f64, estimators: &[Estimator]) {
     let mut scene = plane(ALBEDO, 1.0);
     scene.lights.push(light);
     assert_mean(&scene, radiance, estimators);
@@ -40,10 +44,12 @@ const ALL: &[Estimator] = &[Estimator::Light, Estimator::Bsdf, Estimator::Mis];
 
 #[test]
 fn a_point_light_falls_off_with_the_square_of_the_distance() {
-    let light = SceneLight::Point {
+    let light = LightDesc::Point(PointLightDesc {
         position: Vec3::new(30.0, 40.0, 0.0),
-        intensity: Vec3::splat(5e3),
-    };
+        emission: Vec3::splat(5e3),
+        amount: IntensityAmount::default(),
+        media: MediumInterface::default(),
+    });
     let (distance, cosine) = (50.0f64, 0.8);
     let radiance = f64::from(ALBEDO) * FRAC_1_PI * 5e3 * cosine / (distance * distance);
     assert_plane(light, radiance, LIGHT_AND_BOTH);
@@ -51,10 +57,11 @@ fn a_point_light_falls_off_with_the_square_of_the_distance() {
 
 #[test]
 fn a_distant_light_gives_its_irradiance_times_the_cosine() {
-    let light = SceneLight::Distant {
-        direction: Vec3::new(0.6, -0.8, 0.0),
-        irradiance: Vec3::splat(7.0),
-    };
+    let light = LightDesc::Distant(DistantLightDesc {
+        direction: Vec3::new(-0.6, 0.8, 0.0),
+        emission: Vec3::splat(7.0),
+        amount: IrradianceAmount::default(),
+    });
     assert_plane(
         light,
         f64::from(ALBEDO) * FRAC_1_PI * 7.0 * 0.8,
@@ -64,9 +71,10 @@ fn a_distant_light_gives_its_irradiance_times_the_cosine() {
 
 #[test]
 fn a_constant_sky_gives_its_radiance_times_the_albedo() {
-    let light = SceneLight::UniformSky {
-        radiance: Vec3::splat(3.0),
-    };
+    let light = LightDesc::UniformInfinite(UniformInfiniteLightDesc {
+        emission: Vec3::splat(3.0),
+        amount: RadianceAmount::default(),
+    });
     // Incomplete light samples leave a uniform sky to the material alone.
     assert_plane(light, f64::from(ALBEDO) * 3.0, ALL);
 }
@@ -75,12 +83,9 @@ fn a_constant_sky_gives_its_radiance_times_the_albedo() {
 fn a_sky_image_of_one_color_is_a_constant_sky() {
     let mut scene = plane(ALBEDO, 1.0);
     let texels = vec![Vec3::splat(3.0); 8 * 4];
-    let image = scene.add_image(Image::new(8, 4, texels).expect("8 x 4"));
-    scene.lights.push(SceneLight::ImageSky(SkyImage {
-        image,
-        scale: Vec3::ONE,
-        rotation: Quat::from_rotation_x(0.3),
-    }));
+    let image = Image::new(8, 4, texels).expect("8 x 4");
+    let added = scene.add_sky(&image, Affine3A::from_rotation_x(0.3));
+    added.expect("radiance");
     assert_mean(&scene, f64::from(ALBEDO) * 3.0, ALL);
 }
 
@@ -89,12 +94,9 @@ fn a_sky_with_a_bright_spot_gives_the_same_by_all_estimators() {
     let mut scene = plane(ALBEDO, 1.0);
     let mut texels = vec![Vec3::splat(0.2); 16 * 8];
     texels[2 * 16 + 5] = Vec3::splat(40.0);
-    let image = scene.add_image(Image::new(16, 8, texels).expect("16 x 8"));
-    scene.lights.push(SceneLight::ImageSky(SkyImage {
-        image,
-        scale: Vec3::ONE,
-        rotation: Quat::IDENTITY,
-    }));
+    let image = Image::new(16, 8, texels).expect("16 x 8");
+    let added = scene.add_sky(&image, Affine3A::IDENTITY);
+    added.expect("radiance");
     let of = |estimator| {
         let shot = Shot {
             size: 8,

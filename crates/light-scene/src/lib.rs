@@ -10,7 +10,6 @@ pub use lights::glam;
 mod builtin;
 mod camera;
 mod diagnostic;
-mod environment;
 mod image;
 pub mod light_set;
 mod material;
@@ -25,7 +24,6 @@ mod write_whole;
 pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
-pub use environment::{SceneLight, SkyImage};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
     write_image, write_png,

@@ -1,7 +1,10 @@
 use lights::math::Aabb;
+use lights::sources::{
+    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, RadianceAmount, Rgb,
+};
 
-use crate::glam::Vec3;
-use crate::{Camera, Diagnostic, Image, Material, Mesh, SceneLight};
+use crate::glam::{Affine3A, Vec3};
+use crate::{Camera, Diagnostic, Image, Material, Mesh};
 
 /// Position of a material in [`Scene::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,8 +26,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
-    /// Lights that are no mesh: points, distant lights, environments.
-    pub lights: Vec<SceneLight>,
+    /// Lights that are no mesh: points, spots, distant lights, environments.
+    pub lights: Vec<LightDesc<Rgb>>,
     /// The camera, if the file has one.
     pub camera: Option<Camera>,
     /// What the reader ignored or repaired, each with file and line.
@@ -77,6 +80,28 @@ impl Scene {
         let id = u32::try_from(self.materials.len()).expect("fewer than 2^32 materials");
         self.materials.push(material);
         MaterialId(id)
+    }
+
+    /// Puts a lat-long image around the scene, turned by the rotation in `transform`.
+    ///
+    /// Column u left to right, row v top to bottom, `t = pi v`, `p = 2 pi u`: direction
+    /// (sin t sin p, cos t, -sin t cos p) before the rotation; the middle of the map looks to +z.
+    ///
+    /// # Errors
+    /// When a texel is negative or not finite.
+    pub fn add_sky(
+        &mut self,
+        image: &Image,
+        transform: Affine3A,
+    ) -> Result<(), sources::ImageError> {
+        let map = EnvironmentMap::LatLong(image.to_light(Vec3::ONE)?);
+        let sky = ImageInfiniteLightDesc {
+            transform,
+            map,
+            amount: RadianceAmount::default(),
+        };
+        self.lights.push(LightDesc::ImageInfinite(sky));
+        Ok(())
     }
 
     /// Adds an image and returns its id.

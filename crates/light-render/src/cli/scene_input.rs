@@ -2,10 +2,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{
-    BuiltinScene, Diagnostic, Emission, Scene, SceneLight, SkyImage, read_image, read_obj,
-};
-use lights::glam::{Quat, Vec3};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image, read_obj};
+use lights::glam::Affine3A;
 
 use super::arguments::Emit;
 use super::failure::Failure;
@@ -33,12 +31,9 @@ impl SceneInput {
         if let Some(path) = &self.env {
             let file = read_image(path).map_err(Failure::input)?;
             scene.warnings.extend(file.warning);
-            let image = scene.add_image(file.image);
-            scene.lights.push(SceneLight::ImageSky(SkyImage {
-                image,
-                scale: Vec3::ONE,
-                rotation: Quat::IDENTITY,
-            }));
+            scene
+                .add_sky(&file.image, Affine3A::IDENTITY)
+                .map_err(Failure::input)?;
         }
         for Emit { material, radiance } in &self.emit {
             let mut named = scene

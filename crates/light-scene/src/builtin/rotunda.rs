@@ -4,7 +4,7 @@ use std::path::Path;
 use super::modeller::Modeller;
 use crate::glam::{Affine3A, Quat, Vec2, Vec3};
 use crate::image::parse_exr;
-use crate::{Camera, Color, Image, Material, MaterialId, Scene, SceneLight, SkyImage, Surface};
+use crate::{Camera, Color, Image, Material, MaterialId, Scene, Surface};
 
 /// Columns of the full ring; the ones before the camera have fallen.
 const COLUMNS: u16 = 12;
@@ -199,12 +199,9 @@ fn sky(modeller: &mut Modeller) {
     let file = parse_exr(Path::new("sky.exr"), bytes).expect("the sky that ships is an image");
     let scene = modeller.scene();
     scene.warnings.extend(file.warning);
-    let image = scene.add_image(magnified(&file.image, 4));
-    scene.lights.push(SceneLight::ImageSky(SkyImage {
-        image,
-        scale: Vec3::ONE,
-        rotation: Quat::from_rotation_y(SUN_TURN),
-    }));
+    let turn = Affine3A::from_rotation_y(SUN_TURN);
+    let added = scene.add_sky(&magnified(&file.image, 4), turn);
+    added.expect("readers make every texel finite and at least 0");
 }
 
 /// Brings the sun of the map to the left, a little behind the columns.

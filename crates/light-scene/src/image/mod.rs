@@ -9,6 +9,8 @@ mod srgb;
 
 use core::fmt;
 
+use lights::sources::{self as sources, Channels};
+
 use crate::glam::Vec3;
 
 pub use channels::ChannelFile;
@@ -76,6 +78,16 @@ impl Image {
     #[must_use]
     pub fn into_texels(self) -> Vec<Vec3> {
         self.texels
+    }
+
+    /// The image as lights hold it, each texel times `scale`.
+    ///
+    /// # Errors
+    /// When a texel is negative or not finite.
+    pub fn to_light(&self, scale: Vec3) -> Result<sources::Image, sources::ImageError> {
+        let texels = self.texels.iter().flat_map(|&t| (t * scale).to_array());
+        let texels: Vec<f32> = texels.collect();
+        sources::Image::from_f32([self.width, self.height], Channels::Rgb, texels)
     }
 
     /// The texel of column `x` and row `y`.

@@ -18,10 +18,12 @@ mod tower;
 mod tree;
 mod window;
 
+use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
+
 use super::dice::Dice;
 use super::modeller::Modeller;
 use crate::glam::{Vec2, Vec3};
-use crate::{Camera, Scene, SceneLight};
+use crate::{Camera, Scene};
 
 use course::{Bank, Course};
 use palette::Palette;
@@ -63,9 +65,11 @@ pub(super) fn night(seed: u64) -> Scene {
     let left = LIGHTS.saturating_sub(modeller.emissive_triangle_count());
     tree::bulbs(&mut modeller, &palette, &mut dice, &branches, left);
     let mut scene = modeller.finish();
-    scene.lights.push(SceneLight::UniformSky {
-        radiance: Vec3::new(0.009, 0.015, 0.034),
-    });
+    let sky = UniformInfiniteLightDesc {
+        emission: Vec3::new(0.009, 0.015, 0.034),
+        amount: RadianceAmount::default(),
+    };
+    scene.lights.push(LightDesc::UniformInfinite(sky));
     scene.camera = Some(camera());
     scene
 }
