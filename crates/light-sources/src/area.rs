@@ -58,7 +58,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.emission.exitance(wavelengths) * self.shape.area()
+        self.emission.phi(&self.shape, wavelengths)
     }
 
     fn sample_li(
@@ -142,7 +142,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
             } else {
                 self.emission.sides().emitting_normal(cone.w)
             },
-            phi: self.emission.strength() * self.shape.area(),
+            phi: self.emission.strength(&self.shape),
             cos_theta_o: cone.cos_theta,
             cos_theta_e: 0.0,
             two_sided: self.emission.sides() == Sides::Both,

@@ -8,8 +8,10 @@ use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::media::MediumInterface;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
+use crate::shape::Shape;
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;
+use crate::texture_means::TextureMeans;
 
 /// How a surface shines, whatever its shape; as a user describes it.
 #[derive(Clone, Debug)]
@@ -55,17 +57,15 @@ pub struct DiffuseEmission<C: ColorModel> {
     color: Color<C>,
     sides: Sides,
     mask: EmissionMask,
+    /// Of what varies over the surface: image times alpha. None where nothing does.
+    means: Option<TextureMeans>,
     media: MediumInterface,
 }
 
 #[derive(Clone, Debug)]
 enum Color<C: ColorModel> {
     Uniform(ScaledEmission<C>),
-    Image {
-        image: Image,
-        scale: f32,
-        mean: Vec3,
-    },
+    Image { image: Image, scale: f32 },
 }
 
 /// Why a description is no emission; each variant names a field.
@@ -104,11 +104,11 @@ impl<C: ColorModel> DiffuseEmission<C> {
                 Color::Uniform(ScaledEmission::new(emission, scale)?)
             }
             SurfaceColor::Image(image) => {
-                let mean = image.mean();
-                if !(scale >= 0.0 && (mean * scale).is_finite()) {
+                let brightest = image.texels().map(Vec3::max_element).fold(0.0, f32::max);
+                if !(scale >= 0.0 && (brightest * scale).is_finite()) {
                     return Err(EmissionError::Amount.into());
                 }
-                Color::Image { image, scale, mean }
+                Color::Image { image, scale }
             }
         };
         if let EmissionMask::Alpha(image) = &desc.mask {
@@ -117,6 +117,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
             }
         }
         Ok(Self {
+            means: means(&color, &desc.mask),
             color,
             sides: desc.sides,
             mask: desc.mask,
@@ -152,7 +153,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
         let uv = Vec2::new(at.uv.x, 1.0 - at.uv.y);
         let l = match &self.color {
             Color::Uniform(radiance) => radiance.at(wavelengths),
-            Color::Image { image, scale, .. } => {
+            Color::Image { image, scale } => {
                 C::emit_texel(image.bilinear(uv), wavelengths) * *scale
             }
         };
@@ -162,24 +163,52 @@ impl<C: ColorModel> DiffuseEmission<C> {
         }
     }
 
-    /// Power per area in W m^-2, over all sides.
+    /// Power in W that a shape emits, on all sides.
     #[must_use]
-    pub fn exitance(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let texture = self.texture_over(shape);
         let mean = match &self.color {
-            Color::Uniform(radiance) => radiance.at(wavelengths),
-            Color::Image { scale, mean, .. } => C::emit_texel(*mean, wavelengths) * *scale,
+            Color::Uniform(radiance) => radiance.at(wavelengths) * texture.x,
+            Color::Image { scale, .. } => C::emit_texel(texture, wavelengths) * *scale,
         };
-        mean * (PI * self.sides.count())
+        mean * (PI * self.sides.count() * shape.area())
     }
 
-    /// Power per area and side in one number, by which light samplers compare.
+    /// Power that a shape emits on one side in one number, by which light samplers compare.
     #[must_use]
-    pub fn strength(&self) -> f32 {
-        PI * match &self.color {
-            Color::Uniform(radiance) => radiance.maximum(),
-            Color::Image { scale, mean, .. } => mean.average() * *scale,
-        }
+    pub fn strength(&self, shape: &impl Shape) -> f32 {
+        let texture = self.texture_over(shape);
+        let mean = match &self.color {
+            Color::Uniform(radiance) => radiance.maximum() * texture.x,
+            Color::Image { scale, .. } => texture.average() * *scale,
+        };
+        PI * mean * shape.area()
     }
+
+    /// The mean over a shape of what varies over it, 1 where nothing does.
+    fn texture_over(&self, shape: &impl Shape) -> Vec3 {
+        self.means
+            .as_ref()
+            .map_or(Vec3::ONE, |means| means.over(shape))
+    }
+}
+
+/// The means of image times alpha, on the grid of the one that is there.
+fn means<C: ColorModel>(color: &Color<C>, mask: &EmissionMask) -> Option<TextureMeans> {
+    let (size, texels) = match (color, mask) {
+        (Color::Image { image, .. }, EmissionMask::Alpha(alpha)) => {
+            let [width, height] = image.size();
+            let extent = Vec2::new(width as f32, height as f32);
+            let at = |i: u32| Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
+            let texels = (0..).zip(image.texels());
+            let texels = texels.map(|(i, texel)| texel * alpha.bilinear(at(i) / extent).x);
+            (image.size(), texels.collect())
+        }
+        (Color::Image { image, .. }, _) => (image.size(), image.texels().collect()),
+        (Color::Uniform(_), EmissionMask::Alpha(alpha)) => (alpha.size(), alpha.texels().collect()),
+        (Color::Uniform(_), _) => return None,
+    };
+    Some(TextureMeans::new(size, texels))
 }
 
 impl fmt::Display for DiffuseEmissionError {

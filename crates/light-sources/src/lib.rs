@@ -67,6 +67,8 @@ mod sphere_table;
 mod spot;
 mod sun;
 mod surface_point;
+#[cfg(feature = "alloc")]
+mod texture_means;
 mod uniform_infinite;
 
 pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount};

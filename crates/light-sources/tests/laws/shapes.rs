@@ -133,6 +133,53 @@ fn cylinder() {
     });
 }
 
+/// With an image and an alpha mask the power is that of what is left, and samples carry it.
+#[test]
+fn textures() {
+    let texels = (0..48u16).flat_map(|i| [f32::from(i % 5), 1.0, f32::from(i % 3)]);
+    let image = Image::from_f32([8, 6], Channels::Rgb, texels.collect::<Vec<_>>());
+    let alpha = Image::from_f32([4, 1], Channels::Gray, [1.0, 0.25, 0.0, 0.75]);
+    let emission = DiffuseEmission::<Rgb>::new(DiffuseEmissionDesc {
+        mask: EmissionMask::Alpha(alpha.expect("a mask")),
+        ..DiffuseEmissionDesc::new(
+            SurfaceColor::Image(image.expect("an image")),
+            RadianceAmount::Radiometric(0.5),
+        )
+    });
+    let emission = emission.expect("an emission");
+    let descs = [
+        ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]),
+        ShapeDesc::Rectangle {
+            corner: Vec3::ZERO,
+            edges: [Vec3::X, Vec3::Y],
+        },
+        ShapeDesc::Disk {
+            transform: tilted(),
+            radius: 0.8,
+            inner_radius: 0.0,
+        },
+    ];
+    for desc in descs {
+        let shape = desc.build().expect("a shape");
+        let light = DiffuseAreaLight::new(&shape, &emission);
+        let mut rng = Rng::new(12);
+        let estimate = Estimate::of(1 << 15, || {
+            let sample = light.sample_le(rng.vec2(), rng.vec2(), &());
+            sample.map_or(0.0, |s| {
+                let cos = s.ray.normal.dot(s.ray.direction);
+                f64::from(s.l.element_sum() / 3.0 * cos / (s.pdf.pos * s.pdf.dir))
+            })
+        });
+        // 64 points of a coarse texture, against the texture itself.
+        let phi = f64::from(light.phi(&()).element_sum() / 3.0);
+        let margin = estimate.margin(phi) + 0.03 * phi;
+        assert!(
+            (estimate.mean - phi).abs() < margin,
+            "{desc:?}: {phi}, {estimate:?}"
+        );
+    }
+}
+
 /// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the shape, as a number
 /// that is positive on its front and negative on its back; `corners` are those of something convex around it.
 fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f64>) {
