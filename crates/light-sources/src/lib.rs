@@ -41,6 +41,8 @@ mod light_set;
 mod light_set_builder;
 mod media;
 #[cfg(feature = "alloc")]
+mod median_cut;
+#[cfg(feature = "alloc")]
 mod mesh;
 mod point;
 #[cfg(feature = "alloc")]
@@ -102,6 +104,10 @@ pub use light_set::{LightSet, SourceId};
 #[cfg(feature = "alloc")]
 pub use light_set_builder::LightSetBuilder;
 pub use media::{MediumId, MediumInterface};
+#[cfg(feature = "alloc")]
+pub use median_cut::{
+    Centroid, MedianCut, MedianCutError, MedianCutLight, RegionSums, TexelRegion,
+};
 #[cfg(feature = "alloc")]
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
 pub use point::{PointLight, PointLightDesc, PointLightError};
