@@ -1,9 +1,26 @@
+//! How bright a light is, in the unit in which the user knows it.
+//!
+//! A radiometric amount is a factor of the emission. With any other the emission gives the colour alone, and the light
+//! gives off what the amount says, whatever the emission's own strength. Of an image, as of a projected picture, a
+//! textured surface or a sky, intensity and luminance are those of its white, `(1, 1, 1)`: an image that holds cd/m^2
+//! has the luminance `Nit(1.0)`.
+
+use crate::flux::Flux;
+use crate::scaled_emission::EmissionError;
+use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
+
 /// How bright a light at a point is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntensityAmount {
     /// The intensity is this times the emission, in W/sr.
     Radiometric(f32),
+    /// The intensity where the light is at its full: inside of a spot's falloff, where a distribution or picture is 1.
+    LuminousIntensity(Candela),
+    /// What the light gives off in all directions together.
+    LuminousPower(Lumen),
+    /// What the light gives off in all directions together.
+    RadiantPower(Watt),
 }
 
 /// How bright a light from one direction is, as the user states it; the emission then gives the colour.
@@ -12,6 +29,8 @@ pub enum IntensityAmount {
 pub enum IrradianceAmount {
     /// The irradiance of a plane that faces the light is this times the emission, in W m^-2.
     Radiometric(f32),
+    /// The illuminance of a plane that faces the light.
+    Illuminance(Lux),
 }
 
 /// How bright a surface or a sky is, as the user states it; the emission then gives the colour.
@@ -20,6 +39,79 @@ pub enum IrradianceAmount {
 pub enum RadianceAmount {
     /// The radiance is this times the emission, in W m^-2 sr^-1.
     Radiometric(f32),
+    /// The luminance in all directions. A whole sky of it makes an illuminance of pi times as many lux on open ground.
+    Luminance(Nit),
+}
+
+/// How bright a surface with an area is, as the user states it; the emission then gives the colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SurfaceAmount {
+    /// How bright each place of it is.
+    Radiance(RadianceAmount),
+    /// What all of it gives off, on all sides that emit and over all triangles of a mesh.
+    LuminousPower(Lumen),
+    /// What all of it gives off, on all sides that emit and over all triangles of a mesh.
+    RadiantPower(Watt),
+}
+
+impl IntensityAmount {
+    /// The factor of an emission that has the given intensity and power.
+    pub(crate) fn scale(self, intensity: Flux, power: Flux) -> Result<f32, EmissionError> {
+        match self {
+            Self::Radiometric(scale) => Ok(scale),
+            Self::LuminousIntensity(Candela(amount)) => quotient(amount, intensity.luminous),
+            Self::LuminousPower(Lumen(amount)) => quotient(amount, power.luminous),
+            Self::RadiantPower(Watt(amount)) => quotient(amount, power.radiant),
+        }
+    }
+}
+
+impl IrradianceAmount {
+    /// The factor of an emission that has the given irradiance.
+    pub(crate) fn scale(self, irradiance: Flux) -> Result<f32, EmissionError> {
+        match self {
+            Self::Radiometric(scale) => Ok(scale),
+            Self::Illuminance(Lux(amount)) => quotient(amount, irradiance.luminous),
+        }
+    }
+}
+
+impl RadianceAmount {
+    /// The factor of an emission that has the given radiance.
+    pub(crate) fn scale(self, radiance: Flux) -> Result<f32, EmissionError> {
+        match self {
+            Self::Radiometric(scale) => Ok(scale),
+            Self::Luminance(Nit(amount)) => quotient(amount, radiance.luminous),
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl SurfaceAmount {
+    /// The factor of an emission that has the given radiance and, over the whole surface, the power that `power` finds.
+    pub(crate) fn scale(
+        self,
+        radiance: Flux,
+        power: impl FnOnce() -> Flux,
+    ) -> Result<f32, EmissionError> {
+        match self {
+            Self::Radiance(amount) => amount.scale(radiance),
+            Self::LuminousPower(Lumen(amount)) => quotient(amount, power().luminous),
+            Self::RadiantPower(Watt(amount)) => quotient(amount, power().radiant),
+        }
+    }
+}
+
+/// How many times `unit` makes `amount`. What is not a number is for the caller to refuse.
+fn quotient(amount: f32, unit: f32) -> Result<f32, EmissionError> {
+    if unit != 0.0 {
+        Ok(amount / unit)
+    } else if amount == 0.0 {
+        Ok(0.0)
+    } else {
+        Err(EmissionError::Dark)
+    }
 }
 
 impl Default for IntensityAmount {
@@ -37,5 +129,33 @@ impl Default for IrradianceAmount {
 impl Default for RadianceAmount {
     fn default() -> Self {
         Self::Radiometric(1.0)
+    }
+}
+
+impl Default for SurfaceAmount {
+    fn default() -> Self {
+        RadianceAmount::default().into()
+    }
+}
+
+impl From<RadianceAmount> for SurfaceAmount {
+    fn from(amount: RadianceAmount) -> Self {
+        Self::Radiance(amount)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dark_lights_can_only_be_off() {
+        let dark = Flux::default();
+        let bright = IrradianceAmount::Illuminance(Lux(1.0));
+        assert_eq!(bright.scale(dark), Err(EmissionError::Dark), "1 lx");
+        let off = IrradianceAmount::Illuminance(Lux(0.0));
+        assert_eq!(off.scale(dark), Ok(0.0), "off");
+        let power = IntensityAmount::RadiantPower(Watt(1.0));
+        assert_eq!(power.scale(dark, dark), Err(EmissionError::Dark), "1 W");
     }
 }

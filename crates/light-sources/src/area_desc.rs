@@ -34,9 +34,11 @@ pub enum AreaLightError {
 
 impl<C: ColorModel> AreaSource<C> {
     pub(crate) fn new(desc: AreaLightDesc<C>) -> Result<Self, AreaLightError> {
+        let shape = desc.shape.build().map_err(AreaLightError::Shape)?;
+        let emission = DiffuseEmission::new(desc.emission, [&shape]);
         Ok(Self {
-            shape: desc.shape.build().map_err(AreaLightError::Shape)?,
-            emission: DiffuseEmission::new(desc.emission).map_err(AreaLightError::Emission)?,
+            shape,
+            emission: emission.map_err(AreaLightError::Emission)?,
         })
     }
 

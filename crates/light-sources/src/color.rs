@@ -1,6 +1,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, Mul};
 
+use crate::flux::Flux;
 use crate::glam::Vec3;
 
 /// What a light answers with: a radiance, or any other radiometric quantity, in one number per colour channel or
@@ -60,6 +61,12 @@ pub trait ColorModel: Copy + Debug + Send + Sync + 'static {
 
     /// Whether an emission is finite and nowhere negative.
     fn is_valid(emission: &Self::Emission) -> bool;
+
+    /// What an emission amounts to in lumens and in watts.
+    fn flux(emission: &Self::Emission) -> Flux;
+
+    /// What an image texel amounts to in lumens and in watts.
+    fn flux_of_texel(rgb: Vec3) -> Flux;
 
     /// Fixed wavelengths at which lights are compared with one another.
     fn reference_wavelengths() -> Self::Wavelengths;

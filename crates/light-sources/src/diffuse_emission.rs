@@ -2,11 +2,12 @@ use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
 
-use crate::amount::RadianceAmount;
+use crate::amount::SurfaceAmount;
 use crate::color::{ColorModel, Radiance};
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::media::MediumInterface;
+use crate::rgb_sum::RgbSum;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::shape::Shape;
 use crate::sides::Sides;
@@ -19,7 +20,7 @@ pub struct DiffuseEmissionDesc<C: ColorModel> {
     /// Colour of the surface.
     pub color: SurfaceColor<C>,
     /// How bright it is.
-    pub amount: RadianceAmount,
+    pub amount: SurfaceAmount,
     /// Which sides emit.
     pub sides: Sides,
     /// Where it emits.
@@ -81,10 +82,10 @@ pub enum DiffuseEmissionError {
 impl<C: ColorModel> DiffuseEmissionDesc<C> {
     /// The front shines everywhere, in a vacuum.
     #[must_use]
-    pub fn new(color: SurfaceColor<C>, amount: RadianceAmount) -> Self {
+    pub fn new(color: SurfaceColor<C>, amount: impl Into<SurfaceAmount>) -> Self {
         Self {
             color,
-            amount,
+            amount: amount.into(),
             sides: Sides::Front,
             mask: EmissionMask::Opaque,
             media: MediumInterface::default(),
@@ -93,17 +94,38 @@ impl<C: ColorModel> DiffuseEmissionDesc<C> {
 }
 
 impl<C: ColorModel> DiffuseEmission<C> {
-    /// The emission that `desc` describes.
+    /// The emission that `desc` describes, for `shapes` that share it: an amount that is a power is that of all of them
+    /// together.
     ///
     /// # Errors
     /// When a field of `desc` makes no sense.
-    pub fn new(desc: DiffuseEmissionDesc<C>) -> Result<Self, DiffuseEmissionError> {
-        let RadianceAmount::Radiometric(scale) = desc.amount;
+    pub fn new(
+        desc: DiffuseEmissionDesc<C>,
+        shapes: impl IntoIterator<Item = impl Shape>,
+    ) -> Result<Self, DiffuseEmissionError> {
+        if let EmissionMask::Alpha(image) = &desc.mask {
+            if image.texels().any(|texel| texel.max_element() > 1.0) {
+                return Err(DiffuseEmissionError::Mask);
+            }
+        }
+        let means = means(&desc.color, &desc.mask);
+        let etendue = || {
+            let mut sum = RgbSum::default();
+            for shape in shapes {
+                let texture = texture_over(means.as_ref(), &shape);
+                sum.add(texture, f64::from(shape.area()));
+            }
+            sum.over(1.0) * (PI * desc.sides.count())
+        };
         let color = match desc.color {
             SurfaceColor::Uniform(emission) => {
+                let radiance = C::flux(&emission);
+                let scale = desc.amount.scale(radiance, || radiance * etendue().x)?;
                 Color::Uniform(ScaledEmission::new(emission, scale)?)
             }
             SurfaceColor::Image(image) => {
+                let white = C::flux_of_texel(Vec3::ONE);
+                let scale = desc.amount.scale(white, || C::flux_of_texel(etendue()))?;
                 let brightest = image.texels().map(Vec3::max_element).fold(0.0, f32::max);
                 if !(scale >= 0.0 && (brightest * scale).is_finite()) {
                     return Err(EmissionError::Amount.into());
@@ -111,13 +133,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
                 Color::Image { image, scale }
             }
         };
-        if let EmissionMask::Alpha(image) = &desc.mask {
-            if image.texels().any(|texel| texel.max_element() > 1.0) {
-                return Err(DiffuseEmissionError::Mask);
-            }
-        }
         Ok(Self {
-            means: means(&color, &desc.mask),
+            means,
             color,
             sides: desc.sides,
             mask: desc.mask,
@@ -166,7 +183,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// Power in W that a shape emits, on all sides.
     #[must_use]
     pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let texture = self.texture_over(shape);
+        let texture = texture_over(self.means.as_ref(), shape);
         let mean = match &self.color {
             Color::Uniform(radiance) => radiance.at(wavelengths) * texture.x,
             Color::Image { scale, .. } => C::emit_texel(texture, wavelengths) * *scale,
@@ -177,26 +194,24 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// Power that a shape emits on one side in one number, by which light samplers compare.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
-        let texture = self.texture_over(shape);
+        let texture = texture_over(self.means.as_ref(), shape);
         let mean = match &self.color {
             Color::Uniform(radiance) => radiance.maximum() * texture.x,
             Color::Image { scale, .. } => texture.average() * *scale,
         };
         PI * mean * shape.area()
     }
+}
 
-    /// The mean over a shape of what varies over it, 1 where nothing does.
-    fn texture_over(&self, shape: &impl Shape) -> Vec3 {
-        self.means
-            .as_ref()
-            .map_or(Vec3::ONE, |means| means.over(shape))
-    }
+/// The mean over a shape of what varies over it, 1 where nothing does.
+fn texture_over(means: Option<&TextureMeans>, shape: &impl Shape) -> Vec3 {
+    means.map_or(Vec3::ONE, |means| means.over(shape))
 }
 
 /// The means of image times alpha, on the grid of the one that is there.
-fn means<C: ColorModel>(color: &Color<C>, mask: &EmissionMask) -> Option<TextureMeans> {
+fn means<C: ColorModel>(color: &SurfaceColor<C>, mask: &EmissionMask) -> Option<TextureMeans> {
     let (size, texels) = match (color, mask) {
-        (Color::Image { image, .. }, EmissionMask::Alpha(alpha)) => {
+        (SurfaceColor::Image(image), EmissionMask::Alpha(alpha)) => {
             let [width, height] = image.size();
             let extent = Vec2::new(width as f32, height as f32);
             let at = |i: u32| Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
@@ -204,9 +219,11 @@ fn means<C: ColorModel>(color: &Color<C>, mask: &EmissionMask) -> Option<Texture
             let texels = texels.map(|(i, texel)| texel * alpha.bilinear(at(i) / extent).x);
             (image.size(), texels.collect())
         }
-        (Color::Image { image, .. }, _) => (image.size(), image.texels().collect()),
-        (Color::Uniform(_), EmissionMask::Alpha(alpha)) => (alpha.size(), alpha.texels().collect()),
-        (Color::Uniform(_), _) => return None,
+        (SurfaceColor::Image(image), _) => (image.size(), image.texels().collect()),
+        (SurfaceColor::Uniform(_), EmissionMask::Alpha(alpha)) => {
+            (alpha.size(), alpha.texels().collect())
+        }
+        (SurfaceColor::Uniform(_), _) => return None,
     };
     Some(TextureMeans::new(size, texels))
 }

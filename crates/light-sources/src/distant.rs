@@ -56,7 +56,7 @@ impl<C: ColorModel> DistantLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: DistantLightDesc<C>, scene: SceneSphere) -> Result<Self, DistantLightError> {
-        let IrradianceAmount::Radiometric(scale) = desc.amount;
+        let scale = desc.amount.scale(C::flux(&desc.emission))?;
         let direction = desc.direction.try_normalize();
         let direction = direction.ok_or(DistantLightError::Direction)?;
         Ok(Self {

@@ -68,7 +68,6 @@ impl<C: ColorModel> GoniometricLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: GoniometricLightDesc<C>) -> Result<Self, GoniometricLightError> {
-        let IntensityAmount::Radiometric(scale) = desc.amount;
         let transform = RigidTransform::new(desc.transform)?;
         let image = desc.distribution;
         let [width, height] = image.size();
@@ -78,6 +77,9 @@ impl<C: ColorModel> GoniometricLight<C> {
         if image.channels() != Channels::Gray {
             return Err(GoniometricLightError::NotGray);
         }
+        let mean = image.mean().x;
+        let full = C::flux(&desc.emission);
+        let scale = desc.amount.scale(full, full * (4.0 * PI * mean))?;
         let intensity = ScaledEmission::new(desc.emission, scale)?;
         let brightest = image.texels().fold(0.0, |max: f32, texel| max.max(texel.x));
         if !(brightest * intensity.maximum()).is_finite() {
@@ -85,7 +87,7 @@ impl<C: ColorModel> GoniometricLight<C> {
         }
         Ok(Self {
             transform,
-            mean: image.mean().x,
+            mean,
             table: SphereTable::new(&image.averages(), width),
             image,
             intensity,

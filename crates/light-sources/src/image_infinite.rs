@@ -80,7 +80,8 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         desc: ImageInfiniteLightDesc,
         scene: SceneSphere,
     ) -> Result<Self, ImageInfiniteLightError> {
-        let RadianceAmount::Radiometric(scale) = desc.amount;
+        let scale = desc.amount.scale(C::flux_of_texel(Vec3::ONE));
+        let scale = scale.map_err(|_| ImageInfiniteLightError::Amount)?;
         let transform = RigidTransform::new(desc.transform)?;
         let image = desc.map.into_equal_area()?;
         let mean = image.mean();

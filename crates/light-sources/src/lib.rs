@@ -25,6 +25,7 @@ mod desc;
 #[cfg(feature = "alloc")]
 mod diffuse_emission;
 mod distant;
+mod flux;
 #[cfg(feature = "alloc")]
 mod goniometric;
 #[cfg(feature = "alloc")]
@@ -73,7 +74,7 @@ mod surface_point;
 mod texture_means;
 mod uniform_infinite;
 
-pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
+pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount, SurfaceAmount};
 #[cfg(feature = "alloc")]
 pub use area::DiffuseAreaLight;
 #[cfg(feature = "alloc")]
@@ -87,6 +88,7 @@ pub use diffuse_emission::{
     DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError, EmissionMask, SurfaceColor,
 };
 pub use distant::{DistantLight, DistantLightDesc, DistantLightError};
+pub use flux::Flux;
 #[cfg(feature = "alloc")]
 pub use goniometric::{GoniometricLight, GoniometricLightDesc, GoniometricLightError};
 #[cfg(feature = "alloc")]

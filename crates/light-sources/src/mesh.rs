@@ -80,7 +80,11 @@ impl<C: ColorModel> MeshLight<C> {
                 return Err(MeshLightError::Uv { vertex });
             }
         }
-        let emission = DiffuseEmission::new(desc.emission).map_err(MeshLightError::Emission)?;
+        let uvs = desc.uvs.as_deref();
+        let triangles = desc.indices.iter();
+        let triangles = triangles.map(|&vertices| triangle(&desc.positions, uvs, vertices));
+        let emission = DiffuseEmission::new(desc.emission, triangles);
+        let emission = emission.map_err(MeshLightError::Emission)?;
         Ok(Self {
             positions: desc.positions,
             indices: desc.indices,
@@ -111,17 +115,20 @@ impl<C: ColorModel> MeshLight<C> {
     #[inline]
     #[must_use]
     pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
-        let vertices = self.indices.get(index)?.map(|vertex| vertex as usize);
-        let p = vertices.map(|vertex| self.positions[vertex]);
-        let uv = match &self.uvs {
-            Some(uvs) => vertices.map(|vertex| uvs[vertex]),
-            None => Triangle::DEFAULT_UV,
-        };
-        Some(DiffuseAreaLight::new(
-            Triangle::from_mesh(p, uv),
-            &self.emission,
-        ))
+        let vertices = *self.indices.get(index)?;
+        let triangle = triangle(&self.positions, self.uvs.as_deref(), vertices);
+        Some(DiffuseAreaLight::new(triangle, &self.emission))
     }
+}
+
+#[inline]
+fn triangle(positions: &[Vec3], uvs: Option<&[Vec2]>, vertices: [u32; 3]) -> Triangle {
+    let vertices = vertices.map(|vertex| vertex as usize);
+    let uv = match uvs {
+        Some(uvs) => vertices.map(|vertex| uvs[vertex]),
+        None => Triangle::DEFAULT_UV,
+    };
+    Triangle::from_mesh(vertices.map(|vertex| positions[vertex]), uv)
 }
 
 impl fmt::Display for MeshLightError {

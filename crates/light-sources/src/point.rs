@@ -56,10 +56,11 @@ impl<C: ColorModel> PointLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: PointLightDesc<C>) -> Result<Self, PointLightError> {
-        let IntensityAmount::Radiometric(scale) = desc.amount;
         if !desc.position.is_finite() {
             return Err(PointLightError::Position);
         }
+        let intensity = C::flux(&desc.emission);
+        let scale = desc.amount.scale(intensity, intensity * (4.0 * PI))?;
         Ok(Self {
             position: desc.position,
             intensity: ScaledEmission::new(desc.emission, scale)?,

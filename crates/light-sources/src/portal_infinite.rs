@@ -74,7 +74,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         desc: PortalInfiniteLightDesc,
         scene: SceneSphere,
     ) -> Result<Self, PortalInfiniteLightError> {
-        let RadianceAmount::Radiometric(scale) = desc.amount;
+        let scale = desc.amount.scale(C::flux_of_texel(Vec3::ONE));
+        let scale = scale.map_err(|_| ImageInfiniteLightError::Amount)?;
         let transform =
             RigidTransform::new(desc.transform).map_err(ImageInfiniteLightError::from)?;
         let sky = desc.map.into_equal_area()?;

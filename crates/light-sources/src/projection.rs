@@ -76,7 +76,6 @@ impl<C: ColorModel> ProjectionLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: ProjectionLightDesc) -> Result<Self, ProjectionLightError> {
-        let IntensityAmount::Radiometric(scale) = desc.amount;
         let transform = RigidTransform::new(desc.transform)?;
         let image = desc.image;
         let [width, height] = image.size().map(|n| n as f32);
@@ -100,6 +99,8 @@ impl<C: ColorModel> ProjectionLight<C> {
         }
         let mean_maximum = maxima.over(f64::from(width) * f64::from(height)).x;
         let power = power.over(1.0);
+        let white = C::flux_of_texel(Vec3::ONE);
+        let scale = desc.amount.scale(white, C::flux_of_texel(power))?;
         if !(scale >= 0.0 && (power * scale).is_finite() && (mean_maximum * scale).is_finite()) {
             return Err(EmissionError::Amount.into());
         }

@@ -1,5 +1,13 @@
 use crate::color::{ColorModel, Radiance};
+use crate::flux::Flux;
 use crate::glam::Vec3;
+use light_math::spectrum::photometric::K_M;
+
+/// The luminance of the primaries of sRGB.
+///
+/// # Source
+/// IEC 61966-2-1, the row Y of the matrix to XYZ.
+const LUMINANCE: Vec3 = Vec3::new(0.212_639, 0.715_168_7, 0.072_192_3);
 
 /// The colour model of linear RGB: three floats for an emission and for a radiance, no wavelengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -58,6 +66,19 @@ impl ColorModel for Rgb {
         emission.is_finite() && emission.cmpge(Vec3::ZERO).all()
     }
 
+    /// White, `(1, 1, 1)`, is one watt, and to the eye as much light as one watt of 555 nm: 683 lm. Other colours of the
+    /// linear sRGB are as many lumens as their luminance says, and as many watts as the mean of their channels.
+    fn flux(emission: &Vec3) -> Flux {
+        Self::flux_of_texel(*emission)
+    }
+
+    fn flux_of_texel(rgb: Vec3) -> Flux {
+        Flux {
+            luminous: K_M * LUMINANCE.dot(rgb),
+            radiant: rgb.average(),
+        }
+    }
+
     fn reference_wavelengths() {}
 
     #[inline]
@@ -69,6 +90,7 @@ impl ColorModel for Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use light_math::spectrum::RgbColorSpace;
 
     #[test]
     fn validity_refuses_what_no_light_emits() {
@@ -84,5 +106,16 @@ mod tests {
         assert_eq!(Rgb::emit(&e, &()), e, "identity");
         assert_eq!(Rgb::maximum(&e), 6.0, "maximum");
         assert_eq!(Rgb::mean(e, &()), 3.0, "mean");
+    }
+
+    #[test]
+    fn luminance_is_that_of_the_colour_space() {
+        let space = RgbColorSpace::srgb();
+        for rgb in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE] {
+            let flux = Rgb::flux(&rgb);
+            let expected = 683.0 * space.luminance(rgb);
+            assert!((flux.luminous - expected).abs() < 0.1, "{rgb}: {flux:?}");
+        }
+        assert_eq!(Rgb::flux(&Vec3::ONE).radiant, 1.0, "white is a watt");
     }
 }

@@ -18,6 +18,8 @@ pub enum EmissionError {
     Emission,
     /// `amount` is negative or not finite, or too large for this emission.
     Amount,
+    /// `amount` is a power or as the eye sees it, of a light that has none: it is black, invisible or without an area.
+    Dark,
 }
 
 impl<C: ColorModel> ScaledEmission<C> {
@@ -54,6 +56,7 @@ impl fmt::Display for EmissionError {
         f.write_str(match self {
             Self::Emission => "emission: must be finite and not negative",
             Self::Amount => "amount: must be finite and not negative",
+            Self::Dark => "amount: a light that is black, invisible or without an area has none",
         })
     }
 }

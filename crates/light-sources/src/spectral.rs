@@ -4,6 +4,7 @@ use light_math::spectrum::{
 };
 
 use crate::color::{ColorModel, Radiance};
+use crate::flux::Flux;
 use crate::glam::Vec3;
 use crate::spectral_emission::SpectralEmission;
 
@@ -62,6 +63,19 @@ impl<const N: usize> ColorModel for Spectral<N> {
 
     fn is_valid(emission: &SpectralEmission) -> bool {
         emission.is_valid()
+    }
+
+    /// The integrals over the spectrum, which is per nm.
+    fn flux(emission: &SpectralEmission) -> Flux {
+        Flux::of_spectrum(emission)
+    }
+
+    fn flux_of_texel(rgb: Vec3) -> Flux {
+        Flux::of_spectrum(&RgbIlluminant::clamped(
+            &UpliftTable::SRGB,
+            Daylight::D65,
+            rgb,
+        ))
     }
 
     /// Spread over the wavelengths that the eye responds to.

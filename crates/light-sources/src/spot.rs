@@ -75,7 +75,6 @@ impl<C: ColorModel> SpotLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: SpotLightDesc<C>) -> Result<Self, SpotLightError> {
-        let IntensityAmount::Radiometric(scale) = desc.amount;
         let transform = RigidTransform::new(desc.transform)?;
         let end = one_minus_cos(desc.angle);
         if !(end > 0.0 && desc.angle > 0.0 && desc.angle <= PI) {
@@ -84,9 +83,13 @@ impl<C: ColorModel> SpotLight<C> {
         if !(desc.falloff_start >= 0.0 && desc.falloff_start <= desc.angle) {
             return Err(SpotLightError::FalloffStart);
         }
+        let start = one_minus_cos(desc.falloff_start);
+        let intensity = C::flux(&desc.emission);
+        let power = intensity * solid_angle(start, end);
+        let scale = desc.amount.scale(intensity, power)?;
         Ok(Self {
             transform,
-            start: one_minus_cos(desc.falloff_start),
+            start,
             end,
             cos_theta_o: cos(desc.falloff_start),
             cos_theta_e: cos(desc.angle - desc.falloff_start),
@@ -116,7 +119,7 @@ impl<C: ColorModel> SpotLight<C> {
 
     /// The solid angle that would hold all power at full intensity.
     fn solid_angle(&self) -> f32 {
-        PI * (self.start + self.end)
+        solid_angle(self.start, self.end)
     }
 }
 
@@ -199,6 +202,11 @@ impl<C: ColorModel> Light<C> for SpotLight<C> {
     fn media(&self) -> MediumInterface {
         self.media
     }
+}
+
+/// The solid angle that would hold all power of a spot at full intensity, from 1 minus the cosines.
+fn solid_angle(start: f32, end: f32) -> f32 {
+    PI * (start + end)
 }
 
 fn one_minus_cos(angle: f32) -> f32 {

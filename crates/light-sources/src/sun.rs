@@ -82,11 +82,12 @@ impl<C: ColorModel> SunLight<C> {
         if !(is_angle && (1.0 / one_minus_cos_theta).is_finite()) {
             return Err(SunLightError::AngularDiameter);
         }
+        let unit = C::flux(&desc.emission);
         let scale = match desc.amount {
-            SunAmount::Radiance(RadianceAmount::Radiometric(radiance)) => radiance,
+            SunAmount::Radiance(radiance) => radiance.scale(unit)?,
             // The integral of the cosine over the disk is pi sin^2.
-            SunAmount::Irradiance(IrradianceAmount::Radiometric(irradiance)) => {
-                irradiance / (PI * sin_theta * sin_theta)
+            SunAmount::Irradiance(irradiance) => {
+                irradiance.scale(unit)? / (PI * sin_theta * sin_theta)
             }
         };
         Ok(Self {

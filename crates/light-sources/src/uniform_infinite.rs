@@ -41,7 +41,7 @@ impl<C: ColorModel> UniformInfiniteLight<C> {
         desc: UniformInfiniteLightDesc<C>,
         scene: SceneSphere,
     ) -> Result<Self, EmissionError> {
-        let RadianceAmount::Radiometric(scale) = desc.amount;
+        let scale = desc.amount.scale(C::flux(&desc.emission))?;
         Ok(Self {
             radiance: ScaledEmission::new(desc.emission, scale)?,
             scene,

@@ -15,6 +15,11 @@ use super::cie::{LAMBDA_MIN, OBSERVER};
 /// The luminous efficacy of a monochromatic light of 555 nm, in lm/W.
 pub const K_M: f32 = 683.0;
 
+/// Radiant power, in W: what the eye does not weigh.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Watt(pub f32);
+
 /// Luminous power, in lm.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -77,6 +82,12 @@ pub fn luminous(spectrum: &impl Spectrum) -> f32 {
     integrals(spectrum).0
 }
 
+/// The integral of a spectral quantity per nm from 360 to 830 nm: W/nm to W, and so on.
+#[must_use]
+pub fn radiant(spectrum: &impl Spectrum) -> f32 {
+    integrals(spectrum).1
+}
+
 /// The luminous efficacy of radiation of a spectrum, in lm/W: 0 without visible light, 683 at most.
 ///
 /// Only what lies between 360 and 830 nm counts as power.
@@ -115,6 +126,7 @@ mod tests {
         let line = DenselySampled::new(values).expect("valid");
         assert_eq!(efficacy(&line), K_M, "683 lm/W");
         assert_eq!(luminous(&line), 2.0 * K_M, "two watts");
+        assert_eq!(radiant(&line), 2.0, "two watts");
     }
 
     #[test]

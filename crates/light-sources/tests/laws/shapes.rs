@@ -139,14 +139,17 @@ fn textures() {
     let texels = (0..48u16).flat_map(|i| [f32::from(i % 5), 1.0, f32::from(i % 3)]);
     let image = Image::from_f32([8, 6], Channels::Rgb, texels.collect::<Vec<_>>());
     let alpha = Image::from_f32([4, 1], Channels::Gray, [1.0, 0.25, 0.0, 0.75]);
-    let emission = DiffuseEmission::<Rgb>::new(DiffuseEmissionDesc {
-        mask: EmissionMask::Alpha(alpha.expect("a mask")),
-        ..DiffuseEmissionDesc::new(
-            SurfaceColor::Image(image.expect("an image")),
-            RadianceAmount::Radiometric(0.5),
-        )
-    });
-    let emission = emission.expect("an emission");
+    let emission = DiffuseEmission::<Rgb>::new(
+        DiffuseEmissionDesc {
+            mask: EmissionMask::Alpha(alpha.expect("a mask")),
+            ..DiffuseEmissionDesc::new(
+                SurfaceColor::Image(image.expect("an image")),
+                RadianceAmount::Radiometric(0.5),
+            )
+        },
+        [] as [AnyShape; 0],
+    );
+    let emission = emission.expect("an emission, the same on all shapes");
     let descs = [
         ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]),
         ShapeDesc::Rectangle {
@@ -186,13 +189,16 @@ fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f
     let shape = desc.build().expect("a shape");
     let (center, radius) = shape.bounds().bounding_sphere();
     for sides in [Sides::Front, Sides::Back, Sides::Both] {
-        let emission = DiffuseEmission::new(DiffuseEmissionDesc::<Rgb> {
-            sides,
-            ..DiffuseEmissionDesc::new(
-                SurfaceColor::Uniform(Vec3::ONE),
-                RadianceAmount::Radiometric(1.5),
-            )
-        });
+        let emission = DiffuseEmission::new(
+            DiffuseEmissionDesc::<Rgb> {
+                sides,
+                ..DiffuseEmissionDesc::new(
+                    SurfaceColor::Uniform(Vec3::ONE),
+                    RadianceAmount::Radiometric(1.5),
+                )
+            },
+            [&shape],
+        );
         let emission = emission.expect("an emission");
         let light = DiffuseAreaLight::new(&shape, &emission);
         let name = format!("{desc:?}, {sides:?}");

@@ -1,0 +1,5 @@
+//! A light that is given in lumens, candelas, nits or lux shines that much, in both colour models.
+
+mod by_intensity;
+mod by_radiance;
+mod model;
