@@ -128,7 +128,7 @@ fn triangle(positions: &[Vec3], uvs: Option<&[Vec2]>, vertices: [u32; 3]) -> Tri
         Some(uvs) => vertices.map(|vertex| uvs[vertex]),
         None => Triangle::DEFAULT_UV,
     };
-    Triangle::from_mesh(vertices.map(|vertex| positions[vertex]), uv)
+    Triangle::from_corners(vertices.map(|vertex| positions[vertex]), uv)
 }
 
 impl fmt::Display for MeshLightError {

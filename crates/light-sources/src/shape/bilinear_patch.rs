@@ -1,6 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
+use super::flat_quad::FlatQuad;
 use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -12,7 +13,7 @@ use light_math::{Aabb, DirectionCone};
 /// A bilinear patch: the surface that a straight line sweeps while its ends run along two opposite sides of any
 /// quadrilateral, planar or not. Its front is the side of the cross product of the derivatives along u and v.
 ///
-/// Points are chosen by area, nearly uniformly.
+/// A flat convex one is chosen from like two triangles; of others points are chosen by area, nearly uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearPatch {
     p00: Vec3,
@@ -23,6 +24,16 @@ pub struct BilinearPatch {
     /// How both change along the other parameter; 0 for a parallelogram.
     duv: Vec3,
     area: f32,
+    bend: Bend,
+}
+
+/// Whether a patch is a part of a plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Bend {
+    /// A flat convex quadrilateral.
+    Flat,
+    /// Anything else.
+    Twisted,
 }
 
 /// Why four points are no patch.
@@ -50,8 +61,10 @@ impl BilinearPatch {
             dv: p01 - p00,
             duv: (p11 - p01) - (p10 - p00),
             area: 0.0,
+            bend: Bend::Twisted,
         };
         patch.area = patch.integrate_area();
+        patch.bend = patch.measure_bend();
         if !(patch.area > 0.0 && patch.area.is_finite()) {
             return Err(BilinearPatchError::Area);
         }
@@ -88,6 +101,29 @@ impl BilinearPatch {
 
     fn pdf_at(&self, uv: Vec2) -> f32 {
         bilinear::pdf(uv, self.weights()) / self.scaled_normal(uv).length()
+    }
+
+    /// Flat where all normals at the corners are the same, up to rounding.
+    fn measure_bend(&self) -> Bend {
+        const TOLERANCE: f32 = 1e-6;
+        let normals = CORNERS.map(|uv| self.scaled_normal(uv).try_normalize());
+        let is_same = |n: Option<Vec3>| {
+            let pair = n.zip(normals[0]);
+            pair.is_some_and(|(a, b)| a.distance(b) <= TOLERANCE)
+        };
+        if normals.into_iter().all(is_same) {
+            Bend::Flat
+        } else {
+            Bend::Twisted
+        }
+    }
+
+    /// The view of a flat patch that is not small.
+    fn flat(&self, ctx: &LightSampleContext) -> Option<FlatQuad> {
+        match self.bend {
+            Bend::Flat => FlatQuad::new(ctx, self.corners()),
+            Bend::Twisted => None,
+        }
     }
 
     /// The integral of the normal's length.
@@ -179,13 +215,19 @@ impl Shape for BilinearPatch {
         self.pdf_at(at.uv)
     }
 
-    /// A point by area, unless another part of the patch hides it.
+    /// Of a patch that is not flat, a point by area, unless another part of the patch hides it.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         const SAME: f32 = 1.0 - 1e-3;
+        if let Some(flat) = self.flat(ctx) {
+            let sample = flat.sample(ctx, u)?;
+            let (uv, _) = self.intersect(ctx.p, sample.wi)?;
+            let at = SurfacePoint { uv, ..sample.at };
+            return Some(DirectionSample { at, ..sample });
+        }
         let ShapeSample { at, pdf } = self.sample(u)?;
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-        let is_hidden = self.duv != Vec3::ZERO
+        let is_hidden = self.bend == Bend::Twisted
             && self
                 .intersect(ctx.p, wi)
                 .is_some_and(|(_, t)| t < SAME * to_light.length());
@@ -193,6 +235,9 @@ impl Shape for BilinearPatch {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        if let Some(flat) = self.flat(ctx) {
+            return flat.pdf(ctx, wi);
+        }
         let pdf = || {
             let (uv, t) = self.intersect(ctx.p, wi)?;
             let at = self.at(uv)?;

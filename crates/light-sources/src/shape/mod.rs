@@ -5,6 +5,7 @@ mod bilinear_patch;
 mod cylinder;
 mod cylinder_view;
 mod disk;
+mod flat_quad;
 mod receiver_cosine;
 mod rectangle;
 mod sphere;

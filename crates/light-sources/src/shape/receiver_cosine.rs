@@ -22,6 +22,12 @@ impl ReceiverCosine {
         Self((!ctx.is_medium()).then(|| points.map(|p| cosine(p).max(SMALLEST))))
     }
 
+    /// The mean cosine over the square, 1 in a medium.
+    pub(super) fn mean(&self) -> f32 {
+        self.0
+            .map_or(1.0, |weights| 0.25 * weights.iter().sum::<f32>())
+    }
+
     /// Where `u` goes, and the density there.
     #[inline]
     pub(super) fn sample(&self, u: Vec2) -> (Vec2, f32) {

@@ -49,8 +49,7 @@ impl Triangle {
     }
 
     /// A triangle that may have no area: it is never sampled then.
-    #[cfg(feature = "alloc")]
-    pub(crate) const fn from_mesh(p: [Vec3; 3], uv: [Vec2; 3]) -> Self {
+    pub(crate) const fn from_corners(p: [Vec3; 3], uv: [Vec2; 3]) -> Self {
         Self { p, uv }
     }
 

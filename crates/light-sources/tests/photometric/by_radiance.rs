@@ -76,7 +76,7 @@ fn surfaces<M: Model>(name: &str) {
         for (sides, count) in [(Sides::Front, 1.0), (Sides::Both, 2.0)] {
             let area = |amount| {
                 light_set(LightDesc::<M>::Area(AreaLightDesc {
-                    shape: shape.clone(),
+                    shape,
                     emission: DiffuseEmissionDesc {
                         sides,
                         mask: mask.clone(),

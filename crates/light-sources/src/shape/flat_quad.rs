@@ -1,0 +1,62 @@
+use super::receiver_cosine::ReceiverCosine;
+use super::{DirectionSample, SMALL, Shape, Triangle};
+use crate::glam::{Vec2, Vec3};
+use light_bounds::LightSampleContext;
+use light_math::float::ONE_MINUS_EPSILON;
+use light_math::solid_angle;
+
+/// A flat convex quadrilateral as it is seen from a point: the two triangles on both sides of a diagonal.
+///
+/// The triangles are chosen in proportion to solid angle times mean cosine, so that the density has no step at the
+/// diagonal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlatQuad {
+    triangles: [Triangle; 2],
+    /// The chance of the first.
+    first: f32,
+}
+
+impl FlatQuad {
+    /// The view from `ctx` of the quadrilateral with the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1); `None`
+    /// where it is so small that area does.
+    pub(super) fn new(ctx: &LightSampleContext, [p00, p10, p01, p11]: [Vec3; 4]) -> Option<Self> {
+        let triangles = [[p00, p10, p11], [p00, p11, p01]];
+        let angles = triangles.map(|t| solid_angle::triangle(t, ctx.p));
+        if !(angles[0] + angles[1] > SMALL) {
+            return None;
+        }
+        let mean_cosine = |[a, b, c]: [Vec3; 3]| ReceiverCosine::new(ctx, [b, b, a, c]).mean();
+        let [first, second] = [0, 1].map(|i| angles[i] * mean_cosine(triangles[i]));
+        Some(Self {
+            triangles: triangles.map(|p| Triangle::from_corners(p, Triangle::DEFAULT_UV)),
+            first: first / (first + second),
+        })
+    }
+
+    /// A direction toward the quadrilateral; the place on it has the parameters of a triangle.
+    pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        let is_first = u.x < self.first;
+        let (triangle, start, chance) = if is_first {
+            (&self.triangles[0], 0.0, self.first)
+        } else {
+            (&self.triangles[1], self.first, 1.0 - self.first)
+        };
+        // What is left of the number is uniform again.
+        let x = ((u.x - start) / chance).min(ONE_MINUS_EPSILON);
+        let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;
+        Some(DirectionSample {
+            pdf: sample.pdf * chance,
+            ..sample
+        })
+    }
+
+    pub(super) fn pdf(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        let [first, second] = &self.triangles;
+        let pdf = first.pdf_toward(ctx, wi);
+        if pdf > 0.0 {
+            pdf * self.first
+        } else {
+            second.pdf_toward(ctx, wi) * (1.0 - self.first)
+        }
+    }
+}
