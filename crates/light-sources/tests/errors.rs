@@ -1,0 +1,271 @@
+//! Descriptions that hold nonsense are refused, by the name of the field.
+
+use light_sources::glam::{Affine3A, Vec3};
+use light_sources::shape::ShapeDesc;
+use light_sources::*;
+
+/// What a set says to a description.
+fn refusal(desc: LightDesc<Rgb>) -> String {
+    let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
+    let error = LightSetBuilder::new(scene).add(desc).err();
+    error.map_or("accepted".to_owned(), |error| error.to_string())
+}
+
+fn image(size: [u32; 2], channels: Channels, value: f32) -> Image {
+    let count = (size[0] * size[1]) as usize * channels.count();
+    Image::from_f32(size, channels, vec![value; count]).expect("an image")
+}
+
+fn flat() -> Affine3A {
+    Affine3A::from_scale(Vec3::new(1.0, 1.0, 0.0))
+}
+
+fn emission() -> DiffuseEmissionDesc<Rgb> {
+    DiffuseEmissionDesc::new(SurfaceColor::Uniform(Vec3::ONE), RadianceAmount::default())
+}
+
+#[test]
+fn shapes() {
+    let transform = Affine3A::IDENTITY;
+    let (nan, inf) = (f32::NAN, f32::INFINITY);
+    let cases = [
+        (
+            ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::NAN]),
+            "triangle, vertices",
+        ),
+        (
+            ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::X * 2.0]),
+            "triangle, vertices",
+        ),
+        (ShapeDesc::Quad([Vec3::ZERO; 4]), "quad, corners"),
+        (
+            ShapeDesc::Quad([Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(inf)]),
+            "quad, corners",
+        ),
+        (
+            ShapeDesc::Rectangle {
+                corner: Vec3::ZERO,
+                edges: [Vec3::X, Vec3::ONE],
+            },
+            "rectangle, edges",
+        ),
+        (
+            ShapeDesc::Rectangle {
+                corner: Vec3::ZERO,
+                edges: [Vec3::X, Vec3::ZERO],
+            },
+            "rectangle, edges",
+        ),
+        (
+            ShapeDesc::Rectangle {
+                corner: Vec3::NAN,
+                edges: [Vec3::X, Vec3::Y],
+            },
+            "rectangle, corner",
+        ),
+        (
+            ShapeDesc::Sphere {
+                transform,
+                radius: 0.0,
+            },
+            "sphere, radius",
+        ),
+        (
+            ShapeDesc::Sphere {
+                transform,
+                radius: nan,
+            },
+            "sphere, radius",
+        ),
+        (
+            ShapeDesc::Sphere {
+                transform: flat(),
+                radius: 1.0,
+            },
+            "transform",
+        ),
+        (
+            ShapeDesc::Disk {
+                transform,
+                radius: -1.0,
+                inner_radius: 0.0,
+            },
+            "disk, radius",
+        ),
+        (
+            ShapeDesc::Disk {
+                transform,
+                radius: 1.0,
+                inner_radius: 1.0,
+            },
+            "disk, inner_radius",
+        ),
+        (
+            ShapeDesc::Cylinder {
+                transform,
+                radius: inf,
+                length: 1.0,
+            },
+            "cylinder, radius",
+        ),
+        (
+            ShapeDesc::Cylinder {
+                transform,
+                radius: 1.0,
+                length: nan,
+            },
+            "cylinder, length",
+        ),
+    ];
+    for (shape, field) in cases {
+        let emission = emission();
+        let said = refusal(LightDesc::Area(AreaLightDesc { shape, emission }));
+        let expected = format!("area light, {field}: ");
+        assert!(said.starts_with(&expected), "{shape:?}: {said}");
+    }
+}
+
+#[test]
+fn emissions() {
+    let shape = ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]);
+    let said = |emission| refusal(LightDesc::Area(AreaLightDesc { shape, emission }));
+    assert_eq!(said(emission()), "accepted", "a triangle");
+    let negative = SurfaceColor::Uniform(Vec3::NEG_X);
+    let negative = DiffuseEmissionDesc::new(negative, RadianceAmount::default());
+    assert!(
+        said(negative).starts_with("area light, emission: "),
+        "negative"
+    );
+    let nan = DiffuseEmissionDesc {
+        amount: RadianceAmount::Radiometric(f32::NAN).into(),
+        ..emission()
+    };
+    assert!(said(nan).starts_with("area light, amount: "), "scale NaN");
+    let bright = DiffuseEmissionDesc::new(
+        SurfaceColor::Image(image([1, 1], Channels::Rgb, 1e30)),
+        RadianceAmount::Radiometric(1e30),
+    );
+    assert!(said(bright).starts_with("area light, amount: "), "overflow");
+    let mask = DiffuseEmissionDesc {
+        mask: EmissionMask::Alpha(image([1, 1], Channels::Gray, 1.5)),
+        ..emission()
+    };
+    assert!(
+        said(mask).starts_with("area light, mask: "),
+        "alpha above 1"
+    );
+}
+
+#[test]
+fn lights_with_pictures() {
+    let goniometric = |transform, distribution| {
+        refusal(LightDesc::Goniometric(GoniometricLightDesc {
+            transform,
+            distribution,
+            emission: Vec3::ONE,
+            amount: IntensityAmount::default(),
+            media: MediumInterface::default(),
+        }))
+    };
+    let square = || image([2, 2], Channels::Gray, 1.0);
+    let said = goniometric(flat(), square());
+    assert!(said.starts_with("goniometric light, transform: "), "{said}");
+    let said = goniometric(Affine3A::IDENTITY, image([2, 1], Channels::Gray, 1.0));
+    assert!(
+        said.starts_with("goniometric light, distribution: "),
+        "not square: {said}"
+    );
+    let said = goniometric(Affine3A::IDENTITY, image([2, 2], Channels::Rgb, 1.0));
+    assert!(
+        said.starts_with("goniometric light, distribution: "),
+        "colours: {said}"
+    );
+
+    let projection = |fov| {
+        refusal(LightDesc::Projection(ProjectionLightDesc {
+            transform: Affine3A::IDENTITY,
+            image: square(),
+            fov,
+            amount: IntensityAmount::default(),
+            media: MediumInterface::default(),
+        }))
+    };
+    for fov in [0.0, core::f32::consts::PI, -1.0, f32::NAN] {
+        let said = projection(fov);
+        assert!(said.starts_with("projection light, fov: "), "{fov}: {said}");
+    }
+
+    let sky = |map, amount| {
+        refusal(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map,
+            amount: RadianceAmount::Radiometric(amount),
+        }))
+    };
+    let said = sky(
+        EnvironmentMap::EqualArea(image([2, 1], Channels::Gray, 1.0)),
+        1.0,
+    );
+    assert!(
+        said.starts_with("image infinite light, map: "),
+        "not square: {said}"
+    );
+    let said = sky(EnvironmentMap::EqualArea(square()), -1.0);
+    assert!(
+        said.starts_with("image infinite light, amount: "),
+        "negative: {said}"
+    );
+
+    let portal = refusal(LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+        transform: Affine3A::IDENTITY,
+        map: EnvironmentMap::EqualArea(square()),
+        amount: RadianceAmount::default(),
+        portal: [Vec3::ZERO, Vec3::Y, Vec3::ONE, Vec3::X],
+    }));
+    assert!(
+        portal.starts_with("portal infinite light, portal: "),
+        "{portal}"
+    );
+}
+
+/// Pictures without light are lights without light.
+#[test]
+fn black_pictures_are_accepted_and_never_sampled() {
+    let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
+    let black = || image([4, 4], Channels::Gray, 0.0);
+    let (transform, amount) = (Affine3A::IDENTITY, RadianceAmount::default());
+    let descs = [
+        LightDesc::<Rgb>::ImageInfinite(ImageInfiniteLightDesc {
+            transform,
+            map: EnvironmentMap::EqualArea(black()),
+            amount,
+        }),
+        LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+            transform,
+            map: EnvironmentMap::EqualArea(black()),
+            amount,
+            portal: [Vec3::ZERO, Vec3::Y, Vec3::X + Vec3::Y, Vec3::X],
+        }),
+        LightDesc::Projection(ProjectionLightDesc {
+            transform,
+            image: black(),
+            fov: 1.0,
+            amount: IntensityAmount::default(),
+            media: MediumInterface::default(),
+        }),
+    ];
+    let mut builder = LightSetBuilder::new(scene);
+    for desc in descs {
+        builder.add(desc).expect("a dark light");
+    }
+    let u = glam::Vec2::splat(0.5);
+    let ctx = light_bounds::LightSampleContext::medium(Vec3::Z * 0.5);
+    let set = builder.build();
+    assert!(set.powers().iter().all(|&power| power == 0.0), "no power");
+    for (id, light) in set.iter() {
+        for coverage in [PdfCoverage::Complete, PdfCoverage::Incomplete] {
+            assert!(light.sample_li(&ctx, u, &(), coverage).is_none(), "{id:?}");
+        }
+        assert!(light.sample_le(u, u, &()).is_none(), "{id:?}");
+    }
+}
