@@ -4,6 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use light_scene::glam::Vec3;
+use light_scene::{Image, write_image};
+
 use light_scene::ChannelFile;
 
 /// A folder of its own for a test, removed at its end.
@@ -293,4 +296,70 @@ fn nonsense_on_the_command_line_is_refused() {
         Some(0),
         "help was asked for"
     );
+}
+
+#[test]
+fn environments_are_cut_and_converted() {
+    let folder = Folder::new("env");
+    let [map, square, back, picture] =
+        ["a.exr", "b.hdr", "c.exr", "d.png"].map(|name| folder.path(name));
+    write_map(&map, 64, 32);
+    let cut = |more: &[&str]| {
+        let args = ["env", "median-cut", &map, "-n", "7", "-o", &picture];
+        stdout(&[&args[..], more].concat())
+    };
+    let line = cut(&[]);
+    let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(report["map"], "lat-long", "{line}");
+    let lights = report["lights"].as_array().expect("lights");
+    let sum: f64 = lights
+        .iter()
+        .filter_map(|l| l["irradiance"][1].as_f64())
+        .sum();
+    // Radiance 1 from everywhere, and 2 from the half above the horizon.
+    assert!(
+        (sum / core::f64::consts::PI / 6.0 - 1.0).abs() < 1e-4,
+        "{sum}"
+    );
+    assert_eq!(lights.len(), 7, "{line}");
+    let csv = cut(&["--csv", "--centroid", "squared", "--sums", "pyramid"]);
+    assert_eq!(csv.lines().count(), 8, "a head and seven lights: {csv}");
+    assert!(Path::new(&picture).exists(), "drawn");
+
+    stdout(&["env", "convert", &map, &square]);
+    stdout(&["env", "convert", &square, &back]);
+    stdout(&[
+        "compare",
+        &back,
+        &map,
+        "--max-relmse",
+        "0.01",
+        "--max-bias",
+        "0.02",
+    ]);
+    assert_eq!(
+        folder.names(),
+        ["a.exr", "b.hdr", "c.exr", "d.png"],
+        "no more"
+    );
+
+    let odd = folder.path("odd.exr");
+    write_map(&odd, 5, 3);
+    assert_refused(
+        &["env", "convert", &odd, &back],
+        &["odd.exr", "2:1", "5 x 3"],
+    );
+    assert_refused(&["env", "median-cut", &map, "-n", "0"], &["-n", "0"]);
+    let forced = ["env", "median-cut", &map, "-n", "2", "--map", "equal-area"];
+    assert_refused(&forced, &["square", "64 x 32"]);
+    let folder_missing = folder.path("missing/e.png");
+    assert_refused(&["env", "convert", &map, &folder_missing], &["missing"]);
+}
+
+/// A map of radiance 2 in its upper half and 1 below.
+fn write_map(path: &str, width: u32, height: u32) {
+    let row = |y: u32| if y < height / 2 { 2.0 } else { 1.0 };
+    let texels = (0..height).flat_map(|y| (0..width).map(move |_| Vec3::splat(row(y))));
+    let map = Image::new(width, height, texels.collect()).expect("an image");
+    write_image(Path::new(path), &map).expect("written");
 }

@@ -26,7 +26,7 @@ pub use camera::{Camera, CameraError, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
-    write_image, write_png,
+    write_hdr, write_image, write_png,
 };
 pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;

@@ -3,6 +3,10 @@
 mod arguments;
 mod bench;
 mod compare;
+mod env;
+mod env_convert;
+mod env_median_cut;
+mod env_regions;
 mod failure;
 mod info;
 mod merge;
@@ -31,6 +35,7 @@ struct Program {
 enum Command {
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
+    Env(env::EnvArgs),
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
     Render(render::RenderArgs),
@@ -45,6 +50,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match program.command {
         Some(Command::Bench(args)) => args.run().map_err(Failure::input),
         Some(Command::Compare(args)) => args.run(),
+        Some(Command::Env(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),
         Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),

@@ -3,8 +3,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use ::image::codecs::hdr::HdrEncoder;
 use ::image::codecs::png::PngEncoder;
-use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader};
+use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgb};
 
 use super::{Image, ImageFile, checked, srgb};
 use crate::glam::Vec3;
@@ -39,6 +40,19 @@ pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     let encoder = PngEncoder::new(&mut bytes);
     let (width, height) = (image.width(), image.height());
     let written = encoder.write_image(&encoded, width, height, ExtendedColorType::Rgb8);
+    written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
+    write_whole(path, &bytes)
+}
+
+/// Writes a Radiance HDR (RGBE) file: 8 bits a channel under a common exponent.
+///
+/// # Errors
+/// When the file cannot be written; nothing is left behind then.
+pub fn write_hdr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    let texels: Vec<Rgb<f32>> = image.texels().iter().map(|t| Rgb(t.to_array())).collect();
+    let mut bytes = Vec::new();
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let written = HdrEncoder::new(&mut bytes).encode(&texels, width, height);
     written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
     write_whole(path, &bytes)
 }

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::display::{read_hdr, read_png};
 use super::openexr::read_exr;
-use super::{Image, write_exr, write_png};
+use super::{Image, write_exr, write_hdr, write_png};
 use crate::Diagnostic;
 
 /// An image as it came from a file.
@@ -31,17 +31,18 @@ pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
     }
 }
 
-/// Writes an image by the ending of its name: `.exr` (float32 linear RGB) or `.png` (8-bit sRGB).
+/// Writes an image by the ending of its name: `.exr` (float32 linear RGB), `.hdr` (RGBE) or `.png` (8-bit sRGB).
 ///
 /// # Errors
 /// When the ending is another, or the file cannot be written; nothing is left behind then.
 pub fn write_image(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     match ending(path).as_str() {
         "exr" => write_exr(path, image),
+        "hdr" => write_hdr(path, image),
         "png" => write_png(path, image),
         _ => Err(Diagnostic::file(
             path,
-            "expected an image to write: .exr or .png",
+            "expected an image to write: .exr, .hdr or .png",
         )),
     }
 }

@@ -15,7 +15,7 @@ use crate::glam::Vec3;
 
 pub use channels::ChannelFile;
 use checked::checked;
-pub use display::write_png;
+pub use display::{write_hdr, write_png};
 pub use file::{ImageFile, read_image, write_image};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 

@@ -23,6 +23,20 @@ fn sizes_must_fit() {
 }
 
 #[test]
+fn hdr_keeps_eight_bits_of_a_wide_range() {
+    let folder = TestFolder::new("hdr");
+    let path = folder.path("a.hdr");
+    let texels = vec![Vec3::new(1e4, 2e3, 8e3), Vec3::ZERO, Vec3::splat(1e-3)];
+    let image = Image::new(3, 1, texels).expect("an image");
+    write_image(&path, &image).expect("written");
+    let read = read_image(&path).expect("an image").image;
+    for (&a, &b) in image.texels().iter().zip(read.texels()) {
+        let off = (a - b).abs().max_element();
+        assert!(off <= a.max_element() / 128.0, "{a} came back as {b}");
+    }
+}
+
+#[test]
 fn exr_keeps_every_bit_and_writes_the_same_bytes() {
     let folder = TestFolder::new("exr");
     let (a, b) = (folder.path("a.exr"), folder.path("b.EXR"));
@@ -99,7 +113,7 @@ fn broken_files_give_one_clear_line() {
     assert!(missing.message.starts_with("cannot be read: "), "{missing}");
     let error = write_image(Path::new("a.gif"), &picture()).expect_err("an error");
     assert_eq!(
-        error.message, "expected an image to write: .exr or .png",
+        error.message, "expected an image to write: .exr, .hdr or .png",
         "ending"
     );
 }
