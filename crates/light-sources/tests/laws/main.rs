@@ -10,6 +10,7 @@ mod at_points;
 mod extremes;
 mod portals;
 mod shapes;
+mod spectral;
 
 use light_sources::SceneSphere;
 use light_sources::glam::Vec3;

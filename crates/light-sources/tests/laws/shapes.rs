@@ -213,7 +213,10 @@ fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f
             shape,
             AnyShape::Triangle(_) | AnyShape::Rectangle(_) | AnyShape::Disk(_)
         );
-        li_follows_its_density(&case, |p| cap_around(p, corners), radiance);
+        // Which sides shine does not change the density.
+        if sides == Sides::Both {
+            li_follows_its_density(&case, |p| cap_around(p, corners), radiance);
+        }
         li_adds_up(&case, |p| cap_around(p, corners), radiance);
         le_adds_up_to_phi(&case);
         if is_convex {
