@@ -31,6 +31,8 @@ mod goniometric;
 #[cfg(feature = "alloc")]
 mod image;
 #[cfg(feature = "alloc")]
+mod image_error;
+#[cfg(feature = "alloc")]
 mod image_infinite;
 mod kind;
 mod light;
@@ -92,7 +94,9 @@ pub use flux::Flux;
 #[cfg(feature = "alloc")]
 pub use goniometric::{GoniometricLight, GoniometricLightDesc, GoniometricLightError};
 #[cfg(feature = "alloc")]
-pub use image::{Channels, Image, ImageError};
+pub use image::{Channels, Image};
+#[cfg(feature = "alloc")]
+pub use image_error::ImageError;
 #[cfg(feature = "alloc")]
 pub use image_infinite::{
     EnvironmentMap, ImageInfiniteLight, ImageInfiniteLightDesc, ImageInfiniteLightError,

@@ -1,7 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::glam::Vec3;
-use crate::image::{Image, ImageError};
+use crate::image::Image;
+use crate::image_error::ImageError;
 use crate::rgb_sum::RgbSum;
 use light_math::float::sin;
 use light_math::{Resampler, SphereImage, SphereImageError, SphereMap};
