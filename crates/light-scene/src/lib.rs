@@ -15,6 +15,7 @@ pub mod light_set;
 mod material;
 mod mesh;
 mod obj;
+mod pbrt;
 mod scene;
 #[cfg(test)]
 mod test_folder;
@@ -31,5 +32,6 @@ pub use image::{
 pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::read_obj;
+pub use pbrt::read_pbrt;
 pub use scene::{ImageId, MaterialId, Scene};
 pub use write_whole::write_whole;

@@ -1,7 +1,7 @@
 use lights::math::Aabb;
 
 use crate::MaterialId;
-use crate::glam::{Vec2, Vec3};
+use crate::glam::{Affine3A, Vec2, Vec3};
 
 /// Triangles of one material.
 ///
@@ -81,6 +81,51 @@ impl Mesh {
         let triangles = (0..self.indices.len()).map(|index| self.triangle(index));
         let doubled = triangles.map(|[a, b, c]| (b - a).cross(c - a).length());
         0.5 * doubled.sum::<f32>()
+    }
+
+    /// The mesh moved by `place`; what was in front of a triangle stays in front, mirrored or not.
+    #[must_use]
+    pub fn transformed(&self, place: &Affine3A) -> Self {
+        let normal_matrix = place.matrix3.inverse().transpose();
+        let mut mesh = self.clone();
+        for position in &mut mesh.positions {
+            *position = place.transform_point3(*position);
+        }
+        for normal in mesh.normals.iter_mut().flatten() {
+            *normal = (normal_matrix * *normal).normalize_or_zero();
+        }
+        if place.matrix3.determinant() < 0.0 {
+            mesh.turn_triangles();
+        }
+        mesh
+    }
+
+    /// Turns fronts into backs.
+    pub fn turn_over(&mut self) {
+        self.turn_triangles();
+        for normal in self.normals.iter_mut().flatten() {
+            *normal = -*normal;
+        }
+    }
+
+    /// Turns every triangle so that its front is where its normals point, if it has normals.
+    pub(crate) fn align_with_normals(&mut self) {
+        let Some(normals) = &self.normals else {
+            return;
+        };
+        for triangle in &mut self.indices {
+            let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
+            let normal: Vec3 = triangle.iter().map(|&i| normals[i as usize]).sum();
+            if (b - a).cross(c - a).dot(normal) < 0.0 {
+                triangle.swap(1, 2);
+            }
+        }
+    }
+
+    fn turn_triangles(&mut self) {
+        for [_, b, c] in &mut self.indices {
+            core::mem::swap(b, c);
+        }
     }
 
     /// The index that the next vertex gets.

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image, read_obj};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image, read_obj, read_pbrt};
 use lights::glam::Affine3A;
 
 use super::arguments::Emit;
@@ -11,7 +11,7 @@ use super::failure::Failure;
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
 pub(crate) struct SceneInput {
-    /// The scene: an .obj file, or the name of a scene that ships.
+    /// The scene: an .obj or .pbrt file, or the name of a scene that ships.
     pub(crate) scene: PathBuf,
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
@@ -65,12 +65,13 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
     let refuse = |message: String| Failure::input(Diagnostic::file(path, message));
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("obj") => read_obj(path).map_err(Failure::input),
-        Some(_) => Err(refuse("expected a scene file: .obj".into())),
+        Some("pbrt") => read_pbrt(path).map_err(Failure::input),
+        Some(_) => Err(refuse("expected a scene file: .obj or .pbrt".into())),
         None => {
             let shipped = path.to_string_lossy().parse::<BuiltinScene>();
-            shipped
-                .map(BuiltinScene::load)
-                .map_err(|error| refuse(format!("expected a scene file, .obj; or {error}")))
+            shipped.map(BuiltinScene::load).map_err(|error| {
+                refuse(format!("expected a scene file, .obj or .pbrt; or {error}"))
+            })
         }
     }
 }

@@ -1,0 +1,284 @@
+use std::path::Path;
+
+use super::state::{At, Reader, Typed};
+use super::tokens::{Token, Tokens};
+use crate::glam::{Affine3A, Mat4, Vec3};
+use crate::text::{read_text, shown};
+use crate::{Camera, Diagnostic, Lens};
+
+/// Files that include each other deeper than this include themselves.
+const DEEPEST: usize = 32;
+
+impl Reader {
+    /// Carries out all directives of a file.
+    pub(super) fn file(&mut self, path: &Path, text: &str, depth: usize) -> Result<(), Diagnostic> {
+        let mut tokens = Tokens::new(path, text);
+        while let Some(token) = tokens.next()? {
+            let Token::Word(directive) = token else {
+                return Err(tokens.expected("a directive", Some(&token)));
+            };
+            if matches!(directive, "Include" | "Import") {
+                let name = tokens.quoted("a file name")?.into_owned();
+                if depth == DEEPEST {
+                    return Err(tokens.diagnostic("expected a file that does not include itself"));
+                }
+                let file = path.with_file_name(name);
+                let text =
+                    read_text(&file).map_err(|error| tokens.diagnostic(error.to_string()))?;
+                self.file(&file, &text, depth + 1)?;
+            } else {
+                self.directive(path, &mut tokens, directive)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn directive(
+        &mut self,
+        path: &Path,
+        tokens: &mut Tokens<'_>,
+        directive: &str,
+    ) -> Result<(), Diagnostic> {
+        let at = At {
+            path,
+            line: tokens.line(),
+        };
+        match directive {
+            "AttributeBegin" => self.saved.push(self.state.clone()),
+            "AttributeEnd" => {
+                let saved = self.saved.pop();
+                self.state = saved.ok_or_else(|| unmatched(at, "AttributeBegin"))?;
+            }
+            "TransformBegin" => self.saved_transforms.push(self.state.transform),
+            "TransformEnd" => {
+                let saved = self.saved_transforms.pop();
+                self.state.transform = saved.ok_or_else(|| unmatched(at, "TransformBegin"))?;
+            }
+            "WorldBegin" => {
+                self.in_world = true;
+                self.state.transform = Mat4::IDENTITY;
+            }
+            "ObjectBegin" => {
+                let name = tokens.quoted("an object's name")?.into_owned();
+                self.saved.push(self.state.clone());
+                self.object = Some((name, Vec::new()));
+            }
+            "ObjectEnd" => {
+                let (name, meshes) = self
+                    .object
+                    .take()
+                    .ok_or_else(|| unmatched(at, "ObjectBegin"))?;
+                self.objects.insert(name, meshes);
+                let saved = self.saved.pop();
+                self.state = saved.ok_or_else(|| unmatched(at, "ObjectBegin"))?;
+            }
+            "ObjectInstance" => {
+                let name = tokens.quoted("an object's name")?;
+                self.instance(at, &name)?;
+            }
+            "ReverseOrientation" => self.state.reversed ^= true,
+            "NamedMaterial" => {
+                let name = tokens.quoted("a material's name")?;
+                let known = self.materials.get(name.as_ref()).copied();
+                let message = || format!("expected a named material, found \"{}\"", shown(&name));
+                self.state.material = Some(known.ok_or_else(|| at.diagnostic(message()))?);
+            }
+            "MediumInterface" => {
+                tokens.quoted("a medium's name")?;
+                if matches!(tokens.peek()?, Some(Token::Quoted(_))) {
+                    tokens.next()?;
+                }
+                self.warn(at, "`MediumInterface`", "was ignored: media are not read");
+            }
+            "Option" => {
+                super::parameters::Parameters::read(tokens)?;
+                self.warn(at, "`Option`", "was ignored");
+            }
+            "Texture" => self.texture(path, tokens)?,
+            _ if self.transform_directive(at, tokens, directive)? => {}
+            _ => self.typed_directive(path, tokens, directive)?,
+        }
+        Ok(())
+    }
+
+    /// The directives that change the transform; whether it was one.
+    fn transform_directive(
+        &mut self,
+        at: At<'_>,
+        tokens: &mut Tokens<'_>,
+        directive: &str,
+    ) -> Result<bool, Diagnostic> {
+        let now = self.state.transform;
+        self.state.transform = match directive {
+            "Identity" => Mat4::IDENTITY,
+            "Translate" => now * Mat4::from_translation(Vec3::from(tokens.numbers("a distance")?)),
+            "Scale" => now * Mat4::from_scale(Vec3::from(tokens.numbers("a factor")?)),
+            "Rotate" => {
+                let [angle, x, y, z] = tokens.numbers("an angle and an axis")?;
+                let axis = Vec3::new(x, y, z).try_normalize();
+                let axis =
+                    axis.ok_or_else(|| at.diagnostic("expected an axis other than 0 0 0"))?;
+                now * Mat4::from_axis_angle(axis, angle.to_radians())
+            }
+            "LookAt" => {
+                let [ex, ey, ez, tx, ty, tz, ux, uy, uz] = tokens.numbers("nine coordinates")?;
+                let (eye, target) = (Vec3::new(ex, ey, ez), Vec3::new(tx, ty, tz));
+                // Left-handed: x to the right, y up, z into the scene.
+                now * look_at(eye, target, Vec3::new(ux, uy, uz)).ok_or_else(|| {
+                    at.diagnostic("expected two points, and an up vector not along the view")
+                })?
+            }
+            // Files list matrices column by column.
+            "Transform" => Mat4::from_cols_array(&tokens.numbers("sixteen numbers")?),
+            "ConcatTransform" => now * Mat4::from_cols_array(&tokens.numbers("sixteen numbers")?),
+            "CoordinateSystem" => {
+                let name = tokens.quoted("a name")?.into_owned();
+                self.coordinates.insert(name, now);
+                now
+            }
+            "CoordSysTransform" => {
+                let name = tokens.quoted("a name")?;
+                let known = self.coordinates.get(name.as_ref()).copied();
+                let message =
+                    || format!("expected a coordinate system, found \"{}\"", shown(&name));
+                known.ok_or_else(|| at.diagnostic(message()))?
+            }
+            _ => return Ok(false),
+        };
+        if self.state.transform.is_finite() && self.state.transform.determinant() != 0.0 {
+            return Ok(true);
+        }
+        Err(at.diagnostic("expected a transform that can be inverted"))
+    }
+
+    /// The directives with a type in quotes and parameters.
+    fn typed_directive(
+        &mut self,
+        path: &Path,
+        tokens: &mut Tokens<'_>,
+        directive: &str,
+    ) -> Result<(), Diagnostic> {
+        match directive {
+            "Camera" | "Film" | "Shape" | "LightSource" | "AreaLightSource" | "Material"
+            | "MakeNamedMaterial" | "Sampler" | "Integrator" | "Accelerator" | "PixelFilter"
+            | "ColorSpace" | "MakeNamedMedium" | "Attribute" => {}
+            other => {
+                let message = format!("expected a directive, found `{}`", shown(other));
+                return Err(tokens.diagnostic(message));
+            }
+        }
+        let typed = Typed::read(path, tokens)?;
+        let at = typed.at;
+        match directive {
+            "Camera" => self.set_camera(&typed)?,
+            "Film" => self.film(&typed),
+            "Shape" => self.shape(&typed)?,
+            "LightSource" => self.light(&typed)?,
+            "AreaLightSource" => self.area_light(&typed)?,
+            "Material" => {
+                let material = self.make_material(&typed.kind, &typed)?;
+                self.state.material = Some(material);
+            }
+            "MakeNamedMaterial" => {
+                let kind = typed
+                    .parameters
+                    .string("type")
+                    .unwrap_or("diffuse")
+                    .to_owned();
+                let material = self.make_material(&kind, &typed)?;
+                self.materials.insert(typed.kind, material);
+                return Ok(());
+            }
+            _ => {
+                self.warn(at, &format!("`{directive}`"), "was ignored");
+                return Ok(());
+            }
+        }
+        let name = format!("{directive} \"{}\"", typed.kind);
+        self.warn_unused(at, &name, &typed.parameters);
+        Ok(())
+    }
+
+    fn set_camera(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed {
+            at,
+            kind,
+            parameters,
+        } = typed;
+        if kind != "perspective" {
+            self.warn(
+                *at,
+                &format!("Camera \"{kind}\""),
+                "was taken as perspective",
+            );
+        }
+        let to_world = self.state.transform.inverse();
+        self.coordinates.insert("camera".to_owned(), to_world);
+        let fov = parameters.number_or("fov", 90.0).to_radians();
+        if !(fov > 0.0 && fov < core::f32::consts::PI) {
+            return Err(at.diagnostic("expected a fov between 0 and 180 degrees"));
+        }
+        let radius = parameters.number_or("lensradius", 0.0);
+        let focus_distance = parameters.number_or("focaldistance", 1e6);
+        let axis = |v: Vec3| to_world.transform_vector3(v).normalize_or(v);
+        self.camera = Some(Camera {
+            position: to_world.transform_point3(Vec3::ZERO),
+            right: axis(Vec3::X),
+            up: axis(Vec3::Y),
+            forward: axis(Vec3::Z),
+            fov,
+            lens: (radius > 0.0).then_some(Lens {
+                radius,
+                focus_distance,
+            }),
+            resolution: None,
+            exposure: None,
+        });
+        Ok(())
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to what an image may have"
+    )]
+    fn film(&mut self, typed: &Typed<'_>) {
+        // Where the image goes is said on the command line.
+        typed.parameters.accept("filename");
+        let size = |name, default| {
+            let pixels = typed.parameters.number_or(name, default);
+            pixels.clamp(1.0, 65536.0) as u32
+        };
+        self.resolution = Some([size("xresolution", 1280.0), size("yresolution", 720.0)]);
+    }
+
+    fn instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
+        let message = || format!("expected an object's name, found \"{}\"", shown(name));
+        let meshes = self
+            .objects
+            .get(name)
+            .ok_or_else(|| at.diagnostic(message()))?;
+        let place = Affine3A::from_mat4(self.state.transform);
+        let placed: Vec<_> = meshes.iter().map(|mesh| mesh.transformed(&place)).collect();
+        self.scene.meshes.extend(placed);
+        Ok(())
+    }
+}
+
+fn unmatched(at: At<'_>, begin: &str) -> Diagnostic {
+    at.diagnostic(format!("expected `{begin}` before"))
+}
+
+/// From the world to a camera at `eye`.
+fn look_at(eye: Vec3, target: Vec3, up: Vec3) -> Option<Mat4> {
+    let forward = (target - eye).try_normalize()?;
+    let right = up.try_normalize()?.cross(forward).try_normalize()?;
+    let up = forward.cross(right);
+    let to_world = Mat4::from_cols(
+        right.extend(0.0),
+        up.extend(0.0),
+        forward.extend(0.0),
+        eye.extend(1.0),
+    );
+    Some(to_world.inverse())
+}

@@ -1,0 +1,187 @@
+use core::f32::consts::{FRAC_1_PI, PI};
+
+use lights::sources::{
+    DistantLightDesc, EnvironmentMap, ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount,
+    LightDesc, MediumInterface, PointLightDesc, PortalInfiniteLightDesc, ProjectionLightDesc,
+    RadianceAmount, SpotLightDesc, UniformInfiniteLightDesc,
+};
+
+use super::state::{AreaLight, At, Reader, Typed};
+use super::textures::scaled;
+use crate::glam::{Affine3A, Quat, Vec3};
+use crate::{Color, Diagnostic, read_image};
+
+impl Reader {
+    pub(super) fn light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed {
+            at,
+            kind,
+            parameters,
+        } = typed;
+        let at = *at;
+        let place = Affine3A::from_mat4(self.state.transform);
+        let from = place.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
+        let to = place.transform_point3(parameters.vec3_or("to", Vec3::Z));
+        let scale = parameters.number_or("scale", 1.0);
+        let media = MediumInterface::default();
+        let light = match kind.as_str() {
+            "point" => LightDesc::Point(PointLightDesc {
+                position: from,
+                emission: self.emission(typed, "I") * with_power(typed, scale, 4.0 * PI),
+                amount: IntensityAmount::default(),
+                media,
+            }),
+            "spot" => {
+                let angle = parameters.number_or("coneangle", 30.0);
+                let delta = parameters.number_or("conedeltaangle", 5.0);
+                let (angle, start) = (angle.to_radians(), (angle - delta).to_radians());
+                let axis = (to - from).try_normalize();
+                let axis = axis.ok_or_else(|| at.diagnostic("expected `from` and `to` apart"))?;
+                let solid_angle = PI * (2.0 - angle.cos() - start.cos());
+                LightDesc::Spot(SpotLightDesc {
+                    transform: Affine3A::from_rotation_translation(
+                        Quat::from_rotation_arc(Vec3::Z, axis),
+                        from,
+                    ),
+                    angle,
+                    falloff_start: start,
+                    emission: self.emission(typed, "I") * with_power(typed, scale, solid_angle),
+                    amount: IntensityAmount::default(),
+                    media,
+                })
+            }
+            "distant" => LightDesc::Distant(DistantLightDesc {
+                direction: from - to,
+                emission: self.emission(typed, "L") * with_illuminance(typed, scale, 1.0),
+                amount: IrradianceAmount::default(),
+            }),
+            "projection" => LightDesc::Projection(ProjectionLightDesc {
+                transform: place,
+                image: self.light_image(typed)?,
+                fov: parameters.number_or("fov", 90.0).to_radians(),
+                amount: IntensityAmount::Radiometric(scale),
+                media,
+            }),
+            "infinite" => self.infinite(typed, place, scale)?,
+            other => {
+                let what = format!("LightSource \"{other}\"");
+                self.warn(at, &what, "is not understood and was left out");
+                return Ok(());
+            }
+        };
+        self.scene.lights.push(light);
+        Ok(())
+    }
+
+    fn infinite(
+        &mut self,
+        typed: &Typed<'_>,
+        transform: Affine3A,
+        scale: f32,
+    ) -> Result<LightDesc<lights::sources::Rgb>, Diagnostic> {
+        let parameters = &typed.parameters;
+        if !parameters.has("filename") {
+            return Ok(LightDesc::UniformInfinite(UniformInfiniteLightDesc {
+                emission: self.emission(typed, "L") * with_illuminance(typed, scale, PI),
+                amount: RadianceAmount::default(),
+            }));
+        }
+        let image = self.light_image(typed)?;
+        if image.size()[0] != image.size()[1] {
+            let message = "expected a square, equal-area image for an infinite light";
+            return Err(typed.at.diagnostic(message));
+        }
+        let map = EnvironmentMap::EqualArea(image);
+        let amount = RadianceAmount::Radiometric(scale);
+        let Some(portal) = parameters.vec3s("portal") else {
+            return Ok(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+                transform,
+                map,
+                amount,
+            }));
+        };
+        let [a, b, c, d] = portal[..] else {
+            return Err(typed.at.diagnostic("expected four corners of a portal"));
+        };
+        let portal = [a, b, c, d].map(|corner| transform.transform_point3(corner));
+        Ok(LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+            transform,
+            map,
+            amount,
+            portal,
+        }))
+    }
+
+    pub(super) fn area_light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed {
+            at,
+            kind,
+            parameters,
+        } = typed;
+        if kind != "diffuse" {
+            let what = format!("AreaLightSource \"{kind}\"");
+            self.warn(*at, &what, "was taken as diffuse");
+        }
+        let scale = Vec3::splat(parameters.number_or("scale", 1.0));
+        let radiance = match parameters.string("filename") {
+            Some(file) => self.image(*at, file, scale)?,
+            None => scaled(Color::Constant(self.emission(typed, "L")), scale),
+        };
+        self.state.area_light = Some(AreaLight {
+            radiance,
+            two_sided: parameters.is_true("twosided"),
+            power: parameters.number("power"),
+        });
+        Ok(())
+    }
+
+    /// The colour of a light, white if the file says nothing.
+    fn emission(&mut self, typed: &Typed<'_>, name: &str) -> Vec3 {
+        let emission = typed.parameters.emission(name);
+        if emission.is_none() && typed.parameters.has(name) {
+            let what = format!("the spectrum of `{name}`");
+            self.warn(typed.at, &what, "is not understood and was taken as white");
+        }
+        emission.unwrap_or(Vec3::ONE)
+    }
+
+    fn light_image(&mut self, typed: &Typed<'_>) -> Result<lights::sources::Image, Diagnostic> {
+        let At { path, .. } = typed.at;
+        let name = typed.parameters.string("filename");
+        let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
+        let file = read_image(&path.with_file_name(name));
+        let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
+        self.scene.warnings.extend(file.warning);
+        let image = file.image.to_light(Vec3::ONE);
+        image.map_err(|error| typed.at.diagnostic(error.to_string()))
+    }
+}
+
+/// The factor of the emission that gives the stated power over this effective solid angle, or `scale`.
+fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
+    let power = typed.parameters.number("power");
+    power.map_or(scale, |power| {
+        scale * power / (solid_angle * luminance(typed, "I"))
+    })
+}
+
+/// The factor of the emission that gives the stated illuminance, where emission 1 gives `of_one`, or `scale`.
+fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
+    let asked = typed.parameters.number("illuminance");
+    asked.map_or(scale, |asked| {
+        scale * asked / (of_one * luminance(typed, "L"))
+    })
+}
+
+fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
+    let rgb = typed.parameters.emission(name).unwrap_or(Vec3::ONE);
+    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// The scale of an emitting surface that gives its stated power.
+pub(super) fn area_scale(light: &AreaLight, mean: Vec3, area: f32) -> f32 {
+    let sides = if light.two_sided { 2.0 } else { 1.0 };
+    let luminance = mean.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    let factor = |power: f32| power * FRAC_1_PI / (area * sides * luminance);
+    light.power.map_or(1.0, factor)
+}

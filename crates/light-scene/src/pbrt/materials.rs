@@ -1,0 +1,127 @@
+use super::state::{Reader, Typed};
+use crate::glam::{Vec2, Vec3};
+use crate::{Color, Diagnostic, Material, MaterialId, Surface};
+
+/// Metals by the names of their spectra: index of refraction and absorption for red, green and blue light.
+const METALS: [(&str, [f32; 3], [f32; 3]); 4] = [
+    ("metal-Ag", [0.155, 0.117, 0.138], [4.828, 3.122, 2.147]),
+    ("metal-Al", [1.657, 0.880, 0.521], [9.224, 6.270, 4.837]),
+    ("metal-Au", [0.143, 0.375, 1.442], [3.983, 2.386, 1.603]),
+    ("metal-Cu", [0.200, 0.924, 1.102], [3.912, 2.452, 2.142]),
+];
+
+impl Reader {
+    /// A material of this kind with the parameters of `typed`.
+    pub(super) fn make_material(
+        &mut self,
+        kind: &str,
+        typed: &Typed<'_>,
+    ) -> Result<MaterialId, Diagnostic> {
+        let parameters = &typed.parameters;
+        let eta = |default: f32| match parameters.string("eta") {
+            Some(glass) => named_glass(glass).unwrap_or(default),
+            None => parameters.number_or("eta", default),
+        };
+        let surface = match kind {
+            "diffuse" => Surface::Diffuse {
+                reflectance: self.color(typed, "reflectance", 0.5),
+            },
+            "diffusetransmission" => Surface::DiffuseTransmission {
+                reflectance: self.color(typed, "reflectance", 0.25),
+                transmittance: self.color(typed, "transmittance", 0.25),
+            },
+            "coateddiffuse" => Surface::CoatedDiffuse {
+                reflectance: self.color(typed, "reflectance", 0.5),
+                eta: eta(1.5),
+                alpha: alpha(typed),
+            },
+            "dielectric" => Surface::Dielectric {
+                eta: eta(1.5),
+                alpha: alpha(typed),
+            },
+            "thindielectric" => Surface::ThinDielectric { eta: eta(1.5) },
+            "conductor" => self.conductor(typed),
+            "interface" | "" => Surface::Interface,
+            other => {
+                let what = format!("material \"{other}\"");
+                self.warn(
+                    typed.at,
+                    &what,
+                    "is not understood and was taken as diffuse",
+                );
+                Surface::Diffuse {
+                    reflectance: self.color(typed, "reflectance", 0.5),
+                }
+            }
+        };
+        self.warn_unused(typed.at, &format!("material \"{kind}\""), parameters);
+        Ok(self.scene.add_material(Material::new(kind, surface)))
+    }
+
+    fn conductor(&mut self, typed: &Typed<'_>) -> Surface {
+        let parameters = &typed.parameters;
+        let alpha = alpha(typed);
+        if parameters.has("reflectance") {
+            let reflectance = match self.color(typed, "reflectance", 1.0) {
+                Color::Constant(reflectance) => reflectance,
+                Color::Image(_) => {
+                    self.warn(
+                        typed.at,
+                        "a conductor's textured `reflectance`",
+                        "was taken as 0.9",
+                    );
+                    Vec3::splat(0.9)
+                }
+            };
+            return Surface::conductor_of_reflectance(reflectance, alpha);
+        }
+        let names = [parameters.string("eta"), parameters.string("k")];
+        let numbers = [parameters.reflectance("eta"), parameters.reflectance("k")];
+        if let [Some(eta), Some(k)] = numbers {
+            return Surface::Conductor { eta, k, alpha };
+        }
+        let name = names[0].unwrap_or("metal-Cu-eta");
+        let metal = METALS.iter().find(|(metal, ..)| name.starts_with(metal));
+        let (_, eta, k) = metal.unwrap_or(&METALS[3]);
+        if metal.is_none() {
+            let what = format!("the metal \"{name}\"");
+            self.warn(typed.at, &what, "is not known and was taken as copper");
+        }
+        Surface::Conductor {
+            eta: Vec3::from(*eta),
+            k: Vec3::from(*k),
+            alpha,
+        }
+    }
+}
+
+/// The widths of the microfacet distribution.
+fn alpha(typed: &Typed<'_>) -> Vec2 {
+    let parameters = &typed.parameters;
+    let both = parameters.number_or("roughness", 0.0);
+    let roughness = Vec2::new(
+        parameters.number_or("uroughness", both),
+        parameters.number_or("vroughness", both),
+    );
+    let remapped = parameters.string("remaproughness") != Some("false");
+    let roughness = roughness.max(Vec2::ZERO);
+    if remapped {
+        roughness.map(f32::sqrt)
+    } else {
+        roughness
+    }
+}
+
+/// The index of refraction of a glass at 587.6 nm.
+fn named_glass(name: &str) -> Option<f32> {
+    Some(match name {
+        "glass-BK7" => 1.5168,
+        "glass-BAF10" => 1.6700,
+        "glass-FK51A" => 1.4866,
+        "glass-LASF9" => 1.8503,
+        "glass-F5" | "glass-SF5" => 1.6727,
+        "glass-F10" | "glass-SF10" => 1.7283,
+        "glass-F11" | "glass-SF11" => 1.7847,
+        _ => return None,
+    })
+}

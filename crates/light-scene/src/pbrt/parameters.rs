@@ -1,0 +1,195 @@
+use core::cell::Cell;
+
+use super::spectrum;
+use super::tokens::{Token, Tokens, number_of};
+use crate::Diagnostic;
+use crate::glam::{Vec2, Vec3};
+use crate::text::shown;
+
+/// The parameter list of a directive, which remembers what was asked for.
+#[derive(Debug)]
+pub(super) struct Parameters {
+    list: Vec<Parameter>,
+}
+
+#[derive(Debug)]
+struct Parameter {
+    kind: String,
+    name: String,
+    line: usize,
+    numbers: Vec<f64>,
+    words: Vec<String>,
+    used: Cell<bool>,
+}
+
+impl Parameters {
+    /// Takes all parameters that follow.
+    pub(super) fn read(tokens: &mut Tokens<'_>) -> Result<Self, Diagnostic> {
+        let mut list = Vec::new();
+        while let Some(Token::Quoted(declaration)) = tokens.peek()? {
+            tokens.next()?;
+            let mut words = declaration.split_whitespace();
+            let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
+                let declaration = shown(&declaration);
+                let message = format!("expected \"TYPE NAME\", found \"{declaration}\"");
+                return Err(tokens.diagnostic(message));
+            };
+            let mut parameter = Parameter {
+                kind: kind.to_owned(),
+                name: name.to_owned(),
+                line: tokens.line(),
+                numbers: Vec::new(),
+                words: Vec::new(),
+                used: Cell::new(false),
+            };
+            if tokens.peek()? == Some(Token::Open) {
+                tokens.next()?;
+                loop {
+                    let value = tokens.next()?;
+                    if value == Some(Token::Close) {
+                        break;
+                    }
+                    parameter.push(tokens, value)?;
+                }
+            } else {
+                let value = tokens.next()?;
+                parameter.push(tokens, value)?;
+            }
+            list.push(parameter);
+        }
+        Ok(Self { list })
+    }
+
+    /// Names and lines of the parameters that nobody asked for.
+    pub(super) fn unused(&self) -> impl Iterator<Item = (&str, usize)> {
+        let unused = self.list.iter().filter(|p| !p.used.get());
+        unused.map(|p| (p.name.as_str(), p.line))
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.list.iter().any(|p| p.name == name)
+    }
+
+    /// Marks a parameter as known, though it has no say here.
+    pub(super) fn accept(&self, name: &str) {
+        self.find(name);
+    }
+
+    pub(super) fn number(&self, name: &str) -> Option<f32> {
+        self.find(name)?.numbers.first().map(|&n| single(n))
+    }
+
+    pub(super) fn number_or(&self, name: &str, default: f32) -> f32 {
+        self.number(name).unwrap_or(default)
+    }
+
+    pub(super) fn string(&self, name: &str) -> Option<&str> {
+        self.find(name)?.words.first().map(String::as_str)
+    }
+
+    pub(super) fn is_true(&self, name: &str) -> bool {
+        self.string(name) == Some("true")
+    }
+
+    /// The name of the texture that a parameter refers to.
+    pub(super) fn texture(&self, name: &str) -> Option<&str> {
+        let parameter = self.find(name).filter(|p| p.kind == "texture")?;
+        parameter.words.first().map(String::as_str)
+    }
+
+    /// Whole numbers of at least 0.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked to be whole and in range"
+    )]
+    pub(super) fn indices(&self, name: &str) -> Option<Vec<u32>> {
+        let whole = |&n: &f64| {
+            (n >= 0.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0).then_some(n as u32)
+        };
+        self.find(name)?.numbers.iter().map(whole).collect()
+    }
+
+    pub(super) fn vec2s(&self, name: &str) -> Option<Vec<Vec2>> {
+        let chunks = self.find(name)?.numbers.chunks_exact(2);
+        Some(
+            chunks
+                .map(|c| Vec2::new(single(c[0]), single(c[1])))
+                .collect(),
+        )
+    }
+
+    pub(super) fn vec3s(&self, name: &str) -> Option<Vec<Vec3>> {
+        let chunks = self.find(name)?.numbers.chunks_exact(3);
+        let vec3 = |c: &[f64]| Vec3::new(single(c[0]), single(c[1]), single(c[2]));
+        Some(chunks.map(vec3).collect())
+    }
+
+    pub(super) fn vec3_or(&self, name: &str, default: Vec3) -> Vec3 {
+        let all = self.vec3s(name).unwrap_or_default();
+        all.first().copied().unwrap_or(default)
+    }
+
+    /// A colour that light is multiplied with.
+    pub(super) fn reflectance(&self, name: &str) -> Option<Vec3> {
+        let parameter = self.find(name)?;
+        match parameter.kind.as_str() {
+            "rgb" => parameter.rgb(),
+            "spectrum" => spectrum::reflectance(&parameter.singles()),
+            _ => parameter.numbers.first().map(|&n| Vec3::splat(single(n))),
+        }
+    }
+
+    /// The colour of a light, of luminance 1 unless it is given as RGB.
+    pub(super) fn emission(&self, name: &str) -> Option<Vec3> {
+        let parameter = self.find(name)?;
+        match parameter.kind.as_str() {
+            "rgb" => parameter.rgb(),
+            "blackbody" => spectrum::blackbody(single(*parameter.numbers.first()?)),
+            "spectrum" => spectrum::emission(&parameter.singles()),
+            _ => None,
+        }
+    }
+
+    fn find(&self, name: &str) -> Option<&Parameter> {
+        let found = self.list.iter().find(|p| p.name == name)?;
+        found.used.set(true);
+        Some(found)
+    }
+}
+
+impl Parameter {
+    fn push(&mut self, tokens: &Tokens<'_>, value: Option<Token<'_>>) -> Result<(), Diagnostic> {
+        match value {
+            Some(Token::Word(word @ ("true" | "false"))) => self.words.push(word.to_owned()),
+            Some(Token::Word(word)) if number_of(word).is_some() => {
+                self.numbers.extend(word.parse::<f64>().ok());
+            }
+            Some(Token::Quoted(text)) => self.words.push(text.into_owned()),
+            other => {
+                let what = format!("a value of `{}`", shown(&self.name));
+                return Err(tokens.expected(&what, other.as_ref()));
+            }
+        }
+        Ok(())
+    }
+
+    fn rgb(&self) -> Option<Vec3> {
+        let [r, g, b] = self.singles()[..] else {
+            return None;
+        };
+        Some(Vec3::new(r, g, b))
+    }
+
+    fn singles(&self) -> Vec<f32> {
+        self.numbers.iter().map(|&n| single(n)).collect()
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "checked to be finite as f32"
+)]
+const fn single(number: f64) -> f32 {
+    number as f32
+}

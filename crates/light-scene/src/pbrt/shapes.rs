@@ -1,0 +1,250 @@
+use core::f32::consts::{PI, TAU};
+
+use super::lights::area_scale;
+use super::ply::read_ply;
+use super::state::{At, Reader, Typed};
+use super::textures::scaled;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::{Color, Diagnostic, Emission, EmissionSides, Mesh};
+
+/// Of a tessellated sphere: columns around; it has half as many rows.
+const AROUND: u16 = 64;
+
+impl Reader {
+    pub(super) fn shape(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed { at, kind, .. } = typed;
+        let at = *at;
+        let mut mesh = match kind.as_str() {
+            "trianglemesh" => triangle_mesh(typed)?,
+            "loopsubdiv" => {
+                self.warn(at, "Shape \"loopsubdiv\"", "was taken as its control mesh");
+                triangle_mesh(typed)?
+            }
+            "bilinearmesh" => {
+                self.warn(
+                    at,
+                    "Shape \"bilinearmesh\"",
+                    "was taken as two triangles a patch",
+                );
+                bilinear_mesh(typed)?
+            }
+            "plymesh" => {
+                let name = typed.parameters.string("filename");
+                let name = name.ok_or_else(|| at.diagnostic("expected \"string filename\""))?;
+                read_ply(&at.path.with_file_name(name))?
+            }
+            "sphere" => self.rounded(at, kind, sphere(typed)),
+            "disk" => self.rounded(at, kind, disk(typed)),
+            "cylinder" => self.rounded(at, kind, cylinder(typed)),
+            other => {
+                let what = format!("Shape \"{other}\"");
+                self.warn(at, &what, "is not understood and was left out");
+                return Ok(());
+            }
+        };
+        check(at, &mesh)?;
+        mesh.name.clone_from(kind);
+        let mut mesh = mesh.transformed(&Affine3A::from_mat4(self.state.transform));
+        // Given normals say where the front is, whatever the order of the vertices.
+        mesh.align_with_normals();
+        // In pbrt a mirroring transform turns quadrics over, but no meshes.
+        let is_quadric = matches!(kind.as_str(), "sphere" | "disk" | "cylinder");
+        if self.state.reversed ^ (is_quadric && self.mirrors()) {
+            mesh.turn_over();
+        }
+        mesh.material = self.material();
+        self.attach_light(&mut mesh);
+        self.attach_alpha(typed, &mut mesh);
+        self.add_mesh(mesh);
+        Ok(())
+    }
+
+    fn rounded(&mut self, at: At<'_>, kind: &str, mesh: Mesh) -> Mesh {
+        let what = format!("Shape \"{kind}\"");
+        self.warn(at, &what, "was made of triangles");
+        mesh
+    }
+
+    /// Gives the mesh a material of its own that shines, if an area light is in force.
+    fn attach_light(&mut self, mesh: &mut Mesh) {
+        let Some(light) = self.state.area_light else {
+            return;
+        };
+        let mean = match light.radiance {
+            Color::Constant(radiance) => radiance,
+            Color::Image(texture) => {
+                let image = &self.scene.images[texture.image.0 as usize];
+                let sum: Vec3 = image.texels().iter().copied().sum();
+                texture.scale * sum / image.texels().len() as f32
+            }
+        };
+        let scale = area_scale(&light, mean, mesh.area());
+        let emission = Emission {
+            radiance: scaled(light.radiance, Vec3::splat(scale)),
+            sides: if light.two_sided {
+                EmissionSides::Both
+            } else {
+                EmissionSides::Front
+            },
+        };
+        let mut material = self.scene.material(mesh.material).clone();
+        material.emission = Some(emission);
+        mesh.material = self.scene.add_material(material);
+    }
+
+    /// Gives the mesh a material of its own with holes, if an alpha texture says where.
+    fn attach_alpha(&mut self, typed: &Typed<'_>, mesh: &mut Mesh) {
+        if !typed.parameters.has("alpha") {
+            return;
+        }
+        match self.color(typed, "alpha", 1.0) {
+            Color::Image(alpha) => {
+                let mut material = self.scene.material(mesh.material).clone();
+                material.alpha = Some(alpha);
+                mesh.material = self.scene.add_material(material);
+            }
+            Color::Constant(alpha) if alpha == Vec3::ONE => {}
+            Color::Constant(_) => {
+                self.warn(typed.at, "a constant `alpha`", "was taken as 1");
+            }
+        }
+    }
+}
+
+fn triangle_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
+    let mut mesh = vertices(typed)?;
+    let count = mesh.positions.len();
+    let indices = match typed.parameters.indices("indices") {
+        Some(indices) => indices,
+        None if count == 3 => vec![0, 1, 2],
+        None => {
+            return Err(typed
+                .at
+                .diagnostic("expected \"integer indices\" from 0 on"));
+        }
+    };
+    if indices.len() % 3 != 0 {
+        let message = format!("expected three indices a triangle, found {}", indices.len());
+        return Err(typed.at.diagnostic(message));
+    }
+    mesh.indices = indices
+        .chunks_exact(3)
+        .map(|t| [t[0], t[1], t[2]])
+        .collect();
+    Ok(mesh)
+}
+
+/// A patch lists its corners row by row: (0,0), (1,0), (0,1), (1,1).
+fn bilinear_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
+    let mut mesh = vertices(typed)?;
+    let count = mesh.positions.len();
+    let indices = match typed.parameters.indices("indices") {
+        Some(indices) => indices,
+        None if count == 4 => vec![0, 1, 2, 3],
+        None => {
+            return Err(typed
+                .at
+                .diagnostic("expected \"integer indices\" from 0 on"));
+        }
+    };
+    if indices.len() % 4 != 0 {
+        let message = format!("expected four indices a patch, found {}", indices.len());
+        return Err(typed.at.diagnostic(message));
+    }
+    let triangles = |p: &[u32]| [[p[0], p[1], p[3]], [p[0], p[3], p[2]]];
+    mesh.indices = indices.chunks_exact(4).flat_map(triangles).collect();
+    Ok(mesh)
+}
+
+fn vertices(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
+    let parameters = &typed.parameters;
+    let mut mesh = Mesh::new("", crate::MaterialId(0));
+    let positions = parameters.vec3s("P");
+    mesh.positions = positions.ok_or_else(|| typed.at.diagnostic("expected \"point3 P\""))?;
+    mesh.normals = parameters.vec3s("N");
+    mesh.uvs = parameters.vec2s("uv").or_else(|| parameters.vec2s("st"));
+    Ok(mesh)
+}
+
+/// What the renderer relies on.
+fn check(at: At<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
+    let count = mesh.positions.len();
+    let outside = mesh
+        .indices
+        .as_flattened()
+        .iter()
+        .find(|&&i| i as usize >= count);
+    if let Some(index) = outside {
+        let message = format!("vertex {index} of {count} does not exist");
+        return Err(at.diagnostic(message));
+    }
+    let normals = mesh.normals.as_ref().map_or(count, Vec::len);
+    let uvs = mesh.uvs.as_ref().map_or(count, Vec::len);
+    if normals != count || uvs != count {
+        let message =
+            format!("expected as many normals and texture coordinates as vertices, {count}");
+        return Err(at.diagnostic(message));
+    }
+    Ok(())
+}
+
+/// A grid of vertices over the unit square of (u, v); `point` gives position and normal, u runs counter-clockwise
+/// around v seen from the front.
+fn grid(columns: u16, rows: u16, point: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Mesh {
+    let mut mesh = Mesh::new("", crate::MaterialId(0));
+    let (mut normals, mut uvs) = (Vec::new(), Vec::new());
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let uv = Vec2::new(
+                f32::from(column) / f32::from(columns),
+                f32::from(row) / f32::from(rows),
+            );
+            let (position, normal) = point(uv.x, uv.y);
+            mesh.positions.push(position);
+            normals.push(normal);
+            uvs.push(uv);
+        }
+    }
+    let (across, up) = (u32::from(columns), u32::from(rows));
+    for row in 0..up {
+        for column in 0..across {
+            let a = row * (across + 1) + column;
+            let b = a + across + 1;
+            mesh.indices.push([a, a + 1, b + 1]);
+            mesh.indices.push([a, b + 1, b]);
+        }
+    }
+    (mesh.normals, mesh.uvs) = (Some(normals), Some(uvs));
+    mesh
+}
+
+fn sphere(typed: &Typed<'_>) -> Mesh {
+    let radius = typed.parameters.number_or("radius", 1.0);
+    grid(AROUND, AROUND / 2, |u, v| {
+        let ((sin_phi, cos_phi), (sin, cos)) = ((u * TAU).sin_cos(), (v * PI).sin_cos());
+        let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
+        (normal * radius, normal)
+    })
+}
+
+fn disk(typed: &Typed<'_>) -> Mesh {
+    let radius = typed.parameters.number_or("radius", 1.0);
+    let height = typed.parameters.number_or("height", 0.0);
+    let inner = typed.parameters.number_or("innerradius", 0.0);
+    grid(AROUND, 1, |u, v| {
+        let (sin, cos) = (u * TAU).sin_cos();
+        let r = radius + (inner - radius) * v;
+        (Vec3::new(r * cos, r * sin, height), Vec3::Z)
+    })
+}
+
+fn cylinder(typed: &Typed<'_>) -> Mesh {
+    let radius = typed.parameters.number_or("radius", 1.0);
+    let low = typed.parameters.number_or("zmin", -1.0);
+    let high = typed.parameters.number_or("zmax", 1.0);
+    grid(AROUND, 1, |u, v| {
+        let (sin, cos) = (u * TAU).sin_cos();
+        let normal = Vec3::new(cos, sin, 0.0);
+        (normal * radius + Vec3::Z * (low + (high - low) * v), normal)
+    })
+}

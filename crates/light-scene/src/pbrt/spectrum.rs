@@ -1,0 +1,73 @@
+//! Spectra of pbrt files as linear sRGB.
+
+use lights::math::spectrum::{Blackbody, Daylight, PiecewiseLinear, RgbColorSpace, Spectrum, cie};
+
+use crate::glam::Vec3;
+
+/// The share that a surface of this spectrum (wavelength in nm and value by turns) reflects of daylight.
+pub(super) fn reflectance(pairs: &[f32]) -> Option<Vec3> {
+    let lit = Lit {
+        reflectance: piecewise(pairs)?,
+        light: RgbColorSpace::srgb().illuminant(),
+    };
+    let white = cie::xyz(&lit.light).y;
+    let rgb = RgbColorSpace::srgb().rgb_from_xyz() * cie::xyz(&lit) / white;
+    Some(rgb.clamp(Vec3::ZERO, Vec3::ONE))
+}
+
+/// The colour of a light of this spectrum, of luminance 1.
+pub(super) fn emission(pairs: &[f32]) -> Option<Vec3> {
+    of_luminance_one(&piecewise(pairs)?)
+}
+
+/// The colour of a black body of this temperature in kelvin, of luminance 1.
+pub(super) fn blackbody(kelvin: f32) -> Option<Vec3> {
+    of_luminance_one(&Blackbody::new(kelvin).ok()?)
+}
+
+fn of_luminance_one(spectrum: &impl Spectrum) -> Option<Vec3> {
+    let xyz = cie::xyz(spectrum);
+    let rgb = RgbColorSpace::srgb().rgb_from_xyz() * xyz / xyz.y;
+    rgb.is_finite().then(|| rgb.max(Vec3::ZERO))
+}
+
+fn piecewise(pairs: &[f32]) -> Option<PiecewiseLinear<Vec<f32>>> {
+    let every_second = |from: usize| pairs.iter().skip(from).step_by(2).copied().collect();
+    PiecewiseLinear::new(every_second(0), every_second(1)).ok()
+}
+
+/// Light that a surface reflects.
+struct Lit<S> {
+    reflectance: S,
+    light: Daylight,
+}
+
+impl<S: Spectrum> Spectrum for Lit<S> {
+    fn eval(&self, lambda: f32) -> f32 {
+        self.reflectance.eval(lambda) * self.light.eval(lambda)
+    }
+
+    fn max_value(&self) -> f32 {
+        self.reflectance.max_value() * self.light.max_value()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_grey_and_black_bodies_warm() {
+        let grey = reflectance(&[300.0, 0.5, 900.0, 0.5]).expect("a spectrum");
+        assert!(grey.abs_diff_eq(Vec3::splat(0.5), 2e-3), "grey, not {grey}");
+        let warm = blackbody(2700.0).expect("a temperature");
+        assert!(warm.x > warm.y && warm.y > warm.z, "orange, not {warm}");
+        let luminance = warm.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+        assert!(
+            (luminance - 1.0).abs() < 0.01,
+            "luminance 1, not {luminance}"
+        );
+        assert_eq!(blackbody(-1.0), None, "no temperature");
+        assert_eq!(reflectance(&[1.0]), None, "no pair");
+    }
+}

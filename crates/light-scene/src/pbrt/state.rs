@@ -1,0 +1,134 @@
+use alloc::collections::BTreeSet;
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::parameters::Parameters;
+use super::tokens::Tokens;
+use crate::glam::{Mat4, Vec3};
+use crate::text::shown;
+use crate::{Camera, Color, Diagnostic, Material, MaterialId, Mesh, Place, Scene};
+
+/// What the directives so far have built, and the state that the next one acts on.
+#[derive(Debug, Default)]
+pub(super) struct Reader {
+    pub(super) scene: Scene,
+    pub(super) state: State,
+    pub(super) saved: Vec<State>,
+    pub(super) saved_transforms: Vec<Mat4>,
+    pub(super) coordinates: HashMap<String, Mat4>,
+    pub(super) materials: HashMap<String, MaterialId>,
+    pub(super) textures: HashMap<String, Color>,
+    pub(super) objects: HashMap<String, Vec<Mesh>>,
+    /// The object that shapes belong to between `ObjectBegin` and `ObjectEnd`.
+    pub(super) object: Option<(String, Vec<Mesh>)>,
+    pub(super) camera: Option<Camera>,
+    pub(super) resolution: Option<[u32; 2]>,
+    pub(super) in_world: bool,
+    warned: BTreeSet<String>,
+}
+
+/// What `AttributeBegin` saves.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    pub(super) transform: Mat4,
+    pub(super) material: Option<MaterialId>,
+    pub(super) area_light: Option<AreaLight>,
+    pub(super) reversed: bool,
+}
+
+/// An `AreaLightSource`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AreaLight {
+    pub(super) radiance: Color,
+    pub(super) two_sided: bool,
+    /// Power in W that decides the scale, if the file states one.
+    pub(super) power: Option<f32>,
+}
+
+/// Where a directive stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At<'a> {
+    pub(super) path: &'a Path,
+    pub(super) line: usize,
+}
+
+impl At<'_> {
+    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::at(self.path, Place::Line(self.line), message)
+    }
+}
+
+impl Reader {
+    /// Whether the transform mirrors.
+    pub(super) fn mirrors(&self) -> bool {
+        self.state.transform.determinant() < 0.0
+    }
+
+    /// The material in force, which is grey if the file named none.
+    pub(super) fn material(&mut self) -> MaterialId {
+        let scene = &mut self.scene;
+        let make = || scene.add_material(Material::diffuse("default", Vec3::splat(0.5)));
+        *self.state.material.get_or_insert_with(make)
+    }
+
+    /// Says something about a place in the file, once for each `what`.
+    pub(super) fn warn(&mut self, at: At<'_>, what: &str, message: &str) {
+        if self.warned.insert(what.to_owned()) {
+            let message = format!("{} {message}", shown(what));
+            self.scene.warnings.push(at.diagnostic(message));
+        }
+    }
+
+    /// Names the parameters of a directive that nobody asked for.
+    pub(super) fn warn_unused(&mut self, at: At<'_>, directive: &str, parameters: &Parameters) {
+        for (name, line) in parameters.unused() {
+            let at = At { line, ..at };
+            let what = format!("{directive}: parameter `{name}`");
+            self.warn(at, &what, "was ignored");
+        }
+    }
+
+    /// A mesh of the world, or of the object that is being described.
+    pub(super) fn add_mesh(&mut self, mesh: Mesh) {
+        match &mut self.object {
+            Some((_, meshes)) => meshes.push(mesh),
+            None => self.scene.meshes.push(mesh),
+        }
+    }
+
+    /// The scene, once all files are read.
+    pub(super) fn finish(mut self, path: &Path) -> Result<Scene, Diagnostic> {
+        if !self.in_world {
+            return Err(Diagnostic::file(path, "expected `WorldBegin`"));
+        }
+        self.scene.camera = self.camera.map(|camera| Camera {
+            resolution: self.resolution,
+            ..camera
+        });
+        Ok(self.scene)
+    }
+}
+
+/// The directive that a parameter list belongs to, its type in quotes read already.
+#[derive(Debug)]
+pub(super) struct Typed<'a> {
+    pub(super) at: At<'a>,
+    pub(super) kind: String,
+    pub(super) parameters: Parameters,
+}
+
+impl<'a> Typed<'a> {
+    pub(super) fn read(path: &'a Path, tokens: &mut Tokens<'_>) -> Result<Self, Diagnostic> {
+        let kind = tokens.quoted("a type")?.into_owned();
+        let at = At {
+            path,
+            line: tokens.line(),
+        };
+        let parameters = Parameters::read(tokens)?;
+        Ok(Self {
+            at,
+            kind,
+            parameters,
+        })
+    }
+}

@@ -1,0 +1,272 @@
+use std::fs;
+use std::path::Path;
+
+use super::ply::parse_ply;
+use super::read_pbrt;
+use crate::glam::{Vec2, Vec3};
+use crate::test_folder::TestFolder;
+use crate::{Color, Diagnostic, Scene, Surface};
+use ::lights::sources::LightDesc;
+
+fn read(name: &str, text: &str) -> Result<Scene, String> {
+    let folder = TestFolder::new(name);
+    let path = folder.path("a.pbrt");
+    fs::write(&path, text).expect("written");
+    let shown = |error: Diagnostic| {
+        let error = error.to_string();
+        error.replace(&*path.to_string_lossy(), "a.pbrt")
+    };
+    read_pbrt(&path).map_err(shown)
+}
+
+const BOX: &str = r#"
+LookAt 0 0 -5  0 0 0  0 1 0
+Camera "perspective" "float fov" [ 40 ] "float lensradius" 0.1 "float focaldistance" 5
+Film "rgb" "integer xresolution" 64 "integer yresolution" [ 48 ] "string filename" "a.exr"
+WorldBegin
+MakeNamedMaterial "gold" "string type" "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k" "float roughness" 0.04
+AttributeBegin
+  Material "diffuse" "rgb reflectance" [ .1 .2 .3 ]
+  AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float scale" 2 "bool twosided" true
+  Translate 0 2 0
+  Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ 0 0 0  1 0 0  1 0 1  0 0 1 ] "point2 uv" [ 0 0 1 0 1 1 0 1 ]
+AttributeEnd
+NamedMaterial "gold"
+ObjectBegin "ball" Shape "sphere" "float radius" 0.5 ObjectEnd
+TransformBegin Translate 3 0 0 ObjectInstance "ball" TransformEnd
+ObjectInstance "ball"
+LightSource "point" "rgb I" [ 4 4 4 ] "point3 from" [ 0 1 0 ] "float fog" 1
+LightSource "spot" "blackbody I" 3000 "point3 to" [ 0 0 1 ]
+LightSource "distant" "point3 from" [ 0 1 0 ] "point3 to" [ 0 0 0 ]
+LightSource "infinite" "rgb L" [ .5 .5 .5 ]
+"#;
+
+#[test]
+fn reads_camera_materials_shapes_instances_and_lights() {
+    let scene = read("pbrt_box", BOX).expect("a scene");
+    let camera = scene.camera.expect("a camera");
+    assert!(
+        camera.right.abs_diff_eq(Vec3::X, 1e-6),
+        "left-handed: x right"
+    );
+    assert!(camera.position.abs_diff_eq(Vec3::NEG_Z * 5.0, 1e-5), "eye");
+    assert_eq!(camera.resolution, Some([64, 48]), "film");
+    assert_eq!(camera.lens.expect("a lens").focus_distance, 5.0, "lens");
+    let [quad, ball, other] = &scene.meshes[..] else {
+        panic!("three meshes, not {}", scene.meshes.len());
+    };
+    assert_eq!(quad.positions[0], Vec3::Y * 2.0, "translated");
+    assert_eq!(scene.emissive_triangle_count(), 2, "the quad shines");
+    let emission = scene.material(quad.material).emission.expect("emission");
+    let radiance = Color::Constant(Vec3::new(2.0, 4.0, 6.0));
+    assert_eq!(emission.radiance, radiance, "scaled");
+    assert_eq!(emission.sides, crate::EmissionSides::Both, "two-sided");
+    assert!(
+        ball.bounds().center().abs_diff_eq(Vec3::X * 3.0, 1e-3),
+        "placed"
+    );
+    assert!(
+        other.bounds().center().abs_diff_eq(Vec3::ZERO, 1e-3),
+        "as it is"
+    );
+    let gold = &scene.material(ball.material).surface;
+    let Surface::Conductor { alpha, .. } = gold else {
+        panic!("a metal, not {gold:?}");
+    };
+    assert!(
+        alpha.abs_diff_eq(Vec2::splat(0.2), 1e-6),
+        "root of roughness"
+    );
+    assert!(
+        matches!(
+            scene.lights[..],
+            [
+                LightDesc::Point(_),
+                LightDesc::Spot(_),
+                LightDesc::Distant(_),
+                LightDesc::UniformInfinite(_)
+            ]
+        ),
+        "four lights"
+    );
+    let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "Shape \"sphere\" was made of triangles",
+        "LightSource \"point\": parameter `fog` was ignored",
+    ];
+    assert_eq!(warnings, expected, "named once");
+    assert_eq!(
+        scene.warnings[1].place,
+        crate::Place::Line(18),
+        "with its line"
+    );
+}
+
+#[test]
+fn fronts_follow_pbrt() {
+    let front = |text: &str| {
+        let all =
+            format!("WorldBegin {text} Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]");
+        let scene = read("pbrt_fronts", &all).expect("a scene");
+        let [a, b, c] = scene.meshes[0].triangle(0);
+        (b - a).cross(c - a).z
+    };
+    assert_eq!(front(""), 1.0, "counter-clockwise");
+    assert_eq!(front("ReverseOrientation"), -1.0, "reversed");
+    // The mirrored triangle runs clockwise, and mirroring turns that over once more.
+    assert_eq!(front("Scale -1 1 1"), 1.0, "mirrored");
+}
+
+#[test]
+fn broken_files_give_one_clear_line() {
+    let cases = [
+        ("", "a.pbrt: expected `WorldBegin`"),
+        ("WorldBegin 3", "a.pbrt:1: expected a directive, found `3`"),
+        (
+            "WorldBegin \"x\"",
+            "a.pbrt:1: expected a directive, found \"x\"",
+        ),
+        ("\nFoo", "a.pbrt:2: expected a directive, found `Foo`"),
+        (
+            "Translate 1 2",
+            "a.pbrt:1: expected a distance, found the end of the file",
+        ),
+        (
+            "Translate 1 2 x",
+            "a.pbrt:1: expected a distance, found `x`",
+        ),
+        (
+            "Scale 0 1 1",
+            "a.pbrt:1: expected a transform that can be inverted",
+        ),
+        (
+            "Rotate 1 0 0 0",
+            "a.pbrt:1: expected an axis other than 0 0 0",
+        ),
+        (
+            "LookAt 0 0 0 0 0 0 0 1 0",
+            "a.pbrt:1: expected two points, and an up vector not along the view",
+        ),
+        ("AttributeEnd", "a.pbrt:1: expected `AttributeBegin` before"),
+        ("TransformEnd", "a.pbrt:1: expected `TransformBegin` before"),
+        ("ObjectEnd", "a.pbrt:1: expected `ObjectBegin` before"),
+        (
+            "ObjectInstance \"a\"",
+            "a.pbrt:1: expected an object's name, found \"a\"",
+        ),
+        (
+            "NamedMaterial \"a\"",
+            "a.pbrt:1: expected a named material, found \"a\"",
+        ),
+        (
+            "Camera",
+            "a.pbrt:1: expected a type in quotes, found the end of the file",
+        ),
+        (
+            "Camera \"perspective\" \"float\" 1",
+            "a.pbrt:1: expected \"TYPE NAME\", found \"float\"",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" ]",
+            "a.pbrt:1: expected a value of `fov`, found `]`",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" [1",
+            "a.pbrt:1: expected a value of `fov`, found the end of the file",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" 200",
+            "a.pbrt:1: expected a fov between 0 and 180 degrees",
+        ),
+        ("Shape \"trianglemesh\"", "a.pbrt:1: expected \"point3 P\""),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0]",
+            "a.pbrt:1: expected \"integer indices\" from 0 on",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" [0 0 7]",
+            "a.pbrt:1: vertex 7 of 1 does not exist",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" [0 0]",
+            "a.pbrt:1: expected three indices a triangle, found 2",
+        ),
+        (
+            "Shape \"plymesh\"",
+            "a.pbrt:1: expected \"string filename\"",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0]",
+            "a.pbrt:1: expected as many normals and texture coordinates as vertices, 3",
+        ),
+        (
+            "Include \"a.pbrt\"",
+            "a.pbrt:1: expected a file that does not include itself",
+        ),
+    ];
+    for (text, expected) in cases {
+        let error = read("pbrt_broken", text).expect_err(text);
+        assert_eq!(error, expected, "{text}");
+    }
+}
+
+#[test]
+fn ply_in_text_and_binary() {
+    let path = Path::new("a.ply");
+    let head = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let text = head("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    let expected = parse_ply(path, text.as_bytes()).expect("a mesh");
+    assert_eq!(expected.indices, [[0, 1, 2], [0, 2, 3]], "a fan");
+    let corners = [
+        [0.0f32, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+    for (format, little) in [("binary_little_endian", true), ("binary_big_endian", false)] {
+        let mut bytes = head(format).into_bytes();
+        for x in corners.as_flattened() {
+            bytes.extend(if little {
+                x.to_le_bytes()
+            } else {
+                x.to_be_bytes()
+            });
+        }
+        bytes.push(4);
+        for i in 0..4i32 {
+            bytes.extend(if little {
+                i.to_le_bytes()
+            } else {
+                i.to_be_bytes()
+            });
+        }
+        let mesh = parse_ply(path, &bytes).expect("a mesh");
+        assert_eq!(mesh, expected, "{format}");
+        let error = parse_ply(path, &bytes[..bytes.len() - 1]).expect_err("cut");
+        assert!(error.message.starts_with("expected more data"), "{error}");
+    }
+    let broken = [
+        ("x\n", "a.ply:1: expected `ply`"),
+        ("ply\n", "a.ply:2: expected `end_header`"),
+        (
+            "ply\nfoo\n",
+            "a.ply:2: expected a line of a PLY header, found `foo`",
+        ),
+        ("ply\nend_header\n", "a.ply:3: expected a `format` line"),
+    ];
+    for (text, expected) in broken {
+        let error = parse_ply(path, text.as_bytes()).expect_err(text);
+        assert_eq!(error.to_string(), expected, "{text}");
+    }
+    let text = head("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 9\n";
+    let error = parse_ply(path, text.as_bytes()).expect_err("an index");
+    assert!(
+        error.to_string().contains("vertex 9 of 4 does not exist"),
+        "{error}"
+    );
+}

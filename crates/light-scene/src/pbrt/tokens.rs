@@ -1,0 +1,176 @@
+use alloc::borrow::Cow;
+use std::path::Path;
+
+use crate::text::shown;
+use crate::{Diagnostic, Place};
+
+/// The words of a pbrt file, one after the other, each with its line.
+#[derive(Clone, Debug)]
+pub(super) struct Tokens<'a> {
+    path: &'a Path,
+    rest: &'a str,
+    line: usize,
+}
+
+/// One word of a pbrt file.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Token<'a> {
+    /// A directive, a number, `true` or `false`.
+    Word(&'a str),
+    /// What stood in quotes.
+    Quoted(Cow<'a, str>),
+    /// `[`
+    Open,
+    /// `]`
+    Close,
+}
+
+impl<'a> Tokens<'a> {
+    pub(super) const fn new(path: &'a Path, text: &'a str) -> Self {
+        let (rest, line) = (text, 1);
+        Self { path, rest, line }
+    }
+
+    /// The line of the token that came last.
+    pub(super) const fn line(&self) -> usize {
+        self.line
+    }
+
+    /// A message about the line of the token that came last.
+    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::at(self.path, Place::Line(self.line), message)
+    }
+
+    /// The next token without taking it.
+    pub(super) fn peek(&self) -> Result<Option<Token<'a>>, Diagnostic> {
+        self.clone().next()
+    }
+
+    /// The next token; none at the end of the file.
+    pub(super) fn next(&mut self) -> Result<Option<Token<'a>>, Diagnostic> {
+        self.skip_blanks();
+        let Some(first) = self.rest.chars().next() else {
+            return Ok(None);
+        };
+        match first {
+            '[' => {
+                self.take(1);
+                Ok(Some(Token::Open))
+            }
+            ']' => {
+                self.take(1);
+                Ok(Some(Token::Close))
+            }
+            '"' => {
+                let end = self.rest[1..].find(['"', '\n']);
+                let end = end.filter(|&end| self.rest[1 + end..].starts_with('"'));
+                let end = end.ok_or_else(|| self.diagnostic("expected a closing quote"))?;
+                let inner = &self.take(end + 2)[1..=end];
+                Ok(Some(Token::Quoted(Cow::Borrowed(inner))))
+            }
+            _ => {
+                let stops = |c: char| c.is_whitespace() || "[]\"#".contains(c);
+                let end = self.rest.find(stops).unwrap_or(self.rest.len());
+                Ok(Some(Token::Word(self.take(end))))
+            }
+        }
+    }
+
+    /// The next token as a quoted word; `what` says what for.
+    pub(super) fn quoted(&mut self, what: &str) -> Result<Cow<'a, str>, Diagnostic> {
+        match self.next()? {
+            Some(Token::Quoted(text)) => Ok(text),
+            other => Err(self.expected(&format!("{what} in quotes"), other.as_ref())),
+        }
+    }
+
+    /// As many numbers as the array has, with or without brackets around them.
+    pub(super) fn numbers<const N: usize>(&mut self, what: &str) -> Result<[f32; N], Diagnostic> {
+        let bracketed = self.peek()? == Some(Token::Open);
+        if bracketed {
+            self.next()?;
+        }
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            let token = self.next()?;
+            let parsed = match &token {
+                Some(Token::Word(word)) => number_of(word),
+                _ => None,
+            };
+            *number = parsed.ok_or_else(|| self.expected(what, token.as_ref()))?;
+        }
+        if bracketed {
+            let token = self.next()?;
+            if token != Some(Token::Close) {
+                return Err(self.expected("]", token.as_ref()));
+            }
+        }
+        Ok(numbers)
+    }
+
+    /// Says that something else was expected than what came.
+    pub(super) fn expected(&self, what: &str, found: Option<&Token<'_>>) -> Diagnostic {
+        let found = match found {
+            None => "the end of the file".to_owned(),
+            Some(Token::Word(word)) => format!("`{}`", shown(word)),
+            Some(Token::Quoted(text)) => format!("\"{}\"", shown(text)),
+            Some(Token::Open) => "`[`".to_owned(),
+            Some(Token::Close) => "`]`".to_owned(),
+        };
+        self.diagnostic(format!("expected {what}, found {found}"))
+    }
+
+    fn skip_blanks(&mut self) {
+        loop {
+            let blanks = self.rest.len() - self.rest.trim_start().len();
+            self.take(blanks);
+            if !self.rest.starts_with('#') {
+                return;
+            }
+            let end = self.rest.find('\n').unwrap_or(self.rest.len());
+            self.take(end);
+        }
+    }
+
+    fn take(&mut self, bytes: usize) -> &'a str {
+        let (taken, rest) = self.rest.split_at(bytes);
+        self.line += taken.matches('\n').count();
+        self.rest = rest;
+        taken
+    }
+}
+
+/// A finite number.
+pub(super) fn number_of(word: &str) -> Option<f32> {
+    word.parse::<f32>().ok().filter(|number| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_quotes_brackets_and_comments() {
+        let mut tokens = Tokens::new(Path::new("a"), "Shape \"a b\" # x\n[1]-2\n");
+        let mut all = Vec::new();
+        while let Some(token) = tokens.next().expect("a token") {
+            all.push((tokens.line(), token));
+        }
+        let expected = [
+            (1, Token::Word("Shape")),
+            (1, Token::Quoted("a b".into())),
+            (2, Token::Open),
+            (2, Token::Word("1")),
+            (2, Token::Close),
+            (2, Token::Word("-2")),
+        ];
+        assert_eq!(all, expected, "tokens and lines");
+    }
+
+    #[test]
+    fn an_open_quote_is_named() {
+        let mut tokens = Tokens::new(Path::new("a"), "\n\"abc\n\"");
+        let error = tokens.next().expect_err("an error").to_string();
+        assert_eq!(error, "a:2: expected a closing quote", "line 2");
+    }
+}
