@@ -108,6 +108,15 @@ impl Mesh {
         }
     }
 
+    /// Leaves out the triangles without area: nothing meets them, and they have no front.
+    pub(crate) fn drop_empty_triangles(&mut self) {
+        let positions = &self.positions;
+        self.indices.retain(|triangle| {
+            let [a, b, c] = triangle.map(|i| positions[i as usize]);
+            (b - a).cross(c - a).length_squared() > 0.0
+        });
+    }
+
     /// Turns every triangle so that its front is where its normals point, if it has normals.
     pub(crate) fn align_with_normals(&mut self) {
         let Some(normals) = &self.normals else {
@@ -140,6 +149,31 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn triangles_without_area_are_dropped() {
+        let mut mesh = Mesh::new("m", MaterialId(0));
+        mesh.push_triangle([Vec3::ZERO, Vec3::X, Vec3::X * 2.0]);
+        mesh.push_triangle([Vec3::ZERO, Vec3::X, Vec3::Y]);
+        mesh.drop_empty_triangles();
+        assert_eq!(mesh.indices, [[3, 4, 5]], "the second one stays");
+    }
+
+    #[test]
+    fn moving_keeps_the_front() {
+        let mesh = Mesh::quad(
+            "q",
+            MaterialId(0),
+            [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y],
+        );
+        let mirror = Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+        let mut moved = mesh.transformed(&mirror);
+        let [a, b, c] = moved.triangle(0);
+        assert_eq!((b - a).cross(c - a), Vec3::Z, "still +z");
+        moved.turn_over();
+        let [a, b, c] = moved.triangle(0);
+        assert_eq!((b - a).cross(c - a), Vec3::NEG_Z, "turned");
+    }
 
     #[test]
     fn a_quad_is_two_triangles_with_one_front() {

@@ -89,7 +89,11 @@ impl Faces {
 
     /// The meshes, in the order of their first faces.
     pub(super) fn into_meshes(self) -> Vec<Mesh> {
-        self.meshes.into_iter().map(|grown| grown.mesh).collect()
+        let finished = self.meshes.into_iter().map(|GrowingMesh { mut mesh, .. }| {
+            mesh.drop_empty_triangles();
+            mesh
+        });
+        finished.filter(|mesh| !mesh.indices.is_empty()).collect()
     }
 
     fn mesh(&mut self, material: MaterialId, attributes: Attributes) -> usize {

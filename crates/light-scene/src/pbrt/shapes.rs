@@ -45,6 +45,7 @@ impl Reader {
         check(at, &mesh)?;
         mesh.name.clone_from(kind);
         let mut mesh = mesh.transformed(&Affine3A::from_mat4(self.state.transform));
+        mesh.drop_empty_triangles();
         // Given normals say where the front is, whatever the order of the vertices.
         mesh.align_with_normals();
         // In pbrt a mirroring transform turns quadrics over, but no meshes.
