@@ -12,10 +12,10 @@ const SLACK: f32 = 1e-5;
 
 /// How much of the variance of a height over the horizon counts, and how much of the emission ramp's variance by position and by
 /// spread, and of the variance of the distance.
-const HEIGHT: f32 = 0.45;
-const RAMP_BY_POSITION: f32 = 0.11;
+const HEIGHT: f32 = 0.4;
+const RAMP_BY_POSITION: f32 = 0.05;
 const RAMP_BY_SPREAD: f32 = 0.30;
-const DISTANCE: f32 = 0.05;
+const DISTANCE: f32 = 0.06;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///

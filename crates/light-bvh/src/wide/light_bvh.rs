@@ -6,6 +6,7 @@ use light_math::Aabb;
 
 use super::build::build;
 use super::importance::FAR;
+use super::moments::Moments;
 use super::node::{NOWHERE, WIDTH, WideNode};
 use super::prim::Prim;
 use super::tree::LightBvhRef;
@@ -140,11 +141,10 @@ fn slots(nodes: &[WideNode], order: &[u32], lights: usize) -> Vec<u32> {
 impl Prim {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     fn new(bounds: &LightBounds, light: u32, total: f64) -> Self {
-        let directed = 0.5 + 0.5 * bounds.cos_theta_o;
         Self {
             center: bounds.bounds.center(),
             power: ((f64::from(bounds.phi) / total) as f32).max(f32::MIN_POSITIVE),
-            axis: bounds.w * directed,
+            axis: Moments::of_light(bounds, 1.0).axis,
             light,
         }
     }

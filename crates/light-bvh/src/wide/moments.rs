@@ -120,7 +120,7 @@ impl Shape {
             // Only directions near the common axis matter, where deviations of axis and offset cancel.
             let forward = axis.dot(along);
             let aside_sq = (axis.length_squared() - forward * forward).max(0.0);
-            0.25 * aside_sq + (forward - offset) * (forward - offset)
+            aside_sq + (forward - offset) * (forward - offset)
         } else {
             axis.length_squared() + offset * offset
         }

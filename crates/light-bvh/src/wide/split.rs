@@ -1,28 +1,39 @@
-use light_math::Aabb;
 use light_math::glam::Vec3;
+use light_math::{Aabb, float};
 
 use super::prim::{Prim, Run, Sums};
 
 /// Bins on each axis.
 const BINS: usize = 12;
 
+/// Variance of the axes beyond which lights are also split by how narrow their cones are. Diffuse lights stay below 1.
+const MIXED_AXES: f32 = 100.0;
+
 /// Splits `run` of `prims` in two where the halves cost least together; neither is empty. `run` has at least two lights.
 pub(crate) fn split(prims: &mut [Prim], run: &Run) -> (Run, Run) {
     let lights = &mut prims[run.start..run.end];
-    let low = run.bounds.min;
-    let extent = run.bounds.diagonal();
-    let scale = Vec3::select(
-        extent.cmpgt(Vec3::splat(1e-30)),
-        Vec3::splat(BINS as f32 * (1.0 - 1e-6)) / extent.max(Vec3::splat(1e-30)),
-        Vec3::ZERO,
-    );
-    let plane = best_plane(lights, low, scale);
-    let (mid, costs) = match plane {
+    let grid = Grid::new(&run.bounds);
+    let positions = Bins::<3>::new(lights, |p| grid.position(p));
+    let mut plane = positions.best_plane();
+    if positions.total().axis_variance() > MIXED_AXES {
+        let narrowness = Bins::<1>::new(lights, |p| grid.narrowness(p)).best_plane();
+        plane = cheaper(
+            plane,
+            narrowness.map(|plane| Plane {
+                key: Key::Narrowness,
+                ..plane
+            }),
+        );
+    }
+    let (mid, costs) = match &plane {
         Some(plane) => (
-            partition(lights, |p| bin(p, low, scale)[plane.axis] <= plane.bin),
+            match plane.key {
+                Key::Position(axis) => partition(lights, |p| grid.position(p).0[axis] <= plane.bin),
+                Key::Narrowness => partition(lights, |p| grid.narrowness(p).0[0] <= plane.bin),
+            },
             plane.costs,
         ),
-        // No plane separates them: centres in one point, or too close to tell apart.
+        // Nothing tells them apart: centres in one point, or too close to each other.
         None => (lights.len() / 2, [run.cost / 2.0; 2]),
     };
     let at = run.start + mid;
@@ -60,53 +71,57 @@ pub(crate) fn centers(lights: &[Prim]) -> Aabb {
     lights.iter().fold(Aabb::EMPTY, |b, p| b.extend(p.center))
 }
 
+/// What decides on which side of a plane a light is.
+#[derive(Clone, Copy)]
+enum Key {
+    Position(usize),
+    Narrowness,
+}
+
 /// Lights in bins up to `bin` go left.
 struct Plane {
-    axis: usize,
+    key: Key,
     bin: usize,
     costs: [f32; 2],
 }
 
-fn best_plane(lights: &[Prim], low: Vec3, scale: Vec3) -> Option<Plane> {
-    let mut bins = [[Sums::default(); BINS]; 3];
-    let mut filled = [[false; BINS]; 3];
-    for prim in lights {
-        let at = bin(prim, low, scale);
-        for axis in 0..3 {
-            bins[axis][at[axis]].add(prim, low);
-            filled[axis][at[axis]] = true;
+fn cheaper(a: Option<Plane>, b: Option<Plane>) -> Option<Plane> {
+    let total = |plane: &Option<Plane>| {
+        plane
+            .as_ref()
+            .map_or(f32::INFINITY, |p| p.costs[0] + p.costs[1])
+    };
+    if total(&b) < total(&a) { b } else { a }
+}
+
+/// The bins that lights fall into.
+struct Grid {
+    low: Vec3,
+    scale: Vec3,
+}
+
+impl Grid {
+    fn new(bounds: &Aabb) -> Self {
+        const FLAT: f32 = 1e-30;
+        let extent = bounds.diagonal();
+        let scale = Vec3::splat(BINS as f32 * (1.0 - 1e-6)) / extent.max(Vec3::splat(FLAT));
+        Self {
+            low: bounds.min,
+            scale: Vec3::select(extent.cmpgt(Vec3::splat(FLAT)), scale, Vec3::ZERO),
         }
     }
-    let mut best: Option<Plane> = None;
-    for axis in 0..3 {
-        let last = filled[axis].iter().rposition(|&f| f).unwrap_or(0);
-        let mut right_costs = [0.0; BINS];
-        let mut right = Sums::default();
-        for k in (1..=last).rev() {
-            right = right.plus(&bins[axis][k]);
-            right_costs[k] = right.cost();
-        }
-        let mut left = Sums::default();
-        for k in 0..last {
-            left = left.plus(&bins[axis][k]);
-            if !filled[axis][..=k].contains(&true) {
-                continue;
-            }
-            let costs = [left.cost(), right_costs[k + 1]];
-            let better = match &best {
-                Some(best) => costs[0] + costs[1] < best.costs[0] + best.costs[1],
-                None => true,
-            };
-            if better {
-                best = Some(Plane {
-                    axis,
-                    bin: k,
-                    costs,
-                });
-            }
-        }
+
+    #[inline]
+    fn position(&self, prim: &Prim) -> ([usize; 3], Vec3) {
+        let p = prim.center - self.low;
+        ((p * self.scale).to_array().map(bin), p)
     }
-    best
+
+    #[inline]
+    fn narrowness(&self, prim: &Prim) -> ([usize; 1], Vec3) {
+        let logarithm = float::ln(1.0 + prim.axis.length_squared());
+        ([bin(2.0 * logarithm)], prim.center - self.low)
+    }
 }
 
 #[inline]
@@ -115,9 +130,71 @@ fn best_plane(lights: &[Prim], low: Vec3, scale: Vec3) -> Option<Plane> {
     clippy::cast_sign_loss,
     reason = "float to integer casts saturate, and the bin is clamped"
 )]
-fn bin(prim: &Prim, low: Vec3, scale: Vec3) -> [usize; 3] {
-    let at = (prim.center - low) * scale;
-    [at.x, at.y, at.z].map(|x| (x as usize).min(BINS - 1))
+fn bin(x: f32) -> usize {
+    (x as usize).min(BINS - 1)
+}
+
+/// Sums of lights along `N` keys at once.
+struct Bins<const N: usize> {
+    sums: [[Sums; BINS]; N],
+    filled: [[bool; BINS]; N],
+}
+
+impl<const N: usize> Bins<N> {
+    fn new(lights: &[Prim], place: impl Fn(&Prim) -> ([usize; N], Vec3)) -> Self {
+        let mut bins = Self {
+            sums: [[Sums::default(); BINS]; N],
+            filled: [[false; BINS]; N],
+        };
+        for prim in lights {
+            let (at, position) = place(prim);
+            let sums = Sums::of(prim, position);
+            for (key, &bin) in at.iter().enumerate() {
+                let all = &mut bins.sums[key][bin];
+                *all = all.plus(&sums);
+                bins.filled[key][bin] = true;
+            }
+        }
+        bins
+    }
+
+    fn total(&self) -> Sums {
+        self.sums[0]
+            .iter()
+            .fold(Sums::default(), |total, sums| total.plus(sums))
+    }
+
+    /// The cheapest plane with lights on both sides.
+    fn best_plane(&self) -> Option<Plane> {
+        (0..N).fold(None, |best, key| cheaper(best, self.best_of(key)))
+    }
+
+    fn best_of(&self, key: usize) -> Option<Plane> {
+        let (sums, filled) = (&self.sums[key], &self.filled[key]);
+        let first = filled.iter().position(|&f| f)?;
+        let last = filled.iter().rposition(|&f| f)?;
+        let mut right_costs = [0.0; BINS];
+        let mut right = Sums::default();
+        for bin in (first + 1..=last).rev() {
+            right = right.plus(&sums[bin]);
+            right_costs[bin] = right.cost();
+        }
+        let mut left = Sums::default();
+        let mut best = None;
+        for bin in first..last {
+            left = left.plus(&sums[bin]);
+            let plane = Plane {
+                key: Key::Position(key),
+                bin,
+                costs: [left.cost(), right_costs[bin + 1]],
+            };
+            best = match best {
+                None => Some(plane),
+                best => cheaper(best, Some(plane)),
+            };
+        }
+        best
+    }
 }
 
 /// Moves what is `left` to the front, and returns how many those are.
