@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod compare;
+mod demo;
 mod env;
 mod env_convert;
 mod env_median_cut;
@@ -12,6 +13,7 @@ mod info;
 mod merge;
 mod output_image;
 mod progress;
+mod references;
 mod render;
 mod scene_input;
 
@@ -54,7 +56,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Info(args)) => args.run(),
         Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),
-        None => Ok(()),
+        None => demo::run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

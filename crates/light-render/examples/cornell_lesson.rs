@@ -1,0 +1,95 @@
+//! The lesson of the Cornell box: ten samples toward the lamp show less noise than a thousand over the hemisphere, with
+//! the same mean; and the lamp lights the ceiling only when it shines on both sides.
+//!
+//! `cargo run --release -p light-render --example cornell_lesson`
+
+use light_render::integrator::{Estimator, PathSettings};
+use light_render::{AnyLightSampler, RenderSettings, SamplerKind, View, World, render};
+use light_scene::glam::Vec3;
+use light_scene::{BuiltinScene, EmissionSides, Scene};
+
+/// The side of the picture in pixels.
+const SIZE: u32 = 48;
+
+fn main() -> Result<(), Box<dyn core::error::Error>> {
+    let scene = BuiltinScene::CornellBox.load();
+    let mut two_sided = scene.clone();
+    for material in &mut two_sided.materials {
+        if let Some(emission) = &mut material.emission {
+            emission.sides = EmissionSides::Both;
+        }
+    }
+    println!(
+        "{:<34} {:>5} {:>9} {:>9}",
+        "direct light", "spp", "mean", "noise"
+    );
+    for (name, scene, estimator, spp) in [
+        ("toward the lamp", &scene, Estimator::Light, 10),
+        ("over the hemisphere", &scene, Estimator::Bsdf, 1000),
+        ("both, weighted", &scene, Estimator::Mis, 10),
+        (
+            "toward a lamp that is two-sided",
+            &two_sided,
+            Estimator::Light,
+            10,
+        ),
+    ] {
+        let (a, b) = (
+            picture(scene, estimator, spp, 1)?,
+            picture(scene, estimator, spp, 2)?,
+        );
+        println!(
+            "{name:<34} {spp:>5} {:>9.4} {:>9.4}",
+            mean(&a),
+            noise(&a, &b)
+        );
+    }
+    Ok(())
+}
+
+/// Direct light alone, the lamp itself left out.
+fn picture(
+    scene: &Scene,
+    estimator: Estimator,
+    spp: u32,
+    seed: u32,
+) -> Result<Vec<Vec3>, Box<dyn core::error::Error>> {
+    let view = View::new(&scene.camera_or_default(), SIZE, SIZE)?;
+    let world = World::new(scene.clone())?;
+    let sampler = AnyLightSampler::new(SamplerKind::Bvh, world.lights())?;
+    let of_depth = |max_depth, spp| {
+        let settings = RenderSettings {
+            samples: 0..spp,
+            time_limit: None,
+            seed,
+            path: PathSettings {
+                max_depth,
+                estimator,
+            },
+        };
+        render(&world, &view, &sampler, &settings, |_| ())
+            .film
+            .develop()
+    };
+    let seen = of_depth(1, spp);
+    let lit = of_depth(2, spp);
+    Ok(lit
+        .iter()
+        .zip(&seen)
+        .map(|(&lit, &seen)| lit - seen)
+        .collect())
+}
+
+/// The mean of all pixels and channels.
+fn mean(pixels: &[Vec3]) -> f32 {
+    pixels.iter().map(|p| p.element_sum() / 3.0).sum::<f32>() / pixels.len() as f32
+}
+
+/// The standard deviation of a pixel, from two pictures that differ in their random numbers alone.
+fn noise(a: &[Vec3], b: &[Vec3]) -> f32 {
+    let squares = a
+        .iter()
+        .zip(b)
+        .map(|(&a, &b)| (a - b).length_squared() / 3.0);
+    (squares.sum::<f32>() / (2 * a.len()) as f32).sqrt()
+}

@@ -1,0 +1,234 @@
+use core::time::Duration;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use light_render::integrator::{Estimator, PathSettings};
+use light_render::{
+    AnyLightSampler, Comparison, Progress, RenderSettings, SamplerKind, ToneMap, View, World,
+    render,
+};
+use light_scene::glam::Vec3;
+use light_scene::{BuiltinScene, Camera, Image, write_exr, write_png};
+
+use super::failure::Failure;
+use super::output_image::shown;
+use super::progress::{ProgressLine, Volume};
+use super::references::reference;
+
+/// Where the pictures go.
+const FOLDER: &str = "out";
+
+/// One picture of the demo: a scene, a way to choose lights, and how long it may take.
+struct Shot {
+    scene: BuiltinScene,
+    sampler: SamplerKind,
+    seconds: f32,
+}
+
+/// Where many lights are, each sampler has the same time; then the best one goes on.
+const SHOTS: [Shot; 6] = [
+    Shot::new(BuiltinScene::CornellBox, SamplerKind::Bvh, 7.0),
+    Shot::new(BuiltinScene::Rotunda, SamplerKind::Bvh, 9.0),
+    Shot::new(BuiltinScene::Night, SamplerKind::Uniform, 8.0),
+    Shot::new(BuiltinScene::Night, SamplerKind::Power, 8.0),
+    Shot::new(BuiltinScene::Night, SamplerKind::BvhReference, 8.0),
+    Shot::new(BuiltinScene::Night, SamplerKind::Bvh, 8.0),
+];
+
+/// What one picture took, and how far it is from its reference.
+struct Row {
+    scene: BuiltinScene,
+    sampler: SamplerKind,
+    samples: u32,
+    elapsed: Duration,
+    rel_mse: f64,
+}
+
+/// A scene ready to be rendered, kept between shots.
+struct Stage {
+    scene: BuiltinScene,
+    world: World,
+    view: View,
+    reference: Image,
+    /// Whether a pixel is measured: no light is seen in it or beside it. The edges of small lamps are noise that no light
+    /// sampler can take away.
+    measured: Vec<bool>,
+    tone_map: ToneMap,
+}
+
+/// Renders the shipped scenes into [`FOLDER`], and prints one table.
+///
+/// # Errors
+/// When the pictures cannot be written.
+pub(crate) fn run() -> Result<(), Failure> {
+    let folder = PathBuf::from(FOLDER);
+    fs::create_dir_all(&folder)
+        .map_err(|error| Failure::Input(format!("{FOLDER}: cannot be made: {error}")))?;
+    println!(
+        "{:<13} {:<14} {:>5} {:>8} {:>9}",
+        "scene", "sampler", "spp", "seconds", "relMSE"
+    );
+    let mut rows: Vec<Row> = Vec::new();
+    let mut stage: Option<Stage> = None;
+    for shot in &SHOTS {
+        let ready = match stage.take() {
+            Some(stage) if stage.scene == shot.scene => stage,
+            _ => Stage::new(shot.scene)?,
+        };
+        let row = ready.shoot(shot, &folder)?;
+        println!(
+            "{:<13} {:<14} {:>5} {:>8.1} {:>9.5}",
+            row.scene.name(),
+            row.sampler.name(),
+            row.samples,
+            row.elapsed.as_secs_f64(),
+            row.rel_mse
+        );
+        rows.push(row);
+        stage = Some(ready);
+    }
+    print_point(&rows);
+    let shown = folder.canonicalize().unwrap_or(folder);
+    println!("relMSE is taken over the pixels in which no light is seen directly.");
+    println!(
+        "The pictures, PNG to look at and EXR to measure, are in {}.",
+        shown.display()
+    );
+    Ok(())
+}
+
+impl Shot {
+    const fn new(scene: BuiltinScene, sampler: SamplerKind, seconds: f32) -> Self {
+        Self {
+            scene,
+            sampler,
+            seconds,
+        }
+    }
+
+    /// The name of the picture's files, without ending.
+    fn name(&self) -> String {
+        let compared = SHOTS.iter().filter(|shot| shot.scene == self.scene).count() > 1;
+        if compared {
+            format!("{}-{}", self.scene, self.sampler)
+        } else {
+            self.scene.to_string()
+        }
+    }
+}
+
+impl Stage {
+    fn new(scene: BuiltinScene) -> Result<Self, Failure> {
+        let reference = reference(scene)?;
+        let description = scene.load();
+        let camera: Camera = description.camera_or_default();
+        let fit = || ToneMap::fit(reference.texels());
+        let view = View::new(&camera, reference.width(), reference.height());
+        let view = view.map_err(Failure::input)?;
+        let world = World::new(description).map_err(Failure::input)?;
+        Ok(Self {
+            scene,
+            measured: sees_no_light(&world, &view)?,
+            world,
+            view,
+            tone_map: camera.exposure.map_or_else(fit, ToneMap::new),
+            reference,
+        })
+    }
+
+    /// The pixels that are measured.
+    fn measure(&self, image: &Image) -> Vec<Vec3> {
+        let pixels = image.texels().iter().zip(&self.measured);
+        pixels
+            .filter_map(|(&p, &measured)| measured.then_some(p))
+            .collect()
+    }
+
+    /// Renders within the shot's time, the building of the sampler included, and writes the picture.
+    fn shoot(&self, shot: &Shot, folder: &Path) -> Result<Row, Failure> {
+        let start = Instant::now();
+        let sampler = AnyLightSampler::new(shot.sampler, self.world.lights());
+        let sampler = sampler.map_err(Failure::input)?;
+        let time = Duration::from_secs_f32(shot.seconds);
+        let settings = RenderSettings {
+            samples: 0..u32::MAX,
+            time_limit: Some(time.saturating_sub(start.elapsed())),
+            seed: 0,
+            path: PathSettings {
+                max_depth: 6,
+                estimator: Estimator::Mis,
+            },
+        };
+        let line = ProgressLine::new(format!("{}, {}", shot.scene, shot.sampler), Volume::Normal);
+        let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
+        let film = render(&self.world, &self.view, &sampler, &settings, show).film;
+        let elapsed = start.elapsed();
+        drop(line);
+        let (width, height) = film.resolution();
+        let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
+        let comparison = Comparison::new(&self.measure(&image), &self.measure(&self.reference));
+        let rel_mse = comparison.map_or(f64::NAN, |comparison| comparison.rel_mse);
+        let path = folder.join(shot.name());
+        write_exr(&path.with_extension("exr"), &image).map_err(Failure::input)?;
+        write_png(&path.with_extension("png"), &shown(&image, &self.tone_map)?)
+            .map_err(Failure::input)?;
+        Ok(Row {
+            scene: shot.scene,
+            sampler: shot.sampler,
+            samples: film.samples(),
+            elapsed,
+            rel_mse,
+        })
+    }
+}
+
+/// Where neither a pixel nor one beside it shows a light.
+fn sees_no_light(world: &World, view: &View) -> Result<Vec<bool>, Failure> {
+    let sampler = AnyLightSampler::new(SamplerKind::Uniform, world.lights());
+    let settings = RenderSettings {
+        samples: 0..32,
+        time_limit: None,
+        seed: 1,
+        path: PathSettings {
+            max_depth: 1,
+            estimator: Estimator::Bsdf,
+        },
+    };
+    let sampler = sampler.map_err(Failure::input)?;
+    let film = render(world, view, &sampler, &settings, |_| ()).film;
+    let (width, height) = film.resolution();
+    let seen = film.develop();
+    let is_dark = |x: u32, y: u32| seen[(y * width + x) as usize] == Vec3::ZERO;
+    let around = |i: u32, end: u32| i.saturating_sub(1)..(i + 2).min(end);
+    let dark = |x, y| around(y, height).all(|v| around(x, width).all(|u| is_dark(u, v)));
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Ok(pixels.map(|(x, y)| dark(x, y)).collect())
+}
+
+/// Says what the table shows about many lights.
+fn print_point(rows: &[Row]) {
+    let night = |sampler| {
+        rows.iter()
+            .find(|row| row.scene == BuiltinScene::Night && row.sampler == sampler)
+            .map(|row| row.rel_mse)
+    };
+    let kinds = [
+        SamplerKind::Uniform,
+        SamplerKind::Power,
+        SamplerKind::BvhReference,
+    ];
+    let (Some(best), [Some(uniform), Some(power), Some(published)]) =
+        (night(SamplerKind::Bvh), kinds.map(night))
+    else {
+        return;
+    };
+    println!();
+    println!(
+        "In the same time the light hierarchy's error on the night scene is {:.0} times below that of uniform sampling, \
+         {:.0} times below that of sampling by power, {:.1} times below that of the published hierarchy.",
+        uniform / best,
+        power / best,
+        published / best
+    );
+}
