@@ -1,11 +1,15 @@
 //! Material libraries: which of MTL's many parameters mean what here.
 
 use alloc::collections::BTreeSet;
+use std::collections::HashMap;
 use std::path::Path;
 
 use crate::glam::{Vec2, Vec3};
 use crate::text::{Line, logical_lines, shown};
-use crate::{Color, Diagnostic, Emission, Material, MaterialId, Scene, Surface};
+use crate::{
+    Color, ColorImage, Diagnostic, Emission, EmissionSides, ImageId, Material, MaterialId, Scene,
+    Surface, read_image,
+};
 
 /// Adds the materials of a library to the scene; what comes back is their names and ids.
 pub(super) fn parse_mtl(
@@ -15,6 +19,7 @@ pub(super) fn parse_mtl(
 ) -> Result<Vec<(String, MaterialId)>, Diagnostic> {
     let mut described: Vec<Description> = Vec::new();
     let mut ignored = BTreeSet::new();
+    let mut textures = Textures::default();
     for (number, text) in logical_lines(text) {
         let mut line = Line::new(path, number, &text);
         let Some(keyword) = line.word() else {
@@ -28,6 +33,14 @@ pub(super) fn parse_mtl(
             let message = format!("expected `newmtl NAME` before `{}`", shown(keyword));
             return Err(line.diagnostic(message));
         };
+        if let "map_Kd" | "map_Ke" = keyword {
+            let image = textures.load(keyword, &mut line, scene)?;
+            match keyword {
+                "map_Kd" => material.diffuse_map = image,
+                _ => material.emitted_map = image,
+            }
+            continue;
+        }
         let understood = material.parameter(keyword, &mut line)?;
         if !understood && ignored.insert(keyword.to_owned()) {
             let message = format!("`{}` is not understood and was ignored", shown(keyword));
@@ -49,9 +62,11 @@ pub(super) fn parse_mtl(
 #[derive(Debug)]
 struct Description {
     name: String,
-    diffuse: Vec3,
+    diffuse: Option<Vec3>,
+    diffuse_map: Option<ImageId>,
     specular: Vec3,
     emitted: Vec3,
+    emitted_map: Option<ImageId>,
     index_of_refraction: f32,
     roughness: f32,
     metallic: f32,
@@ -62,9 +77,11 @@ impl Description {
     fn new(name: String) -> Self {
         Self {
             name,
-            diffuse: Vec3::splat(0.5),
+            diffuse: None,
+            diffuse_map: None,
             specular: Vec3::ZERO,
             emitted: Vec3::ZERO,
+            emitted_map: None,
             index_of_refraction: 1.5,
             roughness: 0.5,
             metallic: 0.0,
@@ -75,7 +92,7 @@ impl Description {
     /// Takes in one line; whether its keyword is understood.
     fn parameter(&mut self, keyword: &str, line: &mut Line<'_>) -> Result<bool, Diagnostic> {
         match keyword {
-            "Kd" => self.diffuse = color(line)?.clamp(Vec3::ZERO, Vec3::ONE),
+            "Kd" => self.diffuse = Some(color(line)?.clamp(Vec3::ZERO, Vec3::ONE)),
             "Ks" => self.specular = color(line)?.clamp(Vec3::ZERO, Vec3::ONE),
             "Ke" => self.emitted = color(line)?,
             "Ni" => self.index_of_refraction = at_least_zero(line, "an index of refraction")?,
@@ -90,19 +107,35 @@ impl Description {
     }
 
     fn into_material(self) -> Material {
-        // Emission of a material that does not emit is written as `Ke 0 0 0` by most exporters.
-        let emission = (self.emitted != Vec3::ZERO).then(|| Emission::one_sided(self.emitted));
         Material {
-            emission,
+            emission: self.emission(),
             ..Material::new(self.name.clone(), self.surface())
         }
+    }
+
+    fn emission(&self) -> Option<Emission> {
+        // Emission of a material that does not emit is written as `Ke 0 0 0` by most exporters.
+        let shines = self.emitted != Vec3::ZERO;
+        let radiance = match self.emitted_map {
+            Some(image) => {
+                let scale = if shines { self.emitted } else { Vec3::ONE };
+                Color::Image(ColorImage { image, scale })
+            }
+            None if shines => Color::Constant(self.emitted),
+            None => return None,
+        };
+        Some(Emission {
+            radiance,
+            sides: EmissionSides::Front,
+        })
     }
 
     fn surface(&self) -> Surface {
         // Perceived roughness to the width of the microfacet distribution, as exporters of `Pr` mean it.
         let alpha = Vec2::splat(self.roughness * self.roughness);
+        let diffuse = self.diffuse.unwrap_or(Vec3::splat(0.5));
         match self.illumination {
-            _ if self.metallic >= 0.5 => Surface::conductor_of_reflectance(self.diffuse, alpha),
+            _ if self.metallic >= 0.5 => Surface::conductor_of_reflectance(diffuse, alpha),
             5 => Surface::Mirror {
                 reflectance: self.specular,
             },
@@ -111,9 +144,54 @@ impl Description {
                 alpha: Vec2::ZERO,
             },
             _ => Surface::Diffuse {
-                reflectance: Color::Constant(self.diffuse),
+                reflectance: match self.diffuse_map {
+                    Some(image) => Color::Image(ColorImage {
+                        image,
+                        scale: self.diffuse.unwrap_or(Vec3::ONE),
+                    }),
+                    None => Color::Constant(diffuse),
+                },
             },
         }
+    }
+}
+
+/// The images of a library, each read once.
+#[derive(Debug, Default)]
+struct Textures {
+    by_name: HashMap<String, ImageId>,
+}
+
+impl Textures {
+    /// The image that a line names; none, with a warning, where its kind is not read.
+    fn load(
+        &mut self,
+        keyword: &str,
+        line: &mut Line<'_>,
+        scene: &mut Scene,
+    ) -> Result<Option<ImageId>, Diagnostic> {
+        let mut name = line.rest("a file name")?;
+        if name.starts_with('-') {
+            let message = format!("options of `{keyword}` were ignored");
+            scene.warnings.push(line.diagnostic(message));
+            name = name.split(' ').next_back().unwrap_or_default().to_owned();
+        }
+        if let Some(&image) = self.by_name.get(&name) {
+            return Ok(Some(image));
+        }
+        let file = line.path().with_file_name(name.replace('\\', "/"));
+        let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
+        if !["exr", "hdr", "png"].iter().any(|known| ending == *known) {
+            let name = shown(&name);
+            let message = format!("`{name}` was ignored: expected .exr, .hdr or .png");
+            scene.warnings.push(line.diagnostic(message));
+            return Ok(None);
+        }
+        let file = read_image(&file).map_err(|error| line.diagnostic(error.to_string()))?;
+        scene.warnings.extend(file.warning);
+        let image = scene.add_image(file.image);
+        self.by_name.insert(name, image);
+        Ok(Some(image))
     }
 }
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::glam::Vec2;
-use crate::{Color, Emission, Surface};
+use crate::test_folder::TestFolder;
+use crate::{Color, Emission, Image, Surface};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -244,4 +245,41 @@ fn agrees_with_tobj() {
             .map(|e| Emission::one_sided(Vec3::from(e)));
         assert_eq!(emission, theirs, "emission");
     }
+}
+
+#[test]
+fn images_color_surfaces_and_lights() {
+    let folder = TestFolder::new("obj_textures");
+    let image = Image::new(1, 1, vec![Vec3::ONE]).expect("1 x 1");
+    crate::write_image(&folder.path("a b.png"), &image).expect("written");
+    let obj = format!("mtllib a.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\n");
+    std::fs::write(folder.path("a.obj"), obj).expect("written");
+    let read = |mtl: &str| {
+        std::fs::write(folder.path("a.mtl"), mtl).expect("written");
+        read_obj(&folder.path("a.obj"))
+    };
+    let mtl = "newmtl a\nKd .5 .5 .5\nmap_Kd a b.png\nmap_Ke a b.png\nnewmtl b\nmap_Kd c.tga\n";
+    let scene = read(mtl).expect("a scene");
+    assert_eq!(scene.images.len(), 1, "shared");
+    let texture = |scale: f32| {
+        let (image, scale) = (crate::ImageId(0), Vec3::splat(scale));
+        Color::Image(crate::ColorImage { image, scale })
+    };
+    let reflectance = texture(0.5);
+    let material = &scene.materials[0];
+    assert_eq!(
+        material.surface,
+        Surface::Diffuse { reflectance },
+        "Kd times"
+    );
+    let emission = material.emission.expect("emission");
+    assert_eq!(emission.radiance, texture(1.0), "map_Ke alone");
+    let warning = &scene.warnings[0].message;
+    assert_eq!(
+        warning, "`c.tga` was ignored: expected .exr, .hdr or .png",
+        "kind"
+    );
+    let error = read("newmtl a\nmap_Kd no.png\n").expect_err("missing");
+    assert_eq!(error.place, crate::Place::Line(2), "with its line");
+    assert!(error.message.contains("no.png: cannot be read"), "{error}");
 }
