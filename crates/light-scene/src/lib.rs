@@ -7,6 +7,8 @@ extern crate alloc;
 pub use lights;
 pub use lights::glam;
 
+#[cfg(test)]
+mod broken;
 mod builtin;
 mod camera;
 mod diagnostic;

@@ -16,6 +16,8 @@ use std::path::Path;
 use crate::text::read_text;
 use crate::{Diagnostic, Scene};
 
+#[cfg(test)]
+pub(crate) use ply::parse_ply;
 use state::Reader;
 
 /// Reads a pbrt-v4 file and what it includes.
@@ -27,9 +29,13 @@ use state::Reader;
 /// When a file cannot be read, is no pbrt file, or a directive lacks what it needs: with file, line and what was
 /// expected.
 pub fn read_pbrt(path: &Path) -> Result<Scene, Diagnostic> {
-    let text = read_text(path)?;
+    parse_pbrt(path, &read_text(path)?)
+}
+
+/// As [`read_pbrt`], from the text of the file; `path` names it in messages and is where other files' names start from.
+pub(crate) fn parse_pbrt(path: &Path, text: &str) -> Result<Scene, Diagnostic> {
     let mut reader = Reader::default();
-    reader.file(path, &text, 0)?;
+    reader.file(path, text, 0)?;
     reader.finish(path)
 }
 

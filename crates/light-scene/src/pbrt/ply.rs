@@ -44,7 +44,8 @@ pub(super) fn read_ply(path: &Path) -> Result<Mesh, Diagnostic> {
     parse_ply(path, &read_bytes(path)?)
 }
 
-pub(super) fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
+/// As [`read_ply`], from the bytes of the file; `path` names it in messages.
+pub(crate) fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
     if bytes.starts_with(&[0x1f, 0x8b]) {
         return Err(Diagnostic::file(
             path,
