@@ -14,6 +14,20 @@ pub struct LightSampleContext {
     pub n: Vec3,
     /// Shading normal.
     pub ns: Vec3,
+    /// From which sides light reaches the surface.
+    pub sides: ReceiverSides,
+    /// From `p` to the other end of a ray segment in a medium; zero for a point.
+    pub segment: Vec3,
+}
+
+/// From which sides light reaches a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReceiverSides {
+    /// From the side of its normal only: the surface is opaque.
+    #[default]
+    Front,
+    /// From both sides: the surface transmits light.
+    Both,
 }
 
 impl LightSampleContext {
@@ -25,6 +39,28 @@ impl LightSampleContext {
             p_error: Vec3::ZERO,
             n,
             ns,
+            sides: ReceiverSides::Front,
+            segment: Vec3::ZERO,
+        }
+    }
+
+    /// A point on a surface that transmits light, so that light from behind counts as well.
+    #[must_use]
+    pub const fn two_sided(p: Vec3, n: Vec3, ns: Vec3) -> Self {
+        Self {
+            sides: ReceiverSides::Both,
+            ..Self::surface(p, n, ns)
+        }
+    }
+
+    /// A ray segment in a medium, from `p` to `p + segment`: lights count by what they give along all of it.
+    ///
+    /// The default hierarchy chooses for the segment as a whole; other samplers, and lights, take it for the point `p`.
+    #[must_use]
+    pub const fn segment(p: Vec3, segment: Vec3) -> Self {
+        Self {
+            segment,
+            ..Self::medium(p)
         }
     }
 

@@ -1,5 +1,5 @@
 use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh, LightCut, MediumReceiver, SurfaceReceiver};
+use light_bvh::{CutDetail, LightBvh, LightCut};
 
 use crate::light_sampler::stratum;
 use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
@@ -25,12 +25,7 @@ impl<'a> BvhLightCut<'a> {
         ctx: &LightSampleContext,
         detail: CutDetail,
     ) -> Self {
-        let view = tree.view();
-        let cut = if is_in_medium(ctx) {
-            LightCut::new(&view, &MediumReceiver::new(ctx.p), detail)
-        } else {
-            LightCut::new(&view, &SurfaceReceiver::new(ctx.p, ctx.ns), detail)
-        };
+        let cut = LightCut::at(&tree.view(), ctx, detail);
         Self {
             tree,
             sky,
@@ -76,28 +71,10 @@ impl<'a> BvhLightCut<'a> {
     }
 
     fn sample_tree(&self, pmf: f32, u: f64) -> Option<SampledLight> {
-        let (view, ctx) = (self.tree.view(), &self.ctx);
-        if is_in_medium(ctx) {
-            self.cut.sample(&view, &MediumReceiver::new(ctx.p), pmf, u)
-        } else {
-            let receiver = SurfaceReceiver::new(ctx.p, ctx.ns);
-            self.cut.sample(&view, &receiver, pmf, u)
-        }
+        self.cut.sample_at(&self.tree.view(), &self.ctx, pmf, u)
     }
 
     fn pmf_tree(&self, pmf: f32, light: LightId) -> f32 {
-        let (view, ctx) = (self.tree.view(), &self.ctx);
-        if is_in_medium(ctx) {
-            let receiver = MediumReceiver::new(ctx.p);
-            self.cut.pmf(&view, &receiver, pmf, light)
-        } else {
-            let receiver = SurfaceReceiver::new(ctx.p, ctx.ns);
-            self.cut.pmf(&view, &receiver, pmf, light)
-        }
+        self.cut.pmf_at(&self.tree.view(), &self.ctx, pmf, light)
     }
-}
-
-/// Whether the point counts as one in a medium: it has no normal, or is so far away that directions mean nothing.
-fn is_in_medium(ctx: &LightSampleContext) -> bool {
-    ctx.is_medium() || light_bvh::is_far(ctx.p)
 }

@@ -1,6 +1,8 @@
 use alloc::vec::Vec;
 
-use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
+use light_bounds::{
+    InfiniteBounds, LightExtent, LightId, LightSampleContext, ReceiverSides, SampledLight,
+};
 use light_math::float;
 
 /// Cosine that is never taken for less while any light may arrive, and what a test for none of it leaves to round-off.
@@ -138,6 +140,12 @@ fn share(weight: f64, total: f64) -> f32 {
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
     if ctx.is_medium() {
         return 1.0;
+    }
+    if ctx.sides == ReceiverSides::Both {
+        let height = ctx.ns.dot(bounds.mean).abs();
+        return height
+            .max(0.5 * float::safe_sqrt(1.0 - bounds.mean.length_squared()))
+            .max(SLACK);
     }
     let cone = &bounds.cone;
     let sin = float::safe_sqrt(1.0 - cone.cos_theta * cone.cos_theta);

@@ -32,6 +32,22 @@ light_testkit::sampler_laws! {
         |set| BvhLightSampler::new(&set.extents()).expect("valid bounds")
     }
 
+    /// The default hierarchy, asked for surfaces that transmit light.
+    mod bvh_two_sided {
+        |set| Asked(
+            BvhLightSampler::new(&set.extents()).expect("valid bounds"),
+            |ctx| LightSampleContext::two_sided(ctx.p, ctx.n, ctx.ns),
+        )
+    }
+
+    /// The default hierarchy, asked for ray segments.
+    mod bvh_segment {
+        |set| Asked(
+            BvhLightSampler::new(&set.extents()).expect("valid bounds"),
+            |ctx| LightSampleContext::segment(ctx.p, ctx.p * 0.5),
+        )
+    }
+
     /// The default hierarchy as it chooses several lights at once.
     mod bvh_cut {
         |set| OfMany(BvhLightSampler::new(&set.extents()).expect("valid bounds"))
@@ -50,6 +66,27 @@ impl<S: LightSampler> LightSampler for OfMany<S> {
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         self.0.pmf_many(ctx, light)
+    }
+
+    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+        self.0.sample_emitter(u)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.0.pmf_emitter(light)
+    }
+}
+
+/// Another question wherever a context is given.
+struct Asked<S>(S, fn(&LightSampleContext) -> LightSampleContext);
+
+impl<S: LightSampler> LightSampler for Asked<S> {
+    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.0.sample(&self.1(ctx), u)
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.0.pmf(&self.1(ctx), light)
     }
 
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {

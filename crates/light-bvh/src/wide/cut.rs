@@ -1,6 +1,6 @@
-use light_bounds::{LightId, SampledLight};
+use light_bounds::{LightId, LightSampleContext, SampledLight};
 
-use super::importance::Receiver;
+use super::importance::{Receiver, for_receiver};
 use super::lane::Weights;
 use super::node::{NOWHERE, WIDTH};
 use super::select::{both, pick, share};
@@ -43,6 +43,36 @@ pub struct LightCut {
 }
 
 impl LightCut {
+    /// The cut of `tree` for `ctx`.
+    #[must_use]
+    pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
+        for_receiver!(ctx, receiver => Self::new(tree, &receiver, detail))
+    }
+
+    /// [`sample`](Self::sample) of the cut for `ctx`.
+    #[must_use]
+    pub fn sample_at(
+        &self,
+        tree: &LightBvhRef<'_>,
+        ctx: &LightSampleContext,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        for_receiver!(ctx, receiver => self.sample(tree, &receiver, pmf, u))
+    }
+
+    /// [`pmf`](Self::pmf) of the cut for `ctx`.
+    #[must_use]
+    pub fn pmf_at(
+        &self,
+        tree: &LightBvhRef<'_>,
+        ctx: &LightSampleContext,
+        pmf: f32,
+        light: LightId,
+    ) -> f32 {
+        for_receiver!(ctx, receiver => self.pmf(tree, &receiver, pmf, light))
+    }
+
     /// The cut of `tree` for `receiver`.
     #[must_use]
     pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {

@@ -1,8 +1,9 @@
-use light_bounds::LightSampleContext;
+use light_bounds::{LightSampleContext, ReceiverSides};
 use light_math::float;
 use light_math::glam::Vec3;
 
 use super::lane::Lane;
+use super::segment::SegmentReceiver;
 
 /// Coordinates are clamped to this on either side, so that no difference of two overflows.
 pub(crate) const FAR: f32 = 1e36;
@@ -15,7 +16,7 @@ const SLACK: f32 = 1e-5;
 const HEIGHT: f32 = 0.4;
 const RAMP_BY_POSITION: f32 = 0.05;
 const RAMP_BY_SPREAD: f32 = 0.30;
-const DISTANCE: f32 = 0.06;
+pub(crate) const DISTANCE: f32 = 0.06;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///
@@ -123,7 +124,7 @@ impl Receiver for MediumReceiver {
 
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        2.0 * lane.dist * lane.emitted()
+        lane.fluence()
     }
 }
 
@@ -143,24 +144,44 @@ impl Receiver for NoReceiver {
     }
 }
 
-/// Where both normals are zero, the context's point is in a medium; otherwise on a surface with its shading normal.
+/// The receiver that a context stands for: a ray segment, a point in a medium, or a point on a surface by its shading normal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ContextReceiver {
     Surface(SurfaceReceiver),
+    TwoSided(TwoSidedReceiver),
     Medium(MediumReceiver),
+    Segment(SegmentReceiver),
 }
 
 impl From<&LightSampleContext> for ContextReceiver {
     #[inline]
     fn from(ctx: &LightSampleContext) -> Self {
+        if ctx.segment != Vec3::ZERO {
+            return Self::Segment(SegmentReceiver::new(ctx.p, ctx.segment));
+        }
         // Where coordinates had to be clamped, directions to lights mean nothing.
         if ctx.is_medium() || is_far(ctx.p) {
-            Self::Medium(MediumReceiver::new(ctx.p))
-        } else {
-            Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns))
+            return Self::Medium(MediumReceiver::new(ctx.p));
+        }
+        match ctx.sides {
+            ReceiverSides::Front => Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns)),
+            ReceiverSides::Both => Self::TwoSided(TwoSidedReceiver::new(ctx.p, ctx.ns)),
         }
     }
 }
+
+/// The same question for whichever receiver a context stands for.
+macro_rules! for_receiver {
+    ($ctx:expr, $receiver:ident => $answer:expr) => {
+        match $crate::wide::importance::ContextReceiver::from($ctx) {
+            $crate::wide::importance::ContextReceiver::Surface($receiver) => $answer,
+            $crate::wide::importance::ContextReceiver::TwoSided($receiver) => $answer,
+            $crate::wide::importance::ContextReceiver::Medium($receiver) => $answer,
+            $crate::wide::importance::ContextReceiver::Segment($receiver) => $answer,
+        }
+    };
+}
+pub(crate) use for_receiver;
 
 /// Whether `p` is beyond ±1e36 on any axis, where it is taken to be nearer and directions from it mean nothing.
 #[inline]
@@ -170,11 +191,30 @@ pub fn is_far(p: Vec3) -> bool {
 }
 
 #[inline]
-fn near(p: Vec3) -> Vec3 {
+pub(crate) fn near(p: Vec3) -> Vec3 {
     p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
 }
 
 impl Lane {
+    /// The same child from a place `offset` away from the receiver's position.
+    #[inline(always)]
+    pub(crate) fn seen_from(&self, offset: Vec3) -> Self {
+        let mean = Vec3::from(self.mean) - offset;
+        let dist_sq = mean.length_squared() + 1e-12;
+        Self {
+            mean: mean.to_array(),
+            dist_sq,
+            dist: float::sqrt(dist_sq),
+            ..*self
+        }
+    }
+
+    /// What the child is worth to a point without a normal.
+    #[inline(always)]
+    pub(crate) fn fluence(&self) -> f32 {
+        2.0 * self.dist * self.emitted()
+    }
+
     /// Mean height over the plane through the receiver with normal `n`, its variance, and the highest point's excess over the mean.
     #[inline(always)]
     fn height(&self, n: Vec3) -> (f32, f32, f32) {

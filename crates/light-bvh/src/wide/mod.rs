@@ -14,6 +14,7 @@ mod moments;
 mod node;
 #[cfg(feature = "alloc")]
 mod prim;
+mod segment;
 mod select;
 #[cfg(feature = "alloc")]
 mod split;
@@ -25,4 +26,5 @@ pub use lane::Lane;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;
 pub use node::WideNode;
+pub use segment::SegmentReceiver;
 pub use tree::{LightBvhRef, MAX_DEPTH};

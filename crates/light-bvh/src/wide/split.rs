@@ -1,10 +1,17 @@
+use core::cmp::Ordering;
+use core::ops::RangeInclusive;
+
 use light_math::glam::Vec3;
 use light_math::{Aabb, float};
 
+use super::node::WIDTH;
 use super::prim::{Prim, Run, Sums};
 
 /// Bins on each axis.
 const BINS: usize = 12;
+
+/// Runs of so many lights are split where full nodes come out.
+const SNAP: RangeInclusive<usize> = WIDTH + 1..=24;
 
 /// Variance of the axes beyond which lights are also split by how narrow their cones are. Diffuse lights stay below 1.
 const MIXED_AXES: f32 = 100.0;
@@ -36,6 +43,13 @@ pub(crate) fn split(prims: &mut [Prim], run: &Run) -> (Run, Run) {
         // Nothing tells them apart: centres in one point, or too close to each other.
         None => (lights.len() / 2, [run.cost / 2.0; 2]),
     };
+    let mid = match &plane {
+        Some(Plane {
+            key: Key::Position(axis),
+            ..
+        }) if SNAP.contains(&lights.len()) => snap(lights, *axis, mid),
+        _ => mid,
+    };
     let at = run.start + mid;
     let part = |start: usize, end: usize, cost| Run {
         start,
@@ -46,16 +60,27 @@ pub(crate) fn split(prims: &mut [Prim], run: &Run) -> (Run, Run) {
     (part(run.start, at, costs[0]), part(at, run.end, costs[1]))
 }
 
+/// Moves the border between the halves to the nearest multiple of eight lights, so that the lowest nodes come out full.
+fn snap(lights: &mut [Prim], axis: usize, mid: usize) -> usize {
+    let mid = (mid + WIDTH / 2) / WIDTH * WIDTH;
+    let mid = mid.clamp(WIDTH, (lights.len() - 1) / WIDTH * WIDTH);
+    lights.select_nth_unstable_by(mid, |a, b| along(a, b, axis));
+    mid
+}
+
+/// The order of the centres along `axis`; of the ids where they agree.
+fn along(a: &Prim, b: &Prim, axis: usize) -> Ordering {
+    a.center[axis]
+        .total_cmp(&b.center[axis])
+        .then(a.light.cmp(&b.light))
+}
+
 /// Splits `run` in two halves of the same number of lights, along its longest side.
 pub(crate) fn halve(prims: &mut [Prim], run: &Run) -> (Run, Run) {
     let lights = &mut prims[run.start..run.end];
     let axis = run.bounds.diagonal().max_position();
     let mid = lights.len() / 2;
-    lights.select_nth_unstable_by(mid, |a, b| {
-        a.center[axis]
-            .total_cmp(&b.center[axis])
-            .then(a.light.cmp(&b.light))
-    });
+    lights.select_nth_unstable_by(mid, |a, b| along(a, b, axis));
     let at = run.start + mid;
     let part = |start: usize, end: usize| Run {
         start,

@@ -1,6 +1,6 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
-use super::importance::{ContextReceiver, NoReceiver, Receiver};
+use super::importance::{NoReceiver, Receiver, for_receiver};
 use super::lane::Weights;
 use super::node::{NOWHERE, WIDTH, WideNode};
 use super::select::both;
@@ -71,10 +71,7 @@ impl<'a> LightBvhRef<'a> {
     #[inline]
     #[must_use]
     pub fn sample_after(&self, ctx: &LightSampleContext, pmf: f32, u: f64) -> Option<SampledLight> {
-        match ctx.into() {
-            ContextReceiver::Surface(receiver) => self.descend(&receiver, 0, pmf, u),
-            ContextReceiver::Medium(receiver) => self.descend(&receiver, 0, pmf, u),
-        }
+        for_receiver!(ctx, receiver => self.descend(&receiver, 0, pmf, u))
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
@@ -88,10 +85,7 @@ impl<'a> LightBvhRef<'a> {
     #[inline]
     #[must_use]
     pub fn pmf_after(&self, ctx: &LightSampleContext, pmf: f32, light: LightId) -> f32 {
-        match ctx.into() {
-            ContextReceiver::Surface(receiver) => self.ascend(&receiver, pmf, light),
-            ContextReceiver::Medium(receiver) => self.ascend(&receiver, pmf, light),
-        }
+        for_receiver!(ctx, receiver => self.ascend(&receiver, pmf, light))
     }
 
     /// One light that may light `receiver`; `None` if no light in the tree can.
@@ -127,10 +121,7 @@ impl<'a> LightBvhRef<'a> {
         let Some(root) = self.nodes.first() else {
             return 0.0;
         };
-        let weights = match ctx.into() {
-            ContextReceiver::Surface(receiver) => Weights::new(root, &receiver),
-            ContextReceiver::Medium(receiver) => Weights::new(root, &receiver),
-        };
+        let weights = for_receiver!(ctx, receiver => Weights::new(root, &receiver));
         let inv_unit = f64::from(weights.inv_unit);
         // Heights and intensities are counted twice each.
         0.25 * f64::from(weights.total()) * f64::from(root.gain()) * inv_unit * inv_unit
