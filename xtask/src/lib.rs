@@ -11,6 +11,7 @@ pub mod exhaustive;
 mod features;
 mod fuzz;
 mod gallery;
+mod median_cut_table;
 mod no_std;
 mod references;
 mod steps;
@@ -28,6 +29,7 @@ usage: cargo xtask [COMMAND]
   bench [FILTER]              time everything, with ratios to the reference
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   gallery                     remake the pictures of the README and the references of the demo
+  median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
@@ -46,6 +48,9 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
+        ("median-cut-table", images) => one("median-cut-table", || {
+            median_cut_table::median_cut_table(images)
+        }),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),
