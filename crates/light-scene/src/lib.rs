@@ -12,6 +12,7 @@ mod broken;
 mod builtin;
 mod camera;
 mod diagnostic;
+pub mod ies;
 mod image;
 pub mod light_set;
 mod material;

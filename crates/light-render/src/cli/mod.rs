@@ -9,6 +9,7 @@ mod env_convert;
 mod env_median_cut;
 mod env_regions;
 mod failure;
+mod ies;
 mod info;
 mod merge;
 mod output_image;
@@ -38,6 +39,7 @@ enum Command {
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
     Env(env::EnvArgs),
+    Ies(ies::IesArgs),
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
     Render(render::RenderArgs),
@@ -53,6 +55,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Bench(args)) => args.run().map_err(Failure::input),
         Some(Command::Compare(args)) => args.run(),
         Some(Command::Env(args)) => args.run(),
+        Some(Command::Ies(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),
         Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),

@@ -1,0 +1,121 @@
+/// Ascending angles in degrees at which something was measured, with straight lines in between.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis(Vec<f32>);
+
+/// A place between two angles: `1 - t` of the value at index `below`, `t` of the one at index `above`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Between {
+    pub(super) below: usize,
+    pub(super) above: usize,
+    pub(super) t: f32,
+}
+
+/// How much solid angle an axis adds to a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measure {
+    /// The step itself: around a pole.
+    Longitude,
+    /// The step times the sine of the angle: away from a pole.
+    Colatitude,
+    /// The step times the cosine of the angle: away from an equator.
+    Latitude,
+}
+
+impl Axis {
+    /// An axis of at least one angle; none if they do not ascend.
+    pub(super) fn new(angles: Vec<f32>) -> Option<Self> {
+        let ascend = angles.windows(2).all(|pair| pair[0] < pair[1]);
+        (ascend && !angles.is_empty()).then_some(Self(angles))
+    }
+
+    pub(super) fn angles(&self) -> &[f32] {
+        &self.0
+    }
+
+    pub(super) fn first(&self) -> f32 {
+        self.0[0]
+    }
+
+    pub(super) fn last(&self) -> f32 {
+        self.0[self.0.len() - 1]
+    }
+
+    /// Where `degrees` lies; none beyond the ends, but for what rounding may do.
+    pub(super) fn place(&self, degrees: f32) -> Option<Between> {
+        const ROUNDING: f32 = 1e-3;
+        if !(degrees >= self.first() - ROUNDING && degrees <= self.last() + ROUNDING) {
+            return None;
+        }
+        let last = self.0.len() - 1;
+        let above = self
+            .0
+            .partition_point(|&angle| angle <= degrees)
+            .clamp(1.min(last), last);
+        let below = above.saturating_sub(1);
+        let step = self.0[above] - self.0[below];
+        let t = if step > 0.0 {
+            ((degrees - self.0[below]) / step).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        Some(Between { below, above, t })
+    }
+
+    /// What the value at each angle counts in the integral over the axis, of the straight lines and exactly.
+    pub(super) fn weights(&self, measure: Measure) -> Vec<f64> {
+        let mut weights = vec![0.0; self.0.len()];
+        for (i, pair) in self.0.windows(2).enumerate() {
+            let [a, b] = [pair[0], pair[1]].map(|degrees| f64::from(degrees).to_radians());
+            let (low, high) = match measure {
+                Measure::Longitude => (0.5 * (b - a), 0.5 * (b - a)),
+                Measure::Colatitude => sine_weights(a, b),
+                Measure::Latitude => {
+                    let quarter = core::f64::consts::FRAC_PI_2;
+                    sine_weights(a + quarter, b + quarter)
+                }
+            };
+            weights[i] += low;
+            weights[i + 1] += high;
+        }
+        weights
+    }
+}
+
+/// The integrals from `a` to `b` of the sine times what falls, or rises, between 0 and 1.
+fn sine_weights(a: f64, b: f64) -> (f64, f64) {
+    let mean_cosine = (b.sin() - a.sin()) / (b - a);
+    (a.cos() - mean_cosine, mean_cosine - b.cos())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_between_or_nowhere() {
+        let axis = Axis::new(vec![0.0, 10.0, 40.0]).expect("ascending");
+        let at = |degrees| axis.place(degrees).map(|p| (p.below, p.above, p.t));
+        assert_eq!(at(0.0), Some((0, 1, 0.0)), "the first");
+        assert_eq!(at(25.0), Some((1, 2, 0.5)), "between");
+        assert_eq!(at(40.0), Some((1, 2, 1.0)), "the last");
+        assert_eq!(at(41.0), None, "beyond");
+        assert_eq!(at(f32::NAN), None, "nowhere");
+        let single = Axis::new(vec![0.0]).expect("one");
+        assert_eq!(single.place(0.0).map(|p| p.above), Some(0), "one angle");
+        assert_eq!(Axis::new(vec![1.0, 1.0]), None, "equal");
+    }
+
+    #[test]
+    fn weights_of_a_constant_are_the_measure() {
+        let axis = Axis::new(vec![0.0, 20.0, 90.0, 180.0]).expect("ascending");
+        let sum = |measure| axis.weights(measure).iter().sum::<f64>();
+        assert!(
+            (sum(Measure::Longitude) - core::f64::consts::PI).abs() < 1e-12,
+            "pi"
+        );
+        assert!((sum(Measure::Colatitude) - 2.0).abs() < 1e-12, "1 - cos pi");
+        let half = Axis::new(vec![-90.0, 0.0, 90.0]).expect("ascending");
+        let sum: f64 = half.weights(Measure::Latitude).iter().sum();
+        assert!((sum - 2.0).abs() < 1e-12, "from pole to pole");
+    }
+}

@@ -1,0 +1,37 @@
+//! Measured luminaires: IESNA LM-63 (`.ies`) and EULUMDAT (`.ldt`).
+
+mod axis;
+mod eulumdat;
+mod lm63;
+mod luminaire;
+mod numbers;
+#[cfg(test)]
+mod tests;
+mod tilt;
+mod unfolding;
+mod web;
+
+pub use eulumdat::parse_eulumdat;
+pub use lm63::parse_lm63;
+pub use luminaire::{Luminaire, LuminaireFormat};
+pub use tilt::LampTilt;
+pub use web::{CandelaWeb, CandelaWebError, WebType};
+
+use std::path::Path;
+
+use crate::Diagnostic;
+use crate::text::read_text;
+
+/// The luminaire that a file describes: EULUMDAT if its name ends in `.ldt`, LM-63 otherwise.
+///
+/// # Errors
+/// When the file cannot be read or is malformed: file, line and what was expected there.
+pub fn read_luminaire(path: &Path) -> Result<Luminaire, Diagnostic> {
+    let text = read_text(path)?;
+    let extension = path.extension().unwrap_or_default();
+    if extension.eq_ignore_ascii_case("ldt") {
+        parse_eulumdat(path, &text)
+    } else {
+        parse_lm63(path, &text)
+    }
+}

@@ -1,0 +1,74 @@
+use super::WebType;
+use super::axis::Axis;
+
+/// An axis that symmetry has completed, and for each of its angles which of the measured ones has its values.
+#[derive(Clone, Debug)]
+pub(super) struct Unfolding {
+    pub(super) axis: Axis,
+    pub(super) from: Vec<usize>,
+}
+
+impl Unfolding {
+    /// None where the angles are not those of the type.
+    pub(super) fn vertical(web_type: WebType, angles: &[f32]) -> Option<Self> {
+        let axis = Axis::new(angles.to_vec()).filter(|_| angles.len() > 1)?;
+        match web_type {
+            WebType::A | WebType::B => Self::mirrored(&axis),
+            WebType::C => {
+                (axis.first() >= 0.0 && axis.last() <= 180.0).then(|| Self::of(&axis, |a| vec![a]))
+            }
+        }
+    }
+
+    /// None where the angles are not those of the type.
+    pub(super) fn horizontal(web_type: WebType, angles: &[f32]) -> Option<Self> {
+        let axis = Axis::new(angles.to_vec())?;
+        if web_type != WebType::C {
+            return Self::mirrored(&axis).filter(|_| angles.len() > 1);
+        }
+        let ends = (axis.first(), axis.last());
+        match ends {
+            (0.0, 0.0) => Some(Self::of(&axis, |_| vec![0.0, 360.0])),
+            (0.0, 90.0) => Some(Self::of(&axis, |a| {
+                vec![a, 180.0 - a, 180.0 + a, 360.0 - a]
+            })),
+            (0.0, 180.0) => Some(Self::of(&axis, |a| vec![a, 360.0 - a])),
+            (90.0, 270.0) => Some(Self::of(&axis, |a| {
+                let mirrored = 180.0 - a;
+                vec![a, mirrored.rem_euclid(360.0), mirrored + 360.0]
+            })),
+            // A full turn, with or without its end.
+            (0.0, last) if last > 180.0 && last <= 360.0 => Some(Self::of(&axis, |a| {
+                if a == 0.0 { vec![0.0, 360.0] } else { vec![a] }
+            })),
+            _ => None,
+        }
+    }
+
+    /// Angles within a right angle of 0, on both sides or on one.
+    fn mirrored(axis: &Axis) -> Option<Self> {
+        if axis.last() > 90.0 {
+            None
+        } else if axis.first() == 0.0 {
+            Some(Self::of(axis, |a| vec![-a, a]))
+        } else {
+            (axis.first() == -axis.last()).then(|| Self::of(axis, |a| vec![a]))
+        }
+    }
+
+    /// All `images` of each angle in `[-360, 360]`, in order, each once.
+    fn of(axis: &Axis, images: impl Fn(f32) -> Vec<f32>) -> Self {
+        let angles = axis.angles().iter().enumerate();
+        let mut all: Vec<(f32, usize)> = angles
+            .flat_map(|(i, &angle)| images(angle).into_iter().map(move |image| (image, i)))
+            .filter(|&(image, _)| image <= 360.0)
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.dedup_by(|a, b| a.0 == b.0);
+        let (angles, from) = all.into_iter().unzip();
+        Self {
+            axis: Axis::new(angles).expect("sorted, each once"),
+            from,
+        }
+    }
+}

@@ -1,0 +1,236 @@
+use core::error::Error;
+use core::fmt;
+
+use glam::{Affine3A, Vec2, Vec3};
+use lights::math::equal_area::square_to_sphere;
+use lights::math::spectrum::photometric::Lumen;
+use lights::sources::{
+    Channels, ColorModel, GoniometricLightDesc, Image, IntensityAmount, MediumInterface,
+};
+
+use super::axis::{Axis, Measure};
+use super::unfolding::Unfolding;
+
+/// The intensity of a luminaire by direction: candelas at vertical and horizontal angles, bilinear in between, 0 beyond.
+///
+/// Light space is right-handed with y up, whatever the [`WebType`]: the nadir is -y, and the direction that the standard
+/// calls photometric horizontal is +x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandelaWeb {
+    web_type: WebType,
+    vertical: Axis,
+    horizontal: Axis,
+    /// One after the other, the values of each horizontal angle.
+    candelas: Vec<f32>,
+}
+
+/// How vertical and horizontal angles, `v` and `h`, say a direction.
+///
+/// # Source
+/// `[LM63]`, section 3: photometric zero, the nadir, is (v, h) = (0, 0) in types B and C and (-90, 0) in type A; photometric
+/// horizontal is (90, 0) in types B and C and (0, 0) in type A. Seen from above, horizontal angles run clockwise in
+/// types A and B, counter-clockwise in type C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WebType {
+    /// Automotive lights: `(cos v cos h, sin v, cos v sin h)`.
+    A,
+    /// Floodlights: `(cos h sin v, -cos h cos v, sin h)`.
+    B,
+    /// Anything else, indoors and along roads: `(sin v cos h, -cos v, -sin v sin h)`.
+    C,
+}
+
+/// Why angles and candelas are no web.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CandelaWebError {
+    /// Vertical angles do not ascend in `[0, 180]`, or for types A and B from the opposite of the last one, or from 0, to
+    /// at most 90; or there is only one.
+    Vertical,
+    /// Horizontal angles do not ascend from 0 to 0, 90, 180 or 360 or from 90 to 270, or for types A and B from the
+    /// opposite of the last one, or from 0, to at most 90; or there is only one in these types.
+    Horizontal,
+    /// There is not one value for each pair of angles, or one is negative or not finite.
+    Candelas,
+}
+
+impl CandelaWeb {
+    /// The web of the given angles in degrees; `candelas` holds the values of one horizontal angle after the other.
+    ///
+    /// What symmetry leaves out is filled in. Type C: horizontal angles that end at 0 are those of a rotationally
+    /// symmetric web, at 90 of one with four equal quadrants, at 180 (or from 90 to 270) of one with two equal halves; any
+    /// end above 180 is taken for a full turn. Types A and B: angles from 0 are mirrored to below 0.
+    ///
+    /// # Errors
+    /// When the angles do not fit the type, or the candelas the angles.
+    pub fn new(
+        web_type: WebType,
+        vertical: &[f32],
+        horizontal: &[f32],
+        candelas: &[f32],
+    ) -> Result<Self, CandelaWebError> {
+        let is_valid = |&value: &f32| value >= 0.0 && value.is_finite();
+        let count = vertical.len() * horizontal.len();
+        if candelas.len() != count || !candelas.iter().all(is_valid) {
+            return Err(CandelaWebError::Candelas);
+        }
+        let rows = Unfolding::vertical(web_type, vertical).ok_or(CandelaWebError::Vertical)?;
+        let planes =
+            Unfolding::horizontal(web_type, horizontal).ok_or(CandelaWebError::Horizontal)?;
+        let value = |&plane: &usize| {
+            let plane = &candelas[plane * vertical.len()..][..vertical.len()];
+            rows.from.iter().map(|&row| plane[row])
+        };
+        Ok(Self {
+            web_type,
+            candelas: planes.from.iter().flat_map(value).collect(),
+            vertical: rows.axis,
+            horizontal: planes.axis,
+        })
+    }
+
+    /// How angles say a direction.
+    #[must_use]
+    pub const fn web_type(&self) -> WebType {
+        self.web_type
+    }
+
+    /// The vertical angles in degrees, in ascending order, with those that symmetry adds.
+    #[must_use]
+    pub fn vertical(&self) -> &[f32] {
+        self.vertical.angles()
+    }
+
+    /// The horizontal angles in degrees, in ascending order, with those that symmetry adds.
+    #[must_use]
+    pub fn horizontal(&self) -> &[f32] {
+        self.horizontal.angles()
+    }
+
+    /// The intensity in cd at a vertical and a horizontal angle in degrees.
+    #[must_use]
+    pub fn at(&self, vertical: f32, horizontal: f32) -> f32 {
+        let place = (
+            self.vertical.place(vertical),
+            self.horizontal.place(horizontal),
+        );
+        let (Some(row), Some(plane)) = place else {
+            return 0.0;
+        };
+        let n = self.vertical.angles().len();
+        let along = |plane: usize| {
+            let [low, high] = [row.below, row.above].map(|row| self.candelas[plane * n + row]);
+            low + row.t * (high - low)
+        };
+        let (low, high) = (along(plane.below), along(plane.above));
+        low + plane.t * (high - low)
+    }
+
+    /// The intensity in cd in a unit direction of light space.
+    #[must_use]
+    pub fn toward(&self, w: Vec3) -> f32 {
+        let (vertical, horizontal) = match self.web_type {
+            // At the poles of these types a zero must not be negative, which would mean behind.
+            WebType::A => (w.y.clamp(-1.0, 1.0).asin(), w.z.atan2(w.x + 0.0)),
+            WebType::B => (w.x.atan2(0.0 - w.y), w.z.clamp(-1.0, 1.0).asin()),
+            WebType::C => ((-w.y).clamp(-1.0, 1.0).acos(), (-w.z).atan2(w.x)),
+        };
+        let (vertical, horizontal) = (vertical.to_degrees(), horizontal.to_degrees());
+        match self.web_type {
+            WebType::A | WebType::B => self.at(vertical, horizontal),
+            WebType::C => self.at(vertical, horizontal.rem_euclid(360.0)),
+        }
+    }
+
+    /// The largest intensity, in cd.
+    #[must_use]
+    pub fn peak_candelas(&self) -> f32 {
+        self.candelas.iter().copied().fold(0.0, f32::max)
+    }
+
+    /// The luminous power in all directions, in lm: the integral of what is bilinear between the angles, exactly.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+    pub fn total_lumens(&self) -> f32 {
+        let [rows, planes] = match self.web_type {
+            WebType::A => [Measure::Latitude, Measure::Longitude],
+            WebType::B => [Measure::Longitude, Measure::Latitude],
+            WebType::C => [Measure::Colatitude, Measure::Longitude],
+        };
+        let (rows, planes) = (self.vertical.weights(rows), self.horizontal.weights(planes));
+        let along = |plane: &[f32]| -> f64 {
+            let values = rows.iter().zip(plane);
+            values
+                .map(|(weight, &value)| weight * f64::from(value))
+                .sum()
+        };
+        let each = self.candelas.chunks_exact(rows.len()).zip(&planes);
+        each.map(|(plane, weight)| weight * along(plane))
+            .sum::<f64>() as f32
+    }
+
+    /// A goniometric light with the distribution and the luminous power of this web, its distribution an equal-area
+    /// square of `size` texels a side (at least 1), each the mean of what it covers, 1 at the peak.
+    ///
+    /// # Panics
+    /// When `size` is 0.
+    #[must_use]
+    pub fn light<C: ColorModel>(
+        &self,
+        transform: Affine3A,
+        emission: C::Emission,
+        size: u32,
+    ) -> GoniometricLightDesc<C> {
+        GoniometricLightDesc {
+            transform,
+            distribution: self.distribution(size),
+            emission,
+            amount: IntensityAmount::LuminousPower(Lumen(self.total_lumens())),
+            media: MediumInterface::default(),
+        }
+    }
+
+    fn distribution(&self, size: u32) -> Image {
+        /// Places a side in each texel.
+        const PLACES: u32 = 4;
+        let peak = self.peak_candelas();
+        let part = if peak > 0.0 { 1.0 / peak } else { 0.0 };
+        let place = |x: u32, y: u32, i: u32| {
+            let inside = Vec2::new((i % PLACES) as f32, (i / PLACES) as f32) + 0.5;
+            let texel = Vec2::new(x as f32, y as f32) + inside / PLACES as f32;
+            part * self.toward(square_to_sphere(texel / size as f32))
+        };
+        let count = PLACES * PLACES;
+        let mean = |x, y| (0..count).map(|i| place(x, y, i)).sum::<f32>() / count as f32;
+        let texels = (0..size).flat_map(|y| (0..size).map(move |x| mean(x, y)));
+        Image::from_f32([size, size], Channels::Gray, texels.collect::<Vec<_>>())
+            .expect("a square of parts of the peak")
+    }
+}
+
+impl fmt::Display for WebType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+        })
+    }
+}
+
+impl fmt::Display for CandelaWebError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vertical => {
+                "expected ascending vertical angles in [0, 180], in types A and B from -90 or 0 to 90"
+            }
+            Self::Horizontal => {
+                "expected ascending horizontal angles from 0 to 0, 90, 180 or 360 or from 90 to 270, \
+                 in types A and B from -90 or 0 to 90"
+            }
+            Self::Candelas => "expected a finite intensity of at least 0 for each pair of angles",
+        })
+    }
+}
+
+impl Error for CandelaWebError {}
