@@ -2,6 +2,8 @@
 
 mod axis;
 mod eulumdat;
+#[cfg(test)]
+mod eulumdat_tests;
 mod lm63;
 mod luminaire;
 mod numbers;
