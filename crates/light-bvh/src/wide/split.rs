@@ -11,7 +11,7 @@ use super::prim::{Prim, Run, Sums};
 const BINS: usize = 12;
 
 /// Runs of so many lights are split where full nodes come out.
-const SNAP: RangeInclusive<usize> = WIDTH + 1..=24;
+const SNAP: RangeInclusive<usize> = WIDTH + 1..=16;
 
 /// Variance of the axes beyond which lights are also split by how narrow their cones are. Diffuse lights stay below 1.
 const MIXED_AXES: f32 = 100.0;
