@@ -25,6 +25,8 @@ mod emission;
 mod in_scattering;
 mod march;
 mod medium;
+#[cfg(feature = "alloc")]
+mod next_event;
 pub mod phase;
 mod ray;
 mod ray_march;
@@ -33,6 +35,8 @@ mod region;
 mod single_scattering;
 mod stratify;
 pub mod transmittance;
+#[cfg(feature = "alloc")]
+mod truncated_exponential;
 
 pub use delta_tracking::{Flight, delta_tracking};
 pub use emission::{VolumeLight, emission};

@@ -3,7 +3,7 @@ use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
-use crate::stratify::LatinHypercube;
+use crate::stratify::{LatinHypercube, narrow};
 use light_math::glam::Vec2;
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Radiance};
@@ -47,7 +47,8 @@ where
             };
             let here = self.medium.coefficients(at.p, self.wavelengths);
             let [u_light, u0, u1] = triples.point(i);
-            let scattered = self.in_scattered(at, f64::from(u_light), Vec2::new(u0, u1), next_u);
+            let scattered =
+                self.in_scattered(at, u_light, Vec2::new(narrow(u0), narrow(u1)), next_u);
             sum = sum + transmittance * (here.emission + here.sigma_s * scattered);
         }
         VolumeLight {

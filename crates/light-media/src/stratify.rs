@@ -29,20 +29,29 @@ impl LatinHypercube {
         false
     }
 
-    /// Point `index` (taken modulo `n`).
+    /// Point `index` (taken modulo `n`), to 32 bits below the width of a slab: enough to address every light of a large
+    /// set.
     #[must_use]
-    pub fn point<const D: usize>(&self, index: u32) -> [f32; D] {
+    pub fn point<const D: usize>(&self, index: u32) -> [f64; D] {
         let index = index % self.n;
         let mut axis = 0u32;
         [(); D].map(|()| {
             axis += 1;
             let key = hash(self.seed ^ hash(axis));
             let slab = permute(index, self.n, key);
-            // 12 bits, taken at their middle: no rounding moves the point into a neighbouring slab.
-            let jitter = ((hash(key ^ index) >> 20) as f32 + 0.5) / 4096.0;
-            ((slab as f32 + jitter) / self.n as f32).min(light_math::float::ONE_MINUS_EPSILON)
+            let jitter = (f64::from(hash(key ^ index)) + 0.5) / 4_294_967_296.0;
+            (f64::from(slab) + jitter) / f64::from(self.n)
         })
     }
+}
+
+/// A number of `[0, 1)` in single precision, still below 1.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounds to single precision"
+)]
+pub(crate) fn narrow(u: f64) -> f32 {
+    (u as f32).min(light_math::float::ONE_MINUS_EPSILON)
 }
 
 /// A permutation of `0..n` chosen by `key`, evaluated at `i < n`: rounds of invertible steps on the next power of two,
@@ -85,7 +94,7 @@ mod tests {
             for i in 0..n {
                 for (axis, x) in cube.point::<3>(i).into_iter().enumerate() {
                     assert!((0.0..1.0).contains(&x), "{x} lies in [0, 1)");
-                    let slab = (x * n as f32) as usize;
+                    let slab = (x * f64::from(n)) as usize;
                     assert!(
                         !core::mem::replace(&mut seen[axis][slab], true),
                         "slab {slab} of {n} is hit twice"
@@ -97,7 +106,7 @@ mod tests {
 
     #[test]
     fn axes_and_seeds_differ() {
-        let points: [[f32; 2]; 2] = [1, 2].map(|seed| LatinHypercube::new(16, seed).point(5));
+        let points: [[f64; 2]; 2] = [1, 2].map(|seed| LatinHypercube::new(16, seed).point(5));
         assert_ne!(points[0], points[1], "seeds");
         assert_ne!(points[0][0], points[0][1], "axes");
     }

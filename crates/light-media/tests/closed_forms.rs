@@ -264,4 +264,11 @@ fn a_point_light_in_endless_fog() {
             .l
     });
     assert_agree(marched, Vec3::splat(expected as f32), "single scattering");
+    let asked = mean(4_000, |rng| {
+        seed += 1;
+        integrator
+            .next_event(&RAY, span(4.0), 8, seed, &mut || rng.f32())
+            .l
+    });
+    assert_agree(asked, Vec3::splat(expected as f32), "next event");
 }

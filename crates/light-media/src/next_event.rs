@@ -1,0 +1,139 @@
+use crate::emission::VolumeLight;
+use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
+use crate::march::StepSize;
+use crate::medium::Medium;
+use crate::ray::{Ray, Span};
+use crate::stratify::{LatinHypercube, narrow};
+use crate::transmittance;
+use crate::truncated_exponential::TruncatedExponential;
+use light_bounds::{LightId, LightSampleContext};
+use light_math::float;
+use light_math::glam::{Vec2, Vec3};
+use light_math::warp::Equiangular;
+use light_samplers::LightSampler;
+use light_sources::{ColorModel, Light, Radiance};
+
+/// The optical thickness beyond which nothing is looked for: what lies there is below 1e-8.
+const OPAQUE: f32 = 20.0;
+
+impl<C, M, S, V> VolumeIntegrator<'_, C, M, S, V>
+where
+    C: ColorModel,
+    M: Medium<C> + ?Sized,
+    S: LightSampler + ?Sized,
+    V: Visibility + ?Sized,
+{
+    /// The radiance that the medium emits and scatters once toward the start of a ray, from `samples` points.
+    ///
+    /// Where [`single_scattering`](Self::single_scattering) marches, this asks for light. The sampler chooses all lights
+    /// in one call, for the ray as a whole. Each then gets a point of the ray: half of them even in the angle under which
+    /// the light sees the ray, half in proportion to the transmittance, weighted by the balance heuristic. Unbiased where
+    /// the transmittance has a closed form. `next_u` gives independent numbers in `[0, 1)`.
+    ///
+    /// # Source
+    /// `[Kulla2012]`, sections 4 and 5. Choosing the lights for the ray as a whole is ours.
+    pub fn next_event(
+        &self,
+        ray: &Ray,
+        span: Span,
+        samples: u32,
+        seed: u32,
+        next_u: &mut impl FnMut() -> f32,
+    ) -> VolumeLight<C::Radiance> {
+        let Some(whole) = self.medium.clip(ray, span) else {
+            return VolumeLight::vacuum();
+        };
+        let left = |span, next_u: &mut _| {
+            transmittance::best::<C, M>(self.medium, ray, span, self.step, self.wavelengths, next_u)
+        };
+        let transmittance = left(whole, next_u);
+        let (part, dying) = self.reach(ray, whole, transmittance);
+        let numbers = LatinHypercube::new(samples, seed);
+        let mut sum = C::Radiance::BLACK;
+
+        // Emission, where the medium is seen.
+        for i in 0..numbers.len() {
+            let [_, _, _, u] = numbers.point(i);
+            let x = dying.sample(narrow(u));
+            let t = part.t0 + x;
+            let here = self.medium.coefficients(ray.at(t), self.wavelengths);
+            if !here.emission.is_black() {
+                let before = Span { t0: part.t0, t1: t };
+                sum = sum + left(before, next_u) * here.emission * (1.0 / dying.pdf(x));
+            }
+        }
+
+        // Scattering, where the lights are.
+        let context = LightSampleContext::segment(ray.at(part.t0), ray.d * part.length());
+        let (mut i, u) = (0, f64::from(next_u()));
+        self.sampler
+            .sample_many(&context, u, numbers.len(), &mut |chosen| {
+                let [u_t, u0, u1] = numbers.point(i).map(narrow);
+                i += 1;
+                let (t, pdf) = match self.seen_from(chosen.light, ray, part) {
+                    Some(even) => {
+                        let t = if u_t < 0.5 {
+                            even.sample(2.0 * u_t)
+                        } else {
+                            part.t0 + dying.sample(2.0 * u_t - 1.0)
+                        };
+                        (t, 0.5 * (even.pdf(t) + dying.pdf(t - part.t0)))
+                    }
+                    None => {
+                        let x = dying.sample(u_t);
+                        (part.t0 + x, dying.pdf(x))
+                    }
+                };
+                let at = ScatteringPoint {
+                    p: ray.at(t),
+                    wo: -ray.d,
+                };
+                let here = self.medium.coefficients(at.p, self.wavelengths);
+                if here.sigma_s.is_black() {
+                    return;
+                }
+                let scattered = self.scattered_from(chosen.light, at, Vec2::new(u0, u1), next_u);
+                if !scattered.is_black() {
+                    let before = Span { t0: part.t0, t1: t };
+                    sum = sum
+                        + left(before, next_u)
+                            * here.sigma_s
+                            * scattered
+                            * (1.0 / (pdf * chosen.pmf));
+                }
+            });
+        VolumeLight {
+            l: sum * (1.0 / numbers.len() as f32),
+            transmittance,
+        }
+    }
+
+    /// The part of a ray's way through the medium that is worth a look, and how light dies out along it.
+    fn reach(&self, ray: &Ray, whole: Span, through: C::Radiance) -> (Span, TruncatedExponential) {
+        let (part, rate) = if whole.t1.is_finite() {
+            let thickness = -float::ln(through.average().max(f32::MIN_POSITIVE));
+            (whole, thickness / whole.length())
+        } else {
+            let rate = self
+                .medium
+                .coefficients(ray.at(whole.t0), self.wavelengths)
+                .sigma_t()
+                .average();
+            let farthest = self.step.length() * StepSize::MAX_STEPS as f32;
+            let length = if rate > 0.0 {
+                farthest.min(OPAQUE / rate)
+            } else {
+                farthest
+            };
+            let t1 = whole.t0 + length;
+            (Span { t1, ..whole }, rate)
+        };
+        (part, TruncatedExponential::new(rate, part.length()))
+    }
+
+    /// The part of a ray, evenly in the angle under which a light sees it; `None` for lights at infinity.
+    fn seen_from(&self, light: LightId, ray: &Ray, part: Span) -> Option<Equiangular> {
+        let to_light: Vec3 = self.lights.get(light)?.bounds()?.centroid() - ray.o;
+        Equiangular::new(to_light, ray.d, part.t0, part.t1)
+    }
+}
