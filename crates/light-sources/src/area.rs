@@ -12,9 +12,9 @@ use crate::shape::{Shape, ShapeSample};
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;
 use light_bounds::{LightBounds, LightExtent, LightSampleContext};
-use light_math::Frame;
 use light_math::float::ONE_MINUS_EPSILON;
 use light_math::warp::cosine_hemisphere;
+use light_math::{DirectionCone, Frame};
 
 /// A shape that shines with the same radiance in all directions: a shape and the emission that it shares with others.
 ///
@@ -134,7 +134,11 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
     }
 
     fn extent(&self) -> LightExtent {
-        let cone = self.shape.normal_cone();
+        // A shape without area has no normal, and no power either: any cone will do.
+        let cone = match self.shape.normal_cone() {
+            cone if cone.is_empty() => DirectionCone::from_direction(Vec3::Z),
+            cone => cone,
+        };
         LightExtent::Bounded(LightBounds {
             bounds: self.shape.bounds(),
             w: if cone.is_whole_sphere() {

@@ -155,6 +155,7 @@ mod tests {
     use super::*;
     use crate::amount::RadianceAmount;
     use crate::diffuse_emission::SurfaceColor;
+    use crate::light::Light;
     use crate::rgb::Rgb;
 
     fn square() -> MeshLightDesc<Rgb> {
@@ -167,6 +168,22 @@ mod tests {
                 RadianceAmount::Radiometric(1.0),
             ),
         }
+    }
+
+    #[test]
+    fn a_triangle_without_area_is_a_light_without_power_and_with_valid_bounds() {
+        let mesh = MeshLight::new(MeshLightDesc {
+            indices: [[0, 1, 2], [0, 1, 1]].into(),
+            ..square()
+        })
+        .expect("a mesh");
+        let extent = mesh.triangle(1).expect("the flat one").extent();
+        let bounds = extent.bounded().expect("somewhere");
+        assert_eq!(
+            (bounds.phi, bounds.validate()),
+            (0.0, Ok(())),
+            "no light, no nonsense"
+        );
     }
 
     #[test]
