@@ -7,6 +7,7 @@ extern crate alloc;
 mod accel;
 pub mod bench;
 pub mod bsdf;
+mod choice_variance;
 mod compare;
 mod exact_sum;
 mod false_color;
@@ -27,6 +28,7 @@ mod view;
 mod world;
 
 pub use accel::{Accel, Hit, TriangleId};
+pub use choice_variance::choice_variance;
 pub use compare::Comparison;
 pub use exact_sum::ExactSum;
 pub use false_color::difference;

@@ -5,8 +5,8 @@ use core::str::FromStr;
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::LightBvhError;
 use lights::samplers::{
-    BvhLightSampler, LightSampler, PowerLightSampler, PowerLightSamplerError,
-    ReferenceBvhLightSampler, UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
 
@@ -17,6 +17,8 @@ pub enum SamplerKind {
     Uniform,
     /// Strong lights more often, wherever they are.
     Power,
+    /// Every light by its importance at the point, in time linear in the lights.
+    Exhaustive,
     /// The published light hierarchy.
     BvhReference,
     /// The default light hierarchy.
@@ -31,6 +33,8 @@ pub enum AnyLightSampler {
     Uniform(UniformLightSampler),
     /// Strong lights more often, wherever they are.
     Power(PowerLightSampler),
+    /// Every light by its importance at the point.
+    Exhaustive(ExhaustiveLightSampler),
     /// The published light hierarchy.
     BvhReference(ReferenceBvhLightSampler),
     /// The default light hierarchy.
@@ -52,7 +56,16 @@ impl SamplerKind {
     pub const DEFAULT: Self = Self::Bvh;
 
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
+    pub const ALL: [Self; 5] = [
+        Self::Uniform,
+        Self::Power,
+        Self::Exhaustive,
+        Self::BvhReference,
+        Self::Bvh,
+    ];
+
+    /// Those that do not look at every light for each choice.
+    pub const SUBLINEAR: [Self; 4] = [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
 
     /// The kind's name on the command line.
     #[must_use]
@@ -60,6 +73,7 @@ impl SamplerKind {
         match self {
             Self::Uniform => "uniform",
             Self::Power => "power",
+            Self::Exhaustive => "exhaustive",
             Self::BvhReference => "bvh-reference",
             Self::Bvh => "bvh",
         }
@@ -93,6 +107,7 @@ impl AnyLightSampler {
                 let powers: Vec<f32> = extents.iter().map(power).collect();
                 Self::Power(PowerLightSampler::new(&powers)?)
             }
+            SamplerKind::Exhaustive => Self::Exhaustive(ExhaustiveLightSampler::new(extents)?),
             SamplerKind::BvhReference => {
                 Self::BvhReference(ReferenceBvhLightSampler::new(extents)?)
             }
@@ -107,6 +122,7 @@ impl AnyLightSampler {
             Self::Uniform(sampler) => size_of_val(sampler),
             // A bin of the alias table, as its documentation says.
             Self::Power(_) => 12 * lights,
+            Self::Exhaustive(_) => size_of::<LightExtent>() * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
             Self::Bvh(sampler) => sampler.tree().bytes(),
         }
@@ -116,7 +132,7 @@ impl AnyLightSampler {
     #[must_use]
     pub fn depth(&self) -> usize {
         match self {
-            Self::Uniform(_) | Self::Power(_) => 0,
+            Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) => 0,
             Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
             Self::Bvh(sampler) => sampler.tree().depth(),
         }
@@ -137,6 +153,7 @@ macro_rules! for_each_kind {
         match $sampler {
             AnyLightSampler::Uniform($it) => $answer,
             AnyLightSampler::Power($it) => $answer,
+            AnyLightSampler::Exhaustive($it) => $answer,
             AnyLightSampler::BvhReference($it) => $answer,
             AnyLightSampler::Bvh($it) => $answer,
         }

@@ -109,11 +109,23 @@ impl World {
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<TriangleId>) -> Option<Surface> {
         let hit = self.accel.closest(ray, from)?;
-        let (mesh, indices) = self.mesh(hit.triangle);
-        let mut surface =
-            Surface::on_triangle(hit.triangle, mesh.corners(indices), hit.barycentric);
-        let Vec2 { x, y } = hit.barycentric;
-        let weights = [1.0 - x - y, x, y];
+        Some(self.surface(hit.triangle, hit.barycentric))
+    }
+
+    /// The point of a triangle at the given barycentric coordinates of its second and third corner.
+    ///
+    /// # Panics
+    /// Panics if there is no such triangle.
+    #[inline]
+    #[must_use]
+    pub fn surface(&self, triangle: TriangleId, barycentric: Vec2) -> Surface {
+        let (mesh, indices) = self.mesh(triangle);
+        let mut surface = Surface::on_triangle(triangle, mesh.corners(indices), barycentric);
+        let weights = [
+            1.0 - barycentric.x - barycentric.y,
+            barycentric.x,
+            barycentric.y,
+        ];
         if let Some(uvs) = &mesh.uvs {
             let [a, b, c] = indices.map(|i| uvs[i as usize]);
             surface.uv = a * weights[0] + b * weights[1] + c * weights[2];
@@ -124,7 +136,7 @@ impl World {
             let ns = ns.normalize_or(surface.n);
             surface.ns = if ns.dot(surface.n) < 0.0 { -ns } else { ns };
         }
-        Some(surface)
+        surface
     }
 
     /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.

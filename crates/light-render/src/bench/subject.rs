@@ -32,6 +32,7 @@ impl Subject {
         match &self.sampler {
             AnyLightSampler::Uniform(sampler) => sampler,
             AnyLightSampler::Power(sampler) => sampler,
+            AnyLightSampler::Exhaustive(sampler) => sampler,
             AnyLightSampler::BvhReference(sampler) => sampler,
             AnyLightSampler::Bvh(sampler) => sampler,
         }

@@ -108,5 +108,5 @@ impl BenchArgs {
 }
 
 fn default_samplers() -> String {
-    SamplerKind::ALL.map(SamplerKind::name).join(",")
+    SamplerKind::SUBLINEAR.map(SamplerKind::name).join(",")
 }

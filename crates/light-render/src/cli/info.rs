@@ -1,7 +1,9 @@
 use std::time::Instant;
 
 use clap::Args;
-use light_render::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
+use light_render::{
+    AnyLightSampler, LightInventory, SamplerKind, World, choice_variance, inventory,
+};
 use light_scene::Diagnostic;
 use serde_json::{Value, json};
 
@@ -24,6 +26,8 @@ struct Tree {
     build_ms: f64,
     depth: usize,
     bytes: usize,
+    /// The relative variance of one choice; `None` where no light arrives.
+    quality: Option<f64>,
 }
 
 impl InfoArgs {
@@ -77,6 +81,7 @@ impl InfoArgs {
                 "depth": tree.depth,
                 "bytes": tree.bytes,
                 "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
+                "quality": tree.quality,
             },
             "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         })
@@ -99,6 +104,11 @@ impl InfoArgs {
             "  hierarchy  {}: depth {}, {} bytes, built in {:.2} ms",
             tree.sampler, tree.depth, tree.bytes, tree.build_ms
         );
+        if let Some(quality) = tree.quality {
+            println!(
+                "  quality    {quality:.3}: relative variance of one choice, nothing in the way, the median over points"
+            );
+        }
         for warning in warnings {
             println!("  ignored    {warning}");
         }
@@ -110,9 +120,11 @@ impl Tree {
         let kind = SamplerKind::DEFAULT;
         let start = Instant::now();
         let sampler = AnyLightSampler::new(kind, world.lights()).map_err(Failure::input)?;
+        let build_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(Self {
             sampler: kind,
-            build_ms: start.elapsed().as_secs_f64() * 1e3,
+            build_ms,
+            quality: choice_variance(world, &sampler),
             depth: sampler.depth(),
             bytes: sampler.bytes(world.lights().len()),
         })

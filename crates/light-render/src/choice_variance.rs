@@ -1,0 +1,72 @@
+use lights::bounds::LightSampleContext;
+use lights::glam::Vec2;
+use lights::samplers::LightSampler;
+use lights::sources::{Light, PdfCoverage};
+
+use crate::{TriangleId, World};
+
+/// How well `sampler` chooses among the lights of `world`: the exact relative variance of one choice, the median over points
+/// spread over the scene's triangles. Every light counts by the light of its middle, with nothing in the way; 0 would be a
+/// choice in proportion to it. `None` where no point is lit.
+#[must_use]
+pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
+    /// Lights are looked at this often in all, so that the answer takes about a second.
+    const LOOKS: usize = 2_000_000;
+    const POINTS: usize = 64;
+    let triangles = world.triangle_count();
+    let points = (LOOKS / world.lights().len().max(1)).clamp(1, POINTS);
+    let mut variances: Vec<f64> = (0..points.min(triangles))
+        .filter_map(|i| {
+            let triangle = u32::try_from((2 * i + 1) * triangles / (2 * points)).ok()?;
+            let surface = world.surface(TriangleId(triangle), Vec2::splat(1.0 / 3.0));
+            let ctx = world.light_context(&surface, &world.scattering(&surface), surface.n);
+            variance_at(world, sampler, &ctx)
+        })
+        .collect();
+    variances.sort_by(f64::total_cmp);
+    variances.get(variances.len() / 2).copied()
+}
+
+/// `sum f^2 / pmf / (sum f)^2 - 1` over all lights that contribute `f` at `ctx`; `None` where none does.
+fn variance_at<S: LightSampler>(
+    world: &World,
+    sampler: &S,
+    ctx: &LightSampleContext,
+) -> Option<f64> {
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for (id, light) in world.lights().iter() {
+        let sample = light.sample_li(ctx, Vec2::splat(0.5), &(), PdfCoverage::Complete);
+        let Some(li) = sample else { continue };
+        let cosine = if ctx.is_medium() {
+            1.0
+        } else {
+            li.wi.dot(ctx.ns)
+        };
+        let f = f64::from(li.l.element_sum() * cosine / li.pdf);
+        if f > 0.0 {
+            sum += f;
+            squares += f * f / f64::from(sampler.pmf(ctx, id));
+        }
+    }
+    (sum > 0.0).then(|| (squares / (sum * sum) - 1.0).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{AnyLightSampler, SamplerKind};
+    use light_scene::BuiltinScene;
+
+    #[test]
+    fn a_hierarchy_chooses_better_than_chance() {
+        let world = World::new(BuiltinScene::CornellBox.load()).expect("valid");
+        let of = |kind| {
+            let sampler = AnyLightSampler::new(kind, world.lights()).expect("lights");
+            choice_variance(&world, &sampler).expect("lit")
+        };
+        assert!(
+            of(SamplerKind::Bvh) <= of(SamplerKind::Uniform),
+            "two triangles of one lamp"
+        );
+    }
+}
