@@ -1,5 +1,7 @@
 //! The default tree is bounded in depth, whole, and the same every time.
 
+#![cfg(feature = "alloc")]
+
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use light_bvh::{LightBvh, LightBvhError, MAX_DEPTH};

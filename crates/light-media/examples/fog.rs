@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
             let mut drawn = 0;
             let mut next_u = || {
                 drawn += 1;
-                (numbers.point::<1>(drawn)[0] as f32).min(0.999_999_9)
+                numbers.point_f32::<1>(drawn)[0]
             };
             let marches = 64;
             let through = Span { t0: 0.0, t1: 16.0 };

@@ -1,11 +1,6 @@
 //! A ray through fog among a thousand lamps: the classic march against asking for light, at equal time.
 //! `cargo run --release -p light-media --example thousand_lamps`
 
-#![allow(
-    clippy::cast_possible_truncation,
-    reason = "numbers of [0, 1) in single precision"
-)]
-
 use std::time::Instant;
 
 use light_media::glam::Vec3;
@@ -35,7 +30,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     let mut lights = LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 100.0)?);
     let places = LatinHypercube::new(1000, 1);
     for i in 0..1000 {
-        let [x, y, z, power] = places.point(i).map(|u: f64| u as f32);
+        let [x, y, z, power] = places.point_f32(i);
         lights.add(LightDesc::Point(PointLightDesc {
             position: Vec3::new(x * 40.0 - 20.0, y * 6.0, z * 40.0 - 20.0),
             emission: Vec3::ONE,
@@ -72,7 +67,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
         let mut drawn = 0;
         move || {
             drawn += 1;
-            (numbers.point::<1>(drawn)[0] as f32).min(0.999_999_9)
+            numbers.point_f32::<1>(drawn)[0]
         }
     };
     // The truth: all lamps at many points of each ray.
@@ -141,7 +136,7 @@ const SPAN: Span = Span { t0: 0.0, t1: 40.0 };
 
 /// Rays along the street, at the height of the lamps.
 fn ray(i: u32) -> Ray {
-    let [x, y, dx] = LatinHypercube::new(RAYS, 5).point(i).map(|u: f64| u as f32);
+    let [x, y, dx] = LatinHypercube::new(RAYS, 5).point_f32(i);
     Ray {
         o: Vec3::new(x * 20.0 - 10.0, 1.0 + 4.0 * y, -20.0),
         d: Vec3::new(0.4 * dx - 0.2, 0.0, 1.0).normalize(),

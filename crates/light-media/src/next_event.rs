@@ -3,7 +3,7 @@ use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
 use crate::march::StepSize;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
-use crate::stratify::{LatinHypercube, narrow};
+use crate::stratify::LatinHypercube;
 use crate::transmittance;
 use crate::truncated_exponential::TruncatedExponential;
 use light_bounds::{LightId, LightSampleContext};
@@ -53,8 +53,8 @@ where
 
         // Emission, where the medium is seen.
         for i in 0..numbers.len() {
-            let [_, _, _, u] = numbers.point(i);
-            let x = dying.sample(narrow(u));
+            let [_, _, _, u] = numbers.point_f32(i);
+            let x = dying.sample(u);
             let t = part.t0 + x;
             let here = self.medium.coefficients(ray.at(t), self.wavelengths);
             if !here.emission.is_black() {
@@ -68,7 +68,7 @@ where
         let (mut i, u) = (0, f64::from(next_u()));
         self.sampler
             .sample_many(&context, u, numbers.len(), &mut |chosen| {
-                let [u_t, u0, u1] = numbers.point(i).map(narrow);
+                let [u_t, u0, u1] = numbers.point_f32(i);
                 i += 1;
                 let (t, pdf) = match self.seen_from(chosen.light, ray, part) {
                     Some(even) => {

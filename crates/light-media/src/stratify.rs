@@ -43,6 +43,12 @@ impl LatinHypercube {
             (f64::from(slab) + jitter) / f64::from(self.n)
         })
     }
+
+    /// The same point in single precision, still below 1.
+    #[must_use]
+    pub fn point_f32<const D: usize>(&self, index: u32) -> [f32; D] {
+        self.point(index).map(narrow)
+    }
 }
 
 /// A number of `[0, 1)` in single precision, still below 1.

@@ -99,7 +99,7 @@ pub(crate) fn encode_power(power: f32) -> u8 {
     ((bits >> 20) - (96 << 3)).clamp(1, 255) as u8
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
 
