@@ -21,6 +21,8 @@ pub struct Camera {
     pub lens: Option<Lens>,
     /// Width and height of the image that the file asks for, in pixels.
     pub resolution: Option<[u32; 2]>,
+    /// The part of that image that the file asks for; absent: all of it.
+    pub crop: Option<Crop>,
     /// What radiance is multiplied with to be shown on a screen; absent where whoever shows it decides.
     pub exposure: Option<f32>,
 }
@@ -32,6 +34,15 @@ pub struct Lens {
     pub radius: f32,
     /// Distance along the view direction at which points are sharp, in scene units.
     pub focus_distance: f32,
+}
+
+/// Some pixels of an image: from column and row `min` on, up to those of `max`, which are not part of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// First column and row.
+    pub min: [u32; 2],
+    /// First column and row beyond, each above that of `min`.
+    pub max: [u32; 2],
 }
 
 /// Why numbers are no camera.
@@ -74,6 +85,7 @@ impl Camera {
             fov,
             lens: None,
             resolution: None,
+            crop: None,
             exposure: None,
         })
     }
@@ -101,6 +113,7 @@ impl Camera {
             fov,
             lens: None,
             resolution: None,
+            crop: None,
             exposure: None,
         })
     }

@@ -26,13 +26,13 @@ mod text;
 mod write_whole;
 
 pub use builtin::{BuiltinScene, UnknownScene};
-pub use camera::{Camera, CameraError, Lens};
+pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
     write_hdr, write_image, write_png,
 };
-pub use material::{Color, ColorImage, Emission, EmissionSides, Material, Surface};
+pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::read_obj;
 pub use pbrt::read_pbrt;

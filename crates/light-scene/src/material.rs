@@ -10,8 +10,8 @@ pub struct Material {
     pub surface: Surface,
     /// The light it emits, if any.
     pub emission: Option<Emission>,
-    /// Where the surface is: the first channel of an image, 1 = there, 0 = a hole; absent = everywhere.
-    pub alpha: Option<ColorImage>,
+    /// Where the surface is; absent: everywhere.
+    pub alpha: Option<Alpha>,
 }
 
 /// How a surface scatters light. Reflectances lie in [0, 1], channel by channel.
@@ -79,6 +79,19 @@ pub enum Color {
     Constant(Vec3),
     /// From an image, by the mesh's texture coordinates.
     Image(ColorImage),
+}
+
+/// How much of a surface is there: 0 is a hole, 1 is all of it.
+///
+/// Holes let rays pass; the light that a surface emits does not change. So a lamp whose share is 0 everywhere lights the
+/// scene and is not seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alpha {
+    /// The share, in [0, 1]; of a colour the first channel counts.
+    pub share: Color,
+    /// The surface is there where the share is at least this, and nowhere else; absent: it is there for the share of
+    /// the rays.
+    pub cutoff: Option<f32>,
 }
 
 /// An image over texture coordinates, times a factor; it repeats in both directions.

@@ -24,6 +24,7 @@ pub(super) fn cornell_box() -> Scene {
     let camera = camera.expect("the published camera is valid");
     scene.camera = Some(Camera {
         resolution: Some([512, 512]),
+        crop: None,
         ..camera
     });
     scene

@@ -55,6 +55,7 @@ pub(super) fn rotunda() -> Scene {
     let mut scene = modeller.finish();
     scene.camera = Some(Camera {
         resolution: Some([960, 640]),
+        crop: None,
         ..camera.expect("two points and an upright vector")
     });
     scene

@@ -2,9 +2,9 @@ use std::path::Path;
 
 use super::state::{At, Reader, Typed};
 use super::tokens::{Token, Tokens};
+use crate::Diagnostic;
 use crate::glam::{Affine3A, Mat4, Vec3};
 use crate::text::{read_text, shown};
-use crate::{Camera, Diagnostic, Lens};
 
 /// Files that include each other deeper than this include themselves.
 const DEEPEST: usize = 32;
@@ -171,7 +171,8 @@ impl Reader {
         let at = typed.at;
         match directive {
             "Camera" => self.set_camera(&typed)?,
-            "Film" => self.film(&typed),
+            "Film" => self.film(&typed)?,
+            "PixelFilter" => self.pixel_filter(&typed),
             "Shape" => self.shape(&typed)?,
             "LightSource" => self.light(&typed)?,
             "AreaLightSource" => self.area_light(&typed)?,
@@ -197,59 +198,6 @@ impl Reader {
         let name = format!("{directive} \"{}\"", typed.kind);
         self.warn_unused(at, &name, &typed.parameters);
         Ok(())
-    }
-
-    fn set_camera(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
-        let Typed {
-            at,
-            kind,
-            parameters,
-        } = typed;
-        if kind != "perspective" {
-            self.warn(
-                *at,
-                &format!("Camera \"{kind}\""),
-                "was taken as perspective",
-            );
-        }
-        let to_world = self.state.transform.inverse();
-        self.coordinates.insert("camera".to_owned(), to_world);
-        let fov = parameters.number_or("fov", 90.0).to_radians();
-        if !(fov > 0.0 && fov < core::f32::consts::PI) {
-            return Err(at.diagnostic("expected a fov between 0 and 180 degrees"));
-        }
-        let radius = parameters.number_or("lensradius", 0.0);
-        let focus_distance = parameters.number_or("focaldistance", 1e6);
-        let axis = |v: Vec3| to_world.transform_vector3(v).normalize_or(v);
-        self.camera = Some(Camera {
-            position: to_world.transform_point3(Vec3::ZERO),
-            right: axis(Vec3::X),
-            up: axis(Vec3::Y),
-            forward: axis(Vec3::Z),
-            fov,
-            lens: (radius > 0.0).then_some(Lens {
-                radius,
-                focus_distance,
-            }),
-            resolution: None,
-            exposure: None,
-        });
-        Ok(())
-    }
-
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to what an image may have"
-    )]
-    fn film(&mut self, typed: &Typed<'_>) {
-        // Where the image goes is said on the command line.
-        typed.parameters.accept("filename");
-        let size = |name, default| {
-            let pixels = typed.parameters.number_or(name, default);
-            pixels.clamp(1.0, 65536.0) as u32
-        };
-        self.resolution = Some([size("xresolution", 1280.0), size("yresolution", 720.0)]);
     }
 
     fn instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {

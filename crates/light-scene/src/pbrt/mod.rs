@@ -10,6 +10,7 @@ mod spectrum;
 mod state;
 mod textures;
 mod tokens;
+mod view;
 
 use std::path::Path;
 

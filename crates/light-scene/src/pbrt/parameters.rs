@@ -83,6 +83,11 @@ impl Parameters {
         self.number(name).unwrap_or(default)
     }
 
+    /// All numbers; outside `None` if there is no such parameter, inside if there are not `N`.
+    pub(super) fn numbers<const N: usize>(&self, name: &str) -> Option<Option<[f32; N]>> {
+        Some(self.find(name)?.singles().try_into().ok())
+    }
+
     pub(super) fn string(&self, name: &str) -> Option<&str> {
         self.find(name)?.words.first().map(String::as_str)
     }

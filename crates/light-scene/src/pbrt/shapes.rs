@@ -5,7 +5,7 @@ use super::ply::read_ply;
 use super::state::{At, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Vec2, Vec3};
-use crate::{Color, Diagnostic, Emission, EmissionSides, Mesh};
+use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Mesh};
 
 /// Of a tessellated sphere: columns around; it has half as many rows.
 const AROUND: u16 = 64;
@@ -93,22 +93,21 @@ impl Reader {
         mesh.material = self.scene.add_material(material);
     }
 
-    /// Gives the mesh a material of its own with holes, if an alpha texture says where.
+    /// Gives the mesh a material of its own with holes, if `alpha` says where.
     fn attach_alpha(&mut self, typed: &Typed<'_>, mesh: &mut Mesh) {
         if !typed.parameters.has("alpha") {
             return;
         }
-        match self.color(typed, "alpha", 1.0) {
-            Color::Image(alpha) => {
-                let mut material = self.scene.material(mesh.material).clone();
-                material.alpha = Some(alpha);
-                mesh.material = self.scene.add_material(material);
-            }
-            Color::Constant(alpha) if alpha == Vec3::ONE => {}
-            Color::Constant(_) => {
-                self.warn(typed.at, "a constant `alpha`", "was taken as 1");
-            }
+        let share = self.color(typed, "alpha", 1.0);
+        if share == Color::Constant(Vec3::ONE) {
+            return;
         }
+        let mut material = self.scene.material(mesh.material).clone();
+        material.alpha = Some(Alpha {
+            share,
+            cutoff: None,
+        });
+        mesh.material = self.scene.add_material(material);
     }
 }
 

@@ -6,7 +6,7 @@ use super::parameters::Parameters;
 use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
-use crate::{Camera, Color, Diagnostic, Material, MaterialId, Mesh, Place, Scene};
+use crate::{Camera, Color, Crop, Diagnostic, Material, MaterialId, Mesh, Place, Scene};
 
 /// What the directives so far have built, and the state that the next one acts on.
 #[derive(Debug, Default)]
@@ -23,6 +23,7 @@ pub(super) struct Reader {
     pub(super) object: Option<(String, Vec<Mesh>)>,
     pub(super) camera: Option<Camera>,
     pub(super) resolution: Option<[u32; 2]>,
+    pub(super) crop: Option<Crop>,
     pub(super) in_world: bool,
     warned: BTreeSet<String>,
 }
@@ -103,6 +104,7 @@ impl Reader {
         }
         self.scene.camera = self.camera.map(|camera| Camera {
             resolution: self.resolution,
+            crop: self.crop,
             ..camera
         });
         Ok(self.scene)

@@ -104,6 +104,20 @@ fn reads_camera_materials_shapes_instances_and_lights() {
 }
 
 #[test]
+fn alpha_is_the_share_that_is_there() {
+    let share = |alpha: &str| {
+        let text = format!("WorldBegin Shape \"disk\" {alpha}");
+        let scene = read("pbrt_alpha", &text).expect("a scene");
+        let alpha = scene.material(scene.meshes[0].material).alpha;
+        alpha.map(|alpha| (alpha.share, alpha.cutoff))
+    };
+    let half = Color::Constant(Vec3::splat(0.5));
+    assert_eq!(share("\"float alpha\" 0.5"), Some((half, None)), "half");
+    assert_eq!(share("\"float alpha\" 1"), None, "all of it");
+    assert_eq!(share(""), None, "nothing said");
+}
+
+#[test]
 fn fronts_follow_pbrt() {
     let front = |text: &str| {
         let all =

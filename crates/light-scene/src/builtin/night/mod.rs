@@ -81,6 +81,7 @@ fn camera() -> Camera {
     let camera = Camera::look_at(eye, target, Vec3::Y, 40f32.to_radians());
     Camera {
         resolution: Some([960, 540]),
+        crop: None,
         // The night stays dark.
         exposure: Some(1.25),
         ..camera.expect("two points and an upright vector")

@@ -1,0 +1,163 @@
+//! Who looks, and at how many pixels.
+
+use super::state::{Reader, Typed};
+use crate::glam::Vec3;
+use crate::{Camera, Crop, Diagnostic, Lens};
+
+/// An image has no more pixels a side than this.
+const LONGEST: f32 = 65536.0;
+
+impl Reader {
+    pub(super) fn set_camera(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed {
+            at,
+            kind,
+            parameters,
+        } = typed;
+        if kind != "perspective" {
+            let what = format!("Camera \"{kind}\"");
+            self.warn(*at, &what, "was taken as perspective");
+        }
+        let to_world = self.state.transform.inverse();
+        self.coordinates.insert("camera".to_owned(), to_world);
+        let fov = parameters.number_or("fov", 90.0).to_radians();
+        if !(fov > 0.0 && fov < core::f32::consts::PI) {
+            return Err(at.diagnostic("expected a fov between 0 and 180 degrees"));
+        }
+        let radius = parameters.number_or("lensradius", 0.0);
+        let focus_distance = parameters.number_or("focaldistance", 1e6);
+        let axis = |v: Vec3| to_world.transform_vector3(v).normalize_or(v);
+        self.camera = Some(Camera {
+            position: to_world.transform_point3(Vec3::ZERO),
+            right: axis(Vec3::X),
+            up: axis(Vec3::Y),
+            forward: axis(Vec3::Z),
+            fov,
+            lens: (radius > 0.0).then_some(Lens {
+                radius,
+                focus_distance,
+            }),
+            resolution: None,
+            crop: None,
+            exposure: None,
+        });
+        Ok(())
+    }
+
+    pub(super) fn film(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let Typed { at, parameters, .. } = typed;
+        // Where the image goes is said on the command line.
+        parameters.accept("filename");
+        let size = |name, default| whole(parameters.number_or(name, default).max(1.0));
+        let resolution = [size("xresolution", 1280.0), size("yresolution", 720.0)];
+        let [width, height] = resolution.map(|pixels| pixels as f32);
+        // Both list the two ends in x, then the two ends in y.
+        let bounds = match (
+            parameters.numbers("pixelbounds"),
+            parameters.numbers("cropwindow"),
+        ) {
+            (None, None) => None,
+            (Some(Some(pixels)), _) => Some(pixels),
+            (None, Some(Some([x0, x1, y0, y1]))) => {
+                Some([x0 * width, x1 * width, y0 * height, y1 * height].map(f32::ceil))
+            }
+            _ => return Err(at.diagnostic("expected four numbers: x0 x1 y0 y1")),
+        };
+        self.crop = None;
+        if let Some([x0, x1, y0, y1]) = bounds {
+            let min = [whole(x0), whole(y0)];
+            let max = [whole(x1.min(width)), whole(y1.min(height))];
+            if !(min[0] < max[0] && min[1] < max[1]) {
+                return Err(at.diagnostic("expected a crop with at least one pixel of the image"));
+            }
+            self.crop = Some(Crop { min, max });
+        }
+        self.resolution = Some(resolution);
+        Ok(())
+    }
+
+    /// Of all filters the program has the box of one pixel.
+    pub(super) fn pixel_filter(&mut self, typed: &Typed<'_>) {
+        let Typed {
+            at,
+            kind,
+            parameters,
+        } = typed;
+        let half = |name| parameters.number_or(name, 0.5) == 0.5;
+        let (x, y) = (half("xradius"), half("yradius"));
+        if kind == "box" && x && y {
+            return;
+        }
+        // What shapes another filter has no say in a box.
+        for name in ["sigma", "B", "C", "tau"] {
+            parameters.accept(name);
+        }
+        let what = format!("PixelFilter \"{kind}\"");
+        self.warn(*at, &what, "was taken as a box of one pixel");
+    }
+}
+
+/// A number of pixels.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to what an image may have"
+)]
+const fn whole(pixels: f32) -> u32 {
+    pixels.clamp(0.0, LONGEST) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::parse_pbrt;
+    use crate::Crop;
+
+    fn crop(film: &str) -> Result<Option<Crop>, String> {
+        let size = "\"integer xresolution\" 100 \"integer yresolution\" 50";
+        let text = format!("Camera \"perspective\" Film \"rgb\" {size} {film} WorldBegin");
+        let scene = parse_pbrt(Path::new("a"), &text).map_err(|error| error.to_string())?;
+        assert_eq!(scene.warnings, [], "all understood");
+        Ok(scene.camera.expect("a camera").crop)
+    }
+
+    #[test]
+    fn crops_count_pixels() {
+        assert_eq!(crop(""), Ok(None), "all of it");
+        let expected = Crop {
+            min: [25, 10],
+            max: [51, 50],
+        };
+        let window = "\"float cropwindow\" [.25 .505 .2 1]";
+        assert_eq!(crop(window), Ok(Some(expected)), "in parts, rounded up");
+        let bounds = "\"integer pixelbounds\" [25 51 10 60]";
+        assert_eq!(crop(bounds), Ok(Some(expected)), "in pixels, of the image");
+        let error = "a:1: expected a crop with at least one pixel of the image";
+        for empty in ["[.5 .5 0 1]", "[.6 .5 0 1]", "[2 3 0 1]"] {
+            let film = format!("\"float cropwindow\" {empty}");
+            assert_eq!(crop(&film), Err(error.to_owned()), "{empty}");
+        }
+        let error = Err("a:1: expected four numbers: x0 x1 y0 y1".to_owned());
+        assert_eq!(crop("\"float cropwindow\" [0 1]"), error, "two are missing");
+    }
+
+    #[test]
+    fn other_filters_are_named() {
+        let warnings = |filter: &str| {
+            let text = format!("PixelFilter {filter} WorldBegin");
+            let scene = parse_pbrt(Path::new("a"), &text).expect("a scene");
+            let warnings = scene.warnings.into_iter();
+            warnings.map(|w| w.message).collect::<Vec<_>>()
+        };
+        assert!(warnings("\"box\"").is_empty(), "what there is");
+        let taken = "was taken as a box of one pixel";
+        for (filter, name) in [
+            ("\"gaussian\" \"float sigma\" 1", "gaussian"),
+            ("\"box\" \"float xradius\" 2", "box"),
+        ] {
+            let expected = [format!("PixelFilter \"{name}\" {taken}")];
+            assert_eq!(warnings(filter), expected, "{filter}");
+        }
+    }
+}
