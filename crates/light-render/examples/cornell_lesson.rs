@@ -65,6 +65,7 @@ fn picture(
             path: PathSettings {
                 max_depth,
                 estimator,
+                light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
             },
         };
         render(&world, &view, &sampler, &settings, |_| ())

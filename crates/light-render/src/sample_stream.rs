@@ -28,8 +28,8 @@ pub struct CameraNumbers {
 pub struct VertexNumbers {
     /// Which light; carries 32 bits, enough to address every light of a large set.
     pub light: f64,
-    /// Where on the light.
-    pub light_point: Vec2,
+    /// Which of several lights is looked at for its shadow.
+    pub shadow: f32,
     /// Whether the path goes on.
     pub roulette: f32,
     /// Which lobe of the material.
@@ -63,15 +63,25 @@ impl SampleStream {
     #[inline]
     #[must_use]
     pub fn vertex(&self, vertex: u32) -> VertexNumbers {
-        let [light, x, y, roulette] = self.set(2 * vertex + 1);
-        let [u, v, lobe, _] = self.set(2 * vertex + 2);
+        let [light, _, _, roulette] = self.set(2 * vertex + 1);
+        let [u, v, lobe, shadow] = self.set(2 * vertex + 2);
         VertexNumbers {
             light: f64::from(light) / 4_294_967_296.0,
-            light_point: Vec2::new(unit(x), unit(y)),
+            shadow: unit(shadow),
             roulette: unit(roulette),
             lobe: unit(lobe),
             direction: Vec2::new(unit(u), unit(v)),
         }
+    }
+
+    /// Where on the `i`th of `count` lights that are chosen at vertex `vertex`, in `[0, 1)^2`: stratified over all lights
+    /// that all samples of the pixel choose there.
+    #[inline]
+    #[must_use]
+    pub fn light_point(&self, vertex: u32, i: u32, count: u32) -> Vec2 {
+        let index = self.index.wrapping_mul(count).wrapping_add(i);
+        let [_, x, y, _] = Self { index, ..*self }.set(2 * vertex + 1);
+        Vec2::new(unit(x), unit(y))
     }
 
     /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.

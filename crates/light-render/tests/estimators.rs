@@ -2,11 +2,13 @@
 
 mod support;
 
+use core::num::NonZeroU32;
+
 use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::Scene;
 use light_scene::glam::Vec3;
-use support::{Shot, agree, cornell};
+use support::{Shot, agree, cornell, lamps};
 
 #[test]
 fn light_and_material_samples_and_both_have_the_same_mean() {
@@ -59,6 +61,50 @@ fn all_samplers_have_the_same_mean() {
             "{kind} {mean:?} and uniform {uniform:?}"
         );
     }
+}
+
+#[test]
+fn many_choices_and_one_shadow_keep_the_mean_and_lose_noise() {
+    let scene = lamps();
+    let of = |light_samples, sampler, estimator| {
+        let shot = Shot {
+            light_samples,
+            sampler,
+            estimator,
+            max_depth: 3,
+            ..Shot::default()
+        };
+        shot.mean(&scene)
+    };
+    let one = of(NonZeroU32::MIN, SamplerKind::Bvh, Estimator::Mis);
+    let many = NonZeroU32::new(8).expect("eight");
+    for kind in SamplerKind::ALL {
+        for estimator in [Estimator::Mis, Estimator::Light] {
+            let mean = of(many, kind, estimator);
+            assert!(
+                agree(mean, one),
+                "{kind}, {estimator:?}: eight {mean:?} and one {one:?}"
+            );
+        }
+    }
+    // Of direct light alone, pixel by pixel.
+    let noise = |light_samples| {
+        let shot = Shot {
+            light_samples,
+            sampler: SamplerKind::Bvh,
+            max_depth: 2,
+            size: 48,
+            ..Shot::default()
+        };
+        let [a, b] = [1, 2].map(|seed| shot.render(&scene, seed).film.develop());
+        let differences = a
+            .iter()
+            .zip(&b)
+            .map(|(&a, &b)| (a - b).length_squared() / (a + b + 0.1).length_squared());
+        differences.sum::<f32>()
+    };
+    let (eight, one) = (noise(many), noise(NonZeroU32::MIN));
+    assert!(eight < 0.8 * one, "eight {eight}, one {one}");
 }
 
 #[test]

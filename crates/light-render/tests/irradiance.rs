@@ -37,6 +37,7 @@ fn assert_irradiance(scene: &Scene, irradiance: DVec3, estimators: &[Estimator])
             max_depth: 2,
             estimator,
             sampler: SamplerKind::Bvh,
+            ..Shot::default()
         };
         let mean = shot.mean(scene);
         let radiance = irradiance * f64::from(ALBEDO) * FRAC_1_PI;

@@ -273,6 +273,7 @@ fn nonsense_on_the_command_line_is_refused() {
         ("--spp", "0"),
         ("--spp", "many"),
         ("--max-depth", "-1"),
+        ("--light-samples", "0"),
         ("--width", "0"),
         ("--time", "0"),
         ("--fov", "nan"),

@@ -158,6 +158,7 @@ impl Stage {
             path: PathSettings {
                 max_depth: 6,
                 estimator: Estimator::Mis,
+                light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
             },
         };
         let line = ProgressLine::new(format!("{}, {}", shot.scene, shot.sampler), Volume::Normal);
@@ -193,6 +194,7 @@ fn sees_no_light(world: &World, view: &View) -> Result<Vec<bool>, Failure> {
         path: PathSettings {
             max_depth: 1,
             estimator: Estimator::Bsdf,
+            light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
         },
     };
     let sampler = sampler.map_err(Failure::input)?;

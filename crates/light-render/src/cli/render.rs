@@ -1,3 +1,4 @@
+use core::num::NonZeroU32;
 use core::ops::Range;
 use core::time::Duration;
 use std::path::PathBuf;
@@ -51,6 +52,9 @@ pub(crate) struct RenderArgs {
     /// How lights are chosen.
     #[arg(long, value_name = "SAMPLER", default_value_t = SamplerKind::DEFAULT)]
     light_sampler: SamplerKind,
+    /// How many lights are chosen at the first diffuse point of a path.
+    #[arg(long, value_name = "N", default_value_t = PathSettings::DEFAULT_LIGHT_SAMPLES)]
+    light_samples: NonZeroU32,
     /// How light is found: by light samples, by material samples, or by both, weighted.
     #[arg(long, value_enum, default_value_t = Estimator::Mis)]
     estimator: Estimator,
@@ -214,6 +218,7 @@ impl RenderArgs {
                     Estimator::Light => integrator::Estimator::Light,
                     Estimator::Bsdf => integrator::Estimator::Bsdf,
                 },
+                light_samples: self.light_samples,
             },
         }
     }

@@ -1,9 +1,10 @@
-use lights::bounds::LightSampleContext;
+use core::num::NonZeroU32;
+
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 
 use super::Estimator;
-use super::direct::{from_lights, light_density};
+use super::direct::{DirectLight, LightQuestion, Vertex};
 use crate::{Ray, SampleStream, World};
 
 /// How paths are traced.
@@ -13,6 +14,16 @@ pub struct PathSettings {
     pub max_depth: u32,
     /// How light is found.
     pub estimator: Estimator,
+    /// How many lights are chosen at the first vertex where light samples can contribute, at most as many as there are. One of
+    /// them gets a shadow ray. Later vertices, which count for less, choose one.
+    pub light_samples: NonZeroU32,
+}
+
+impl PathSettings {
+    /// How many lights are chosen at the first diffuse vertex, unless told otherwise.
+    ///
+    /// Lights on rough mirrors are many choices and one shadow: there more choices pay until they take as long as the rays.
+    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(16).unwrap();
 }
 
 /// What one path found.
@@ -29,8 +40,8 @@ pub struct Traced {
 enum Origin {
     /// By the camera or by a Dirac: no light sample could have found the same light.
     Dirac,
-    /// By the material at `ctx`, with this density in sr^-1.
-    Material { ctx: LightSampleContext, pdf: f32 },
+    /// By the material where light was asked for so, with this density in sr^-1.
+    Material { question: LightQuestion, pdf: f32 },
 }
 
 /// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased estimate of the radiance
@@ -48,52 +59,64 @@ pub fn trace<S: LightSampler>(
     let PathSettings {
         max_depth,
         estimator,
+        light_samples,
     } = *settings;
+    let direct = DirectLight {
+        world,
+        sampler,
+        estimator,
+    };
     let mut traced = Traced::default();
     let mut throughput = Vec3::ONE;
     let mut origin = Origin::Dirac;
     let mut from = None;
-    for vertex in 0..max_depth {
+    // More choices than lights repeat themselves.
+    let lights = u32::try_from(world.lights().len()).unwrap_or(u32::MAX);
+    let mut count = light_samples.get().min(lights.max(1));
+    for number in 0..max_depth {
         traced.rays += 1;
         let Some(surface) = world.closest(&ray, from) else {
-            traced.radiance += throughput * sky(world, sampler, estimator, &ray, origin);
+            traced.radiance += throughput * sky(&direct, &ray, origin);
             break;
         };
         let wo = -ray.direction;
         if let Some((light, l)) = world.emitted(&surface, wo) {
             let weight = match origin {
                 Origin::Dirac => 1.0,
-                Origin::Material { ctx, pdf } => estimator.bsdf_weight(pdf, || {
-                    light_density(world, sampler, estimator, &ctx, light, ray.direction)
-                }),
+                Origin::Material { question, pdf } => {
+                    estimator.bsdf_weight(pdf, || direct.density(&question, light, ray.direction))
+                }
             };
             traced.radiance += throughput * l * weight;
         }
-        if vertex + 1 == max_depth {
+        if number + 1 == max_depth {
             break;
         }
-        let numbers = stream.vertex(vertex);
+        let numbers = stream.vertex(number);
         let scattering = world.scattering(&surface);
-        let ctx = world.light_context(&surface, &scattering, wo);
-        if estimator.samples_lights() && !scattering.bsdf().is_dirac() {
-            let direct = from_lights(
-                world,
-                sampler,
-                estimator,
-                &surface,
-                &scattering,
-                &ctx,
-                wo,
-                &numbers,
-            );
-            traced.radiance += throughput * direct.radiance;
-            traced.rays += direct.rays;
+        let question = LightQuestion {
+            ctx: world.light_context(&surface, &scattering, wo),
+            count,
+        };
+        if !scattering.bsdf().is_dirac() {
+            if estimator.samples_lights() {
+                let vertex = Vertex {
+                    surface: &surface,
+                    scattering: &scattering,
+                    wo,
+                    number,
+                };
+                let lit = direct.sample(&question, &vertex, numbers.light, numbers.shadow, stream);
+                traced.radiance += throughput * lit.radiance;
+                traced.rays += lit.rays;
+            }
+            count = 1;
         }
         let Some(sample) = scattering.sample(wo, numbers.lobe, numbers.direction) else {
             break;
         };
         throughput *= sample.weight;
-        if vertex + 1 >= SURE_VERTICES {
+        if number + 1 >= SURE_VERTICES {
             let survival = throughput.max_element().min(0.95);
             if !(numbers.roulette < survival) {
                 break;
@@ -101,7 +124,7 @@ pub fn trace<S: LightSampler>(
             throughput /= survival;
         }
         origin = match sample.pdf {
-            Some(pdf) => Origin::Material { ctx, pdf },
+            Some(pdf) => Origin::Material { question, pdf },
             None => Origin::Dirac,
         };
         ray = surface.spawn(sample.wi);
@@ -111,24 +134,18 @@ pub fn trace<S: LightSampler>(
 }
 
 /// The light of all infinite lights along a ray that leaves the scene.
-fn sky<S: LightSampler>(
-    world: &World,
-    sampler: &S,
-    estimator: Estimator,
-    ray: &Ray,
-    origin: Origin,
-) -> Vec3 {
+fn sky<S: LightSampler>(direct: &DirectLight<'_, S>, ray: &Ray, origin: Origin) -> Vec3 {
     let mut radiance = Vec3::ZERO;
-    for &light in world.infinite_lights() {
-        let le = world.sky_radiance(light, ray);
+    for &light in direct.world.infinite_lights() {
+        let le = direct.world.sky_radiance(light, ray);
         if le == Vec3::ZERO {
             continue;
         }
         let weight = match origin {
             Origin::Dirac => 1.0,
-            Origin::Material { ctx, pdf } => estimator.bsdf_weight(pdf, || {
-                light_density(world, sampler, estimator, &ctx, light, ray.direction)
-            }),
+            Origin::Material { question, pdf } => direct
+                .estimator
+                .bsdf_weight(pdf, || direct.density(&question, light, ray.direction)),
         };
         radiance += le * weight;
     }

@@ -1,10 +1,12 @@
 //! Small scenes and the means of their pictures.
 #![allow(dead_code, reason = "each test crate uses a part of this")]
 
+use core::num::NonZeroU32;
+
 use light_render::integrator::{Estimator, PathSettings};
 use light_render::{AnyLightSampler, RenderSettings, Rendering, SamplerKind, View, World, render};
-use light_scene::glam::{DVec3, Vec3};
-use light_scene::{Camera, Emission, Material, Mesh, Scene};
+use light_scene::glam::{DVec3, Vec2, Vec3};
+use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
 
 /// The corners of a box `[0, 1]^3`, face by face, counter-clockwise seen from inside: floor, ceiling, back, left, right,
 /// front.
@@ -54,6 +56,31 @@ pub(crate) fn cornell() -> Scene {
     scene
 }
 
+/// A room with a floor that mirrors roughly, and under its ceiling many small lamps, each fourth of them strong, beside a block that
+/// hides half of them from most places.
+pub(crate) fn lamps() -> Scene {
+    let mut scene = cornell();
+    let floor = scene.add_material(Material::new(
+        "rough mirror",
+        Surface::Conductor {
+            eta: Vec3::splat(1.3),
+            k: Vec3::ZERO,
+            alpha: Vec2::splat(0.15),
+        },
+    ));
+    scene.meshes[0].material = floor;
+    for (i, strength) in (0u8..32).zip([1.0, 2.0, 1.0, 20.0].into_iter().cycle()) {
+        let lamp = scene.add_material(Material {
+            emission: Some(Emission::one_sided(Vec3::new(4.0, 3.0, 2.0) * strength)),
+            ..Material::diffuse("lamp", Vec3::splat(0.5))
+        });
+        let place = Vec3::new(f32::from(i % 8) * 0.12, f32::from(i / 8) * 0.2, 0.05);
+        let corners = room()[1].map(|p| Vec3::new(0.05, 0.3, 0.0) + place + p * 0.02);
+        scene.meshes.push(Mesh::quad("lamp", lamp, corners));
+    }
+    scene
+}
+
 /// A matt square of `albedo` around the origin, seen from straight above: its normal is +y.
 pub(crate) fn plane(albedo: f32, half_size: f32) -> Scene {
     let mut scene = Scene::default();
@@ -71,6 +98,7 @@ pub(crate) struct Shot {
     pub(crate) max_depth: u32,
     pub(crate) estimator: Estimator,
     pub(crate) sampler: SamplerKind,
+    pub(crate) light_samples: NonZeroU32,
 }
 
 impl Default for Shot {
@@ -81,6 +109,7 @@ impl Default for Shot {
             max_depth: 6,
             estimator: Estimator::Mis,
             sampler: SamplerKind::BvhReference,
+            light_samples: NonZeroU32::MIN,
         }
     }
 }
@@ -99,6 +128,7 @@ impl Shot {
             path: PathSettings {
                 max_depth: self.max_depth,
                 estimator: self.estimator,
+                light_samples: self.light_samples,
             },
         };
         let rendering = render(&world, &view, &sampler, &settings, |_| ());
