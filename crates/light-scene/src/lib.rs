@@ -12,6 +12,7 @@ mod broken;
 mod builtin;
 mod camera;
 mod diagnostic;
+mod gltf;
 pub mod ies;
 mod image;
 pub mod light_set;
@@ -23,11 +24,14 @@ mod scene;
 #[cfg(test)]
 mod test_folder;
 mod text;
+#[cfg(test)]
+mod three_formats;
 mod write_whole;
 
 pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Place};
+pub use gltf::read_gltf;
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
     write_hdr, write_image, write_png,

@@ -2,7 +2,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image, read_obj, read_pbrt};
+use light_scene::{
+    BuiltinScene, Diagnostic, Emission, Scene, read_gltf, read_image, read_obj, read_pbrt,
+};
 use lights::glam::Affine3A;
 
 use super::arguments::Emit;
@@ -11,7 +13,7 @@ use super::failure::Failure;
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
 pub(crate) struct SceneInput {
-    /// The scene: an .obj or .pbrt file, or the name of a scene that ships.
+    /// The scene: an .obj, .pbrt, .gltf or .glb file, or the name of a scene that ships.
     pub(crate) scene: PathBuf,
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
@@ -66,11 +68,17 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("obj") => read_obj(path).map_err(Failure::input),
         Some("pbrt") => read_pbrt(path).map_err(Failure::input),
-        Some(_) => Err(refuse("expected a scene file: .obj or .pbrt".into())),
+        Some("gltf" | "glb") => read_gltf(path).map_err(Failure::input),
+        Some(_) => {
+            let message = "expected a scene file: .obj, .pbrt, .gltf or .glb";
+            Err(refuse(message.into()))
+        }
         None => {
             let shipped = path.to_string_lossy().parse::<BuiltinScene>();
             shipped.map(BuiltinScene::load).map_err(|error| {
-                refuse(format!("expected a scene file, .obj or .pbrt; or {error}"))
+                refuse(format!(
+                    "expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}"
+                ))
             })
         }
     }

@@ -1,4 +1,4 @@
-//! Radiance HDR and PNG.
+//! Radiance HDR, PNG and JPEG.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -9,24 +9,14 @@ use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageR
 
 use super::{Image, ImageFile, checked, srgb};
 use crate::glam::Vec3;
-use crate::text::read_bytes;
 use crate::{Diagnostic, write_whole};
 
-/// Reads a Radiance HDR (RGBE) file.
-pub(super) fn read_hdr(path: &Path) -> Result<ImageFile, Diagnostic> {
-    let image = decode(path, ImageFormat::Hdr, "a Radiance HDR file")?.into_rgb32f();
+/// The image in the bytes of a Radiance HDR (RGBE) file; `path` names it in messages.
+pub(crate) fn parse_hdr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    let image = decode(path, bytes, ImageFormat::Hdr, "a Radiance HDR file")?.into_rgb32f();
     let size = [image.width() as usize, image.height() as usize];
     let texels = image.pixels().map(|texel| Vec3::from(texel.0)).collect();
     checked(path, size, texels)
-}
-
-/// Reads a PNG file; its channels are taken as sRGB and made linear.
-pub(super) fn read_png(path: &Path) -> Result<ImageFile, Diagnostic> {
-    let image = decode(path, ImageFormat::Png, "a PNG file")?.into_rgb16();
-    let size = [image.width() as usize, image.height() as usize];
-    let linear = |channel: u16| srgb::decode(f32::from(channel) / 65535.0);
-    let texels = image.pixels().map(|texel| Vec3::from(texel.0.map(linear)));
-    checked(path, size, texels.collect())
 }
 
 /// Writes an 8-bit sRGB PNG file; channels are clamped to [0, 1], NaN becomes black.
@@ -57,8 +47,13 @@ pub fn write_hdr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     write_whole(path, &bytes)
 }
 
-fn decode(path: &Path, format: ImageFormat, what: &str) -> Result<DynamicImage, Diagnostic> {
-    let bytes = read_bytes(path)?;
+/// Decodes an image, if it is not too large for the decoder's limits.
+pub(super) fn decode(
+    path: &Path,
+    bytes: &[u8],
+    format: ImageFormat,
+    what: &str,
+) -> Result<DynamicImage, Diagnostic> {
     let decoded = ImageReader::with_format(Cursor::new(bytes), format).decode();
     decoded.map_err(|error| Diagnostic::file(path, format!("expected {what}: {error}")))
 }

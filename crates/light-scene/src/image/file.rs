@@ -1,9 +1,10 @@
 use std::path::Path;
 
-use super::display::{read_hdr, read_png};
-use super::openexr::read_exr;
-use super::{Image, write_exr, write_hdr, write_png};
+use super::display::parse_hdr;
+use super::openexr::parse_exr;
+use super::{EncodedImage, Image, write_exr, write_hdr, write_png};
 use crate::Diagnostic;
+use crate::text::read_bytes;
 
 /// An image as it came from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,21 +15,40 @@ pub struct ImageFile {
     pub warning: Option<Diagnostic>,
 }
 
-/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png` (sRGB, made linear).
+/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`, `.jpg`, `.jpeg` (sRGB, made
+/// linear).
 ///
 /// # Errors
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or an infinity: with the
 /// pixel and the channel.
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
-    match ending(path).as_str() {
-        "exr" => read_exr(path),
-        "hdr" => read_hdr(path),
-        "png" => read_png(path),
-        _ => Err(Diagnostic::file(
-            path,
-            "expected an image: .exr, .hdr or .png",
-        )),
-    }
+    let parse = match ending(path).as_str() {
+        "exr" => parse_exr,
+        "hdr" => parse_hdr,
+        "png" | "jpg" | "jpeg" => parse_display,
+        _ => {
+            let message = "expected an image: .exr, .hdr, .png or .jpg";
+            return Err(Diagnostic::file(path, message));
+        }
+    };
+    parse(path, &read_bytes(path)?)
+}
+
+/// Whether [`read_image`] reads files whose name ends so.
+pub(crate) fn is_image_name(path: &Path) -> bool {
+    matches!(
+        ending(path).as_str(),
+        "exr" | "hdr" | "png" | "jpg" | "jpeg"
+    )
+}
+
+/// The image in the bytes of a PNG or JPEG file, made linear.
+fn parse_display(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    let image = EncodedImage::parse(path, bytes)?.color();
+    Ok(ImageFile {
+        image,
+        warning: None,
+    })
 }
 
 /// Writes an image by the ending of its name: `.exr` (float32 linear RGB), `.hdr` (RGBE) or `.png` (8-bit sRGB).

@@ -3,6 +3,7 @@
 mod channels;
 mod checked;
 mod display;
+mod encoded;
 mod file;
 mod openexr;
 mod srgb;
@@ -16,6 +17,8 @@ use crate::glam::Vec3;
 pub use channels::ChannelFile;
 use checked::checked;
 pub use display::{write_hdr, write_png};
+pub(crate) use encoded::EncodedImage;
+pub(crate) use file::is_image_name;
 pub use file::{ImageFile, read_image, write_image};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 

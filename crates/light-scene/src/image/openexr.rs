@@ -10,18 +10,14 @@ use exr::prelude::{
 
 use super::{Image, ImageFile, checked};
 use crate::glam::Vec3;
-use crate::text::read_bytes;
 use crate::{Diagnostic, write_whole};
 
 /// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
 const MAX_TEXELS: usize = 1 << 27;
 
-/// Reads the first layer of an OpenEXR file: channels R, G and B, or Y alone, of half or float samples.
-pub(super) fn read_exr(path: &Path) -> Result<ImageFile, Diagnostic> {
-    parse_exr(path, &read_bytes(path)?)
-}
-
-/// The image in the bytes of an OpenEXR file; `path` names it in messages.
+/// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of half or float samples.
+///
+/// `path` names the file in messages.
 ///
 /// # Errors
 /// As for [`read_image`](crate::read_image).

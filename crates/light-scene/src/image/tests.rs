@@ -85,9 +85,9 @@ fn broken_files_give_one_clear_line() {
     let bytes = fs::read(&good).expect("a file");
     let cases = [
         (
-            "a.jpg",
+            "a.gif",
             &b"x"[..],
-            ": expected an image: .exr, .hdr or .png",
+            ": expected an image: .exr, .hdr, .png or .jpg",
         ),
         ("a.exr", &b"no image"[..], ": expected an OpenEXR file: "),
         (
@@ -101,6 +101,7 @@ fn broken_files_give_one_clear_line() {
             ": expected a Radiance HDR file: ",
         ),
         ("a.png", &b"\x89PNG"[..], ": expected a PNG file: "),
+        ("a.jpg", &b"\xff\xd8\xff"[..], ": expected a JPEG file: "),
     ];
     for (name, bytes, expected) in cases {
         let path = folder.path(name);

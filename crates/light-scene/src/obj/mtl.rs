@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use crate::glam::{Vec2, Vec3};
+use crate::image::is_image_name;
 use crate::text::{Line, logical_lines, shown};
 use crate::{
     Color, ColorImage, Diagnostic, Emission, EmissionSides, ImageId, Material, MaterialId, Scene,
@@ -180,10 +181,9 @@ impl Textures {
             return Ok(Some(image));
         }
         let file = line.path().with_file_name(name.replace('\\', "/"));
-        let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
-        if !["exr", "hdr", "png"].iter().any(|known| ending == *known) {
+        if !is_image_name(&file) {
             let name = shown(&name);
-            let message = format!("`{name}` was ignored: expected .exr, .hdr or .png");
+            let message = format!("`{name}` was ignored: expected .exr, .hdr, .png or .jpg");
             scene.warnings.push(line.diagnostic(message));
             return Ok(None);
         }

@@ -276,7 +276,7 @@ fn images_color_surfaces_and_lights() {
     assert_eq!(emission.radiance, texture(1.0), "map_Ke alone");
     let warning = &scene.warnings[0].message;
     assert_eq!(
-        warning, "`c.tga` was ignored: expected .exr, .hdr or .png",
+        warning, "`c.tga` was ignored: expected .exr, .hdr, .png or .jpg",
         "kind"
     );
     let error = read("newmtl a\nmap_Kd no.png\n").expect_err("missing");

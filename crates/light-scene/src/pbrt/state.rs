@@ -1,12 +1,12 @@
 use alloc::collections::BTreeSet;
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::parameters::Parameters;
 use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
-use crate::{Camera, Color, Crop, Diagnostic, Material, MaterialId, Mesh, Place, Scene};
+use crate::{Camera, Color, Crop, Diagnostic, ImageId, Material, MaterialId, Mesh, Place, Scene};
 
 /// What the directives so far have built, and the state that the next one acts on.
 #[derive(Debug, Default)]
@@ -18,6 +18,8 @@ pub(super) struct Reader {
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: HashMap<String, MaterialId>,
     pub(super) textures: HashMap<String, Color>,
+    /// Each file read once.
+    pub(super) images: HashMap<PathBuf, ImageId>,
     pub(super) objects: HashMap<String, Vec<Mesh>>,
     /// The object that shapes belong to between `ObjectBegin` and `ObjectEnd`.
     pub(super) object: Option<(String, Vec<Mesh>)>,

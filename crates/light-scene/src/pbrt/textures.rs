@@ -83,10 +83,17 @@ impl Reader {
         file: &str,
         scale: Vec3,
     ) -> Result<Color, Diagnostic> {
-        let file =
-            read_image(&at.path.with_file_name(file)).map_err(|e| at.diagnostic(e.to_string()))?;
-        self.scene.warnings.extend(file.warning);
-        let image = self.scene.add_image(file.image);
+        let path = at.path.with_file_name(file);
+        let image = match self.images.get(&path) {
+            Some(&known) => known,
+            None => {
+                let file = read_image(&path).map_err(|e| at.diagnostic(e.to_string()))?;
+                self.scene.warnings.extend(file.warning);
+                let image = self.scene.add_image(file.image);
+                self.images.insert(path, image);
+                image
+            }
+        };
         Ok(Color::Image(ColorImage { image, scale }))
     }
 }

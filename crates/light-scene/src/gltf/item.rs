@@ -1,0 +1,368 @@
+//! A JSON document whose parts know where they are, and which remembers what was asked for.
+
+use alloc::collections::BTreeSet;
+use core::cell::RefCell;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value};
+
+use crate::Diagnostic;
+use crate::text::shown;
+
+/// Members that say nothing about light: nobody has to ask for them. Filters are those of rasterisers.
+const SAYS_NOTHING: [&str; 8] = [
+    "name",
+    "extras",
+    "generator",
+    "copyright",
+    "minVersion",
+    "min",
+    "max",
+    "minFilter",
+];
+
+/// A document.
+#[derive(Debug)]
+pub(super) struct Document {
+    path: PathBuf,
+    root: Value,
+    /// The addresses of what was asked for.
+    asked: RefCell<HashSet<*const Value>>,
+}
+
+/// A part of a document.
+#[derive(Clone, Debug)]
+pub(super) struct Item<'a> {
+    document: &'a Document,
+    value: &'a Value,
+    /// From the root: `nodes[3].mesh`; empty for the root itself.
+    path: String,
+}
+
+impl Document {
+    pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Self, Diagnostic> {
+        let root = serde_json::from_slice(json);
+        let root = root.map_err(|error| {
+            Diagnostic::file(path, format!("expected a document of JSON: {error}"))
+        })?;
+        Ok(Self {
+            path: path.to_path_buf(),
+            root,
+            asked: RefCell::default(),
+        })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn root(&self) -> Item<'_> {
+        Item {
+            document: self,
+            value: &self.root,
+            path: String::new(),
+        }
+    }
+
+    /// What nobody asked for: the first of each kind, places in lists aside.
+    pub(super) fn unasked(&self) -> Vec<Item<'_>> {
+        let mut unasked = Unasked {
+            asked: &self.asked.borrow(),
+            kinds: BTreeSet::new(),
+            found: Vec::new(),
+        };
+        unasked.walk(self.root());
+        unasked.found
+    }
+
+    fn ask<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
+        self.asked.borrow_mut().insert(core::ptr::from_ref(value));
+        Item {
+            document: self,
+            value,
+            path,
+        }
+    }
+}
+
+impl<'a> Item<'a> {
+    /// A message about this part.
+    pub(super) fn error(&self, message: &str) -> Diagnostic {
+        let separator = if self.path.is_empty() { "" } else { ": " };
+        let message = format!("{}{separator}{message}", self.path);
+        Diagnostic::file(&self.document.path, message)
+    }
+
+    /// Says that something else was expected than what is there.
+    pub(super) fn expected(&self, what: &str) -> Diagnostic {
+        let found = match self.value {
+            Value::Object(_) => "an object".to_owned(),
+            Value::Array(_) => "a list".to_owned(),
+            other => shown(&other.to_string()),
+        };
+        self.error(&format!("expected {what}, found {found}"))
+    }
+
+    /// The path without the places in lists.
+    pub(super) fn kind(&self) -> String {
+        let mut inside = false;
+        let keep = |c: &char| {
+            let was_inside = inside;
+            inside = *c == '[' || (inside && *c != ']');
+            !inside && !was_inside
+        };
+        self.path.chars().filter(keep).collect()
+    }
+
+    fn map(&self) -> Result<&'a Map<String, Value>, Diagnostic> {
+        self.value
+            .as_object()
+            .ok_or_else(|| self.expected("an object"))
+    }
+
+    /// A member of this object, if it is there.
+    pub(super) fn get(&self, name: &str) -> Result<Option<Self>, Diagnostic> {
+        let value = self.map()?.get(name);
+        Ok(value.map(|value| self.document.ask(value, joined(&self.path, name))))
+    }
+
+    /// A member of this object that has to be there.
+    pub(super) fn require(&self, name: &str) -> Result<Self, Diagnostic> {
+        let member = self.get(name)?;
+        member.ok_or_else(|| self.error(&format!("expected a member `{name}`")))
+    }
+
+    /// What an extension adds to this object.
+    pub(super) fn extension(&self, name: &str) -> Result<Option<Self>, Diagnostic> {
+        let extensions = self.get("extensions")?;
+        extensions.map_or(Ok(None), |extensions| extensions.get(name))
+    }
+
+    /// The elements of a member that is a list; none if it is not there.
+    pub(super) fn list(&self, name: &str) -> Result<Vec<Self>, Diagnostic> {
+        let Some(list) = self.get(name)? else {
+            return Ok(Vec::new());
+        };
+        (0..list.array()?.len())
+            .map(|index| list.element(index))
+            .collect()
+    }
+
+    fn array(&self) -> Result<&'a [Value], Diagnostic> {
+        let array = self.value.as_array().map(Vec::as_slice);
+        array.ok_or_else(|| self.expected("a list"))
+    }
+
+    fn element(&self, index: usize) -> Result<Self, Diagnostic> {
+        let array = self.array()?;
+        let value = array.get(index).ok_or_else(|| {
+            self.error(&format!(
+                "element {index} of {} does not exist",
+                array.len()
+            ))
+        })?;
+        Ok(self.document.ask(value, format!("{}[{index}]", self.path)))
+    }
+
+    /// What this part points to: an element, by its place, of a list of the root.
+    pub(super) fn target(&self, list: &str) -> Result<(usize, Self), Diagnostic> {
+        self.target_in(&self.document.root(), list)
+    }
+
+    /// What this part points to: an element, by its place, of a list of `owner`.
+    pub(super) fn target_in(&self, owner: &Self, list: &str) -> Result<(usize, Self), Diagnostic> {
+        let index = self.whole()?;
+        let found = owner.get(list)?.and_then(|list| list.element(index).ok());
+        let message = || format!("{}[{index}] does not exist", joined(&owner.path, list));
+        let found = found.ok_or_else(|| self.error(&message()))?;
+        Ok((index, found))
+    }
+
+    /// This part as a whole number of at least 0.
+    pub(super) fn whole(&self) -> Result<usize, Diagnostic> {
+        let whole = self.value.as_u64().and_then(|n| usize::try_from(n).ok());
+        whole.ok_or_else(|| self.expected("a whole number of at least 0"))
+    }
+
+    /// This part as a number.
+    pub(super) fn number(&self) -> Result<f32, Diagnostic> {
+        number(self.value).ok_or_else(|| self.expected("a number"))
+    }
+
+    /// This part as `N` numbers.
+    pub(super) fn numbers<const N: usize>(&self) -> Result<[f32; N], Diagnostic> {
+        let list = self.array()?;
+        let numbers: Option<Vec<f32>> = list.iter().map(number).collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.ok_or_else(|| self.error(&format!("expected {N} numbers")))
+    }
+
+    pub(super) fn text(&self) -> Result<&'a str, Diagnostic> {
+        self.value.as_str().ok_or_else(|| self.expected("a text"))
+    }
+
+    /// A member that is a number.
+    pub(super) fn number_or(&self, name: &str, default: f32) -> Result<f32, Diagnostic> {
+        let member = self.get(name)?;
+        member.map_or(Ok(default), |member| member.number())
+    }
+
+    /// A member that is a number of at least 0.
+    pub(super) fn amount_or(&self, name: &str, default: f32) -> Result<f32, Diagnostic> {
+        let Some(member) = self.get(name)? else {
+            return Ok(default);
+        };
+        let number = member.number()?;
+        if number < 0.0 {
+            return Err(member.expected("a number of at least 0"));
+        }
+        Ok(number)
+    }
+
+    pub(super) fn numbers_or<const N: usize>(
+        &self,
+        name: &str,
+        default: [f32; N],
+    ) -> Result<[f32; N], Diagnostic> {
+        let member = self.get(name)?;
+        member.map_or(Ok(default), |member| member.numbers())
+    }
+
+    pub(super) fn whole_or(&self, name: &str, default: usize) -> Result<usize, Diagnostic> {
+        let member = self.get(name)?;
+        member.map_or(Ok(default), |member| member.whole())
+    }
+
+    pub(super) fn is_true(&self, name: &str) -> Result<bool, Diagnostic> {
+        let Some(member) = self.get(name)? else {
+            return Ok(false);
+        };
+        let truth = member.value.as_bool();
+        truth.ok_or_else(|| member.expected("`true` or `false`"))
+    }
+
+    /// The name of what this object describes; may be empty.
+    pub(super) fn name(&self) -> &'a str {
+        self.value
+            .get("name")
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    }
+}
+
+/// A number that is finite as `f32`.
+#[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+fn number(value: &Value) -> Option<f32> {
+    let number = value.as_f64()? as f32;
+    number.is_finite().then_some(number)
+}
+
+fn joined(path: &str, member: &str) -> String {
+    let separator = if path.is_empty() { "" } else { "." };
+    format!("{path}{separator}{}", shown(member))
+}
+
+struct Unasked<'a, 'b> {
+    asked: &'b HashSet<*const Value>,
+    kinds: BTreeSet<String>,
+    found: Vec<Item<'a>>,
+}
+
+impl<'a> Unasked<'a, '_> {
+    fn walk(&mut self, item: Item<'a>) {
+        match item.value {
+            Value::Object(members) => {
+                for (name, value) in members {
+                    if !SAYS_NOTHING.contains(&name.as_str()) {
+                        self.look(&item, value, joined(&item.path, name));
+                    }
+                }
+            }
+            Value::Array(elements) => {
+                for (index, value) in elements.iter().enumerate() {
+                    // Numbers were read with their list.
+                    if value.is_object() {
+                        self.look(&item, value, format!("{}[{index}]", item.path));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn look(&mut self, parent: &Item<'a>, value: &'a Value, path: String) {
+        let item = Item {
+            document: parent.document,
+            value,
+            path,
+        };
+        if self.asked.contains(&core::ptr::from_ref(value)) {
+            self.walk(item);
+        } else if self.kinds.insert(item.kind()) {
+            self.found.push(item);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn document(json: &str) -> Document {
+        Document::parse(Path::new("a.gltf"), json.as_bytes()).expect("JSON")
+    }
+
+    #[test]
+    fn parts_say_where_they_are() {
+        let document = document(r#"{"a": [{"b": 2}, {"b": -1}], "c": [1, 2], "a[1]": {}}"#);
+        let root = document.root();
+        let list = root.list("a").expect("a list");
+        let b = list[1].require("b").expect("there");
+        let message = |error: Diagnostic| error.to_string();
+        assert_eq!(
+            b.whole().map_err(message),
+            Err("a.gltf: a[1].b: expected a whole number of at least 0, found -1".into()),
+            "a path"
+        );
+        assert_eq!(b.kind(), "a.b", "without places");
+        assert_eq!(
+            root.require("x").map(|_| ()).map_err(message),
+            Err("a.gltf: expected a member `x`".into()),
+            "the root has no path"
+        );
+        assert_eq!(
+            list[0].numbers_or::<3>("b", [0.0; 3]).map_err(message),
+            Err("a.gltf: a[0].b: expected a list, found 2".into()),
+            "a list"
+        );
+        let two = list[0].require("b").expect("there");
+        assert_eq!(
+            two.target("a").map(|_| ()).map_err(message),
+            Err("a.gltf: a[0].b: a[2] does not exist".into()),
+            "a reference"
+        );
+        let c = root.numbers_or::<3>("c", [0.0; 3]);
+        let error = "a.gltf: c: expected 3 numbers";
+        assert_eq!(c.map_err(message), Err(error.into()), "too few");
+    }
+
+    #[test]
+    fn what_nobody_asked_for_is_named_once_a_kind() {
+        let document = document(
+            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1}}"#,
+        );
+        for item in document.root().list("a").expect("a list") {
+            item.number_or("x", 0.0).expect("a number");
+        }
+        let unasked = document.unasked();
+        let paths: Vec<_> = unasked.iter().map(|item| item.path.as_str()).collect();
+        assert_eq!(paths, ["a[0].y", "b", "c"], "the first of each kind");
+    }
+
+    #[test]
+    fn broken_json_says_where() {
+        let error = Document::parse(Path::new("a"), b"{\n\"a\":}").expect_err("no value");
+        assert!(error.to_string().contains("line 2 column 5"), "{error}");
+    }
+}

@@ -1,0 +1,45 @@
+//! glTF 2.0 files, as text (`.gltf`) and as one binary file (`.glb`).
+
+mod accessor;
+mod buffers;
+mod data_uri;
+mod glb;
+mod item;
+mod lights;
+mod materials;
+mod nodes;
+mod primitives;
+mod reader;
+#[cfg(test)]
+mod tests;
+mod textures;
+
+use std::path::Path;
+
+use crate::text::read_bytes;
+use crate::{Diagnostic, Scene};
+
+/// Where the content of the files comes from that a document names.
+pub(crate) type Files<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic>;
+
+/// Reads a glTF file, as text or binary, and what it names.
+///
+/// What is understood stands in the crate's documentation; everything else is named once in a warning, by its path in
+/// the document. Lengths are metres; the camera looks along -z with y up.
+///
+/// # Errors
+/// When a file cannot be read, is no glTF file, or a part of it makes no sense: with file, path in the document or byte,
+/// and what was expected.
+///
+/// # Source
+/// `[GLTF]`.
+pub fn read_gltf(path: &Path) -> Result<Scene, Diagnostic> {
+    parse_gltf(path, &read_bytes(path)?, &read_bytes)
+}
+
+/// As [`read_gltf`], from the bytes of the file; `path` names it in messages and is where other files' names start from.
+pub(crate) fn parse_gltf(path: &Path, bytes: &[u8], files: Files<'_>) -> Result<Scene, Diagnostic> {
+    let glb::Chunks { json, binary } = glb::chunks(path, bytes)?;
+    let document = item::Document::parse(path, json)?;
+    reader::Reader::new(&document, binary, files)?.read()
+}

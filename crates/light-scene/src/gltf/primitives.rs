@@ -1,0 +1,129 @@
+use super::accessor::Accessor;
+use super::item::Item;
+use super::reader::Reader;
+use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::{Diagnostic, Mesh};
+
+/// Triangles that a document may place, however often it names the same ones.
+const MOST_TRIANGLES: usize = 1 << 27;
+
+impl<'a> Reader<'a> {
+    /// Places the primitives of a mesh.
+    pub(super) fn mesh(&mut self, mesh: &Item<'a>, place: &Affine3A) -> Result<(), Diagnostic> {
+        for primitive in mesh.list("primitives")? {
+            let Some(mut triangles) = self.primitive(&primitive)? else {
+                continue;
+            };
+            triangles.name = mesh.name().to_owned();
+            let mut placed = triangles.transformed(place);
+            placed.drop_empty_triangles();
+            if !placed.positions.iter().all(|position| position.is_finite()) {
+                return Err(primitive.error("expected a transform that keeps vertices finite"));
+            }
+            if placed.indices.is_empty() {
+                continue;
+            }
+            if self.scene.triangle_count() + placed.indices.len() > MOST_TRIANGLES {
+                let message = format!("expected at most {MOST_TRIANGLES} triangles in all");
+                return Err(primitive.error(&message));
+            }
+            self.scene.meshes.push(placed);
+        }
+        Ok(())
+    }
+
+    /// The triangles of a primitive, if it has any.
+    fn primitive(&mut self, primitive: &Item<'a>) -> Result<Option<Mesh>, Diagnostic> {
+        let mode = primitive.whole_or("mode", 4)?;
+        if !matches!(mode, 4..=6) {
+            self.warn(primitive, "was left out: it has no triangles");
+            return Ok(None);
+        }
+        let attributes = primitive.require("attributes")?;
+        let positions = self
+            .accessor(&attributes.require("POSITION")?)?
+            .floats::<3>()?;
+        let count = positions.len();
+        let (material, uv_set) = self.material(primitive)?;
+        let mut mesh = Mesh::new("", material);
+        mesh.positions = positions.into_iter().map(Vec3::from).collect();
+        let fits = |item: &Item<'_>, found: usize| {
+            let message = format!("expected as many elements as vertices, {count}, found {found}");
+            if found == count {
+                Ok(())
+            } else {
+                Err(item.error(&message))
+            }
+        };
+        if let Some(normals) = attributes.get("NORMAL")? {
+            let all = self.accessor(&normals)?.floats::<3>()?;
+            fits(&normals, all.len())?;
+            mesh.normals = Some(all.into_iter().map(Vec3::from).collect());
+        }
+        if let Some(uvs) = attributes.get(&format!("TEXCOORD_{uv_set}"))? {
+            let all = self.accessor(&uvs)?.floats::<2>()?;
+            fits(&uvs, all.len())?;
+            // Of glTF (0, 0) is the upper left corner of an image.
+            let lower_left = |[u, v]: [f32; 2]| Vec2::new(u, 1.0 - v);
+            mesh.uvs = Some(all.into_iter().map(lower_left).collect());
+        }
+        let corners = match primitive.get("indices")? {
+            Some(indices) => self.accessor(&indices)?.indices(count)?,
+            // There are no more vertices than an accessor may hold, below 2^32.
+            None => (0u32..).take(count).collect(),
+        };
+        mesh.indices = match mode {
+            4 if corners.len() % 3 != 0 => {
+                let message = format!("expected three corners a triangle, found {}", corners.len());
+                return Err(primitive.error(&message));
+            }
+            4 => corners
+                .chunks_exact(3)
+                .map(|t| [t[0], t[1], t[2]])
+                .collect(),
+            5 => strip(&corners),
+            _ => fan(&corners),
+        };
+        Ok(Some(mesh))
+    }
+
+    fn accessor(&mut self, reference: &Item<'a>) -> Result<Accessor<'a>, Diagnostic> {
+        Accessor::new(reference, &self.buffers, &mut self.budget)
+    }
+}
+
+/// Each corner with the two before it; every second triangle runs the other way around.
+fn strip(corners: &[u32]) -> Vec<[u32; 3]> {
+    let triangles = corners.windows(3).enumerate();
+    triangles
+        .map(|(i, t)| {
+            if i % 2 == 0 {
+                [t[0], t[1], t[2]]
+            } else {
+                [t[0], t[2], t[1]]
+            }
+        })
+        .collect()
+}
+
+/// Each edge with the first corner.
+fn fan(corners: &[u32]) -> Vec<[u32; 3]> {
+    let Some((&first, rim)) = corners.split_first() else {
+        return Vec::new();
+    };
+    rim.windows(2)
+        .map(|edge| [first, edge[0], edge[1]])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_turn_every_second_triangle() {
+        assert_eq!(strip(&[7, 8, 9, 3]), [[7, 8, 9], [8, 3, 9]], "strip");
+        assert_eq!(fan(&[7, 8, 9, 3]), [[7, 8, 9], [7, 9, 3]], "fan");
+        assert!(strip(&[1, 2]).is_empty() && fan(&[]).is_empty(), "none");
+    }
+}

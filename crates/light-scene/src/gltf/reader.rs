@@ -1,0 +1,78 @@
+use alloc::collections::BTreeSet;
+
+use super::Files;
+use super::accessor::Budget;
+use super::buffers::Buffers;
+use super::item::{Document, Item};
+use super::materials::Materials;
+use super::textures::Textures;
+use crate::{Diagnostic, Scene};
+
+/// Extensions that a document may require.
+const KNOWN: [&str; 7] = [
+    "EXT_lights_ies",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_mesh_quantization",
+];
+
+/// What a document has become so far.
+pub(super) struct Reader<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: Buffers<'a>,
+    pub(super) budget: Budget,
+    pub(super) scene: Scene,
+    pub(super) textures: Textures,
+    pub(super) materials: Materials,
+    warned: BTreeSet<String>,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader of a document, once its version, what it requires and its buffers are known to be good.
+    pub(super) fn new(
+        document: &'a Document,
+        binary: Option<&[u8]>,
+        files: Files<'a>,
+    ) -> Result<Self, Diagnostic> {
+        let root = document.root();
+        let version = root.require("asset")?.require("version")?;
+        if !version.text()?.starts_with("2.") {
+            return Err(version.expected("version 2.0"));
+        }
+        for required in root.list("extensionsRequired")? {
+            if !KNOWN.contains(&required.text()?) {
+                return Err(required.expected("an extension that is read"));
+            }
+        }
+        // Each use is looked at where it stands.
+        root.get("extensionsUsed")?;
+        Ok(Self {
+            document,
+            buffers: Buffers::new(document, binary, files)?,
+            budget: Budget::default(),
+            scene: Scene::default(),
+            textures: Textures::default(),
+            materials: Materials::default(),
+            warned: BTreeSet::new(),
+        })
+    }
+
+    /// The scene.
+    pub(super) fn read(mut self) -> Result<Scene, Diagnostic> {
+        self.nodes()?;
+        for item in self.document.unasked() {
+            self.warn(&item, "was ignored");
+        }
+        Ok(self.scene)
+    }
+
+    /// Says something about a part of the document, once for each kind of part.
+    pub(super) fn warn(&mut self, item: &Item<'_>, message: &str) {
+        if self.warned.insert(format!("{} {message}", item.kind())) {
+            self.scene.warnings.push(item.error(message));
+        }
+    }
+}

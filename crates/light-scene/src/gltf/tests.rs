@@ -1,0 +1,434 @@
+use std::path::Path;
+
+use super::data_uri::tests::data_uri;
+use super::glb::tests::glb;
+use super::parse_gltf;
+use crate::glam::{Vec2, Vec3};
+use crate::{Color, Diagnostic, EmissionSides, Image, Scene, Surface, write_png};
+use ::lights::sources::LightDesc;
+
+/// A square of four vertices in z = 0 and its two triangles as bytes: positions, texture coordinates, indices.
+fn square() -> Vec<u8> {
+    let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let mut bytes = Vec::new();
+    for [x, y] in corners {
+        bytes.extend([x, y, 0.0].map(f32::to_le_bytes).concat());
+    }
+    for [x, y] in corners {
+        bytes.extend([x, 1.0 - y].map(f32::to_le_bytes).concat());
+    }
+    bytes.extend([0u16, 1, 2, 0, 2, 3].map(u16::to_le_bytes).concat());
+    bytes
+}
+
+/// Buffer, views and accessors of [`square`], before a comma.
+const SQUARE: &str = r#""asset": {"version": "2.0"},
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32},
+        {"buffer": 0, "byteOffset": 80, "byteLength": 12}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "max": [1, 1, 0]},
+        {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
+        {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    "buffers": [{"byteLength": 92 $URI}],"#;
+
+fn head() -> String {
+    SQUARE.replace("$URI", &format!(r#", "uri": "{}""#, data_uri(&square())))
+}
+
+fn read(json: &str) -> Result<Scene, String> {
+    let json = format!("{{{} {json}}}", head());
+    let files = |path: &Path| Err(Diagnostic::file(path, "cannot be read"));
+    let scene = parse_gltf(Path::new("a.gltf"), json.as_bytes(), &files);
+    scene.map_err(|error| error.to_string())
+}
+
+const LAMP: &str = r#""scene": 0, "scenes": [{"nodes": [0, 2]}],
+    "nodes": [{"translation": [0, 2, 0], "scale": [2, 2, 2], "children": [1]}, {"mesh": 0, "skin": 0},
+        {"translation": [0, 0, 5], "camera": 0}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 1.5, "znear": 0.1}}],
+    "meshes": [{"name": "lamp", "primitives": [
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 1}, "indices": 2, "material": 0},
+        {"attributes": {"POSITION": 0}, "mode": 1}]}],
+    "materials": [{"name": "glow", "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
+        "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 1], "metallicFactor": 0},
+        "normalTexture": {"index": 0},
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1366}, "X_glitter": {}}}]"#;
+
+#[test]
+fn reads_nodes_meshes_materials_and_a_camera() {
+    let scene = read(LAMP).expect("a scene");
+    let [mesh] = &scene.meshes[..] else {
+        panic!("one mesh, not {}", scene.meshes.len());
+    };
+    assert_eq!(mesh.name, "lamp", "its name");
+    let moved = [[0.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    assert_eq!(mesh.positions, moved, "scaled, then moved");
+    assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]], "triangles");
+    let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    assert_eq!(
+        mesh.uvs.as_deref(),
+        Some(&uvs[..]),
+        "(0, 0) is the lower left corner"
+    );
+    let material = scene.material(mesh.material);
+    let emission = material.emission.expect("it shines");
+    let radiance = Color::Constant(Vec3::new(2.0, 1.0, 0.0));
+    assert_eq!(
+        emission.radiance, radiance,
+        "1366 nits of white are 2 W m^-2 sr^-1"
+    );
+    assert_eq!(emission.sides, EmissionSides::Both, "double-sided");
+    let Surface::CoatedDiffuse {
+        reflectance,
+        eta,
+        alpha,
+    } = material.surface
+    else {
+        panic!("a coat, not {:?}", material.surface);
+    };
+    let color = Color::Constant(Vec3::new(0.1, 0.2, 0.3));
+    assert_eq!((reflectance, eta, alpha), (color, 1.5, Vec2::ONE), "rough");
+    let camera = scene.camera.expect("a camera");
+    assert_eq!(camera.position, Vec3::Z * 5.0, "where it stands");
+    assert_eq!(
+        (camera.forward, camera.right),
+        (Vec3::NEG_Z, Vec3::X),
+        "where it looks"
+    );
+    assert!(
+        (camera.fov - 0.5).abs() < 1e-6,
+        "of the shorter side: {}",
+        camera.fov
+    );
+    let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "meshes[0].primitives[1]: was left out: it has no triangles",
+        "materials[0].extensions.X_glitter: was ignored",
+        "materials[0].normalTexture: was ignored",
+        "meshes[0].primitives[0].attributes.COLOR_0: was ignored",
+        "nodes[1].skin: was ignored",
+    ];
+    let mut warnings = warnings;
+    warnings.sort_unstable();
+    assert_eq!(
+        warnings.len(),
+        expected.len() + 1,
+        "and the attributes of the lines: {warnings:?}"
+    );
+    for message in expected {
+        assert!(warnings.contains(&message), "{message} in {warnings:?}");
+    }
+}
+
+#[test]
+fn binary_files_carry_their_buffer() {
+    let json = format!("{{{} {LAMP}}}", SQUARE.replace("$URI", ""));
+    let files = |path: &Path| Err(Diagnostic::file(path, "cannot be read"));
+    let file = glb(&json, &square());
+    let binary = parse_gltf(Path::new("a.glb"), &file, &files).expect("a scene");
+    let text = read(LAMP).expect("a scene");
+    assert_eq!(binary.meshes, text.meshes, "the same triangles");
+    assert_eq!(binary.materials, text.materials, "the same materials");
+}
+
+#[test]
+fn punctual_lights_in_candela_and_lux_shine_along_minus_z() {
+    let scene = read(
+        r#""scenes": [{"nodes": [0, 1, 2]}], "nodes": [
+            {"translation": [1, 2, 3], "scale": [7, 7, 7], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"rotation": [0.70710678, 0, 0, -0.70710678], "extensions": {"KHR_lights_punctual": {"light": 1}}},
+            {"extensions": {"KHR_lights_punctual": {"light": 2}}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [
+            {"type": "point", "intensity": 683, "color": [1, 0.5, 0], "range": 9},
+            {"type": "spot", "intensity": 1366, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
+            {"type": "directional", "intensity": 68.3}]}}"#,
+    )
+    .expect("a scene");
+    let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
+    let unused = ["accessors: was ignored", "bufferViews: was ignored"];
+    assert_eq!(warnings, unused, "nothing else");
+    let [
+        LightDesc::Point(point),
+        LightDesc::Spot(spot),
+        LightDesc::Distant(sun),
+    ] = &scene.lights[..]
+    else {
+        panic!("three lights");
+    };
+    assert_eq!(point.position, Vec3::new(1.0, 2.0, 3.0), "place");
+    assert_eq!(
+        point.emission,
+        Vec3::new(1.0, 0.5, 0.0),
+        "683 cd of white are 1 W/sr"
+    );
+    assert_eq!(spot.emission, Vec3::splat(2.0), "1366 cd");
+    assert_eq!((spot.falloff_start, spot.angle), (0.2, 0.4), "cone");
+    let axis = spot.transform.transform_vector3(Vec3::Z);
+    assert!(
+        axis.abs_diff_eq(Vec3::NEG_Y, 1e-6),
+        "turned down, not {axis}"
+    );
+    assert!(sun.direction.abs_diff_eq(Vec3::Z, 1e-6), "it comes from +z");
+    assert!(sun.emission.abs_diff_eq(Vec3::splat(0.1), 1e-6), "68.3 lx");
+}
+
+#[test]
+fn measured_luminaires_look_along_minus_z() {
+    let file =
+        "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n0 60 90\n0\n500 250 0\n";
+    let scene = read(&format!(
+        r#""scenes": [{{"nodes": [0]}}],
+        "nodes": [{{"extensions": {{"EXT_lights_ies": {{"light": 0, "multiplier": 0.5}}}}}}],
+        "extensions": {{"EXT_lights_ies": {{"lights": [{{"uri": "{}"}}]}}}}"#,
+        data_uri(file.as_bytes())
+    ))
+    .expect("a scene");
+    let [LightDesc::Goniometric(light)] = &scene.lights[..] else {
+        panic!("one light");
+    };
+    let toward = |w: Vec3| {
+        let local = light.transform.inverse().transform_vector3(w);
+        let uv = ::lights::math::equal_area::sphere_to_square(local);
+        light.distribution.nearest(uv).x
+    };
+    assert!(
+        toward(Vec3::NEG_Z) > 0.97,
+        "full ahead: {}",
+        toward(Vec3::NEG_Z)
+    );
+    let aside = Vec3::new(0.866, 0.0, -0.5);
+    assert!(
+        (toward(aside) - 0.5).abs() < 0.03,
+        "half at 60 degrees: {}",
+        toward(aside)
+    );
+    assert_eq!(toward(Vec3::Z), 0.0, "nothing behind");
+    let web = crate::ies::parse_lm63(Path::new("a"), file)
+        .expect("a luminaire")
+        .web;
+    let lumens = ::lights::math::spectrum::photometric::Lumen(0.5 * web.total_lumens());
+    let amount = ::lights::sources::IntensityAmount::LuminousPower(lumens);
+    assert_eq!(light.amount, amount, "half as much");
+}
+
+#[test]
+fn textures_are_decoded_once_and_their_alpha_masks() {
+    let folder = crate::test_folder::TestFolder::new("gltf_textures");
+    let path = folder.path("a.png");
+    let texels = vec![Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
+    write_png(&path, &Image::new(2, 2, texels.clone()).expect("an image")).expect("written");
+    let opaque = data_uri(&std::fs::read(&path).expect("read"));
+    let mut holes = image::RgbaImage::from_pixel(2, 1, image::Rgba([255, 0, 0, 255]));
+    holes.put_pixel(1, 0, image::Rgba([0, 0, 0, 51]));
+    holes.save(&path).expect("written");
+    let holes = data_uri(&std::fs::read(&path).expect("read"));
+    let scene = read(
+        &format!(
+            r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
+            {{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "material": 0}},
+            {{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2, "material": 1}}]}}],
+        "materials": [{{"emissiveTexture": {{"index": 0}}, "emissiveFactor": [1, 1, 1],
+            "pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}, "metallicFactor": 0}},
+            "extensions": {{"KHR_materials_specular": {{"specularFactor": 0}}}}}},
+            {{"alphaMode": "MASK", "alphaCutoff": 0.3, "pbrMetallicRoughness": {{
+                "baseColorTexture": {{"index": 1}}, "metallicRoughnessTexture": {{"index": 0}}}}}}],
+        "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}],
+        "samplers": [{{"wrapS": 33071, "wrapT": 10497, "minFilter": 9987}}],
+        "images": [{{"uri": "{opaque}"}}, {{"uri": "{holes}"}}]"#
+        )
+        .replace(r#""material": 0"#, r#""indices": 2, "material": 0"#),
+    )
+    .expect("a scene");
+    assert_eq!(
+        scene.images.len(),
+        3,
+        "colours of two images, and the alpha of one"
+    );
+    let glow = scene.material(scene.meshes[0].material);
+    let Surface::Diffuse {
+        reflectance: Color::Image(base),
+    } = glow.surface
+    else {
+        panic!("diffuse, not {:?}", glow.surface);
+    };
+    let Some(Color::Image(shine)) = glow.emission.map(|e| e.radiance) else {
+        panic!("a shining texture");
+    };
+    assert_eq!(base.image, shine.image, "one image for both");
+    assert_eq!(
+        scene.images[base.image.0 as usize].texels(),
+        texels,
+        "linear"
+    );
+    let metal = scene.material(scene.meshes[1].material);
+    let alpha = metal.alpha.expect("holes");
+    assert_eq!(alpha.cutoff, Some(0.3), "a mask");
+    let Color::Image(share) = alpha.share else {
+        panic!("an image");
+    };
+    let share = scene.images[share.image.0 as usize].texels();
+    assert_eq!(share, [Vec3::ONE, Vec3::splat(0.2)], "as it is written");
+    let messages: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "samplers[0].wrapS: was ignored: images repeat",
+        "materials[1].pbrMetallicRoughness.metallicRoughnessTexture: was taken as its mean",
+        "materials[1]: is partly metallic and was taken as the nearer of metal and none",
+    ];
+    for message in expected {
+        assert!(messages.contains(&message), "{message} in {messages:?}");
+    }
+}
+
+#[test]
+fn broken_documents_give_one_clear_line() {
+    let node = |mesh: &str| {
+        format!(r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{mesh}]"#)
+    };
+    let primitive = |p: &str| node(&format!(r#"{{"primitives": [{p}]}}"#));
+    let cases = [
+        (
+            r#""scene": 3"#.to_owned(),
+            "a.gltf: scene: scenes[3] does not exist",
+        ),
+        (
+            r#""scenes": [{"nodes": [0]}], "nodes": [{"children": [1]}, {"children": [0]}]"#.into(),
+            "a.gltf: nodes[1].children[0]: expected a node that hangs nowhere else, found 0",
+        ),
+        (
+            r#""nodes": [{}]"#.into(),
+            "a.gltf: expected a member `scene` or `scenes`",
+        ),
+        (
+            r#""scenes": [{"nodes": [0]}], "nodes": [{"scale": [1, 1]}]"#.into(),
+            "a.gltf: nodes[0].scale: expected 3 numbers",
+        ),
+        (
+            r#""scenes": [{"nodes": [0]}], "nodes": [{"rotation": [0, 0, 0, 0]}]"#.into(),
+            "a.gltf: nodes[0]: expected a `rotation` of length 1",
+        ),
+        (
+            r#""extensionsRequired": ["X_squeeze"]"#.into(),
+            "a.gltf: extensionsRequired[0]: expected an extension that is read, found \"X_squeeze\"",
+        ),
+        (
+            primitive(r#"{"attributes": {}}"#),
+            "a.gltf: meshes[0].primitives[0].attributes: expected a member `POSITION`",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 9}}"#),
+            "a.gltf: meshes[0].primitives[0].attributes.POSITION: accessors[9] does not exist",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 1}}"#),
+            "a.gltf: accessors[1]: expected elements of 3 numbers",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 0}, "indices": 0}"#),
+            "a.gltf: accessors[0]: expected single whole numbers of at least 0",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 0}}"#),
+            "a.gltf: meshes[0].primitives[0]: expected three corners a triangle, found 4",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 0}, "material": 0}"#)
+                + r#", "materials": [{"alphaMode": "SOFT"}]"#,
+            "a.gltf: materials[0].alphaMode: expected OPAQUE, MASK or BLEND, found \"SOFT\"",
+        ),
+        (
+            primitive(r#"{"attributes": {"POSITION": 0}, "material": 0}"#)
+                + r#", "materials": [{"emissiveTexture": {"index": 0}}], "textures": [{"source": 0}], "images": [{"uri": "no.png"}]"#,
+            "a.gltf: images[0].uri: no.png: cannot be read",
+        ),
+    ];
+    for (json, expected) in cases {
+        let error = read(&json).map(|_| ()).expect_err(&json);
+        assert_eq!(error, expected, "{json}");
+    }
+}
+
+#[test]
+fn broken_accessors_are_named_and_ask_for_no_memory() {
+    let scene = r#""scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]}]"#;
+    let cases = [
+        (
+            r#""count": 4, "type": "VEC3""#,
+            r#""count": 5, "type": "VEC3""#,
+            "a.gltf: accessors[0]: expected a view that holds 5 elements of 12 bytes from byte 0 on, found 48 bytes",
+        ),
+        (
+            r#""bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3""#,
+            r#""componentType": 5126, "count": 999999999999, "type": "VEC3""#,
+            "a.gltf: accessors[0].count: expected at most 536870912 numbers in all accessors that are read, found 999999999999",
+        ),
+        (
+            r#""byteOffset": 80, "byteLength": 12"#,
+            r#""byteOffset": 18446744073709551615, "byteLength": 12"#,
+            "a.gltf: bufferViews[2].byteLength: expected a part of a buffer of 92 bytes, found 12",
+        ),
+        (
+            r#""bufferView": 2, "#,
+            r#""bufferView": 2, "byteOffset": 2, "#,
+            "a.gltf: accessors[2]: expected a view that holds 6 elements of 2 bytes from byte 2 on, found 12 bytes",
+        ),
+        (
+            r#""bufferView": 2, "#,
+            r#""bufferView": 1, "#,
+            "a.gltf: accessors[2]: element 3: vertex 16256 of 4 does not exist",
+        ),
+        (
+            r#""byteLength": 48}"#,
+            r#""byteLength": 48, "byteStride": 1}"#,
+            "a.gltf: accessors[0]: expected a view that holds 4 elements of 12 bytes from byte 0 on, found 48 bytes",
+        ),
+        (
+            r#""byteLength": 92"#,
+            r#""byteLength": 93"#,
+            "a.gltf: buffers[0].byteLength: expected as many bytes as there are, 92, found 93",
+        ),
+        (
+            "5126",
+            "5124",
+            "a.gltf: accessors[0].componentType: expected 5120, 5121, 5122, 5123, 5125 or 5126, found 5124",
+        ),
+    ];
+    let files = |path: &Path| Err(Diagnostic::file(path, "cannot be read"));
+    for (good, bad, expected) in cases {
+        let whole = format!("{{{} {scene}}}", head());
+        let json = whole.replacen(good, bad, 1);
+        assert_ne!(json, whole, "{good} is there");
+        let error = parse_gltf(Path::new("a.gltf"), json.as_bytes(), &files);
+        let error = error.map(|_| ()).expect_err(bad).to_string();
+        assert_eq!(error, expected, "{bad}");
+    }
+}
+
+#[test]
+fn sparse_accessors_replace_elements() {
+    let mut bytes = square();
+    bytes.extend([3u8, 0, 0, 0]);
+    bytes.extend([5.0f32, 6.0, 7.0].map(f32::to_le_bytes).concat());
+    let uri = format!(r#", "uri": "{}""#, data_uri(&bytes));
+    let sparse = r#""max": [1, 1, 0], "sparse": {"count": 1,
+        "indices": {"bufferView": 3, "componentType": 5121}, "values": {"bufferView": 4}}"#;
+    let json = SQUARE
+        .replace("\"byteLength\": 92 $URI", &format!("\"byteLength\": 108 {uri}"))
+        .replace("\"byteLength\": 12}]", "\"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 92, \"byteLength\": 1}, {\"buffer\": 0, \"byteOffset\": 96, \"byteLength\": 12}]")
+        .replace(r#""max": [1, 1, 0]"#, sparse);
+    let json = format!(
+        r#"{{{json} "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 2}}]}}]}}"#
+    );
+    let files = |path: &Path| Err(Diagnostic::file(path, "cannot be read"));
+    let scene = parse_gltf(Path::new("a.gltf"), json.as_bytes(), &files).expect("a scene");
+    let expected = [
+        Vec3::ZERO,
+        Vec3::X,
+        Vec3::new(1.0, 1.0, 0.0),
+        Vec3::new(5.0, 6.0, 7.0),
+    ];
+    assert_eq!(
+        scene.meshes[0].positions, expected,
+        "the last one is replaced"
+    );
+}

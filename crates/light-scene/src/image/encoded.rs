@@ -1,0 +1,74 @@
+use std::path::Path;
+
+use ::image::{DynamicImage, ImageFormat};
+
+use super::{Image, display::decode, srgb};
+use crate::Diagnostic;
+use crate::glam::Vec3;
+
+/// An image as screens want it, of a PNG or JPEG file: colours are encoded by sRGB, data stand for themselves.
+#[derive(Clone, Debug)]
+pub(crate) struct EncodedImage(DynamicImage);
+
+impl EncodedImage {
+    /// The image in the bytes of a file; `path` names it in messages.
+    pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
+        let (format, what) = match bytes {
+            [0xff, 0xd8, ..] => (ImageFormat::Jpeg, "a JPEG file"),
+            _ => (ImageFormat::Png, "a PNG file"),
+        };
+        let image = decode(path, bytes, format, what)?;
+        if image.width() == 0 || image.height() == 0 {
+            return Err(Diagnostic::file(
+                path,
+                "expected an image of at least one pixel",
+            ));
+        }
+        Ok(Self(image))
+    }
+
+    /// The colours, made linear.
+    pub(crate) fn color(&self) -> Image {
+        let image = self.0.to_rgb16();
+        let texels = image
+            .pixels()
+            .map(|texel| Vec3::from(texel.0.map(part).map(srgb::decode)));
+        self.of_texels(texels.collect())
+    }
+
+    /// How opaque each texel is, alike in all channels; none if all are so.
+    pub(crate) fn alpha(&self) -> Option<Image> {
+        if !self.0.color().has_alpha() {
+            return None;
+        }
+        let image = self.0.to_rgba16();
+        let texels: Vec<Vec3> = image
+            .pixels()
+            .map(|texel| Vec3::splat(part(texel.0[3])))
+            .collect();
+        let has_holes = texels.iter().any(|&texel| texel != Vec3::ONE);
+        has_holes.then(|| self.of_texels(texels))
+    }
+
+    /// The mean of the channels as they are written.
+    pub(crate) fn mean_of_data(&self) -> Vec3 {
+        let image = self.0.to_rgb16();
+        let sum = image.pixels().fold([0u64; 3], |sum, texel| {
+            [0, 1, 2].map(|channel| sum[channel] + u64::from(texel.0[channel]))
+        });
+        let count = f64::from(image.width()) * f64::from(image.height());
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+        let mean = sum.map(|sum| (sum as f64 / count / 65535.0) as f32);
+        Vec3::from(mean)
+    }
+
+    fn of_texels(&self, texels: Vec<Vec3>) -> Image {
+        let image = Image::new(self.0.width(), self.0.height(), texels);
+        image.expect("as many texels as the image has")
+    }
+}
+
+/// The part of its largest value that a channel holds.
+fn part(channel: u16) -> f32 {
+    f32::from(channel) / 65535.0
+}
