@@ -1,6 +1,6 @@
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
-use crate::transmittance::{free_flight, null_share};
+use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_sources::{ColorModel, Radiance};
 
 /// What became of light that was followed through a medium.
@@ -38,32 +38,26 @@ pub fn delta_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
     let Some(span) = medium.clip(ray, span) else {
         return flight;
     };
-    for segment in medium.majorants(ray, span, wavelengths) {
-        let mut t = segment.span.t0;
-        loop {
-            t += free_flight(segment.sigma_maj, next_u());
-            if !(t < segment.span.t1) {
-                break;
-            }
-            let here = medium.coefficients(ray.at(t), wavelengths);
-            let inv_maj = 1.0 / segment.sigma_maj;
-            flight.emitted = flight.emitted + flight.weight * here.emission * inv_maj;
+    let mut collisions = TentativeCollisions::new(medium.majorants(ray, span, wavelengths));
+    while let Some(Collision { t, sigma_maj }) = collisions.next(next_u) {
+        let here = medium.coefficients(ray.at(t), wavelengths);
+        let inv_maj = 1.0 / sigma_maj;
+        flight.emitted = flight.emitted + flight.weight * here.emission * inv_maj;
 
-            let real = flight.weight * here.sigma_s * inv_maj;
-            let null = flight.weight * null_share(here.sigma_t(), segment.sigma_maj);
-            let (p_real, p_null) = ((beta * real).average(), (beta * null).average());
-            let total = p_real + p_null;
-            if !(total > 0.0) {
-                flight.weight = C::Radiance::BLACK;
-                return flight;
-            }
-            if next_u() * total < p_real {
-                flight.weight = real * (total / p_real);
-                flight.scattered_at = Some(t);
-                return flight;
-            }
-            flight.weight = null * (total / p_null);
+        let real = flight.weight * here.sigma_s * inv_maj;
+        let null = flight.weight * null_share(here.sigma_t(), sigma_maj);
+        let (p_real, p_null) = ((beta * real).average(), (beta * null).average());
+        let total = p_real + p_null;
+        if !(total > 0.0) {
+            flight.weight = C::Radiance::BLACK;
+            return flight;
         }
+        if next_u() * total < p_real {
+            flight.weight = real * (total / p_real);
+            flight.scattered_at = Some(t);
+            return flight;
+        }
+        flight.weight = null * (total / p_null);
     }
     flight
 }

@@ -11,7 +11,7 @@
     )
 )]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "alloc"))]
 extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
@@ -34,6 +34,7 @@ mod region;
 #[cfg(feature = "alloc")]
 mod single_scattering;
 mod stratify;
+mod tentative_collisions;
 pub mod transmittance;
 #[cfg(feature = "alloc")]
 mod truncated_exponential;
@@ -43,9 +44,12 @@ pub use emission::{VolumeLight, emission};
 #[cfg(feature = "alloc")]
 pub use in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
 pub use march::{March, StepSize, StepSizeError};
+#[cfg(feature = "alloc")]
+pub use medium::{AnyMedium, Incandescence, TemperatureGrid};
 pub use medium::{
-    Coefficients, CoefficientsError, DensityGrid, DensityGridError, ExponentialHeight,
-    ExponentialHeightError, GridMedium, Homogeneous, MajorantSegment, Majorants, Medium, Substance,
+    Coefficients, CoefficientsError, ColorGrid, ColorGridError, ColorGridMedium, DensityGrid,
+    ExponentialHeight, ExponentialHeightError, Glow, Grid, GridError, GridMedium, Homogeneous,
+    MajorantSegment, Majorants, Medium, Substance,
 };
 pub use phase::{Phase, PhaseFunction, PhaseSample};
 pub use ray::{Ray, Span};

@@ -44,7 +44,14 @@ where
             return VolumeLight::vacuum();
         };
         let left = |span, next_u: &mut _| {
-            transmittance::best::<C, M>(self.medium, ray, span, self.step, self.wavelengths, next_u)
+            transmittance::best_inside::<C, M>(
+                self.medium,
+                ray,
+                span,
+                self.step,
+                self.wavelengths,
+                next_u,
+            )
         };
         let transmittance = left(whole, next_u);
         let (part, dying) = self.reach(ray, whole, transmittance);

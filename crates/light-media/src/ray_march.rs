@@ -81,7 +81,7 @@ impl<'a, C: ColorModel, M: Medium<C> + ?Sized> RayMarch<'a, C, M> {
 
     fn advance(&mut self, t: f32, next_u: &mut impl FnMut() -> f32) {
         if let Some(part) = Span::new(self.reached, t) {
-            let left = transmittance::best::<C, M>(
+            let left = transmittance::best_inside::<C, M>(
                 self.medium,
                 &self.ray,
                 part,

@@ -1,6 +1,6 @@
 use crate::ray::{Ray, Span};
 use light_math::Aabb;
-use light_math::glam::{Affine3A, Vec3};
+use light_math::glam::{Affine3A, Quat, Vec3};
 
 /// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape, everywhere).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +42,31 @@ impl Region {
             from_scene,
             bounds: Some(bounds),
         })
+    }
+
+    /// The box `bounds` of a space that `to_scene` takes to the scene, with the unit cube as its own space: grids are then
+    /// looked up without another change of space.
+    ///
+    /// # Errors
+    /// The box is empty, flat or not finite, or the transform is not finite or has no inverse.
+    pub fn unit_cube(bounds: Aabb, to_scene: Affine3A) -> Result<Self, RegionError> {
+        Self::new(bounds, to_scene)?;
+        let from_cube = Affine3A::from_scale_rotation_translation(
+            bounds.diagonal(),
+            Quat::IDENTITY,
+            bounds.min,
+        );
+        Self::new(Aabb::new(Vec3::ZERO, Vec3::ONE), to_scene * from_cube)
+    }
+
+    /// The scene's point `p` in the region's own space, if it lies in the region.
+    #[inline]
+    #[must_use]
+    pub fn locate(&self, p: Vec3) -> Option<Vec3> {
+        let local = self.local_point(p);
+        self.bounds
+            .is_none_or(|b| b.contains(local))
+            .then_some(local)
     }
 
     /// The scene's point `p` in the region's own space.

@@ -3,6 +3,7 @@
 use crate::march::StepSize;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
+use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_math::float;
 use light_sources::{ColorModel, Radiance};
 
@@ -31,9 +32,21 @@ pub fn march<C: ColorModel, M: Medium<C> + ?Sized>(
     jitter: f32,
     wavelengths: &C::Wavelengths,
 ) -> C::Radiance {
-    let Some(span) = medium.clip(ray, span) else {
-        return C::Radiance::splat(1.0);
-    };
+    match medium.clip(ray, span) {
+        Some(span) => march_inside::<C, M>(medium, ray, span, step, jitter, wavelengths),
+        None => C::Radiance::splat(1.0),
+    }
+}
+
+/// The same for a span that lies in the medium.
+fn march_inside<C: ColorModel, M: Medium<C> + ?Sized>(
+    medium: &M,
+    ray: &Ray,
+    span: Span,
+    step: StepSize,
+    jitter: f32,
+    wavelengths: &C::Wavelengths,
+) -> C::Radiance {
     let march = step.march(span);
     let thickness = (0..march.n).fold(C::Radiance::BLACK, |sum, i| {
         let t = march.segment(i).t0 + jitter * march.step;
@@ -58,28 +71,31 @@ pub fn ratio_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
     let Some(span) = medium.clip(ray, span) else {
         return left;
     };
-    for segment in medium.majorants(ray, span, wavelengths) {
-        let mut t = segment.span.t0;
-        loop {
-            t += free_flight(segment.sigma_maj, next_u());
-            if !(t < segment.span.t1) {
-                break;
+    let mut collisions = TentativeCollisions::new(medium.majorants(ray, span, wavelengths));
+    while let Some(Collision { t, sigma_maj }) = collisions.next(next_u) {
+        let here = medium.coefficients(ray.at(t), wavelengths);
+        left = left * null_share(here.sigma_t(), sigma_maj);
+        // Light that is nearly all gone lives on with probability 1/2.
+        if left.maximum() < 1e-3 {
+            if next_u() < 0.5 {
+                return C::Radiance::BLACK;
             }
-            left = left
-                * null_share(
-                    medium.coefficients(ray.at(t), wavelengths).sigma_t(),
-                    segment.sigma_maj,
-                );
-            // Light that is nearly all gone lives on with probability 1/2.
-            if left.maximum() < 1e-3 {
-                if next_u() < 0.5 {
-                    return C::Radiance::BLACK;
-                }
-                left = left * 2.0;
-            }
+            left = left * 2.0;
         }
     }
     left
+}
+
+/// The closed form where there is one, ratio tracking elsewhere: unbiased everywhere.
+pub fn unbiased<C: ColorModel, M: Medium<C> + ?Sized>(
+    medium: &M,
+    ray: &Ray,
+    span: Span,
+    wavelengths: &C::Wavelengths,
+    next_u: &mut impl FnMut() -> f32,
+) -> C::Radiance {
+    closed_form::<C, M>(medium, ray, span, wavelengths)
+        .unwrap_or_else(|| ratio_tracking::<C, M>(medium, ray, span, wavelengths, next_u))
 }
 
 /// The closed form where there is one, a jittered march elsewhere.
@@ -91,24 +107,31 @@ pub fn best<C: ColorModel, M: Medium<C> + ?Sized>(
     wavelengths: &C::Wavelengths,
     next_u: &mut impl FnMut() -> f32,
 ) -> C::Radiance {
-    closed_form::<C, M>(medium, ray, span, wavelengths)
-        .unwrap_or_else(|| march::<C, M>(medium, ray, span, step, next_u(), wavelengths))
+    match medium.clip(ray, span) {
+        Some(span) => best_inside::<C, M>(medium, ray, span, step, wavelengths, next_u),
+        None => C::Radiance::splat(1.0),
+    }
+}
+
+/// The same for a span that lies in the medium.
+pub(crate) fn best_inside<C: ColorModel, M: Medium<C> + ?Sized>(
+    medium: &M,
+    ray: &Ray,
+    span: Span,
+    step: StepSize,
+    wavelengths: &C::Wavelengths,
+    next_u: &mut impl FnMut() -> f32,
+) -> C::Radiance {
+    medium
+        .optical_thickness(ray, span, wavelengths)
+        .map_or_else(
+            || march_inside::<C, M>(medium, ray, span, step, next_u(), wavelengths),
+            attenuation,
+        )
 }
 
 /// `exp(-thickness)` in every component.
 #[inline]
 pub(crate) fn attenuation<R: Radiance>(thickness: R) -> R {
     thickness.map(|x| float::exp(-x))
-}
-
-/// A distance with density `sigma exp(-sigma t)`; infinite in vacuum.
-#[inline]
-pub(crate) fn free_flight(sigma: f32, u: f32) -> f32 {
-    -float::ln(1.0 - u) / sigma.max(f32::MIN_POSITIVE)
-}
-
-/// The share of a majorant that an extinction leaves: the probability that a tentative collision is none.
-#[inline]
-pub(crate) fn null_share<R: Radiance>(sigma_t: R, sigma_maj: f32) -> R {
-    (sigma_t * (-1.0 / sigma_maj)).map(|x| (1.0 + x).max(0.0))
 }

@@ -7,8 +7,8 @@ use light_math::glam::{Affine3A, Vec3};
 use light_media::phase::{HenyeyGreenstein, Isotropic};
 use light_media::transmittance;
 use light_media::{
-    DensityGrid, ExponentialHeight, GridMedium, Homogeneous, Medium, Phase, PhaseFunction, Ray,
-    Region, Span, StepSize, Substance, Visibility, VolumeIntegrator, delta_tracking, emission,
+    DensityGrid, ExponentialHeight, Glow, GridMedium, Homogeneous, Medium, Phase, PhaseFunction,
+    Ray, Region, Span, StepSize, Substance, Visibility, VolumeIntegrator, delta_tracking, emission,
 };
 use light_samplers::UniformLightSampler;
 use light_sources::{
@@ -44,7 +44,7 @@ fn cloud(sigma_a: f32, sigma_s: f32, le: f32) -> GridMedium<Rgb, Vec<f32>> {
         cube,
         Affine3A::IDENTITY,
         density,
-        None,
+        Glow::uniform(),
     )
     .expect("valid")
 }

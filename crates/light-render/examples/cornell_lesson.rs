@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p light-render --example cornell_lesson`
 
-use light_render::integrator::{Estimator, PathSettings};
+use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{AnyLightSampler, RenderSettings, SamplerKind, View, World, render};
 use light_scene::glam::Vec3;
 use light_scene::{BuiltinScene, EmissionSides, Scene};
@@ -66,6 +66,7 @@ fn picture(
                 max_depth,
                 estimator,
                 light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
+                integrator: Integrator::Path,
             },
         };
         render(&world, &view, &sampler, &settings, |_| ())

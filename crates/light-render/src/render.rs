@@ -6,7 +6,7 @@ use std::time::Instant;
 use lights::samplers::LightSampler;
 use rayon::prelude::*;
 
-use crate::integrator::{PathSettings, trace};
+use crate::integrator::{PathSettings, follow};
 use crate::{Film, SampleStream, View, World};
 
 /// What to render.
@@ -79,7 +79,7 @@ pub fn render<S: LightSampler + Sync>(
                         let numbers = stream.camera();
                         let corner = lights::glam::Vec2::new(x as f32, y as f32);
                         let ray = view.ray(corner + numbers.film, numbers.lens);
-                        let traced = trace(world, sampler, &settings.path, ray, &stream);
+                        let traced = follow(world, sampler, &settings.path, ray, &stream);
                         row_rays += u64::from(traced.rays);
                         if traced.radiance.is_finite() {
                             *pixel += traced.radiance;

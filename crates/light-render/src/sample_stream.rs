@@ -1,6 +1,6 @@
 use lights::glam::Vec2;
 
-use crate::sobol;
+use crate::{FlightNumbers, sobol};
 
 /// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four dimensions at a time.
 ///
@@ -82,6 +82,16 @@ impl SampleStream {
         let index = self.index.wrapping_mul(count).wrapping_add(i);
         let [_, x, y, _] = Self { index, ..*self }.set(2 * vertex + 1);
         Vec2::new(unit(x), unit(y))
+    }
+
+    /// The numbers for the way through media to vertex `vertex`, and from there to a light.
+    #[inline]
+    #[must_use]
+    pub fn flight(&self, vertex: u32) -> FlightNumbers {
+        // Far from the sets of all vertices.
+        let [first, ..] = self.set(vertex | 1 << 31);
+        let path = sobol::hash(self.index ^ sobol::hash(vertex));
+        FlightNumbers::new(unit(first), u64::from(self.seed) << 32 | u64::from(path))
     }
 
     /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.

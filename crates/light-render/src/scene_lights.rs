@@ -131,6 +131,7 @@ fn mesh_light(
         uvs: mesh.uvs.clone(),
         emission: DiffuseEmissionDesc {
             sides,
+            media: material.media,
             ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
         },
     })))

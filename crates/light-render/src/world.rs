@@ -4,13 +4,14 @@ use light_scene::{Color, ColorImage, Image, Material, Scene, Surface as Finish};
 use lights::bounds::{LightId, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
-use lights::sources::{LightSet, Rgb, SurfacePoint};
+use lights::sources::{LightSet, MediumId, Rgb, SurfacePoint};
 
 use crate::bsdf::{
     Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, Microfacets, Mirror, Scattering,
     ThinDielectric,
 };
 use crate::scene_lights::{SceneLights, SceneLightsError};
+use crate::world_media::WorldMedia;
 use crate::{Accel, Ray, Surface, TriangleId};
 
 /// A scene made ready for rays: triangles in a hierarchy, materials, lights.
@@ -25,6 +26,7 @@ pub struct World {
     bounds: Aabb,
     lights: LightSet<Rgb>,
     infinite: Vec<LightId>,
+    media: WorldMedia,
 }
 
 /// The triangles of one material, with vertices that the lights share.
@@ -57,8 +59,11 @@ impl World {
             materials,
             images,
             lights,
+            media,
+            camera_medium,
             ..
         } = scene;
+        let media = WorldMedia::new(media, camera_medium, &materials);
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
         let SceneLights { lights, infinite } =
             SceneLights::new(&mut meshes, &materials, &images, lights, &bounds)?;
@@ -83,6 +88,7 @@ impl World {
             bounds,
             lights,
             infinite,
+            media,
         })
     }
 
@@ -137,6 +143,48 @@ impl World {
             surface.ns = if ns.dot(surface.n) < 0.0 { -ns } else { ns };
         }
         surface
+    }
+
+    /// Whether there are media between the surfaces.
+    #[must_use]
+    pub fn has_media(&self) -> bool {
+        !self.media.is_empty()
+    }
+
+    pub(crate) const fn media(&self) -> &WorldMedia {
+        &self.media
+    }
+
+    /// Whether light passes unchanged through the material at `surface`.
+    #[inline]
+    pub(crate) fn is_interface(&self, surface: &Surface) -> bool {
+        let (mesh, _) = self.mesh(surface.triangle);
+        self.materials[mesh.material].surface == Finish::Interface
+    }
+
+    /// The medium that a ray from `surface` in the direction `wi` starts in, if it `arrived` there through another one.
+    #[inline]
+    pub(crate) fn medium_toward(
+        &self,
+        surface: &Surface,
+        wi: Vec3,
+        arrived: Option<MediumId>,
+    ) -> Option<MediumId> {
+        let (mesh, _) = self.mesh(surface.triangle);
+        let media = self.materials[mesh.material].media;
+        if media.inside == media.outside {
+            arrived
+        } else if wi.dot(surface.n) > 0.0 {
+            media.outside
+        } else {
+            media.inside
+        }
+    }
+
+    /// Whether anything but the triangle `from` lies within `distance` along `ray`.
+    #[inline]
+    pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<TriangleId>) -> bool {
+        self.accel.occluded(ray, distance, from)
     }
 
     /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.

@@ -40,5 +40,5 @@ pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, 
 pub use mesh::Mesh;
 pub use obj::read_obj;
 pub use pbrt::read_pbrt;
-pub use scene::{ImageId, MaterialId, Scene};
+pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
 pub use write_whole::write_whole;

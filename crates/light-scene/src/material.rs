@@ -1,3 +1,5 @@
+use lights::sources::MediumInterface;
+
 use crate::ImageId;
 use crate::glam::{Vec2, Vec3};
 
@@ -12,6 +14,9 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// Where the surface is; absent: everywhere.
     pub alpha: Option<Alpha>,
+    /// The media behind and in front of the surface; where both are the same, it does not bound a medium, and rays stay
+    /// in the one that they come from.
+    pub media: MediumInterface,
 }
 
 /// How a surface scatters light. Reflectances lie in [0, 1], channel by channel.
@@ -137,6 +142,7 @@ impl Material {
             surface,
             emission: None,
             alpha: None,
+            media: MediumInterface::default(),
         }
     }
 }

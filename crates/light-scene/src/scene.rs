@@ -1,6 +1,8 @@
 use lights::math::Aabb;
+use lights::media::AnyMedium;
 use lights::sources::{
-    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, RadianceAmount, Rgb,
+    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId, RadianceAmount,
+    Rgb,
 };
 
 use crate::glam::{Affine3A, Vec3};
@@ -13,6 +15,15 @@ pub struct MaterialId(pub u32);
 /// Position of an image in [`Scene::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ImageId(pub u32);
+
+/// A medium of a scene: fog, smoke, a flame. Its constructors have checked it.
+#[derive(Clone, Debug)]
+pub struct NamedMedium {
+    /// The name in the file.
+    pub name: String,
+    /// What it is.
+    pub medium: AnyMedium<Rgb>,
+}
 
 /// What a scene file describes, in the user's units: what is there, what it is made of, what shines, who looks.
 ///
@@ -28,8 +39,12 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Lights that are no mesh: points, spots, distant lights, environments.
     pub lights: Vec<LightDesc<Rgb>>,
+    /// Media; materials and lights name them by position.
+    pub media: Vec<NamedMedium>,
     /// The camera, if the file has one.
     pub camera: Option<Camera>,
+    /// The medium in which the camera stands; absent for vacuum.
+    pub camera_medium: Option<MediumId>,
     /// What the reader ignored or repaired, each with file and line.
     pub warnings: Vec<Diagnostic>,
 }
@@ -80,6 +95,21 @@ impl Scene {
         let id = u32::try_from(self.materials.len()).expect("fewer than 2^32 materials");
         self.materials.push(material);
         MaterialId(id)
+    }
+
+    /// Adds a medium and returns its id.
+    ///
+    /// # Panics
+    /// Panics if there are already 2^32 - 1 media.
+    pub fn add_medium(
+        &mut self,
+        name: impl Into<String>,
+        medium: impl Into<AnyMedium<Rgb>>,
+    ) -> MediumId {
+        let id = u32::try_from(self.media.len()).ok().and_then(MediumId::new);
+        let (name, medium) = (name.into(), medium.into());
+        self.media.push(NamedMedium { name, medium });
+        id.expect("fewer than 2^32 - 1 media")
     }
 
     /// Puts a lat-long image around the scene, turned by the rotation in `transform`.

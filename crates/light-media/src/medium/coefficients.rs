@@ -77,20 +77,19 @@ impl<C: ColorModel> Substance<C> {
         })
     }
 
-    /// The coefficients at the given density, with the emission scaled once more by `glow`.
+    /// The coefficients at the given density.
     #[inline]
     #[must_use]
     pub fn at_density(
         &self,
         density: f32,
-        glow: f32,
         wavelengths: &C::Wavelengths,
     ) -> Coefficients<C::Radiance> {
         let sigma_a = C::emit(&self.sigma_a, wavelengths) * density;
         Coefficients {
             sigma_a,
             sigma_s: C::emit(&self.sigma_s, wavelengths) * density,
-            emission: sigma_a * C::emit(&self.le, wavelengths) * glow,
+            emission: sigma_a * C::emit(&self.le, wavelengths),
         }
     }
 

@@ -109,7 +109,7 @@ impl<C: ColorModel> Medium<C> for ExponentialHeight<C> {
             return Coefficients::VACUUM;
         }
         self.substance
-            .at_density(self.density(self.height(p)), 1.0, wavelengths)
+            .at_density(self.density(self.height(p)), wavelengths)
     }
 
     fn clip(&self, ray: &Ray, span: Span) -> Option<Span> {

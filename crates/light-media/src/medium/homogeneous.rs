@@ -3,7 +3,7 @@ use crate::phase::Phase;
 use crate::ray::{Ray, Span};
 use crate::region::Region;
 use light_math::glam::Vec3;
-use light_sources::ColorModel;
+use light_sources::{ColorModel, Radiance};
 
 /// A medium that is the same everywhere in its region.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ impl<C: ColorModel> Medium<C> for Homogeneous<C> {
 
     fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance> {
         if self.region.contains(p) {
-            self.substance.at_density(1.0, 1.0, wavelengths)
+            self.substance.at_density(1.0, wavelengths)
         } else {
             Coefficients::VACUUM
         }
@@ -42,7 +42,8 @@ impl<C: ColorModel> Medium<C> for Homogeneous<C> {
         Some(self.substance.sigma_t(wavelengths) * span.length())
     }
 
-    fn majorants(&self, _ray: &Ray, span: Span, _wavelengths: &C::Wavelengths) -> Majorants<'_> {
-        Majorants::constant(span, self.substance.max_sigma_t())
+    fn majorants(&self, _ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_> {
+        // Exact where all channels are alike: a tentative collision is then never null.
+        Majorants::constant(span, self.substance.sigma_t(wavelengths).maximum())
     }
 }

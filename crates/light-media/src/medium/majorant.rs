@@ -39,17 +39,13 @@ impl<'a> Majorants<'a> {
         Self::new(span, max_sigma_t, Walk::Bands(bands))
     }
 
-    /// The cells of a coarse grid of maxima over the unit cube, which `unit_ray` crosses.
-    pub(super) fn cells(
-        span: Span,
-        max_sigma_t: f32,
-        grid: &'a MajorantGrid,
-        unit_ray: &Ray,
-    ) -> Self {
+    /// The cells of coarse grids of maxima over the unit cube, which `unit_ray` crosses: the bound is the sum of all
+    /// layers, each a grid and its factor.
+    pub(super) fn cells(span: Span, layers: [Layer<'a>; 2], unit_ray: &Ray) -> Self {
         Self::new(
             span,
-            max_sigma_t,
-            Walk::Cells(CellWalk::new(grid, unit_ray, span.t0)),
+            1.0,
+            Walk::Cells(CellWalk::new(layers, unit_ray, span.t0)),
         )
     }
 
@@ -82,13 +78,16 @@ impl Iterator for Majorants<'_> {
     }
 }
 
+/// A grid of maxima and what they are multiplied with.
+pub(super) type Layer<'a> = Option<(&'a MajorantGrid, f32)>;
+
 /// A walk through the cells that a ray crosses.
 ///
 /// # Source
 /// `[Amanatides1987]`.
 #[derive(Clone, Debug)]
 struct CellWalk<'a> {
-    grid: &'a MajorantGrid,
+    layers: [Layer<'a>; 2],
     cell: [i32; 3],
     step: [i32; 3],
     next_t: Vec3,
@@ -97,11 +96,11 @@ struct CellWalk<'a> {
 
 impl<'a> CellWalk<'a> {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to the cells")]
-    fn new(grid: &'a MajorantGrid, ray: &Ray, t0: f32) -> Self {
+    fn new(layers: [Layer<'a>; 2], ray: &Ray, t0: f32) -> Self {
         let n = MajorantGrid::CELLS as f32;
         let start = ray.at(t0) * n;
         let mut walk = Self {
-            grid,
+            layers,
             cell: [0; 3],
             step: [0; 3],
             next_t: Vec3::INFINITY,
@@ -123,7 +122,10 @@ impl<'a> CellWalk<'a> {
 
     /// The maximum in the cell where the walk stands, and the distance at which the ray leaves it.
     fn step(&mut self) -> (f32, f32) {
-        let density = self.grid.get(self.cell);
+        let layers = self.layers.iter().flatten();
+        let density = layers
+            .map(|(grid, factor)| grid.get(self.cell) * factor)
+            .sum();
         let axis = self.next_t.min_position();
         let end = self.next_t[axis];
         self.cell[axis] += self.step[axis];

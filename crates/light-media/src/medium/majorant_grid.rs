@@ -10,11 +10,11 @@ impl MajorantGrid {
 
     const COUNT: usize = Self::CELLS * Self::CELLS * Self::CELLS;
 
-    /// The maxima of the `values` of a grid of that size.
-    pub(super) fn new(size: [u32; 3], values: &[f32]) -> Self {
+    /// The maxima of a grid of that size, of which `values` are the samples.
+    pub(super) fn new(size: [u32; 3], values: impl Iterator<Item = f32>) -> Self {
         let mut maxima = [0.0f32; Self::COUNT];
         let [nx, ny, nz] = size.map(|n| n as usize);
-        for (index, value) in values.iter().enumerate() {
+        for (index, value) in values.enumerate() {
             let xs = cells_reached(index % nx, nx);
             let ys = cells_reached(index / nx % ny, ny);
             let zs = cells_reached(index / (nx * ny), nz);
@@ -22,7 +22,7 @@ impl MajorantGrid {
                 for y in ys.clone() {
                     for x in xs.clone() {
                         let cell = &mut maxima[(z * Self::CELLS + y) * Self::CELLS + x];
-                        *cell = cell.max(*value);
+                        *cell = cell.max(value);
                     }
                 }
             }

@@ -1,19 +1,33 @@
 //! Media: where light is absorbed, scattered and emitted, and how much of it.
 
+#[cfg(feature = "alloc")]
+mod any;
 mod coefficients;
+mod color_grid;
 mod density_grid;
 mod exponential;
+mod glow;
 mod grid;
 mod homogeneous;
 mod majorant;
 mod majorant_grid;
+mod samples;
+#[cfg(feature = "alloc")]
+mod temperature;
 
+#[cfg(feature = "alloc")]
+pub use any::AnyMedium;
 pub use coefficients::{Coefficients, CoefficientsError, Substance};
-pub use density_grid::{DensityGrid, DensityGridError};
+pub use color_grid::{ColorGrid, ColorGridError, ColorGridMedium};
+pub use density_grid::DensityGrid;
 pub use exponential::{ExponentialHeight, ExponentialHeightError};
+pub use glow::Glow;
 pub use grid::GridMedium;
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantSegment, Majorants};
+pub use samples::{Grid, GridError};
+#[cfg(feature = "alloc")]
+pub use temperature::{Incandescence, TemperatureGrid};
 
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};

@@ -3,7 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use light_render::integrator::{Estimator, PathSettings};
+use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{
     AnyLightSampler, Comparison, Progress, RenderSettings, SamplerKind, ToneMap, View, World,
     render,
@@ -159,6 +159,7 @@ impl Stage {
                 max_depth: 6,
                 estimator: Estimator::Mis,
                 light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
+                integrator: Integrator::Path,
             },
         };
         let line = ProgressLine::new(format!("{}, {}", shot.scene, shot.sampler), Volume::Normal);
@@ -195,6 +196,7 @@ fn sees_no_light(world: &World, view: &View) -> Result<Vec<bool>, Failure> {
             max_depth: 1,
             estimator: Estimator::Bsdf,
             light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
+            integrator: Integrator::Path,
         },
     };
     let sampler = sampler.map_err(Failure::input)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use light_render::integrator::{self, PathSettings};
+use light_render::integrator::{self, Integrator, PathSettings};
 use light_render::{
     AnyLightSampler, PartialPicture, Progress, RenderSettings, Rendering, SamplerKind, ToneMap,
     View, World, light_sample_time, render,
@@ -43,6 +43,9 @@ pub(crate) struct RenderArgs {
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     max_depth: u32,
+    /// What scatters light: surfaces alone, or media as well; without it volpath where the scene has media, else path.
+    #[arg(long, value_enum)]
+    integrator: Option<IntegratorName>,
     /// Same seed, same image.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
@@ -80,6 +83,13 @@ pub(crate) struct RenderArgs {
     /// Print nothing but results: no progress, no warnings.
     #[arg(long)]
     quiet: bool,
+}
+
+/// The names of the integrators on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum IntegratorName {
+    Path,
+    Volpath,
 }
 
 /// The names of the estimators on the command line.
@@ -124,7 +134,8 @@ impl RenderArgs {
         };
         let line = ProgressLine::new(self.input.scene.display().to_string(), volume);
         let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
-        let rendering = pool.install(|| render(&world, &view, &sampler, &self.settings(), show));
+        let rendering =
+            pool.install(|| render(&world, &view, &sampler, &self.settings(&world), show));
         drop(line);
         if rendering.rejected > 0 && !self.quiet {
             eprintln!(
@@ -189,7 +200,7 @@ impl RenderArgs {
     /// All that decides what the picture is, but the samples.
     fn subject(&self, world: &World, view: &View) -> String {
         let name = self.input.scene.file_name().unwrap_or_default();
-        let RenderSettings { seed, path, .. } = self.settings();
+        let RenderSettings { seed, path, .. } = self.settings(world);
         format!(
             "{} with {} triangles and {} lights within {:?}, seed {seed}, {path:?}, {}, {view:?}",
             name.to_string_lossy(),
@@ -200,7 +211,7 @@ impl RenderArgs {
         )
     }
 
-    fn settings(&self) -> RenderSettings {
+    fn settings(&self, world: &World) -> RenderSettings {
         let samples = match (&self.samples, self.spp, self.time) {
             (Some(samples), _, _) => samples.clone(),
             (None, Some(spp), _) => 0..spp,
@@ -219,6 +230,11 @@ impl RenderArgs {
                     Estimator::Bsdf => integrator::Estimator::Bsdf,
                 },
                 light_samples: self.light_samples,
+                integrator: match self.integrator {
+                    Some(IntegratorName::Path) => Integrator::Path,
+                    Some(IntegratorName::Volpath) => Integrator::VolPath,
+                    None => Integrator::fitting(world),
+                },
             },
         }
     }

@@ -2,11 +2,11 @@ use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
 use lights::samplers::LightSampler;
-use lights::sources::Light;
+use lights::sources::{Light, LightType};
 
 use super::{Estimator, Traced};
 use crate::bsdf::Scattering;
-use crate::{SampleStream, Surface, World};
+use crate::{SampleStream, VertexNumbers, World};
 
 /// How a vertex of a path asks for light: kept until the next ray is known to miss or to find a light, because both strategies weigh
 /// their samples by the same densities.
@@ -25,11 +25,31 @@ pub(super) struct DirectLight<'a, S> {
     pub(super) estimator: Estimator,
 }
 
-/// Where light is asked for: a point of a surface, what it is made of, and who looks.
+/// What scatters light at a point: a surface, or a surface or a medium.
+pub(super) trait Scatters {
+    /// Scattering function times cosine, or phase function, in sr^-1.
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3;
+
+    /// The density of directions that it samples, in sr^-1.
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
+}
+
+impl Scatters for Scattering {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
+        self.eval(wo, wi)
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.pdf(wo, wi)
+    }
+}
+
+/// Where light is asked for: what scatters it, and who looks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vertex<'a> {
-    pub(super) surface: &'a Surface,
-    pub(super) scattering: &'a Scattering,
+pub(super) struct Vertex<'a, V> {
+    pub(super) scattering: &'a V,
     pub(super) wo: Vec3,
     /// Its number along the path, from 0 on.
     pub(super) number: u32,
@@ -37,27 +57,46 @@ pub(super) struct Vertex<'a> {
 
 /// What a light sends over a vertex if nothing is in the way.
 #[derive(Clone, Copy, Debug)]
-struct Unshadowed {
+pub(super) struct Unshadowed {
     radiance: Vec3,
-    wi: Vec3,
-    p_light: Vec3,
+    pub(super) wi: Vec3,
+    pub(super) p_light: Vec3,
+    pub(super) kind: LightType,
+}
+
+/// What became of light on its way to a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrived {
+    /// The share that is left.
+    pub(super) left: Vec3,
+    /// Rays that it took to know.
+    pub(super) rays: u32,
+}
+
+impl Arrived {
+    /// Everything was lost, after so many rays.
+    pub(super) const fn nothing(rays: u32) -> Self {
+        let left = Vec3::ZERO;
+        Self { left, rays }
+    }
 }
 
 impl<S: LightSampler> DirectLight<'_, S> {
     /// The light that as many light samples as `question` says send over `vertex` toward its viewer, with one shadow ray for all of
     /// them: an unbiased estimate that costs little more than that of a single light.
     ///
-    /// `u` chooses the lights, `u_shadow` the one whose shadow counts for all; both are in `[0, 1)`.
+    /// `arrived` says what is left of the light of the one whose shadow counts for all.
     #[inline]
-    pub(super) fn sample(
+    pub(super) fn sample<V: Scatters>(
         &self,
         question: &LightQuestion,
-        vertex: &Vertex<'_>,
-        u: f64,
-        u_shadow: f32,
+        vertex: &Vertex<'_, V>,
+        numbers: &VertexNumbers,
         stream: &SampleStream,
+        arrived: impl FnOnce(&Unshadowed) -> Arrived,
     ) -> Traced {
         let LightQuestion { ctx, count } = question;
+        let (u, u_shadow) = (numbers.light, numbers.shadow);
         // The more a candidate would give, the more likely it is the one whose shadow is looked at.
         let mut candidates = WeightedReservoir::new(u_shadow.into());
         let mut number = 0;
@@ -77,28 +116,19 @@ impl<S: LightSampler> DirectLight<'_, S> {
         let Some(chosen) = candidates.sample() else {
             return Traced::default();
         };
-        let Unshadowed {
-            radiance,
-            wi,
-            p_light,
-        } = chosen.value;
-        let shadowed = self.world.occluded(vertex.surface, wi, p_light);
+        let Arrived { left, rays } = arrived(&chosen.value);
         Traced {
-            radiance: if shadowed {
-                Vec3::ZERO
-            } else {
-                radiance / chosen.pmf
-            },
-            rays: 1,
+            radiance: left * chosen.value.radiance / chosen.pmf,
+            rays,
         }
     }
 
     /// The share that one chosen light has in [`sample`](Self::sample) if nothing is in the way; `None` if it has none.
     #[inline]
-    fn unshadowed(
+    fn unshadowed<V: Scatters>(
         &self,
         question: &LightQuestion,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, V>,
         choice: SampledLight,
         u_point: Vec2,
     ) -> Option<Unshadowed> {
@@ -111,7 +141,8 @@ impl<S: LightSampler> DirectLight<'_, S> {
             return None;
         }
         let density = question.count as f32 * choice.pmf * sample.pdf;
-        let weight = if light.light_type().is_delta() {
+        let kind = light.light_type();
+        let weight = if kind.is_delta() {
             1.0
         } else {
             self.estimator
@@ -121,6 +152,7 @@ impl<S: LightSampler> DirectLight<'_, S> {
             radiance: scattered * (weight / density),
             wi: sample.wi,
             p_light: sample.p_light,
+            kind,
         })
     }
 

@@ -1,10 +1,11 @@
 use core::num::NonZeroU32;
 
+use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 
-use super::Estimator;
-use super::direct::{DirectLight, LightQuestion, Vertex};
+use super::direct::{Arrived, DirectLight, LightQuestion, Vertex};
+use super::{Estimator, Integrator};
 use crate::{Ray, SampleStream, World};
 
 /// How paths are traced.
@@ -17,6 +18,8 @@ pub struct PathSettings {
     /// How many lights are chosen at the first vertex where light samples can contribute, at most as many as there are. One of
     /// them gets a shadow ray. Later vertices, which count for less, choose one.
     pub light_samples: NonZeroU32,
+    /// Where paths may scatter.
+    pub integrator: Integrator,
 }
 
 impl PathSettings {
@@ -24,6 +27,12 @@ impl PathSettings {
     ///
     /// Lights on rough mirrors are many choices and one shadow: there more choices pay until they take as long as the rays.
     pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(16).unwrap();
+
+    /// How many lights the first vertex chooses in `world`: more choices than lights repeat themselves.
+    pub(super) fn first_choices(&self, world: &World) -> u32 {
+        let lights = u32::try_from(world.lights().len()).unwrap_or(u32::MAX);
+        self.light_samples.get().min(lights.max(1))
+    }
 }
 
 /// What one path found.
@@ -37,11 +46,29 @@ pub struct Traced {
 
 /// How the current ray was chosen, which decides how the light it finds is weighted.
 #[derive(Clone, Copy, Debug)]
-enum Origin {
+pub(super) enum Origin {
     /// By the camera or by a Dirac: no light sample could have found the same light.
     Dirac,
     /// By the material where light was asked for so, with this density in sr^-1.
     Material { question: LightQuestion, pdf: f32 },
+}
+
+impl Origin {
+    /// The weight of the light `light` that the ray finds in the direction `wi`.
+    #[inline]
+    pub(super) fn weight<S: LightSampler>(
+        self,
+        direct: &DirectLight<'_, S>,
+        light: LightId,
+        wi: Vec3,
+    ) -> f32 {
+        match self {
+            Self::Dirac => 1.0,
+            Self::Material { question, pdf } => direct
+                .estimator
+                .bsdf_weight(pdf, || direct.density(&question, light, wi)),
+        }
+    }
 }
 
 /// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased estimate of the radiance
@@ -59,7 +86,7 @@ pub fn trace<S: LightSampler>(
     let PathSettings {
         max_depth,
         estimator,
-        light_samples,
+        ..
     } = *settings;
     let direct = DirectLight {
         world,
@@ -70,9 +97,7 @@ pub fn trace<S: LightSampler>(
     let mut throughput = Vec3::ONE;
     let mut origin = Origin::Dirac;
     let mut from = None;
-    // More choices than lights repeat themselves.
-    let lights = u32::try_from(world.lights().len()).unwrap_or(u32::MAX);
-    let mut count = light_samples.get().min(lights.max(1));
+    let mut count = settings.first_choices(world);
     for number in 0..max_depth {
         traced.rays += 1;
         let Some(surface) = world.closest(&ray, from) else {
@@ -81,12 +106,7 @@ pub fn trace<S: LightSampler>(
         };
         let wo = -ray.direction;
         if let Some((light, l)) = world.emitted(&surface, wo) {
-            let weight = match origin {
-                Origin::Dirac => 1.0,
-                Origin::Material { question, pdf } => {
-                    estimator.bsdf_weight(pdf, || direct.density(&question, light, ray.direction))
-                }
-            };
+            let weight = origin.weight(&direct, light, ray.direction);
             traced.radiance += throughput * l * weight;
         }
         if number + 1 == max_depth {
@@ -101,12 +121,15 @@ pub fn trace<S: LightSampler>(
         if !scattering.bsdf().is_dirac() {
             if estimator.samples_lights() {
                 let vertex = Vertex {
-                    surface: &surface,
                     scattering: &scattering,
                     wo,
                     number,
                 };
-                let lit = direct.sample(&question, &vertex, numbers.light, numbers.shadow, stream);
+                let lit = direct.sample(&question, &vertex, &numbers, stream, |light| {
+                    let shadowed = world.occluded(&surface, light.wi, light.p_light);
+                    let left = if shadowed { Vec3::ZERO } else { Vec3::ONE };
+                    Arrived { left, rays: 1 }
+                });
                 traced.radiance += throughput * lit.radiance;
                 traced.rays += lit.rays;
             }
@@ -134,19 +157,14 @@ pub fn trace<S: LightSampler>(
 }
 
 /// The light of all infinite lights along a ray that leaves the scene.
-fn sky<S: LightSampler>(direct: &DirectLight<'_, S>, ray: &Ray, origin: Origin) -> Vec3 {
+pub(super) fn sky<S: LightSampler>(direct: &DirectLight<'_, S>, ray: &Ray, origin: Origin) -> Vec3 {
     let mut radiance = Vec3::ZERO;
     for &light in direct.world.infinite_lights() {
         let le = direct.world.sky_radiance(light, ray);
         if le == Vec3::ZERO {
             continue;
         }
-        let weight = match origin {
-            Origin::Dirac => 1.0,
-            Origin::Material { question, pdf } => direct
-                .estimator
-                .bsdf_weight(pdf, || direct.density(&question, light, ray.direction)),
-        };
+        let weight = origin.weight(direct, light, ray.direction);
         radiance += le * weight;
     }
     radiance

@@ -3,7 +3,7 @@
 
 use core::num::NonZeroU32;
 
-use light_render::integrator::{Estimator, PathSettings};
+use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{AnyLightSampler, RenderSettings, Rendering, SamplerKind, View, World, render};
 use light_scene::glam::{DVec3, Vec2, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
@@ -99,6 +99,8 @@ pub(crate) struct Shot {
     pub(crate) estimator: Estimator,
     pub(crate) sampler: SamplerKind,
     pub(crate) light_samples: NonZeroU32,
+    /// The one that fits the scene unless told otherwise.
+    pub(crate) integrator: Option<Integrator>,
 }
 
 impl Default for Shot {
@@ -110,6 +112,7 @@ impl Default for Shot {
             estimator: Estimator::Mis,
             sampler: SamplerKind::BvhReference,
             light_samples: NonZeroU32::MIN,
+            integrator: None,
         }
     }
 }
@@ -129,6 +132,7 @@ impl Shot {
                 max_depth: self.max_depth,
                 estimator: self.estimator,
                 light_samples: self.light_samples,
+                integrator: self.integrator.unwrap_or(Integrator::fitting(&world)),
             },
         };
         let rendering = render(&world, &view, &sampler, &settings, |_| ());

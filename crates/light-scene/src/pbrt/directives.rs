@@ -83,13 +83,7 @@ impl Reader {
                 let message = || format!("expected a named material, found \"{}\"", shown(&name));
                 self.state.material = Some(known.ok_or_else(|| at.diagnostic(message()))?);
             }
-            "MediumInterface" => {
-                tokens.quoted("a medium's name")?;
-                if matches!(tokens.peek()?, Some(Token::Quoted(_))) {
-                    tokens.next()?;
-                }
-                self.warn(at, "`MediumInterface`", "was ignored: media are not read");
-            }
+            "MediumInterface" => self.medium_interface(at, tokens)?,
             "Option" => {
                 super::parameters::Parameters::read(tokens)?;
                 self.warn(at, "`Option`", "was ignored");
@@ -190,6 +184,7 @@ impl Reader {
                 self.materials.insert(typed.kind, material);
                 return Ok(());
             }
+            "MakeNamedMedium" => self.make_medium(&typed)?,
             _ => {
                 self.warn(at, &format!("`{directive}`"), "was ignored");
                 return Ok(());

@@ -23,7 +23,11 @@ impl Reader {
         let from = place.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
         let to = place.transform_point3(parameters.vec3_or("to", Vec3::Z));
         let scale = parameters.number_or("scale", 1.0);
-        let media = MediumInterface::default();
+        // A light without a surface lies in the medium outside.
+        let media = MediumInterface {
+            inside: None,
+            ..self.state.media
+        };
         let light = match kind.as_str() {
             "point" => LightDesc::Point(PointLightDesc {
                 position: from,
@@ -136,7 +140,7 @@ impl Reader {
     }
 
     /// The colour of a light, white if the file says nothing.
-    fn emission(&mut self, typed: &Typed<'_>, name: &str) -> Vec3 {
+    pub(super) fn emission(&mut self, typed: &Typed<'_>, name: &str) -> Vec3 {
         let emission = typed.parameters.emission(name);
         if emission.is_none() && typed.parameters.has(name) {
             let what = format!("the spectrum of `{name}`");

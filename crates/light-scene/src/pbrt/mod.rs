@@ -1,8 +1,11 @@
 //! pbrt-v4 scene files.
 
+mod cloud;
 mod directives;
 mod lights;
 mod materials;
+mod media;
+mod medium_grid;
 mod parameters;
 mod ply;
 mod shapes;
@@ -40,5 +43,7 @@ pub(crate) fn parse_pbrt(path: &Path, text: &str) -> Result<Scene, Diagnostic> {
     reader.finish(path)
 }
 
+#[cfg(test)]
+mod media_tests;
 #[cfg(test)]
 mod tests;

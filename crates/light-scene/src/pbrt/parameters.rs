@@ -115,6 +115,21 @@ impl Parameters {
         self.find(name)?.numbers.iter().map(whole).collect()
     }
 
+    /// All numbers, however many.
+    pub(super) fn list(&self, name: &str) -> Option<Vec<f32>> {
+        self.find(name).map(Parameter::singles)
+    }
+
+    /// A colour that may exceed 1: a coefficient per unit length.
+    pub(super) fn unbounded(&self, name: &str) -> Option<Vec3> {
+        let parameter = self.find(name)?;
+        match parameter.kind.as_str() {
+            "rgb" => parameter.rgb(),
+            "spectrum" => spectrum::unbounded(&parameter.singles()),
+            _ => None,
+        }
+    }
+
     pub(super) fn vec2s(&self, name: &str) -> Option<Vec<Vec2>> {
         let chunks = self.find(name)?.numbers.chunks_exact(2);
         Some(

@@ -54,6 +54,7 @@ impl Reader {
             mesh.turn_over();
         }
         mesh.material = self.material();
+        self.attach_media(&mut mesh);
         self.attach_light(&mut mesh);
         self.attach_alpha(typed, &mut mesh);
         self.add_mesh(mesh);

@@ -6,13 +6,18 @@ use crate::glam::Vec3;
 
 /// The share that a surface of this spectrum (wavelength in nm and value by turns) reflects of daylight.
 pub(super) fn reflectance(pairs: &[f32]) -> Option<Vec3> {
+    unbounded(pairs).map(|rgb| rgb.min(Vec3::ONE))
+}
+
+/// The colour of this spectrum seen by daylight, without a bound above.
+pub(super) fn unbounded(pairs: &[f32]) -> Option<Vec3> {
     let lit = Lit {
         reflectance: piecewise(pairs)?,
         light: RgbColorSpace::srgb().illuminant(),
     };
     let white = cie::xyz(&lit.light).y;
     let rgb = RgbColorSpace::srgb().rgb_from_xyz() * cie::xyz(&lit) / white;
-    Some(rgb.clamp(Vec3::ZERO, Vec3::ONE))
+    Some(rgb.max(Vec3::ZERO))
 }
 
 /// The colour of a light of this spectrum, of luminance 1.

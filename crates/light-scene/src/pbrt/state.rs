@@ -2,6 +2,9 @@ use alloc::collections::BTreeSet;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use lights::sources::MediumInterface;
+
+use super::media::MediumSlot;
 use super::parameters::Parameters;
 use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
@@ -20,6 +23,9 @@ pub(super) struct Reader {
     pub(super) textures: HashMap<String, Color>,
     /// Each file read once.
     pub(super) images: HashMap<PathBuf, ImageId>,
+    pub(super) media: Vec<MediumSlot>,
+    /// The twins of materials that bound media.
+    pub(super) interfaces: HashMap<(MaterialId, MediumInterface), MaterialId>,
     pub(super) objects: HashMap<String, Vec<Mesh>>,
     /// The object that shapes belong to between `ObjectBegin` and `ObjectEnd`.
     pub(super) object: Option<(String, Vec<Mesh>)>,
@@ -37,6 +43,7 @@ pub(super) struct State {
     pub(super) material: Option<MaterialId>,
     pub(super) area_light: Option<AreaLight>,
     pub(super) reversed: bool,
+    pub(super) media: MediumInterface,
 }
 
 /// An `AreaLightSource`.
@@ -109,6 +116,7 @@ impl Reader {
             crop: self.crop,
             ..camera
         });
+        self.scene.media = self.finished_media()?;
         Ok(self.scene)
     }
 }

@@ -20,6 +20,7 @@ impl Reader {
         }
         let to_world = self.state.transform.inverse();
         self.coordinates.insert("camera".to_owned(), to_world);
+        self.scene.camera_medium = self.state.media.outside;
         let fov = parameters.number_or("fov", 90.0).to_radians();
         if !(fov > 0.0 && fov < core::f32::consts::PI) {
             return Err(at.diagnostic("expected a fov between 0 and 180 degrees"));

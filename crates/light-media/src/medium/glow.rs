@@ -1,0 +1,66 @@
+use super::samples::Grid;
+#[cfg(feature = "alloc")]
+use super::temperature::TemperatureGrid;
+use light_math::glam::Vec3;
+use light_sources::{ColorModel, Radiance};
+
+/// How the emission of a grid medium varies over the unit cube: a factor of its substance's emission.
+#[derive(Clone, Debug)]
+pub struct Glow<C: ColorModel, S> {
+    /// A plain factor; the same everywhere where it is absent.
+    pub scale: Option<Grid<S>>,
+    /// The colour and strength of a glowing body of this temperature, as a further factor.
+    #[cfg(feature = "alloc")]
+    pub temperature: Option<TemperatureGrid<C, S>>,
+    #[cfg(not(feature = "alloc"))]
+    _colors: core::marker::PhantomData<C>,
+}
+
+impl<C: ColorModel, S> Glow<C, S> {
+    /// The same everywhere.
+    #[must_use]
+    pub fn uniform() -> Self {
+        Self {
+            scale: None,
+            #[cfg(feature = "alloc")]
+            temperature: None,
+            #[cfg(not(feature = "alloc"))]
+            _colors: core::marker::PhantomData,
+        }
+    }
+
+    /// Scaled by a grid.
+    #[must_use]
+    pub fn scaled(scale: Grid<S>) -> Self {
+        Self {
+            scale: Some(scale),
+            #[cfg(feature = "alloc")]
+            temperature: None,
+            #[cfg(not(feature = "alloc"))]
+            _colors: core::marker::PhantomData,
+        }
+    }
+
+    /// A glowing body of the temperatures of a grid.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn of_temperature(temperature: TemperatureGrid<C, S>) -> Self {
+        Self {
+            scale: None,
+            temperature: Some(temperature),
+        }
+    }
+}
+
+impl<C: ColorModel, S: AsRef<[f32]>> Glow<C, S> {
+    /// The factor at `p` of the unit cube.
+    pub(super) fn at(&self, p: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let [scale] = self.scale.as_ref().map_or([1.0], |grid| grid.lookup(p));
+        #[cfg(feature = "alloc")]
+        if let Some(temperature) = &self.temperature {
+            return temperature.at(p, wavelengths) * scale;
+        }
+        let _ = wavelengths;
+        C::Radiance::splat(scale)
+    }
+}

@@ -1,0 +1,83 @@
+use crate::medium::{MajorantSegment, Majorants};
+use light_math::float;
+use light_sources::Radiance;
+
+/// The places along a ray at which light may collide with a medium that is as dense as its bounds say: a Poisson process
+/// with the majorant for its rate. Trackers decide at each of them whether the collision is real.
+#[derive(Clone, Debug)]
+pub(crate) struct TentativeCollisions<'a> {
+    segments: Majorants<'a>,
+    here: Option<MajorantSegment>,
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Collision {
+    /// Distance along the ray.
+    pub(crate) t: f32,
+    /// The bound of the extinction there, above zero.
+    pub(crate) sigma_maj: f32,
+}
+
+impl<'a> TentativeCollisions<'a> {
+    pub(crate) fn new(mut segments: Majorants<'a>) -> Self {
+        let here = segments.next();
+        Self { segments, here }
+    }
+
+    /// The next collision; `None` when the ray leaves the last segment first.
+    ///
+    /// One number in `[0, 1)` decides, however many segments the flight crosses: it stands for the optical thickness that
+    /// the flight may use up.
+    pub(crate) fn next(&mut self, next_u: &mut impl FnMut() -> f32) -> Option<Collision> {
+        self.here?;
+        let mut thickness = -float::ln(1.0 - next_u());
+        while let Some(MajorantSegment { span, sigma_maj }) = &mut self.here {
+            let crossed = *sigma_maj * span.length();
+            if thickness < crossed {
+                let t = (span.t0 + thickness / *sigma_maj).min(span.t1);
+                span.t0 = t;
+                return Some(Collision {
+                    t,
+                    sigma_maj: *sigma_maj,
+                });
+            }
+            thickness -= crossed;
+            self.here = self.segments.next();
+        }
+        None
+    }
+}
+
+/// The share of a majorant that an extinction leaves: the probability that a tentative collision is none.
+#[inline]
+pub(crate) fn null_share<R: Radiance>(sigma_t: R, sigma_maj: f32) -> R {
+    (sigma_t * (-1.0 / sigma_maj)).map(|x| (1.0 + x).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ray::Span;
+
+    #[test]
+    fn collisions_use_up_their_thickness_across_segments() {
+        let span = Span { t0: 1.0, t1: 5.0 };
+        let mut collisions = TentativeCollisions::new(Majorants::constant(span, 0.5));
+        let half = |n: i32| 1.0 - float::exp(-0.5 * n as f32);
+        let first = collisions.next(&mut || half(3)).expect("within");
+        assert!((first.t - 4.0).abs() < 1e-5, "three units on: {first:?}");
+        assert_eq!(collisions.next(&mut || half(2)), None, "beyond the end");
+        assert_eq!(collisions.next(&mut || 0.0), None, "and it stays there");
+    }
+
+    #[test]
+    fn vacuum_without_end_is_crossed() {
+        let span = Span {
+            t0: 0.0,
+            t1: f32::INFINITY,
+        };
+        let mut collisions = TentativeCollisions::new(Majorants::constant(span, 0.0));
+        assert_eq!(collisions.next(&mut || 0.999_999_9), None, "nothing there");
+    }
+}

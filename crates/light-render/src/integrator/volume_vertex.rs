@@ -1,0 +1,137 @@
+use lights::bounds::LightSampleContext;
+use lights::glam::{Vec2, Vec3};
+use lights::media::{Medium, Phase};
+use lights::sources::MediumId;
+
+use super::direct::Scatters;
+use crate::bsdf::Scattering;
+use crate::{Ray, Surface, TriangleId, World};
+
+/// A point at which a path through media scatters: on a surface or in a medium.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum VolumeVertex {
+    Surface {
+        surface: Surface,
+        scattering: Scattering,
+        /// The medium that the path arrived through.
+        medium: Option<MediumId>,
+    },
+    Medium {
+        p: Vec3,
+        phase: Phase,
+        medium: MediumId,
+    },
+}
+
+/// A ray that leaves a vertex, with what it starts on and in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VolumeRay {
+    pub(super) ray: Ray,
+    pub(super) from: Option<TriangleId>,
+    pub(super) medium: Option<MediumId>,
+}
+
+/// A direction in which the path goes on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VolumeSample {
+    pub(super) wi: Vec3,
+    /// What the throughput is multiplied with.
+    pub(super) weight: Vec3,
+    /// In sr^-1; `None` for a Dirac.
+    pub(super) pdf: Option<f32>,
+}
+
+impl VolumeVertex {
+    /// The vertex on a surface that was reached through `medium`.
+    pub(super) fn on_surface(world: &World, surface: Surface, medium: Option<MediumId>) -> Self {
+        Self::Surface {
+            surface,
+            scattering: world.scattering(&surface),
+            medium,
+        }
+    }
+
+    /// The vertex at a point of a medium; `None` in vacuum.
+    pub(super) fn in_medium(world: &World, p: Vec3, medium: MediumId) -> Option<Self> {
+        let phase = *world.media().get(Some(medium))?.phase();
+        Some(Self::Medium { p, phase, medium })
+    }
+
+    /// Whether light samples can contribute.
+    pub(super) fn is_dirac(&self) -> bool {
+        match self {
+            Self::Surface { scattering, .. } => scattering.bsdf().is_dirac(),
+            Self::Medium { .. } => false,
+        }
+    }
+
+    /// The question that light samplers and lights answer.
+    pub(super) fn light_context(&self, world: &World, wo: Vec3) -> LightSampleContext {
+        match self {
+            Self::Surface {
+                surface,
+                scattering,
+                ..
+            } => world.light_context(surface, scattering, wo),
+            Self::Medium { p, .. } => LightSampleContext::medium(*p),
+        }
+    }
+
+    pub(super) fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<VolumeSample> {
+        match self {
+            Self::Surface { scattering, .. } => {
+                let sample = scattering.sample(wo, u_lobe, u)?;
+                Some(VolumeSample {
+                    wi: sample.wi,
+                    weight: sample.weight,
+                    pdf: sample.pdf,
+                })
+            }
+            Self::Medium { phase, .. } => {
+                let sample = phase.sample(wo, u);
+                Some(VolumeSample {
+                    wi: sample.wi,
+                    weight: Vec3::ONE,
+                    pdf: Some(sample.pdf),
+                })
+            }
+        }
+    }
+
+    /// The ray that leaves in the direction `wi`.
+    pub(super) fn spawn(&self, world: &World, wi: Vec3) -> VolumeRay {
+        match self {
+            Self::Surface {
+                surface, medium, ..
+            } => VolumeRay {
+                ray: surface.spawn(wi),
+                from: Some(surface.triangle),
+                medium: world.medium_toward(surface, wi, *medium),
+            },
+            Self::Medium { p, medium, .. } => VolumeRay {
+                ray: Ray {
+                    origin: *p,
+                    direction: wi,
+                },
+                from: None,
+                medium: Some(*medium),
+            },
+        }
+    }
+}
+
+impl Scatters for VolumeVertex {
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
+        match self {
+            Self::Surface { scattering, .. } => scattering.eval(wo, wi),
+            Self::Medium { phase, .. } => Vec3::splat(phase.pdf(wo, wi)),
+        }
+    }
+
+    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self {
+            Self::Surface { scattering, .. } => scattering.pdf(wo, wi),
+            Self::Medium { phase, .. } => phase.pdf(wo, wi),
+        }
+    }
+}

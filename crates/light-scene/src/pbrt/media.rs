@@ -1,0 +1,206 @@
+use std::path::PathBuf;
+
+use lights::glam::Affine3A;
+use lights::media::phase::{HenyeyGreenstein, Isotropic};
+use lights::media::{AnyMedium, Homogeneous, Phase, Region, Substance};
+use lights::sources::{MediumId, MediumInterface, Rgb};
+
+use super::state::{At, Reader, Typed};
+use super::tokens::{Token, Tokens};
+use crate::glam::Vec3;
+use crate::text::shown;
+use crate::{Diagnostic, Mesh, NamedMedium, Place};
+
+/// A medium by its name: files may name it before they describe it.
+#[derive(Debug)]
+pub(super) struct MediumSlot {
+    name: String,
+    first_use: (PathBuf, usize),
+    medium: Option<AnyMedium<Rgb>>,
+}
+
+/// Names of what was measured: reduced scattering and absorption per millimetre, for red, green and blue light.
+///
+/// # Source
+/// `[Jensen2001]`, figure 5.
+const PRESETS: [(&str, [f32; 3], [f32; 3]); 12] = [
+    ("Apple", [2.29, 2.39, 1.97], [0.003, 0.0034, 0.046]),
+    ("Chicken1", [0.15, 0.21, 0.38], [0.015, 0.077, 0.19]),
+    ("Chicken2", [0.19, 0.25, 0.32], [0.018, 0.088, 0.2]),
+    ("Cream", [7.38, 5.47, 3.15], [0.0002, 0.0028, 0.0163]),
+    ("Ketchup", [0.18, 0.07, 0.03], [0.061, 0.97, 1.45]),
+    ("Marble", [2.19, 2.62, 3.0], [0.0021, 0.0041, 0.0071]),
+    ("Potato", [0.68, 0.7, 0.55], [0.0024, 0.009, 0.12]),
+    ("Skimmilk", [0.7, 1.22, 1.9], [0.0014, 0.0025, 0.0142]),
+    ("Skin1", [0.74, 0.88, 1.01], [0.032, 0.17, 0.48]),
+    ("Skin2", [1.09, 1.59, 1.79], [0.013, 0.07, 0.145]),
+    ("Spectralon", [11.6, 20.4, 14.9], [0.0, 0.0, 0.0]),
+    ("Wholemilk", [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014]),
+];
+
+/// What a homogeneous medium is made of unless its file says so: whole milk.
+const MILK: usize = 11;
+
+impl Reader {
+    /// `MakeNamedMedium "name" "string type" ...`.
+    pub(super) fn make_medium(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
+        let kind = typed.parameters.string("type").unwrap_or_default();
+        let medium = match kind {
+            "homogeneous" => self.homogeneous(typed)?,
+            "uniformgrid" => self.uniform_grid(typed)?,
+            "rgbgrid" => self.rgb_grid(typed)?,
+            "cloud" => self.cloud(typed)?,
+            other => {
+                let kinds = "homogeneous, uniformgrid, rgbgrid or cloud";
+                let message = format!(
+                    "expected a \"string type\" of {kinds}, found \"{}\"",
+                    shown(other)
+                );
+                return Err(refused(typed, message));
+            }
+        };
+        let id = self.medium_id(typed.at, &typed.kind);
+        let slot = &mut self.media[id.index() as usize];
+        if slot.medium.replace(medium).is_some() {
+            return Err(refused(typed, "expected one description, found another"));
+        }
+        Ok(())
+    }
+
+    /// `MediumInterface "inside" "outside"`; one name stands for both, an empty one for vacuum.
+    pub(super) fn medium_interface(
+        &mut self,
+        at: At<'_>,
+        tokens: &mut Tokens<'_>,
+    ) -> Result<(), Diagnostic> {
+        let inside = tokens.quoted("a medium's name")?.into_owned();
+        let outside = match tokens.peek()? {
+            Some(Token::Quoted(name)) => {
+                let name = name.into_owned();
+                tokens.next()?;
+                name
+            }
+            _ => inside.clone(),
+        };
+        let [inside, outside] =
+            [inside, outside].map(|name| (!name.is_empty()).then(|| self.medium_id(at, &name)));
+        self.state.media = MediumInterface { inside, outside };
+        Ok(())
+    }
+
+    /// Gives the mesh the twin of its material that bounds the media in force.
+    pub(super) fn attach_media(&mut self, mesh: &mut Mesh) {
+        let media = self.state.media;
+        if media.inside == media.outside {
+            return;
+        }
+        let scene = &mut self.scene;
+        let twin = self.interfaces.entry((mesh.material, media));
+        mesh.material = *twin.or_insert_with(|| {
+            let mut material = scene.material(mesh.material).clone();
+            material.media = media;
+            scene.add_material(material)
+        });
+    }
+
+    /// All media, once everything is read.
+    pub(super) fn finished_media(&mut self) -> Result<Vec<NamedMedium>, Diagnostic> {
+        let slots = self.media.drain(..).map(|slot| match slot.medium {
+            Some(medium) => Ok(NamedMedium {
+                name: slot.name,
+                medium,
+            }),
+            None => {
+                let (path, line) = slot.first_use;
+                let message = format!("expected a named medium, found \"{}\"", shown(&slot.name));
+                Err(Diagnostic::at(&path, Place::Line(line), message))
+            }
+        });
+        slots.collect()
+    }
+
+    fn medium_id(&mut self, at: At<'_>, name: &str) -> MediumId {
+        let known = self.media.iter().position(|slot| slot.name == name);
+        let index = known.unwrap_or_else(|| {
+            self.media.push(MediumSlot {
+                name: name.to_owned(),
+                first_use: (at.path.to_path_buf(), at.line),
+                medium: None,
+            });
+            self.media.len() - 1
+        });
+        let id = u32::try_from(index).ok().and_then(MediumId::new);
+        id.expect("fewer than 2^32 - 1 media")
+    }
+
+    fn homogeneous(&mut self, typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
+        let preset = typed.parameters.string("preset").map(str::to_owned);
+        let known = |name: &String| PRESETS.iter().find(|(preset, ..)| preset == name);
+        let found = preset.as_ref().and_then(known);
+        if let (Some(name), None) = (&preset, found) {
+            let what = format!("the preset \"{name}\"");
+            self.warn(typed.at, &what, "is not known; whole milk was taken");
+        }
+        let (_, sigma_s, sigma_a) = found.unwrap_or(&PRESETS[MILK]);
+        let sigma_a = self.coefficient(typed, "sigma_a", Vec3::from(*sigma_a));
+        let sigma_s = self.coefficient(typed, "sigma_s", Vec3::from(*sigma_s));
+        let le = self.glow(typed) * typed.parameters.number_or("Lescale", 1.0);
+        let scale = typed.parameters.number_or("scale", 1.0);
+        Ok(Homogeneous {
+            substance: substance(typed, [sigma_a, sigma_s], scale, le)?,
+            phase: phase(typed)?,
+            region: Region::UNBOUNDED,
+        }
+        .into())
+    }
+
+    /// A coefficient per unit of length.
+    pub(super) fn coefficient(&mut self, typed: &Typed<'_>, name: &str, default: Vec3) -> Vec3 {
+        let value = typed.parameters.unbounded(name);
+        if value.is_none() && typed.parameters.has(name) {
+            let what = format!("the spectrum of `{name}`");
+            self.warn(typed.at, &what, "is not understood; the default was taken");
+        }
+        value.unwrap_or(default)
+    }
+
+    /// The emission `Le`, black if the file says nothing.
+    pub(super) fn glow(&mut self, typed: &Typed<'_>) -> Vec3 {
+        if typed.parameters.has("Le") {
+            self.emission(typed, "Le")
+        } else {
+            Vec3::ZERO
+        }
+    }
+
+    /// Where the space of a medium lies.
+    pub(super) fn medium_to_scene(&self) -> Affine3A {
+        Affine3A::from_mat4(self.state.transform)
+    }
+}
+
+/// What a medium is made of, from its absorption and scattering.
+pub(super) fn substance(
+    typed: &Typed<'_>,
+    [sigma_a, sigma_s]: [Vec3; 2],
+    scale: f32,
+    le: Vec3,
+) -> Result<Substance<Rgb>, Diagnostic> {
+    Substance::new(sigma_a * scale, sigma_s * scale, le).map_err(|error| refused(typed, error))
+}
+
+/// How a medium scatters.
+pub(super) fn phase(typed: &Typed<'_>) -> Result<Phase, Diagnostic> {
+    let g = typed.parameters.number_or("g", 0.0);
+    if g == 0.0 {
+        return Ok(Phase::Isotropic(Isotropic));
+    }
+    let phase = HenyeyGreenstein::new(g).map_err(|error| refused(typed, error))?;
+    Ok(Phase::HenyeyGreenstein(phase))
+}
+
+/// What is wrong with a medium.
+pub(super) fn refused(typed: &Typed<'_>, what: impl core::fmt::Display) -> Diagnostic {
+    let name = shown(&typed.kind);
+    typed.at.diagnostic(format!("medium \"{name}\": {what}"))
+}
