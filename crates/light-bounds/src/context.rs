@@ -18,6 +18,21 @@ pub struct LightSampleContext {
     pub sides: ReceiverSides,
     /// From `p` to the other end of a ray segment in a medium; zero for a point.
     pub segment: Vec3,
+    /// How the surface mirrors, if it is known and worth a closer look; samplers may ignore it.
+    pub gloss: Option<Gloss>,
+}
+
+/// How a surface reflects more than a matt one: about `diffuse / pi + (1 - diffuse) D G / (4 cos cos)`, GGX microfacets.
+///
+/// Only a hint for choosing lights: it may be rough, and no light is lost by it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gloss {
+    /// Unit vector to the viewer.
+    pub wo: Vec3,
+    /// Width of the distribution of facets, in (0, 1].
+    pub alpha: f32,
+    /// The share of all reflected light that is reflected as by a matt surface, in [0, 1].
+    pub diffuse: f32,
 }
 
 /// From which sides light reaches a surface.
@@ -41,6 +56,7 @@ impl LightSampleContext {
             ns,
             sides: ReceiverSides::Front,
             segment: Vec3::ZERO,
+            gloss: None,
         }
     }
 
@@ -74,6 +90,15 @@ impl LightSampleContext {
     #[must_use]
     pub const fn with_error(self, p_error: Vec3) -> Self {
         Self { p_error, ..self }
+    }
+
+    /// The same context on a surface that mirrors.
+    #[must_use]
+    pub const fn with_gloss(self, gloss: Gloss) -> Self {
+        Self {
+            gloss: Some(gloss),
+            ..self
+        }
     }
 
     /// Whether the point has no surface, so no normal.

@@ -162,7 +162,7 @@ mod tests {
         assert_eq!(size_of::<LightBounds>(), 52, "bounds");
         assert_eq!(size_of::<InfiniteBounds>(), 32, "at infinity");
         assert_eq!(size_of::<LightExtent>(), 52, "either");
-        assert_eq!(size_of::<LightSampleContext>(), 64, "who asks");
+        assert_eq!(size_of::<LightSampleContext>(), 88, "who asks");
         assert_eq!(size_of::<SampledLight>(), 16, "a choice");
     }
 

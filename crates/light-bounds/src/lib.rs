@@ -17,7 +17,7 @@ mod light_id;
 mod sampled_light;
 
 pub use compact::CompactLightBounds;
-pub use context::{LightSampleContext, ReceiverSides};
+pub use context::{Gloss, LightSampleContext, ReceiverSides};
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
 pub use light_bounds::LightBounds;

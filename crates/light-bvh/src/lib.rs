@@ -20,6 +20,6 @@ pub use validate::validate;
 #[cfg(feature = "alloc")]
 pub use wide::LightBvh;
 pub use wide::{
-    CutDetail, Lane, LightBvhRef, LightCut, MAX_DEPTH, MediumReceiver, Receiver, SegmentReceiver,
-    SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,
+    CutDetail, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH, MediumReceiver, Receiver,
+    SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,
 };

@@ -1,7 +1,7 @@
 use alloc::sync::Arc;
 
 use light_scene::{Color, ColorImage, Image, Material, Scene, Surface as Finish};
-use lights::bounds::{LightId, LightSampleContext};
+use lights::bounds::{Gloss, LightId, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
 use lights::sources::{LightSet, MediumId, Rgb, SurfacePoint};
@@ -296,7 +296,11 @@ impl World {
             // Light counts from both sides, as it does in a medium.
             return LightSampleContext::medium(surface.p).with_error(surface.p_error);
         }
-        surface.light_context(wo)
+        let ctx = surface.light_context(wo);
+        match scattering.bsdf().gloss() {
+            Some((alpha, diffuse)) => ctx.with_gloss(Gloss { wo, alpha, diffuse }),
+            None => ctx,
+        }
     }
 
     fn color(&self, color: &Color, uv: Vec2) -> Vec3 {

@@ -1,6 +1,6 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
-use light_samplers::light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_samplers::light_bounds::{Gloss, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
@@ -37,6 +37,17 @@ light_testkit::sampler_laws! {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
             |ctx| LightSampleContext::two_sided(ctx.p, ctx.n, ctx.ns),
+        )
+    }
+
+    /// The default hierarchy, asked for surfaces that mirror.
+    mod bvh_glossy {
+        |set| Asked(
+            BvhLightSampler::new(&set.extents()).expect("valid bounds"),
+            |ctx| {
+                let wo = (ctx.n + 0.9 * ctx.n.any_orthonormal_vector()).normalize();
+                ctx.with_gloss(Gloss { wo, alpha: 0.1, diffuse: 0.0 })
+            },
         )
     }
 

@@ -2,6 +2,7 @@ use light_bounds::{LightSampleContext, ReceiverSides};
 use light_math::float;
 use light_math::glam::Vec3;
 
+use super::glossy::GlossyReceiver;
 use super::lane::Lane;
 use super::segment::SegmentReceiver;
 
@@ -51,6 +52,13 @@ impl SurfaceReceiver {
     pub fn new(p: Vec3, n: Vec3) -> Self {
         Self { p: near(p), n }
     }
+
+    /// About twice the mean height of the child's lights above the horizon, those below counting as 0.
+    #[inline(always)]
+    pub(crate) fn expected_height(&self, lane: &Lane) -> f32 {
+        let (height, height_var, _) = lane.height(self.n);
+        height + float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK))
+    }
 }
 
 impl Receiver for SurfaceReceiver {
@@ -61,10 +69,9 @@ impl Receiver for SurfaceReceiver {
 
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        let (height, height_var, support) = lane.height(self.n);
+        let (height, _, support) = lane.height(self.n);
         let lit = height + support > -SLACK;
-        let expected =
-            height + float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
+        let expected = self.expected_height(lane);
         // Masked rather than branched over: all lanes of a node are computed together.
         let mask = if lit { u32::MAX } else { 0 };
         f32::from_bits((expected * lane.emitted()).to_bits() & mask)
@@ -148,6 +155,7 @@ impl Receiver for NoReceiver {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ContextReceiver {
     Surface(SurfaceReceiver),
+    Glossy(GlossyReceiver),
     TwoSided(TwoSidedReceiver),
     Medium(MediumReceiver),
     Segment(SegmentReceiver),
@@ -163,9 +171,12 @@ impl From<&LightSampleContext> for ContextReceiver {
         if ctx.is_medium() || is_far(ctx.p) {
             return Self::Medium(MediumReceiver::new(ctx.p));
         }
-        match ctx.sides {
-            ReceiverSides::Front => Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns)),
-            ReceiverSides::Both => Self::TwoSided(TwoSidedReceiver::new(ctx.p, ctx.ns)),
+        match (ctx.sides, &ctx.gloss) {
+            (ReceiverSides::Front, None) => Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns)),
+            (ReceiverSides::Front, Some(gloss)) => {
+                Self::Glossy(GlossyReceiver::new(ctx.p, ctx.ns, gloss))
+            }
+            (ReceiverSides::Both, _) => Self::TwoSided(TwoSidedReceiver::new(ctx.p, ctx.ns)),
         }
     }
 }
@@ -175,6 +186,7 @@ macro_rules! for_receiver {
     ($ctx:expr, $receiver:ident => $answer:expr) => {
         match $crate::wide::importance::ContextReceiver::from($ctx) {
             $crate::wide::importance::ContextReceiver::Surface($receiver) => $answer,
+            $crate::wide::importance::ContextReceiver::Glossy($receiver) => $answer,
             $crate::wide::importance::ContextReceiver::TwoSided($receiver) => $answer,
             $crate::wide::importance::ContextReceiver::Medium($receiver) => $answer,
             $crate::wide::importance::ContextReceiver::Segment($receiver) => $answer,

@@ -5,6 +5,7 @@ mod build;
 mod cut;
 #[cfg(feature = "alloc")]
 mod encode;
+mod glossy;
 mod importance;
 mod lane;
 #[cfg(feature = "alloc")]
@@ -21,6 +22,7 @@ mod split;
 mod tree;
 
 pub use cut::{CutDetail, LightCut};
+pub use glossy::GlossyReceiver;
 pub use importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far};
 pub use lane::Lane;
 #[cfg(feature = "alloc")]

@@ -34,6 +34,15 @@ impl CoatedDiffuse {
         }
     }
 
+    /// The coat's roughness, and about the share of the reflected light that the base reflects.
+    #[inline]
+    #[must_use]
+    pub(super) fn gloss(&self) -> (f32, f32) {
+        let coat = fresnel::dielectric(1.0, self.eta);
+        let base = self.base.element_sum() / 3.0;
+        (self.facets.alpha(), base / (base + coat))
+    }
+
     /// The scattering function times `|cos theta_i|`.
     #[inline]
     #[must_use]

@@ -27,6 +27,13 @@ impl Microfacets {
         self.alpha.max_element() < 1e-3
     }
 
+    /// How rough the surface is along its rougher axis.
+    #[inline]
+    #[must_use]
+    pub fn alpha(&self) -> f32 {
+        self.alpha.max_element()
+    }
+
     /// Area of facets with normal `wm` per area of surface and solid angle.
     #[inline]
     #[must_use]

@@ -119,6 +119,20 @@ impl Bsdf {
             Self::Mirror(_) | Self::Conductor(_) | Self::CoatedDiffuse(_) => false,
         }
     }
+
+    /// Of an opaque surface that mirrors roughly, the width of its facets' distribution, and the share of the light that it
+    /// reflects as a matt one; `None` for all others.
+    #[inline]
+    #[must_use]
+    pub fn gloss(&self) -> Option<(f32, f32)> {
+        match self {
+            Self::Conductor(bsdf) => Some((bsdf.facets.alpha(), 0.0)),
+            Self::CoatedDiffuse(bsdf) => Some(bsdf.gloss()),
+            Self::Lambert(_) | Self::Mirror(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => {
+                None
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -25,8 +25,8 @@ pub struct PathSettings {
 impl PathSettings {
     /// How many lights are chosen at the first diffuse vertex, unless told otherwise.
     ///
-    /// Lights on rough mirrors are many choices and one shadow: there more choices pay until they take as long as the rays.
-    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(16).unwrap();
+    /// More would cost more than they gain: what is left of the noise is shadows.
+    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
 
     /// How many lights the first vertex chooses in `world`: more choices than lights repeat themselves.
     pub(super) fn first_choices(&self, world: &World) -> u32 {
