@@ -12,7 +12,9 @@ mod broken;
 mod builtin;
 mod camera;
 mod diagnostic;
+mod files;
 mod gltf;
+mod gunzip;
 pub mod ies;
 mod image;
 pub mod light_set;
@@ -21,6 +23,7 @@ mod mesh;
 mod obj;
 mod pbrt;
 mod scene;
+mod scene_file;
 #[cfg(test)]
 mod test_folder;
 mod text;
@@ -31,14 +34,16 @@ mod write_whole;
 pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Place};
+pub use files::Files;
 pub use gltf::read_gltf;
 pub use image::{
-    ChannelFile, Image, ImageError, ImageFile, parse_exr, read_image, write_exr, write_exr_half,
-    write_hdr, write_image, write_png,
+    ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
+    write_exr_half, write_hdr, write_image, write_png,
 };
 pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
-pub use obj::read_obj;
-pub use pbrt::read_pbrt;
+pub use obj::{parse_obj, read_obj};
+pub use pbrt::{parse_ply, read_pbrt};
 pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
+pub use scene_file::{parse_scene, read_scene};
 pub use write_whole::write_whole;

@@ -7,13 +7,14 @@ use std::path::Path;
 use crate::glam::{Vec2, Vec3};
 use crate::{Diagnostic, Place};
 
-/// The text of a file; bytes that are not UTF-8 become replacement characters.
+/// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
-    let bytes = read_bytes(path)?;
-    Ok(match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
-    })
+    Ok(text_of(&read_bytes(path)?).into_owned())
+}
+
+/// Bytes as text; those that are not UTF-8 become replacement characters.
+pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(bytes)
 }
 
 /// The bytes of a file.

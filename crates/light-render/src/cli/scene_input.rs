@@ -2,9 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use light_render::World;
-use light_scene::{
-    BuiltinScene, Diagnostic, Emission, Scene, read_gltf, read_image, read_obj, read_pbrt,
-};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image};
 use lights::glam::Affine3A;
 
 use super::arguments::Emit;
@@ -64,24 +62,14 @@ impl SceneInput {
 
 /// The scene in a file, by the ending of its name, or the one that ships under a name without ending.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {
-    let refuse = |message: String| Failure::input(Diagnostic::file(path, message));
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("obj") => read_obj(path).map_err(Failure::input),
-        Some("pbrt") => read_pbrt(path).map_err(Failure::input),
-        Some("gltf" | "glb") => read_gltf(path).map_err(Failure::input),
-        Some(_) => {
-            let message = "expected a scene file: .obj, .pbrt, .gltf or .glb";
-            Err(refuse(message.into()))
-        }
-        None => {
-            let shipped = path.to_string_lossy().parse::<BuiltinScene>();
-            shipped.map(BuiltinScene::load).map_err(|error| {
-                refuse(format!(
-                    "expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}"
-                ))
-            })
-        }
+    if path.extension().is_some() {
+        return light_scene::read_scene(path).map_err(Failure::input);
     }
+    let shipped = path.to_string_lossy().parse::<BuiltinScene>();
+    shipped.map(BuiltinScene::load).map_err(|error| {
+        let message = format!("expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}");
+        Failure::input(Diagnostic::file(path, message))
+    })
 }
 
 /// Tells on standard error what the readers repaired or left out.

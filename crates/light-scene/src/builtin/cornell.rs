@@ -14,9 +14,13 @@ use crate::{Camera, Scene};
 pub(super) fn cornell_box() -> Scene {
     let obj = include_str!("../../assets/cornell_box.obj");
     let mtl = include_str!("../../assets/cornell_box.mtl");
-    let library = |_: &Path| Ok(mtl.to_owned());
-    let mut scene = parse_obj(Path::new("cornell_box.obj"), obj, &library)
-        .expect("the Cornell box that ships is a valid file");
+    let library = |_: &Path| Ok(mtl.into());
+    let mut scene = parse_obj(
+        Path::new("cornell_box.obj"),
+        obj,
+        crate::Files::new(&library),
+    )
+    .expect("the Cornell box that ships is a valid file");
     // A film of 25 mm by 25 mm behind a lens of 35 mm.
     let fov = 2.0 * (12.5f32 / 35.0).atan();
     let eye = Vec3::new(-278.0, 273.0, 800.0);

@@ -1,10 +1,10 @@
 use alloc::rc::Rc;
 use std::collections::HashMap;
 
-use super::Files;
 use super::data_uri::{EXPECTED, Resource, resource};
-use super::item::{Document, Item};
-use crate::Diagnostic;
+use super::document::Document;
+use super::item::Item;
+use crate::{Diagnostic, Files};
 
 /// The bytes that a document speaks of.
 pub(super) struct Buffers<'a> {
@@ -71,7 +71,7 @@ impl<'a> Buffers<'a> {
         match resource(uri.text()?) {
             Some(Resource::Bytes(bytes)) => Ok(bytes),
             Some(Resource::File(name)) => {
-                let bytes = (self.files)(&self.document.path().with_file_name(name));
+                let bytes = self.files.read(&self.document.path().with_file_name(name));
                 bytes.map_err(|error| uri.error(&error.to_string()))
             }
             None => Err(uri.expected(EXPECTED)),

@@ -1,89 +1,16 @@
-//! A JSON document whose parts know where they are, and which remembers what was asked for.
-
-use alloc::collections::BTreeSet;
-use core::cell::RefCell;
-use std::collections::HashSet;
-use std::path::{Path, PathBuf};
-
 use serde_json::{Map, Value};
 
+use super::document::Document;
 use crate::Diagnostic;
 use crate::text::shown;
-
-/// Members that say nothing about light: nobody has to ask for them. Filters are those of rasterisers.
-const SAYS_NOTHING: [&str; 8] = [
-    "name",
-    "extras",
-    "generator",
-    "copyright",
-    "minVersion",
-    "min",
-    "max",
-    "minFilter",
-];
-
-/// A document.
-#[derive(Debug)]
-pub(super) struct Document {
-    path: PathBuf,
-    root: Value,
-    /// The addresses of what was asked for.
-    asked: RefCell<HashSet<*const Value>>,
-}
 
 /// A part of a document.
 #[derive(Clone, Debug)]
 pub(super) struct Item<'a> {
-    document: &'a Document,
-    value: &'a Value,
+    pub(super) document: &'a Document,
+    pub(super) value: &'a Value,
     /// From the root: `nodes[3].mesh`; empty for the root itself.
-    path: String,
-}
-
-impl Document {
-    pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Self, Diagnostic> {
-        let root = serde_json::from_slice(json);
-        let root = root.map_err(|error| {
-            Diagnostic::file(path, format!("expected a document of JSON: {error}"))
-        })?;
-        Ok(Self {
-            path: path.to_path_buf(),
-            root,
-            asked: RefCell::default(),
-        })
-    }
-
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    pub(super) fn root(&self) -> Item<'_> {
-        Item {
-            document: self,
-            value: &self.root,
-            path: String::new(),
-        }
-    }
-
-    /// What nobody asked for: the first of each kind, places in lists aside.
-    pub(super) fn unasked(&self) -> Vec<Item<'_>> {
-        let mut unasked = Unasked {
-            asked: &self.asked.borrow(),
-            kinds: BTreeSet::new(),
-            found: Vec::new(),
-        };
-        unasked.walk(self.root());
-        unasked.found
-    }
-
-    fn ask<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
-        self.asked.borrow_mut().insert(core::ptr::from_ref(value));
-        Item {
-            document: self,
-            value,
-            path,
-        }
-    }
+    pub(super) path: String,
 }
 
 impl<'a> Item<'a> {
@@ -91,7 +18,7 @@ impl<'a> Item<'a> {
     pub(super) fn error(&self, message: &str) -> Diagnostic {
         let separator = if self.path.is_empty() { "" } else { ": " };
         let message = format!("{}{separator}{message}", self.path);
-        Diagnostic::file(&self.document.path, message)
+        Diagnostic::file(self.document.path(), message)
     }
 
     /// Says that something else was expected than what is there.
@@ -258,60 +185,16 @@ fn number(value: &Value) -> Option<f32> {
     number.is_finite().then_some(number)
 }
 
-fn joined(path: &str, member: &str) -> String {
+/// The path of a member.
+pub(super) fn joined(path: &str, member: &str) -> String {
     let separator = if path.is_empty() { "" } else { "." };
     format!("{path}{separator}{}", shown(member))
 }
 
-struct Unasked<'a, 'b> {
-    asked: &'b HashSet<*const Value>,
-    kinds: BTreeSet<String>,
-    found: Vec<Item<'a>>,
-}
-
-impl<'a> Unasked<'a, '_> {
-    fn walk(&mut self, item: Item<'a>) {
-        match item.value {
-            Value::Object(members) => {
-                for (name, value) in members {
-                    if !SAYS_NOTHING.contains(&name.as_str()) {
-                        self.look(&item, value, joined(&item.path, name));
-                    }
-                }
-            }
-            Value::Array(elements) => {
-                for (index, value) in elements.iter().enumerate() {
-                    // Numbers were read with their list.
-                    if value.is_object() {
-                        self.look(&item, value, format!("{}[{index}]", item.path));
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-
-    fn look(&mut self, parent: &Item<'a>, value: &'a Value, path: String) {
-        let item = Item {
-            document: parent.document,
-            value,
-            path,
-        };
-        if self.asked.contains(&core::ptr::from_ref(value)) {
-            self.walk(item);
-        } else if self.kinds.insert(item.kind()) {
-            self.found.push(item);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::document::tests::document;
     use super::*;
-
-    fn document(json: &str) -> Document {
-        Document::parse(Path::new("a.gltf"), json.as_bytes()).expect("JSON")
-    }
 
     #[test]
     fn parts_say_where_they_are() {
@@ -345,24 +228,5 @@ mod tests {
         let c = root.numbers_or::<3>("c", [0.0; 3]);
         let error = "a.gltf: c: expected 3 numbers";
         assert_eq!(c.map_err(message), Err(error.into()), "too few");
-    }
-
-    #[test]
-    fn what_nobody_asked_for_is_named_once_a_kind() {
-        let document = document(
-            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1}}"#,
-        );
-        for item in document.root().list("a").expect("a list") {
-            item.number_or("x", 0.0).expect("a number");
-        }
-        let unasked = document.unasked();
-        let paths: Vec<_> = unasked.iter().map(|item| item.path.as_str()).collect();
-        assert_eq!(paths, ["a[0].y", "b", "c"], "the first of each kind");
-    }
-
-    #[test]
-    fn broken_json_says_where() {
-        let error = Document::parse(Path::new("a"), b"{\n\"a\":}").expect_err("no value");
-        assert!(error.to_string().contains("line 2 column 5"), "{error}");
     }
 }

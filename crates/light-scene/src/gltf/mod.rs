@@ -3,9 +3,12 @@
 mod accessor;
 mod buffers;
 mod data_uri;
+mod document;
 mod glb;
 mod item;
 mod lights;
+#[cfg(test)]
+mod lights_tests;
 mod materials;
 mod nodes;
 mod primitives;
@@ -13,14 +16,13 @@ mod reader;
 #[cfg(test)]
 mod tests;
 mod textures;
+#[cfg(test)]
+mod textures_tests;
 
 use std::path::Path;
 
 use crate::text::read_bytes;
-use crate::{Diagnostic, Scene};
-
-/// Where the content of the files comes from that a document names.
-pub(crate) type Files<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic>;
+use crate::{Diagnostic, Files, Scene};
 
 /// Reads a glTF file, as text or binary, and what it names.
 ///
@@ -34,12 +36,12 @@ pub(crate) type Files<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic>;
 /// # Source
 /// `[GLTF]`.
 pub fn read_gltf(path: &Path) -> Result<Scene, Diagnostic> {
-    parse_gltf(path, &read_bytes(path)?, &read_bytes)
+    parse_gltf(path, &read_bytes(path)?, Files::DISK)
 }
 
 /// As [`read_gltf`], from the bytes of the file; `path` names it in messages and is where other files' names start from.
 pub(crate) fn parse_gltf(path: &Path, bytes: &[u8], files: Files<'_>) -> Result<Scene, Diagnostic> {
     let glb::Chunks { json, binary } = glb::chunks(path, bytes)?;
-    let document = item::Document::parse(path, json)?;
+    let document = document::Document::parse(path, json)?;
     reader::Reader::new(&document, binary, files)?.read()
 }

@@ -1,12 +1,12 @@
 use alloc::collections::BTreeSet;
 
-use super::Files;
 use super::accessor::Budget;
 use super::buffers::Buffers;
-use super::item::{Document, Item};
+use super::document::Document;
+use super::item::Item;
 use super::materials::Materials;
 use super::textures::Textures;
-use crate::{Diagnostic, Scene};
+use crate::{Diagnostic, Files, Scene};
 
 /// Extensions that a document may require.
 const KNOWN: [&str; 7] = [

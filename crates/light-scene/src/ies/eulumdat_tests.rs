@@ -108,3 +108,8 @@ fn eulumdat_errors_and_warnings() {
         "not as stated"
     );
 }
+
+/// A file without a fault.
+pub(crate) fn good_eulumdat() -> String {
+    ldt(1, &[0], |_, gamma| 100.0 - gamma)
+}

@@ -14,6 +14,8 @@ mod unfolding;
 mod web;
 
 pub use eulumdat::parse_eulumdat;
+#[cfg(test)]
+pub(crate) use eulumdat_tests::good_eulumdat;
 pub use lm63::parse_lm63;
 pub use luminaire::{Luminaire, LuminaireFormat};
 pub use tilt::LampTilt;
@@ -29,11 +31,19 @@ use crate::text::read_text;
 /// # Errors
 /// When the file cannot be read or is malformed: file, line and what was expected there.
 pub fn read_luminaire(path: &Path) -> Result<Luminaire, Diagnostic> {
-    let text = read_text(path)?;
+    parse_luminaire(path, &read_text(path)?)
+}
+
+/// As [`read_luminaire`], from the text of the file; `path` says by its ending which format it has, and names it in
+/// messages.
+///
+/// # Errors
+/// As [`read_luminaire`].
+pub fn parse_luminaire(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
     let extension = path.extension().unwrap_or_default();
     if extension.eq_ignore_ascii_case("ldt") {
-        parse_eulumdat(path, &text)
+        parse_eulumdat(path, text)
     } else {
-        parse_lm63(path, &text)
+        parse_lm63(path, text)
     }
 }

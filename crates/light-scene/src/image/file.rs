@@ -3,8 +3,7 @@ use std::path::Path;
 use super::display::parse_hdr;
 use super::openexr::parse_exr;
 use super::{EncodedImage, Image, write_exr, write_hdr, write_png};
-use crate::Diagnostic;
-use crate::text::read_bytes;
+use crate::{Diagnostic, Files};
 
 /// An image as it came from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,16 +21,29 @@ pub struct ImageFile {
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or an infinity: with the
 /// pixel and the channel.
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
-    let parse = match ending(path).as_str() {
-        "exr" => parse_exr,
-        "hdr" => parse_hdr,
-        "png" | "jpg" | "jpeg" => parse_display,
-        _ => {
-            let message = "expected an image: .exr, .hdr, .png or .jpg";
-            return Err(Diagnostic::file(path, message));
-        }
-    };
-    parse(path, &read_bytes(path)?)
+    read_image_from(path, Files::DISK)
+}
+
+/// As [`read_image`], with the bytes from `files`.
+pub(crate) fn read_image_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
+    if !is_image_name(path) {
+        let message = "expected an image: .exr, .hdr, .png or .jpg";
+        return Err(Diagnostic::file(path, message));
+    }
+    parse_image(path, &files.read(path)?)
+}
+
+/// As [`read_image`], from the bytes of the file; `path` says by its ending which format they have, and names them in
+/// messages.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn parse_image(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    match ending(path).as_str() {
+        "exr" => parse_exr(path, bytes),
+        "hdr" => parse_hdr(path, bytes),
+        _ => parse_display(path, bytes),
+    }
 }
 
 /// Whether [`read_image`] reads files whose name ends so.

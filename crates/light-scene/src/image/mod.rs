@@ -18,8 +18,8 @@ pub use channels::ChannelFile;
 use checked::checked;
 pub use display::{write_hdr, write_png};
 pub(crate) use encoded::EncodedImage;
-pub(crate) use file::is_image_name;
-pub use file::{ImageFile, read_image, write_image};
+pub use file::{ImageFile, parse_image, read_image, write_image};
+pub(crate) use file::{is_image_name, read_image_from};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 
 /// A linear RGB image in memory, row 0 on top.

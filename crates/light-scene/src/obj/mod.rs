@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::glam::Vec3;
-use crate::text::{Line, logical_lines, read_text, shown};
-use crate::{Diagnostic, Material, MaterialId, Scene};
+use crate::text::{Line, logical_lines, read_text, shown, text_of};
+use crate::{Diagnostic, Files, Material, MaterialId, Scene};
 
 use faces::Faces;
 
@@ -22,19 +22,16 @@ use faces::Faces;
 /// When a file cannot be read, a line is broken, an index points nowhere, a material is not defined, or there is no
 /// face: with file, line and what was expected.
 pub fn read_obj(path: &Path) -> Result<Scene, Diagnostic> {
-    let text = read_text(path)?;
-    parse_obj(path, &text, &|mtl| read_text(mtl))
+    parse_obj(path, &read_text(path)?, Files::DISK)
 }
 
-/// Reads OBJ text; `path` names it in messages and is where the names of libraries start from, `library` gives a
-/// library's text.
-pub(crate) fn parse_obj(
-    path: &Path,
-    text: &str,
-    library: &dyn Fn(&Path) -> Result<String, Diagnostic>,
-) -> Result<Scene, Diagnostic> {
+/// As [`read_obj`], from the text of the file; `path` names it in messages and is where the names of libraries start from.
+///
+/// # Errors
+/// As [`read_obj`].
+pub fn parse_obj(path: &Path, text: &str, files: Files<'_>) -> Result<Scene, Diagnostic> {
     let mut reader = Reader {
-        library,
+        files,
         scene: Scene::default(),
         materials: HashMap::new(),
         libraries: BTreeSet::new(),
@@ -52,7 +49,7 @@ pub(crate) fn parse_obj(
 }
 
 struct Reader<'a> {
-    library: &'a dyn Fn(&Path) -> Result<String, Diagnostic>,
+    files: Files<'a>,
     scene: Scene,
     materials: HashMap<String, MaterialId>,
     libraries: BTreeSet<String>,
@@ -136,7 +133,7 @@ impl Reader<'_> {
     /// One name that may hold blanks or, where no such file is, several names.
     fn load_libraries(&mut self, line: &mut Line<'_>) -> Result<(), Diagnostic> {
         let names = line.rest("a file name")?;
-        let is_file = (self.library)(&library_path(&names, line)).is_ok();
+        let is_file = self.files.read(&library_path(&names, line)).is_ok();
         if is_file || !names.contains(' ') {
             return self.load_library(&names, line);
         }
@@ -149,14 +146,14 @@ impl Reader<'_> {
             return Ok(());
         }
         let file = library_path(name, line);
-        let text = (self.library)(&file).map_err(|error| {
+        let bytes = self.files.read(&file).map_err(|error| {
             line.diagnostic(format!(
                 "material library `{}`: {}",
                 shown(name),
                 error.message
             ))
         })?;
-        let known = mtl::parse_mtl(&file, &text, &mut self.scene)?;
+        let known = mtl::parse_mtl(&file, &text_of(&bytes), self.files, &mut self.scene)?;
         self.materials.extend(known);
         self.libraries.insert(name.to_owned());
         Ok(())

@@ -5,17 +5,18 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use crate::glam::{Vec2, Vec3};
-use crate::image::is_image_name;
+use crate::image::{is_image_name, read_image_from};
 use crate::text::{Line, logical_lines, shown};
 use crate::{
-    Color, ColorImage, Diagnostic, Emission, EmissionSides, ImageId, Material, MaterialId, Scene,
-    Surface, read_image,
+    Color, ColorImage, Diagnostic, Emission, EmissionSides, Files, ImageId, Material, MaterialId,
+    Scene, Surface,
 };
 
 /// Adds the materials of a library to the scene; what comes back is their names and ids.
 pub(super) fn parse_mtl(
     path: &Path,
     text: &str,
+    files: Files<'_>,
     scene: &mut Scene,
 ) -> Result<Vec<(String, MaterialId)>, Diagnostic> {
     let mut described: Vec<Description> = Vec::new();
@@ -35,7 +36,7 @@ pub(super) fn parse_mtl(
             return Err(line.diagnostic(message));
         };
         if let "map_Kd" | "map_Ke" = keyword {
-            let image = textures.load(keyword, &mut line, scene)?;
+            let image = textures.load(keyword, &mut line, files, scene)?;
             match keyword {
                 "map_Kd" => material.diffuse_map = image,
                 _ => material.emitted_map = image,
@@ -169,6 +170,7 @@ impl Textures {
         &mut self,
         keyword: &str,
         line: &mut Line<'_>,
+        files: Files<'_>,
         scene: &mut Scene,
     ) -> Result<Option<ImageId>, Diagnostic> {
         let mut name = line.rest("a file name")?;
@@ -187,7 +189,8 @@ impl Textures {
             scene.warnings.push(line.diagnostic(message));
             return Ok(None);
         }
-        let file = read_image(&file).map_err(|error| line.diagnostic(error.to_string()))?;
+        let file =
+            read_image_from(&file, files).map_err(|error| line.diagnostic(error.to_string()))?;
         scene.warnings.extend(file.warning);
         let image = scene.add_image(file.image);
         self.by_name.insert(name, image);

@@ -7,10 +7,10 @@ const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 fn parse(obj: &str, mtl: &str) -> Result<Scene, String> {
     let library = |path: &Path| match path.to_str() {
-        Some("dir/a.mtl" | "dir/a b.mtl") => Ok(mtl.to_owned()),
+        Some("dir/a.mtl" | "dir/a b.mtl") => Ok(mtl.as_bytes().to_vec()),
         _ => Err(Diagnostic::file(path, "cannot be read: no such file")),
     };
-    parse_obj(Path::new("dir/a.obj"), obj, &library).map_err(|error| error.to_string())
+    parse_obj(Path::new("dir/a.obj"), obj, Files::new(&library)).map_err(|error| error.to_string())
 }
 
 fn error(obj: &str, mtl: &str) -> String {
@@ -223,8 +223,8 @@ fn missing_file_is_named() {
 fn agrees_with_tobj() {
     let obj = include_str!("../../assets/cornell_box.obj");
     let mtl = include_str!("../../assets/cornell_box.mtl");
-    let library = |_: &Path| Ok(mtl.to_owned());
-    let ours = parse_obj(Path::new("box.obj"), obj, &library).expect("a scene");
+    let library = |_: &Path| Ok(mtl.into());
+    let ours = parse_obj(Path::new("box.obj"), obj, Files::new(&library)).expect("a scene");
     let (models, materials) =
         tobj::load_obj_buf(&mut obj.as_bytes(), &tobj::GPU_LOAD_OPTIONS, |_| {
             tobj::load_mtl_buf(&mut mtl.as_bytes())

@@ -4,7 +4,8 @@ use super::state::{At, Reader, Typed};
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
 use crate::glam::{Affine3A, Mat4, Vec3};
-use crate::text::{read_text, shown};
+use crate::gunzip::gunzipped;
+use crate::text::{shown, text_of};
 
 /// Files that include each other deeper than this include themselves.
 const DEEPEST: usize = 32;
@@ -23,9 +24,10 @@ impl Reader {
                     return Err(tokens.diagnostic("expected a file that does not include itself"));
                 }
                 let file = path.with_file_name(name);
-                let text =
-                    read_text(&file).map_err(|error| tokens.diagnostic(error.to_string()))?;
-                self.file(&file, &text, depth + 1)?;
+                let refuse = |error: Diagnostic| tokens.diagnostic(error.to_string());
+                let bytes = self.files.read(&file).map_err(refuse)?;
+                let plain = gunzipped(&file, &bytes).map_err(refuse)?;
+                self.file(&file, &text_of(&plain), depth + 1)?;
             } else {
                 self.directive(path, &mut tokens, directive)?;
             }

@@ -9,7 +9,8 @@ use lights::sources::{
 use super::state::{AreaLight, At, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Quat, Vec3};
-use crate::{Color, Diagnostic, read_image};
+use crate::image::read_image_from;
+use crate::{Color, Diagnostic};
 
 impl Reader {
     pub(super) fn light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -23,11 +24,7 @@ impl Reader {
         let from = place.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
         let to = place.transform_point3(parameters.vec3_or("to", Vec3::Z));
         let scale = parameters.number_or("scale", 1.0);
-        // A light without a surface lies in the medium outside.
-        let media = MediumInterface {
-            inside: None,
-            ..self.state.media
-        };
+        let media = self.light_media();
         let light = match kind.as_str() {
             "point" => LightDesc::Point(PointLightDesc {
                 position: from,
@@ -66,6 +63,7 @@ impl Reader {
                 amount: IntensityAmount::Radiometric(scale),
                 media,
             }),
+            "goniometric" => self.goniometric(typed, place, scale)?,
             "infinite" => self.infinite(typed, place, scale)?,
             other => {
                 let what = format!("LightSource \"{other}\"");
@@ -75,6 +73,14 @@ impl Reader {
         };
         self.scene.lights.push(light);
         Ok(())
+    }
+
+    /// A light without a surface lies in the medium outside.
+    pub(super) fn light_media(&self) -> MediumInterface {
+        MediumInterface {
+            inside: None,
+            ..self.state.media
+        }
     }
 
     fn infinite(
@@ -149,11 +155,14 @@ impl Reader {
         emission.unwrap_or(Vec3::ONE)
     }
 
-    fn light_image(&mut self, typed: &Typed<'_>) -> Result<lights::sources::Image, Diagnostic> {
+    pub(super) fn light_image(
+        &mut self,
+        typed: &Typed<'_>,
+    ) -> Result<lights::sources::Image, Diagnostic> {
         let At { path, .. } = typed.at;
         let name = typed.parameters.string("filename");
         let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-        let file = read_image(&path.with_file_name(name));
+        let file = read_image_from(&path.with_file_name(name), self.files);
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
         let image = file.image.to_light(Vec3::ONE);
@@ -177,7 +186,7 @@ fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
     })
 }
 
-fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
+pub(super) fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
     let rgb = typed.parameters.emission(name).unwrap_or(Vec3::ONE);
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }

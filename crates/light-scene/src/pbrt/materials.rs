@@ -1,12 +1,14 @@
 use super::state::{Reader, Typed};
 use crate::glam::{Vec2, Vec3};
+use crate::text::shown;
 use crate::{Color, Diagnostic, Material, MaterialId, Surface};
 
 /// Metals by the names of their spectra: index of refraction and absorption for red, green and blue light.
-const METALS: [(&str, [f32; 3], [f32; 3]); 4] = [
+const METALS: [(&str, [f32; 3], [f32; 3]); 5] = [
     ("metal-Ag", [0.155, 0.117, 0.138], [4.828, 3.122, 2.147]),
     ("metal-Al", [1.657, 0.880, 0.521], [9.224, 6.270, 4.837]),
     ("metal-Au", [0.143, 0.375, 1.442], [3.983, 2.386, 1.603]),
+    ("metal-CuZn", [0.444, 0.527, 1.094], [3.695, 2.765, 1.829]),
     ("metal-Cu", [0.200, 0.924, 1.102], [3.912, 2.452, 2.142]),
 ];
 
@@ -18,6 +20,9 @@ impl Reader {
         typed: &Typed<'_>,
     ) -> Result<MaterialId, Diagnostic> {
         let parameters = &typed.parameters;
+        if kind == "mix" {
+            return self.mixed(typed);
+        }
         let eta = |default: f32| match parameters.string("eta") {
             Some(glass) => named_glass(glass).unwrap_or(default),
             None => parameters.number_or("eta", default),
@@ -58,6 +63,31 @@ impl Reader {
         Ok(self.scene.add_material(Material::new(kind, surface)))
     }
 
+    /// The larger part of a mixture of two named materials.
+    fn mixed(&mut self, typed: &Typed<'_>) -> Result<MaterialId, Diagnostic> {
+        let [first, second] = typed.parameters.strings("materials") else {
+            let message = "expected \"string materials\" with two names";
+            return Err(typed.at.diagnostic(message));
+        };
+        // The amount is that of the second one.
+        let chosen = match self.color(typed, "amount", 0.5) {
+            Color::Constant(amount) if amount.x < 0.5 => first,
+            Color::Constant(_) => second,
+            Color::Image(_) => first,
+        };
+        let known = self.materials.get(chosen).copied();
+        let message = || format!("expected a named material, found \"{}\"", shown(chosen));
+        let known = known.ok_or_else(|| typed.at.diagnostic(message()))?;
+        let what = format!("material \"mix\" of \"{first}\" and \"{second}\"");
+        self.warn(
+            typed.at,
+            &what,
+            &format!("was taken as \"{}\"", shown(chosen)),
+        );
+        self.warn_unused(typed.at, "material \"mix\"", &typed.parameters);
+        Ok(known)
+    }
+
     fn conductor(&mut self, typed: &Typed<'_>) -> Surface {
         let parameters = &typed.parameters;
         let alpha = alpha(typed);
@@ -82,7 +112,7 @@ impl Reader {
         }
         let name = names[0].unwrap_or("metal-Cu-eta");
         let metal = METALS.iter().find(|(metal, ..)| name.starts_with(metal));
-        let (_, eta, k) = metal.unwrap_or(&METALS[3]);
+        let (_, eta, k) = metal.unwrap_or(&METALS[4]);
         if metal.is_none() {
             let what = format!("the metal \"{name}\"");
             self.warn(typed.at, &what, "is not known and was taken as copper");

@@ -2,6 +2,7 @@
 
 mod cloud;
 mod directives;
+mod goniometric;
 mod lights;
 mod materials;
 mod media;
@@ -17,11 +18,11 @@ mod view;
 
 use std::path::Path;
 
-use crate::text::read_text;
-use crate::{Diagnostic, Scene};
+use crate::gunzip::gunzipped;
+use crate::text::{read_bytes, text_of};
+use crate::{Diagnostic, Files, Scene};
 
-#[cfg(test)]
-pub(crate) use ply::parse_ply;
+pub use ply::parse_ply;
 use state::Reader;
 
 /// Reads a pbrt-v4 file and what it includes.
@@ -33,12 +34,18 @@ use state::Reader;
 /// When a file cannot be read, is no pbrt file, or a directive lacks what it needs: with file, line and what was
 /// expected.
 pub fn read_pbrt(path: &Path) -> Result<Scene, Diagnostic> {
-    parse_pbrt(path, &read_text(path)?)
+    let bytes = read_bytes(path)?;
+    parse_pbrt(path, &text_of(&gunzipped(path, &bytes)?), Files::DISK)
 }
 
 /// As [`read_pbrt`], from the text of the file; `path` names it in messages and is where other files' names start from.
-pub(crate) fn parse_pbrt(path: &Path, text: &str) -> Result<Scene, Diagnostic> {
+pub(crate) fn parse_pbrt(
+    path: &Path,
+    text: &str,
+    files: Files<'static>,
+) -> Result<Scene, Diagnostic> {
     let mut reader = Reader::default();
+    reader.files = files;
     reader.file(path, text, 0)?;
     reader.finish(path)
 }

@@ -92,6 +92,11 @@ impl Parameters {
         self.find(name)?.words.first().map(String::as_str)
     }
 
+    /// All words.
+    pub(super) fn strings(&self, name: &str) -> &[String] {
+        self.find(name).map_or(&[], |parameter| &parameter.words)
+    }
+
     pub(super) fn is_true(&self, name: &str) -> bool {
         self.string(name) == Some("true")
     }

@@ -31,7 +31,8 @@ impl Reader {
             "plymesh" => {
                 let name = typed.parameters.string("filename");
                 let name = name.ok_or_else(|| at.diagnostic("expected \"string filename\""))?;
-                read_ply(&at.path.with_file_name(name))?
+                read_ply(&at.path.with_file_name(name), self.files)
+                    .map_err(|error| at.diagnostic(error.to_string()))?
             }
             "sphere" => self.rounded(at, kind, sphere(typed)),
             "disk" => self.rounded(at, kind, disk(typed)),

@@ -9,11 +9,14 @@ use super::parameters::Parameters;
 use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
-use crate::{Camera, Color, Crop, Diagnostic, ImageId, Material, MaterialId, Mesh, Place, Scene};
+use crate::{
+    Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Mesh, Place, Scene,
+};
 
 /// What the directives so far have built, and the state that the next one acts on.
 #[derive(Debug, Default)]
 pub(super) struct Reader {
+    pub(super) files: Files<'static>,
     pub(super) scene: Scene,
     pub(super) state: State,
     pub(super) saved: Vec<State>,

@@ -118,6 +118,32 @@ fn alpha_is_the_share_that_is_there() {
 }
 
 #[test]
+fn mixtures_are_their_larger_part() {
+    let chosen = |amount: &str| {
+        let text = format!(
+            "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \
+             MakeNamedMaterial \"b\" \"string type\" \"conductor\" \
+             Material \"mix\" \"string materials\" [\"a\" \"b\"] {amount} Shape \"disk\""
+        );
+        let scene = read("pbrt_mix", &text).expect("a scene");
+        let name = scene.material(scene.meshes[0].material).name.clone();
+        (name, scene.warnings[0].message.clone())
+    };
+    let of = "material \"mix\" of \"a\" and \"b\" was taken as";
+    let (name, warning) = chosen("\"float amount\" 0.2");
+    assert_eq!(name, "diffuse", "mostly the first");
+    assert_eq!(warning, format!("{of} \"a\""), "said so");
+    assert_eq!(
+        chosen("\"float amount\" 0.8").0,
+        "conductor",
+        "mostly the second"
+    );
+    let error = read("pbrt_mix_bad", "WorldBegin Material \"mix\"").expect_err("no names");
+    let expected = "a.pbrt:1: expected \"string materials\" with two names";
+    assert_eq!(error, expected, "two names");
+}
+
+#[test]
 fn fronts_follow_pbrt() {
     let front = |text: &str| {
         let all =
@@ -264,6 +290,9 @@ fn ply_in_text_and_binary() {
         let error = parse_ply(path, &bytes[..bytes.len() - 1]).expect_err("cut");
         assert!(error.message.starts_with("expected more data"), "{error}");
     }
+    let compressed = crate::gunzip::tests::gzipped(text.as_bytes());
+    let mesh = parse_ply(path, &compressed).expect("a mesh");
+    assert_eq!(mesh, expected, "gzip");
     let broken = [
         ("x\n", "a.ply:1: expected `ply`"),
         ("ply\n", "a.ply:2: expected `end_header`"),

@@ -3,7 +3,8 @@ use std::path::Path;
 use super::state::{At, Reader, Typed};
 use super::tokens::Tokens;
 use crate::glam::Vec3;
-use crate::{Color, ColorImage, Diagnostic, read_image};
+use crate::image::read_image_from;
+use crate::{Color, ColorImage, Diagnostic};
 
 impl Reader {
     /// `Texture "name" "type" "class"` and its parameters.
@@ -87,7 +88,8 @@ impl Reader {
         let image = match self.images.get(&path) {
             Some(&known) => known,
             None => {
-                let file = read_image(&path).map_err(|e| at.diagnostic(e.to_string()))?;
+                let file =
+                    read_image_from(&path, self.files).map_err(|e| at.diagnostic(e.to_string()))?;
                 self.scene.warnings.extend(file.warning);
                 let image = self.scene.add_image(file.image);
                 self.images.insert(path, image);

@@ -113,12 +113,13 @@ mod tests {
     use std::path::Path;
 
     use super::super::parse_pbrt;
-    use crate::Crop;
+    use crate::{Crop, Files};
 
     fn crop(film: &str) -> Result<Option<Crop>, String> {
         let size = "\"integer xresolution\" 100 \"integer yresolution\" 50";
         let text = format!("Camera \"perspective\" Film \"rgb\" {size} {film} WorldBegin");
-        let scene = parse_pbrt(Path::new("a"), &text).map_err(|error| error.to_string())?;
+        let scene =
+            parse_pbrt(Path::new("a"), &text, Files::NONE).map_err(|error| error.to_string())?;
         assert_eq!(scene.warnings, [], "all understood");
         Ok(scene.camera.expect("a camera").crop)
     }
@@ -147,7 +148,7 @@ mod tests {
     fn other_filters_are_named() {
         let warnings = |filter: &str| {
             let text = format!("PixelFilter {filter} WorldBegin");
-            let scene = parse_pbrt(Path::new("a"), &text).expect("a scene");
+            let scene = parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene");
             let warnings = scene.warnings.into_iter();
             warnings.map(|w| w.message).collect::<Vec<_>>()
         };

@@ -1,0 +1,118 @@
+//! PLY meshes: text, and binary of both byte orders, compressed by gzip or not.
+
+mod body;
+mod header;
+
+use std::path::Path;
+
+use self::body::{Body, index};
+use self::header::{Element, Format, Property};
+use crate::glam::{Vec2, Vec3};
+use crate::gunzip::gunzipped;
+use crate::text::shown;
+use crate::{Diagnostic, Files, MaterialId, Mesh};
+
+/// Reads a PLY file's vertices and faces.
+pub(super) fn read_ply(path: &Path, files: Files<'_>) -> Result<Mesh, Diagnostic> {
+    parse_ply(path, &files.read(path)?)
+}
+
+/// The vertices and faces in the bytes of a PLY file, compressed by gzip or not; `path` names it in messages.
+///
+/// # Errors
+/// When the file is broken, or a face names a vertex that is not there: with line or byte, and what was expected.
+pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
+    let bytes = &*gunzipped(path, bytes)?;
+    let mut body = Body {
+        path,
+        bytes,
+        at: 0,
+        format: Format::Text,
+    };
+    let elements = body.header()?;
+    let mut mesh = Mesh::new("", MaterialId(0));
+    // An element without properties takes no data, however many it says there are.
+    for element in elements.iter().filter(|e| !e.properties.is_empty()) {
+        for _ in 0..element.count {
+            match element.name.as_str() {
+                "vertex" => body.vertex(element, &mut mesh)?,
+                "face" => body.face(element, &mut mesh)?,
+                _ => element
+                    .properties
+                    .iter()
+                    .try_for_each(|p| body.property(p).map(drop))?,
+            }
+        }
+    }
+    Ok(mesh)
+}
+
+impl Body<'_> {
+    fn vertex(&mut self, element: &Element, mesh: &mut Mesh) -> Result<(), Diagnostic> {
+        let (mut position, mut normal, mut uv) = (Vec3::ZERO, None, None);
+        for property in &element.properties {
+            let value = self.property(property)?;
+            let Property::One(name, _) = property else {
+                continue;
+            };
+            let value = single(value.first().copied().unwrap_or_default());
+            if !value.is_finite() {
+                return Err(self.error(format!("expected a finite `{}`", shown(name))));
+            }
+            match name.as_str() {
+                "x" => position.x = value,
+                "y" => position.y = value,
+                "z" => position.z = value,
+                "nx" => normal.get_or_insert(Vec3::ZERO).x = value,
+                "ny" => normal.get_or_insert(Vec3::ZERO).y = value,
+                "nz" => normal.get_or_insert(Vec3::ZERO).z = value,
+                "u" | "s" | "texture_u" | "texture_s" => uv.get_or_insert(Vec2::ZERO).x = value,
+                "v" | "t" | "texture_v" | "texture_t" => uv.get_or_insert(Vec2::ZERO).y = value,
+                _ => {}
+            }
+        }
+        mesh.positions.push(position);
+        if let Some(normal) = normal {
+            mesh.normals.get_or_insert_with(Vec::new).push(normal);
+        }
+        if let Some(uv) = uv {
+            mesh.uvs.get_or_insert_with(Vec::new).push(uv);
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, element: &Element, mesh: &mut Mesh) -> Result<(), Diagnostic> {
+        for property in &element.properties {
+            let values = self.property(property)?;
+            let Property::List(name, ..) = property else {
+                continue;
+            };
+            if !matches!(name.as_str(), "vertex_indices" | "vertex_index") {
+                continue;
+            }
+            let mut corners = Vec::with_capacity(values.len());
+            for value in values {
+                let count = mesh.positions.len();
+                let index = index(value).filter(|&i| (i as usize) < count);
+                let message = || format!("vertex {value} of {count} does not exist");
+                corners.push(index.ok_or_else(|| self.error(message()))?);
+            }
+            if corners.len() < 3 {
+                return Err(self.error("expected at least three corners of a face"));
+            }
+            let fan = corners[1..]
+                .windows(2)
+                .map(|edge| [corners[0], edge[0], edge[1]]);
+            mesh.indices.extend(fan);
+        }
+        Ok(())
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "checked to be finite by the caller"
+)]
+const fn single(value: f64) -> f32 {
+    value as f32
+}
