@@ -27,6 +27,16 @@ pub enum LightBvhError {
     },
     /// There are more lights than the tree can address.
     TooManyLights,
+    /// A refit was given another number of lights than the tree was built for.
+    OtherLights {
+        /// How many the tree was built for.
+        expected: usize,
+    },
+    /// A refit cannot place a light: it had no power, or was at infinity, when the tree was built; or it is at infinity now and was not.
+    NoPlace {
+        /// Which light.
+        light: LightId,
+    },
 }
 
 impl fmt::Display for LightBvhError {
@@ -36,6 +46,14 @@ impl fmt::Display for LightBvhError {
             Self::BadInfiniteBounds { light, reason } => write!(f, "light {}: {reason}", light.0),
             Self::TooFar { light } => write!(f, "light {}: a coordinate is beyond 1e36", light.0),
             Self::TooManyLights => f.write_str("more lights than the tree can address"),
+            Self::OtherLights { expected } => {
+                write!(f, "expected {expected} lights, as when the tree was built")
+            }
+            Self::NoPlace { light } => write!(
+                f,
+                "light {}: no place in the tree that fits; build it anew",
+                light.0
+            ),
         }
     }
 }
@@ -45,7 +63,10 @@ impl core::error::Error for LightBvhError {
         match self {
             Self::BadBounds { reason, .. } => Some(reason),
             Self::BadInfiniteBounds { reason, .. } => Some(reason),
-            Self::TooFar { .. } | Self::TooManyLights => None,
+            Self::TooFar { .. }
+            | Self::TooManyLights
+            | Self::OtherLights { .. }
+            | Self::NoPlace { .. } => None,
         }
     }
 }

@@ -1,4 +1,9 @@
-/// Runs both, on two threads where the feature `rayon` allows it and `is_worth_it`.
+use alloc::vec::Vec;
+
+#[cfg(feature = "rayon")]
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+/// Runs both, on two threads where the feature `rayon` allows it and `work` is worth it.
 pub(crate) fn join<A: Send, B: Send>(
     work: usize,
     a: impl FnOnce() -> A + Send,
@@ -14,4 +19,12 @@ pub(crate) fn join<A: Send, B: Send>(
     }
     let _ = work;
     (a(), b())
+}
+
+/// What `each` makes of every one of `jobs`, in their order, on all threads that the feature `rayon` allows.
+pub(crate) fn map<J: Send, T: Send>(jobs: Vec<J>, each: impl Fn(J) -> T + Send + Sync) -> Vec<T> {
+    #[cfg(feature = "rayon")]
+    return jobs.into_par_iter().map(each).collect();
+    #[cfg(not(feature = "rayon"))]
+    jobs.into_iter().map(each).collect()
 }

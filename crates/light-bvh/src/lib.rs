@@ -18,7 +18,7 @@ mod wide;
 pub use error::LightBvhError;
 pub use validate::validate;
 #[cfg(feature = "alloc")]
-pub use wide::LightBvh;
+pub use wide::{BuildMode, DarkLights, LightBvh, LightBvhOptions};
 pub use wide::{
     CutDetail, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH, MediumReceiver, Receiver,
     SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,

@@ -7,17 +7,20 @@ use crate::LightBvhError;
 /// # Errors
 /// [`LightBvhError`] names the first light that cannot.
 pub fn validate(lights: &[LightExtent]) -> Result<(), LightBvhError> {
-    for (light, extent) in (0..).map(LightId).zip(lights) {
-        match extent {
-            LightExtent::Bounded(bounds) => bounds
-                .validate()
-                .map_err(|reason| LightBvhError::BadBounds { light, reason })?,
-            LightExtent::Infinite(bounds) => bounds
-                .validate()
-                .map_err(|reason| LightBvhError::BadInfiniteBounds { light, reason })?,
-        }
+    let mut all = (0..).map(LightId).zip(lights);
+    all.try_for_each(|(light, extent)| validate_light(light, extent))
+}
+
+/// Whether `extent` can be that of a light.
+pub(crate) fn validate_light(light: LightId, extent: &LightExtent) -> Result<(), LightBvhError> {
+    match extent {
+        LightExtent::Bounded(bounds) => bounds
+            .validate()
+            .map_err(|reason| LightBvhError::BadBounds { light, reason }),
+        LightExtent::Infinite(bounds) => bounds
+            .validate()
+            .map_err(|reason| LightBvhError::BadInfiniteBounds { light, reason }),
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! The trees do not depend on the number of threads that build it.
 #![cfg(feature = "rayon")]
 
-use light_bvh::LightBvh;
 use light_bvh::light_bounds::light_math::Aabb;
 use light_bvh::light_bounds::{LightBounds, LightExtent};
 use light_bvh::reference::ReferenceLightBvh;
+use light_bvh::{LightBvh, LightBvhOptions};
 use light_testkit::Rng;
 use rayon::ThreadPoolBuilder;
 
@@ -43,9 +43,12 @@ fn one_thread_and_four_build_the_same_reference_tree() {
 #[test]
 fn one_thread_and_four_build_the_same_default_tree() {
     let lights = lights();
-    let [one, four] = on_one_and_four(|| LightBvh::build(&lights).expect("valid lights"));
-    let (one, four) = (one.view(), four.view());
-    assert_eq!(one.nodes(), four.nodes(), "nodes");
-    assert_eq!(one.order(), four.order(), "lights");
-    assert_eq!(one.slots(), four.slots(), "ways back");
+    for options in [LightBvhOptions::QUALITY, LightBvhOptions::FAST] {
+        let build = || LightBvh::build_with(&lights, &options).expect("valid lights");
+        let [one, four] = on_one_and_four(build);
+        let (one, four) = (one.view(), four.view());
+        assert_eq!(one.nodes(), four.nodes(), "nodes");
+        assert_eq!(one.order(), four.order(), "lights");
+        assert_eq!(one.slots(), four.slots(), "ways back");
+    }
 }

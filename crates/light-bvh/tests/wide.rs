@@ -2,20 +2,18 @@
 
 #![cfg(feature = "alloc")]
 
-use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
-use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
-use light_bvh::{LightBvh, LightBvhError, MAX_DEPTH};
+use light_bvh::light_bounds::light_math::glam::Vec3;
+use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext};
+use light_bvh::{LightBvh, LightBvhError, LightBvhOptions, MAX_DEPTH};
 
-fn lamp(at: Vec3, phi: f32) -> LightExtent {
-    LightExtent::Bounded(LightBounds {
-        bounds: Aabb::from_point(at),
-        w: Vec3::NEG_Z,
-        phi,
-        cos_theta_o: 1.0,
-        cos_theta_e: 0.0,
-        two_sided: false,
-    })
-}
+mod support;
+use support::lamp;
+
+const MODES: [LightBvhOptions; 3] = [
+    LightBvhOptions::QUALITY,
+    LightBvhOptions::FAST,
+    LightBvhOptions::DYNAMIC,
+];
 
 fn nasty_sets() -> Vec<Vec<LightExtent>> {
     let n = 3000;
@@ -39,8 +37,9 @@ fn nasty_sets() -> Vec<Vec<LightExtent>> {
 
 #[test]
 fn depth_is_bounded_and_every_light_is_in_the_tree() {
-    for (i, lights) in nasty_sets().iter().enumerate() {
-        let tree = LightBvh::build(lights).expect("valid lights");
+    let sets = nasty_sets();
+    for (i, (lights, options)) in sets.iter().flat_map(|s| MODES.map(|o| (s, o))).enumerate() {
+        let tree = LightBvh::build_with(lights, &options).expect("valid lights");
         assert!(tree.depth() <= MAX_DEPTH, "set {i}: {}", tree.depth());
         let medium = LightSampleContext::medium(Vec3::new(0.5, 0.25, -1.0));
         let sum: f64 = (0..3000)
@@ -53,7 +52,8 @@ fn depth_is_bounded_and_every_light_is_in_the_tree() {
 #[test]
 fn the_same_lights_give_the_same_tree() {
     for lights in nasty_sets() {
-        let (a, b) = (LightBvh::build(&lights), LightBvh::build(&lights));
+        let build = || LightBvh::build_with(&lights, &LightBvhOptions::FAST);
+        let (a, b) = (build(), build());
         let (a, b) = (a.expect("valid lights"), b.expect("valid lights"));
         assert_eq!(a.view().nodes(), b.view().nodes(), "nodes");
         assert_eq!(a.view().order(), b.view().order(), "order");

@@ -3,7 +3,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
-use lights::bvh::LightBvhError;
+use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
@@ -23,6 +23,8 @@ pub enum SamplerKind {
     BvhReference,
     /// The default light hierarchy.
     Bvh,
+    /// The default light hierarchy, built in less time.
+    BvhMorton,
 }
 
 /// A light sampler of any kind, chosen at run time without a virtual call.
@@ -56,12 +58,13 @@ impl SamplerKind {
     pub const DEFAULT: Self = Self::Bvh;
 
     /// All kinds.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Uniform,
         Self::Power,
         Self::Exhaustive,
         Self::BvhReference,
         Self::Bvh,
+        Self::BvhMorton,
     ];
 
     /// Those that do not look at every light for each choice.
@@ -76,6 +79,7 @@ impl SamplerKind {
             Self::Exhaustive => "exhaustive",
             Self::BvhReference => "bvh-reference",
             Self::Bvh => "bvh",
+            Self::BvhMorton => "bvh-morton",
         }
     }
 }
@@ -112,6 +116,9 @@ impl AnyLightSampler {
                 Self::BvhReference(ReferenceBvhLightSampler::new(extents)?)
             }
             SamplerKind::Bvh => Self::Bvh(BvhLightSampler::new(extents)?),
+            SamplerKind::BvhMorton => {
+                Self::Bvh(BvhLightSampler::with(extents, &LightBvhOptions::FAST)?)
+            }
         })
     }
 

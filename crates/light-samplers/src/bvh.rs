@@ -1,5 +1,5 @@
 use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh, LightBvhError};
+use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::LightSampler;
 use crate::bvh_cut::BvhLightCut;
@@ -22,10 +22,28 @@ impl BvhLightSampler {
     /// # Errors
     /// As for [`LightBvh::build`].
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
+        Self::with(lights, &LightBvhOptions::default())
+    }
+
+    /// A sampler whose tree is built as `options` say.
+    ///
+    /// # Errors
+    /// As for [`LightBvh::build`].
+    pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         Ok(Self {
-            tree: LightBvh::build(lights)?,
+            tree: LightBvh::build_with(lights, options)?,
             sky: Sky::new(lights),
         })
+    }
+
+    /// Follows lights that moved, turned, or changed their power, in time linear in them; the lights at infinity are taken anew.
+    ///
+    /// # Errors
+    /// As for [`LightBvh::refit`]; the sampler is then as it was.
+    pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        self.tree.refit(lights)?;
+        self.sky = Sky::new(lights);
+        Ok(())
     }
 
     /// The tree of the lights that are somewhere.

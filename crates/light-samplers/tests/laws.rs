@@ -1,10 +1,12 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
-use light_samplers::light_bounds::{Gloss, LightId, LightSampleContext, SampledLight};
+use light_bvh::LightBvhOptions;
+use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
+use light_testkit::LightSet;
 
 light_testkit::sampler_laws! {
     /// Every light alike.
@@ -30,6 +32,26 @@ light_testkit::sampler_laws! {
     /// The default hierarchy.
     mod bvh {
         |set| BvhLightSampler::new(&set.extents()).expect("valid bounds")
+    }
+
+    /// The default hierarchy, built along a space-filling curve.
+    mod bvh_morton {
+        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::FAST).expect("valid bounds")
+    }
+
+    /// The default hierarchy with places for lights that are off.
+    mod bvh_dynamic {
+        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::DYNAMIC).expect("valid bounds")
+    }
+
+    /// The default hierarchy, after all lights changed places.
+    mod bvh_refitted {
+        |set| {
+            let mut sampler = BvhLightSampler::with(&exchanged(set), &LightBvhOptions::DYNAMIC)
+                .expect("valid bounds");
+            sampler.refit(&set.extents()).expect("as many lights");
+            sampler
+        }
     }
 
     /// The default hierarchy, asked for surfaces that transmit light.
@@ -63,6 +85,17 @@ light_testkit::sampler_laws! {
     mod bvh_cut {
         |set| OfMany(BvhLightSampler::new(&set.extents()).expect("valid bounds"))
     }
+}
+
+/// The lights of a set, those that are somewhere in reverse order.
+fn exchanged(set: &LightSet) -> Vec<LightExtent> {
+    let extents = set.extents();
+    let mut bounded = extents.iter().rev().filter(|e| e.bounded().is_some());
+    let other = |e: &LightExtent| match e {
+        LightExtent::Bounded(_) => *bounded.next().expect("as many"),
+        LightExtent::Infinite(_) => *e,
+    };
+    extents.iter().map(other).collect()
 }
 
 /// One of several choices.

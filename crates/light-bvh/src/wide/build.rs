@@ -1,213 +1,183 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::LightBounds;
+use light_bounds::LightExtent;
 
+use super::clusters::{clusters, ends};
+use super::group::{Children, Group, is_tight};
+use super::lights::Lights;
 use super::moments::Moments;
+use super::morton::{self, Range};
 use super::node::{WIDTH, WideNode};
-use super::prim::{Prim, Run};
-use super::split::{centers, halve, split};
+use super::options::{BuildMode, LightBvhOptions};
+use super::run::{Run, Sources};
+use super::scan::Scan;
+use super::subtree::Subtree;
 use super::tree::MAX_DEPTH;
+use crate::join::map;
 
-/// Lights below which a subtree is built by one thread.
-#[cfg(feature = "rayon")]
-const FORK: usize = 4096;
+/// Lights below which a subtree is made in one go.
+const PLOT: usize = 2048;
 
-/// A subtree in the making: its root apart from the nodes below it, which refer to each other by their place in `below`.
-pub(crate) struct Subtree {
-    pub(crate) root: WideNode,
-    pub(crate) below: Vec<WideNode>,
-    pub(crate) moments: Moments,
+/// A group that may be so large that its parts are built side by side.
+pub(super) trait Crowd: Group {
+    /// Builds the whole subtree in one go.
+    fn plant(self, plot: Plot<'_>) -> Subtree;
 }
 
-/// What all steps of a build share.
-pub(crate) struct Build<'a, F: Fn(u32) -> &'a LightBounds + Sync> {
-    /// The bounds of a light by its id.
-    pub(crate) bounds: F,
-    /// One over the power of all lights.
-    pub(crate) inv_total: f64,
+impl Crowd for Range<'_> {
+    fn plant(self, plot: Plot<'_>) -> Subtree {
+        plot.grow(self)
+    }
 }
 
-impl<'a, F: Fn(u32) -> &'a LightBounds + Sync> Build<'a, F> {
-    /// The subtree over `prims`, at least one. Writes the lights' ids into `order`, as long as `prims`, of which `first` is the place in the
-    /// whole tree's.
-    pub(crate) fn subtree(
-        &self,
-        prims: &mut [Prim],
-        order: &mut [u32],
-        first: usize,
-        depth: usize,
-    ) -> Subtree {
-        let children = Children::new(prims, MAX_DEPTH - depth);
-        let mut moments = [None; WIDTH];
-        let (own, rest) = order.split_at_mut(children.lights);
-        let singles = children.runs().filter(|run| run.len() == 1);
-        let slots = children.count - children.lights..;
-        for ((slot, run), entry) in slots.zip(singles).zip(own) {
-            *entry = prims[run.start].light;
-            moments[slot] = Some(Moments::of_light((self.bounds)(*entry), self.inv_total));
+/// The nodes of the tree of `lights`, the root first, and the lights in the order that the nodes refer to.
+pub(super) fn build(
+    extents: &[LightExtent],
+    scan: &Scan,
+    options: &LightBvhOptions,
+) -> (Vec<WideNode>, Vec<u32>) {
+    let mut order = vec![0; scan.count];
+    if scan.count == 0 {
+        return (Vec::new(), order);
+    }
+    let lights = Lights::new(extents, scan.power);
+    let (mut entries, cell) = morton::sorted(extents, &lights, &scan.centers, options.dark);
+    let whole = Range::new(&mut entries, &lights, cell);
+    let plot = Plot {
+        order: &mut order,
+        first: 0,
+        depth: 0,
+    };
+    let tree = match options.mode {
+        BuildMode::Morton => plot.build(whole),
+        BuildMode::Binned => {
+            let ends = ends(whole, 0);
+            let sources = Sources {
+                lights: &lights,
+                entries: &entries,
+            };
+            plot.build(Run::new(&mut clusters(&ends, &sources), sources))
         }
-        let jobs = jobs(&children, prims, rest, first + children.lights);
-        let subtrees = self.run(jobs, depth + 1);
+    };
+    (tree.into_nodes(), order)
+}
+
+/// Where a group goes.
+pub(super) struct Plot<'o> {
+    /// Room for the ids of its lights.
+    order: &'o mut [u32],
+    /// The place of that in the whole tree's.
+    first: usize,
+    /// Levels above it.
+    depth: usize,
+}
+
+impl<'o> Plot<'o> {
+    /// The subtree over a group of any size.
+    fn build<C: Crowd>(self, crowd: C) -> Subtree {
+        let levels = MAX_DEPTH - self.depth;
+        if crowd.lights() <= PLOT || is_tight(crowd.lights(), levels) {
+            return crowd.plant(self);
+        }
+        let children = Children::new(crowd, levels);
+        let (mut node, rest) = self.node(&children);
+        let jobs = rest.share(children.into_nodes()).collect();
+        let subtrees = map(jobs, |(group, plot): (C, Plot<'_>)| plot.build(group));
         for (slot, subtree) in subtrees.iter().enumerate() {
-            moments[slot] = Some(subtree.moments);
+            node.moments[slot] = subtree.moments;
         }
-        let moments: Vec<Moments> = moments.into_iter().flatten().collect();
-        let mut root = WideNode::encode(&moments);
-        root.inner = low_byte(subtrees.len());
-        root.light_base = low_word(first);
-        Subtree {
-            below: assemble(subtrees),
-            root,
-            moments: Moments::join(&moments),
+        Subtree::join(node.encode(), Moments::join(node.moments()), subtrees)
+    }
+
+    /// The subtree over a group that is built in one go.
+    pub(super) fn grow<G: Group>(self, group: G) -> Subtree {
+        let mut nodes = Vec::with_capacity(group.lights() / 4 + 1);
+        nodes.push(WideNode::EMPTY);
+        let moments = self.grow_at(0, group, &mut nodes);
+        Subtree::grown(nodes, moments)
+    }
+
+    /// Grows the subtree of the node at `index` of `nodes`.
+    fn grow_at<G: Group>(self, index: usize, group: G, nodes: &mut Vec<WideNode>) -> Moments {
+        let children = Children::new(group, MAX_DEPTH - self.depth);
+        let (mut node, rest) = self.node(&children);
+        let base = nodes.len();
+        nodes.resize(base + node.inner, WideNode::EMPTY);
+        for (slot, (group, plot)) in rest.share(children.into_nodes()).enumerate() {
+            node.moments[slot] = plot.grow_at(base + slot, group, nodes);
+            nodes[base + slot].parent = low_word(index * WIDTH + slot);
         }
+        nodes[index] = WideNode {
+            child_base: low_word(base),
+            parent: nodes[index].parent,
+            ..node.encode()
+        };
+        Moments::join(node.moments())
     }
 
-    #[cfg(feature = "rayon")]
-    fn run(&self, jobs: Vec<Job<'_>>, depth: usize) -> Vec<Subtree> {
-        use rayon::prelude::*;
-        if jobs.iter().map(|job| job.prims.len()).sum::<usize>() < FORK {
-            return self.run_here(jobs, depth);
-        }
-        jobs.into_par_iter()
-            .map(|job| self.subtree(job.prims, job.order, job.first, depth))
-            .collect()
+    /// The node over `children` as far as its lights go, and the room that is left for what is below.
+    fn node<G: Group>(self, children: &Children<G>) -> (Draft, Self) {
+        let (own, order) = self.order.split_at_mut(children.lights());
+        let inner = children.nodes();
+        let mut draft = Draft {
+            moments: [Moments::NOTHING; WIDTH],
+            inner,
+            count: inner + own.len(),
+            first: self.first,
+        };
+        let mut places = own.iter_mut().zip(&mut draft.moments[inner..]);
+        children.each_light(&mut |light, moments| {
+            if let Some((entry, place)) = places.next() {
+                (*entry, *place) = (light, moments);
+            }
+        });
+        let rest = Plot {
+            first: self.first + own.len(),
+            order,
+            depth: self.depth + 1,
+        };
+        (draft, rest)
     }
 
-    #[cfg(not(feature = "rayon"))]
-    fn run(&self, jobs: Vec<Job<'_>>, depth: usize) -> Vec<Subtree> {
-        self.run_here(jobs, depth)
-    }
-
-    fn run_here(&self, jobs: Vec<Job<'_>>, depth: usize) -> Vec<Subtree> {
-        jobs.into_iter()
-            .map(|job| self.subtree(job.prims, job.order, job.first, depth))
-            .collect()
-    }
-}
-
-/// The part of a build that one child stands for.
-struct Job<'p> {
-    prims: &'p mut [Prim],
-    order: &'p mut [u32],
-    first: usize,
-}
-
-fn jobs<'p>(
-    children: &Children,
-    prims: &'p mut [Prim],
-    order: &'p mut [u32],
-    first: usize,
-) -> Vec<Job<'p>> {
-    let (mut prims, mut order, mut first, mut done) = (prims, order, first, 0);
-    let mut jobs = Vec::with_capacity(WIDTH);
-    for run in children.runs() {
-        let (mine, rest) = prims.split_at_mut(run.end - done);
-        prims = rest;
-        if run.len() > 1 {
-            let (my_order, rest) = order.split_at_mut(run.len());
-            order = rest;
-            jobs.push(Job {
-                prims: &mut mine[run.start - done..],
-                order: my_order,
+    /// Each group with its part of the room.
+    fn share<G: Group>(self, groups: impl Iterator<Item = G>) -> impl Iterator<Item = (G, Self)> {
+        let (mut order, mut first) = (self.order, self.first);
+        groups.map(move |group| {
+            let (mine, rest) = core::mem::take(&mut order).split_at_mut(group.lights());
+            let plot = Plot {
                 first,
-            });
-            first += run.len();
-        }
-        done = run.end;
+                order: mine,
+                depth: self.depth,
+            };
+            first += group.lights();
+            order = rest;
+            (group, plot)
+        })
     }
-    jobs
 }
 
-/// The roots of the subtrees side by side, then what is below each of them.
-fn assemble(subtrees: Vec<Subtree>) -> Vec<WideNode> {
-    let total = subtrees.iter().map(|s| s.below.len() + 1).sum();
-    let mut nodes = Vec::with_capacity(total);
-    nodes.extend(subtrees.iter().map(|s| s.root));
-    for (index, subtree) in subtrees.into_iter().enumerate() {
-        let offset = nodes.len();
-        nodes[index].child_base = low_word(offset);
-        for child in 0..usize::from(subtree.root.inner) {
-            let mut node = subtree.below[child];
-            node.parent = low_word(index * WIDTH + child);
-            node.child_base += low_word(offset);
-            nodes.push(node);
-        }
-        for node in subtree.below.iter().skip(usize::from(subtree.root.inner)) {
-            nodes.push(WideNode {
-                parent: node.parent + low_word(offset * WIDTH),
-                child_base: node.child_base + low_word(offset),
-                ..*node
-            });
-        }
-    }
-    nodes
-}
-
-/// The runs of lights that become the children of a node, in the order of the lights.
-struct Children {
-    runs: [Option<Run>; WIDTH],
+/// A node in the making.
+struct Draft {
+    moments: [Moments; WIDTH],
+    /// How many children are nodes; they come first.
+    inner: usize,
     count: usize,
-    /// How many of them are single lights.
-    lights: usize,
+    /// The place of the first of its lights.
+    first: usize,
 }
 
-impl Children {
-    /// Divides `prims` among at most eight children, so that each fits below `levels - 1` more levels.
-    fn new(prims: &mut [Prim], levels: usize) -> Self {
-        let whole = Run {
-            start: 0,
-            end: prims.len(),
-            bounds: centers(prims),
-            cost: f32::INFINITY,
-        };
-        let mut children = Self {
-            runs: [None; WIDTH],
-            count: 1,
-            lights: 0,
-        };
-        children.runs[0] = Some(whole);
-        // With so many lights for so few levels, only halves of the same size are sure to fit.
-        let tight = levels <= 11 && prims.len() > 1 << (3 * (levels - 1));
-        while let Some(index) = children.next(tight) {
-            let Some(run) = children.runs[index] else {
-                break;
-            };
-            let (left, right) = if tight {
-                halve(prims, &run)
-            } else {
-                split(prims, &run)
-            };
-            children.runs[index + 1..=children.count].rotate_right(1);
-            children.runs[index] = Some(left);
-            children.runs[index + 1] = Some(right);
-            children.count += 1;
-        }
-        children.lights = children.runs().filter(|run| run.len() == 1).count();
-        children
+impl Draft {
+    fn moments(&self) -> &[Moments] {
+        &self.moments[..self.count]
     }
 
-    fn runs(&self) -> impl Iterator<Item = &Run> {
-        self.runs.iter().flatten()
-    }
-
-    /// Which run to split next: the costliest of those that need a node of their own anyway, then small ones that fit as single lights.
-    fn next(&self, tight: bool) -> Option<usize> {
-        if self.count == WIDTH {
-            return None;
+    fn encode(&self) -> WideNode {
+        WideNode {
+            inner: low_byte(self.inner),
+            light_base: low_word(self.first),
+            ..WideNode::encode(self.moments())
         }
-        let free = WIDTH - self.count;
-        let price = |run: &Run| {
-            if tight { run.len() as f32 } else { run.cost }
-        };
-        let best = |fits: &dyn Fn(&Run) -> bool| {
-            self.runs()
-                .enumerate()
-                .filter(|(_, run)| run.len() > 1 && fits(run))
-                .max_by(|(_, a), (_, b)| price(a).total_cmp(&price(b)))
-                .map(|(index, _)| index)
-        };
-        best(&|run| run.len() > WIDTH).or_else(|| best(&|run| run.len() <= free + 1))
     }
 }
 
@@ -215,28 +185,11 @@ impl Children {
     clippy::cast_possible_truncation,
     reason = "a tree holds fewer than 2^32 lights, and fewer nodes than lights"
 )]
-const fn low_word(x: usize) -> u32 {
+pub(super) const fn low_word(x: usize) -> u32 {
     x as u32
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "at most eight children")]
 const fn low_byte(x: usize) -> u8 {
     x as u8
-}
-
-/// The nodes of the whole tree, the root first, and the lights in the order that the nodes refer to.
-pub(crate) fn build<'a>(
-    prims: &mut [Prim],
-    bounds: impl Fn(u32) -> &'a LightBounds + Sync,
-    inv_total: f64,
-) -> (Vec<WideNode>, Vec<u32>) {
-    let mut order = vec![0; prims.len()];
-    if prims.is_empty() {
-        return (Vec::new(), order);
-    }
-    let whole = Build { bounds, inv_total }.subtree(prims, &mut order, 0, 0);
-    let mut nodes = assemble(vec![whole]);
-    // `assemble` sees the root as a child of a node that is not there.
-    nodes[0].parent = super::node::NOWHERE;
-    (nodes, order)
 }

@@ -16,17 +16,16 @@ impl WideNode {
             count: u8::try_from(children.len()).unwrap_or(0),
             ..Self::EMPTY
         };
-        let low = children
-            .iter()
-            .fold(Vec3::INFINITY, |low, c| low.min(c.mean));
-        node.set_frame(children, low);
+        node.set_frame(children);
         let units: [f32; WIDTH] = core::array::from_fn(|k| children.get(k).map_or(0.0, unit));
         let power = |k: usize| children[k].power * units[k];
         let max_power = (0..children.len())
             .map(power)
             .fold(f32::MIN_POSITIVE, f32::max);
         node.gain = encode_gain(max_power);
-        for (k, child) in children.iter().enumerate() {
+        // What is off leaves its slot empty.
+        let lit = children.iter().enumerate().filter(|(_, c)| c.power > 0.0);
+        for (k, child) in lit {
             node.set_box(k, child);
             node.set_emission(k, child, units[k]);
             node.power[k] = encode_power(power(k) / max_power);
@@ -34,9 +33,13 @@ impl WideNode {
         node
     }
 
-    fn set_frame(&mut self, children: &[Moments], low: Vec3) {
+    fn set_frame(&mut self, children: &[Moments]) {
+        let lit = || children.iter().filter(|c| c.power > 0.0);
+        let Some(low) = lit().map(|c| c.mean).reduce(Vec3::min) else {
+            return;
+        };
         let mut scale = MIN_SCALE;
-        for child in children {
+        for child in lit() {
             let reach = (child.mean - low).max_element();
             let half = (child.bounds.max - child.mean).max(child.mean - child.bounds.min);
             scale = scale.max(reach / 255.0).max(half.max_element() / 253.0);

@@ -1,16 +1,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
-use light_math::Aabb;
+use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 
 use super::build::build;
-use super::importance::FAR;
-use super::moments::Moments;
 use super::node::{NOWHERE, WIDTH, WideNode};
-use super::prim::Prim;
+use super::options::LightBvhOptions;
+use super::scan::Scan;
 use super::tree::LightBvhRef;
-use crate::{LightBvhError, validate};
+use crate::LightBvhError;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
@@ -18,10 +16,10 @@ use crate::{LightBvhError, validate};
 /// no light can contribute. About 32 bytes a light.
 #[derive(Clone, Debug, Default)]
 pub struct LightBvh {
-    nodes: Vec<WideNode>,
-    order: Vec<u32>,
-    slots: Vec<u32>,
-    power: f64,
+    pub(super) nodes: Vec<WideNode>,
+    pub(super) order: Vec<u32>,
+    pub(super) slots: Vec<u32>,
+    pub(super) power: f64,
 }
 
 impl LightBvh {
@@ -32,32 +30,25 @@ impl LightBvh {
     /// # Errors
     /// The first light with invalid bounds or a coordinate beyond ±1e36.
     pub fn build(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
-        validate(lights)?;
-        let mut total = 0.0;
-        let mut count = 0;
-        for (light, extent) in (0..).map(LightId).zip(lights) {
-            if let Some(light_bounds) = extent.bounded() {
-                if is_far(&light_bounds.bounds) {
-                    return Err(LightBvhError::TooFar { light });
-                }
-                total += f64::from(light_bounds.phi);
-                count += usize::from(light_bounds.phi > 0.0);
-            }
-        }
-        let mut prims = Vec::with_capacity(count);
-        for (light, extent) in (0..).zip(lights) {
-            match extent.bounded() {
-                Some(bounds) if bounds.phi > 0.0 => prims.push(Prim::new(bounds, light, total)),
-                _ => {}
-            }
-        }
-        let (nodes, order) = build(&mut prims, |light| bounds_of(lights, light), 1.0 / total);
+        Self::build_with(lights, &LightBvhOptions::default())
+    }
+
+    /// The same, built as `options` say.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build).
+    pub fn build_with(
+        lights: &[LightExtent],
+        options: &LightBvhOptions,
+    ) -> Result<Self, LightBvhError> {
+        let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
+        let (nodes, order) = build(lights, &scan, options);
         let slots = slots(&nodes, &order, lights.len());
         Ok(Self {
             nodes,
             order,
             slots,
-            power: total,
+            power: scan.power,
         })
     }
 
@@ -117,16 +108,6 @@ impl LightBvh {
     }
 }
 
-fn is_far(bounds: &Aabb) -> bool {
-    bounds.min.min_element() < -FAR || bounds.max.max_element() > FAR
-}
-
-fn bounds_of(lights: &[LightExtent], light: u32) -> &LightBounds {
-    lights[light as usize]
-        .bounded()
-        .expect("only bounded lights become prims")
-}
-
 fn slots(nodes: &[WideNode], order: &[u32], lights: usize) -> Vec<u32> {
     let mut slots = vec![NOWHERE; lights];
     for (index, node) in (0u32..).zip(nodes) {
@@ -136,16 +117,4 @@ fn slots(nodes: &[WideNode], order: &[u32], lights: usize) -> Vec<u32> {
         }
     }
     slots
-}
-
-impl Prim {
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    fn new(bounds: &LightBounds, light: u32, total: f64) -> Self {
-        Self {
-            center: bounds.bounds.center(),
-            power: ((f64::from(bounds.phi) / total) as f32).max(f32::MIN_POSITIVE),
-            axis: Moments::of_light(bounds, 1.0).axis,
-            light,
-        }
-    }
 }

@@ -1,24 +1,46 @@
 //! The default tree: wide nodes of quantised moments.
 
 #[cfg(feature = "alloc")]
+mod bins;
+#[cfg(feature = "alloc")]
 mod build;
+#[cfg(feature = "alloc")]
+mod clusters;
 mod cut;
 #[cfg(feature = "alloc")]
 mod encode;
 mod glossy;
+#[cfg(feature = "alloc")]
+mod group;
 mod importance;
 mod lane;
 #[cfg(feature = "alloc")]
 mod light_bvh;
 #[cfg(feature = "alloc")]
+mod lights;
+#[cfg(feature = "alloc")]
+mod looseness;
+#[cfg(feature = "alloc")]
 mod moments;
+#[cfg(feature = "alloc")]
+mod morton;
 mod node;
 #[cfg(feature = "alloc")]
+mod options;
+#[cfg(feature = "alloc")]
 mod prim;
+#[cfg(feature = "alloc")]
+mod radix;
+#[cfg(feature = "alloc")]
+mod refit;
+#[cfg(feature = "alloc")]
+mod run;
+#[cfg(feature = "alloc")]
+mod scan;
 mod segment;
 mod select;
 #[cfg(feature = "alloc")]
-mod split;
+mod subtree;
 mod tree;
 
 pub use cut::{CutDetail, LightCut};
@@ -28,5 +50,7 @@ pub use lane::Lane;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;
 pub use node::WideNode;
+#[cfg(feature = "alloc")]
+pub use options::{BuildMode, DarkLights, LightBvhOptions};
 pub use segment::SegmentReceiver;
 pub use tree::{LightBvhRef, MAX_DEPTH};

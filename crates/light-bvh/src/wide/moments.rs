@@ -12,7 +12,7 @@ const DIFFUSE: f32 = 1e-3;
 /// Toward a unit vector `w` the group emits about `power * max(0, dot(axis, w) - offset)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moments {
-    /// Peak intensity, as a share of the power of all lights; above 0.
+    /// Peak intensity, as a share of the power of all lights; 0 only of lights that are off.
     pub(crate) power: f32,
     /// Box of all emitting points.
     pub(crate) bounds: Aabb,
@@ -40,13 +40,28 @@ pub(crate) enum Shape {
 }
 
 impl Moments {
+    /// The moments of no light, or of lights that are off.
+    pub(crate) const NOTHING: Self = Self {
+        power: 0.0,
+        bounds: Aabb::EMPTY,
+        mean: Vec3::ZERO,
+        axis: Vec3::ZERO,
+        offset: 0.0,
+        spread_sq: 0.0,
+        shape: Shape::Mixed,
+    };
+
     /// The moments of one light; `inv_total` is one over the power of all lights together.
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn of_light(light: &LightBounds, inv_total: f64) -> Self {
         let lobe = Lobe::new(light);
         let power = (f64::from(light.phi) * inv_total) as f32 * lobe.peak;
         Self {
-            power: power.max(f32::MIN_POSITIVE),
+            power: if light.phi > 0.0 {
+                power.max(f32::MIN_POSITIVE)
+            } else {
+                0.0
+            },
             bounds: light.bounds,
             mean: light.bounds.center(),
             axis: light.w * lobe.axis,
@@ -56,14 +71,16 @@ impl Moments {
         }
     }
 
-    /// The moments of several groups together.
+    /// The moments of several groups together; those that are off do not count.
     pub(crate) fn join(parts: &[Self]) -> Self {
-        let shape = match parts.first() {
-            Some(first) if parts.iter().all(|p| p.shape == first.shape) => first.shape,
-            _ => Shape::Mixed,
+        let parts = || parts.iter().filter(|p| p.power > 0.0);
+        let shape = match parts().next() {
+            Some(first) if parts().all(|p| p.shape == first.shape) => first.shape,
+            Some(_) => Shape::Mixed,
+            None => return Self::NOTHING,
         };
-        let bounds = parts.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
-        let power: f32 = parts.iter().map(|p| p.power).sum();
+        let bounds = parts().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
+        let power: f32 = parts().map(|p| p.power).sum();
         let mut joined = Self {
             power,
             bounds,
@@ -74,7 +91,7 @@ impl Moments {
             shape,
         };
         let inv_power = 1.0 / power;
-        for part in parts {
+        for part in parts() {
             let share = part.power * inv_power;
             let part = part.in_group(shape, joined.axis);
             // Relative to the lower corner, the mean keeps its precision far from the origin.
@@ -84,7 +101,7 @@ impl Moments {
         }
         joined.mean = (joined.mean + bounds.min).clamp(bounds.min, bounds.max);
         let along = joined.axis.normalize_or_zero();
-        for part in parts {
+        for part in parts() {
             let share = part.power * inv_power;
             let part = part.in_group(shape, joined.axis);
             let axis = part.axis - joined.axis;

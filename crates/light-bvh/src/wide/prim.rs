@@ -1,83 +1,152 @@
+use light_bounds::LightBounds;
+use light_math::float;
 use light_math::glam::Vec3;
-use light_math::{Aabb, float};
 
-/// A light as the builder sorts it.
+use super::moments::Moments;
+
+/// Variance of the axes beyond which lights are also split by how narrow their cones are, and squared length of an axis beyond which a
+/// cone is narrow. Diffuse lights stay below 1.
+pub(super) const MIXED_AXES: f32 = 100.0;
+
+/// A light, or a few neighbours, as the builder sorts them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Prim {
-    pub(crate) center: Vec3,
-    pub(crate) power: f32,
-    /// The axis of its moments: the narrower the cone, the longer.
-    pub(crate) axis: Vec3,
-    pub(crate) light: u32,
+pub(super) struct Prim {
+    /// Mean position.
+    pub(super) center: Vec3,
+    pub(super) power: f32,
+    /// Mean axis of their moments: the narrower a cone, the longer.
+    pub(super) axis: Vec3,
+    /// Mean squared length of the axes.
+    pub(super) axis_sq: f32,
+    /// Variance of the positions.
+    pub(super) variance: f32,
+    /// The place of the first of the lights among all entries.
+    pub(super) first: u32,
+    pub(super) lights: u32,
 }
 
-/// Sums over a group of lights, from which the price of keeping them together follows.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sums {
-    power: f32,
-    position_sq: f32,
-    position: Vec3,
-    axis_sq: f32,
-    axis: Vec3,
-}
+impl Prim {
+    /// No lights.
+    pub(super) const NOTHING: Self = Self {
+        center: Vec3::ZERO,
+        power: 0.0,
+        axis: Vec3::ZERO,
+        axis_sq: 0.0,
+        variance: 0.0,
+        first: 0,
+        lights: 0,
+    };
 
-impl Sums {
-    /// The sums of one light; `position` is relative to a point near the group, so that the variance keeps its precision.
+    /// One light of the given power; `entry` is its place among all entries.
     #[inline]
-    pub(crate) fn of(prim: &Prim, position: Vec3) -> Self {
+    pub(super) fn of_light(bounds: &LightBounds, power: f32, entry: u32) -> Self {
+        let axis = Moments::of_light(bounds, 1.0).axis;
         Self {
-            power: prim.power,
-            position_sq: position.length_squared() * prim.power,
-            position: position * prim.power,
-            axis_sq: prim.axis.length_squared() * prim.power,
-            axis: prim.axis * prim.power,
+            center: bounds.bounds.center(),
+            power,
+            axis,
+            axis_sq: axis.length_squared(),
+            variance: 0.0,
+            first: entry,
+            lights: 1,
         }
-    }
-
-    #[inline]
-    pub(crate) fn plus(&self, other: &Self) -> Self {
-        Self {
-            power: self.power + other.power,
-            position_sq: self.position_sq + other.position_sq,
-            position: self.position + other.position,
-            axis: self.axis + other.axis,
-            axis_sq: self.axis_sq + other.axis_sq,
-        }
-    }
-
-    /// Power times standard deviation of the position, the more the less the axes agree.
-    #[inline]
-    pub(crate) fn cost(&self) -> f32 {
-        let inv = 1.0 / self.power.max(f32::MIN_POSITIVE);
-        let mean = self.position * inv;
-        let variance = (self.position_sq * inv - mean.length_squared()).max(0.0);
-        // To the power of 5/8, which was measured to be best, by square roots.
-        let disagreement = 1.0 + self.axis_variance();
-        let root = float::sqrt(float::sqrt(disagreement));
-        self.power * float::sqrt(variance * disagreement * root)
     }
 
     /// Variance of the axes.
-    #[inline]
-    pub(crate) fn axis_variance(&self) -> f32 {
-        let inv = 1.0 / self.power.max(f32::MIN_POSITIVE);
-        (self.axis_sq * inv - (self.axis * inv).length_squared()).max(0.0)
+    pub(super) fn axis_variance(&self) -> f32 {
+        self.axis_sq - self.axis.length_squared()
+    }
+
+    /// Neighbours together, whose entries follow each other.
+    pub(super) fn join(parts: impl IntoIterator<Item = Self>) -> Self {
+        let mut all = parts.into_iter();
+        let Some(first) = all.next() else {
+            return Self::NOTHING;
+        };
+        let mut sums = Sums::of(&first, Vec3::ZERO);
+        let mut lights = first.lights;
+        for part in all {
+            sums = sums.plus(&Sums::of(&part, part.center - first.center));
+            lights += part.lights;
+        }
+        let inv = 1.0 / sums.power().max(f32::MIN_POSITIVE);
+        let mean = sums.position() * inv;
+        Self {
+            center: first.center + mean,
+            power: sums.power(),
+            axis: sums.axis() * inv,
+            axis_sq: sums.0[8] * inv,
+            variance: (sums.0[7] * inv - mean.length_squared()).max(0.0),
+            first: first.first,
+            lights,
+        }
     }
 }
 
-/// A run of lights: a child of a node to be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Run {
-    pub(crate) start: usize,
-    pub(crate) end: usize,
-    /// Box of the centres.
-    pub(crate) bounds: Aabb,
-    /// What splitting it may gain.
-    pub(crate) cost: f32,
-}
+/// Sums over a group of lights, from which the price of keeping them together follows.
+///
+/// Position, power, axis, squared position, squared axis: all but the second are times power. An array, so that the compiler adds
+/// several at once.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums(pub(super) [f32; 9]);
 
-impl Run {
-    pub(crate) const fn len(&self) -> usize {
-        self.end - self.start
+impl Sums {
+    /// The sums of some lights; `position` is relative to a point near the group, so that the variance keeps its precision.
+    #[inline]
+    pub(super) fn of(prim: &Prim, position: Vec3) -> Self {
+        let p = position * prim.power;
+        let w = prim.axis * prim.power;
+        let position_sq = (position.length_squared() + prim.variance) * prim.power;
+        let axis_sq = prim.axis_sq * prim.power;
+        Self([
+            p.x,
+            p.y,
+            p.z,
+            prim.power,
+            w.x,
+            w.y,
+            w.z,
+            position_sq,
+            axis_sq,
+        ])
+    }
+
+    #[inline]
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        Self(core::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+
+    /// 0 for no lights.
+    #[inline]
+    pub(super) const fn power(&self) -> f32 {
+        self.0[3]
+    }
+
+    fn position(&self) -> Vec3 {
+        Vec3::new(self.0[0], self.0[1], self.0[2])
+    }
+
+    fn axis(&self) -> Vec3 {
+        Vec3::new(self.0[4], self.0[5], self.0[6])
+    }
+
+    /// Power times standard deviation of the position, the more the less the axes agree.
+    #[inline(always)]
+    pub(super) fn cost(&self) -> f32 {
+        let [px, py, pz, power, _, _, _, position_sq, _] = self.0;
+        let inv = 1.0 / power.max(f32::MIN_POSITIVE);
+        let variance = position_sq * inv - (px * px + py * py + pz * pz) * (inv * inv);
+        // To the power of 5/8, which was measured to be best, by square roots.
+        let disagreement = 1.0 + self.axis_variance();
+        let root = float::sqrt(float::sqrt(disagreement));
+        power * float::sqrt(variance.max(0.0) * disagreement * root)
+    }
+
+    /// Variance of the axes.
+    #[inline(always)]
+    pub(super) fn axis_variance(&self) -> f32 {
+        let [_, _, _, power, wx, wy, wz, _, axis_sq] = self.0;
+        let inv = 1.0 / power.max(f32::MIN_POSITIVE);
+        (axis_sq * inv - (wx * wx + wy * wy + wz * wz) * (inv * inv)).max(0.0)
     }
 }

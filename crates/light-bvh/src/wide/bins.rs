@@ -1,0 +1,144 @@
+use light_math::glam::Vec3;
+use light_math::{Aabb, float};
+
+use super::prim::{Prim, Sums};
+
+/// Bins on each axis.
+pub(super) const BINS: usize = 12;
+
+/// The bins that lights fall into.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid {
+    low: Vec3,
+    scale: Vec3,
+}
+
+impl Grid {
+    /// Bins that fill `bounds`.
+    pub(super) fn new(bounds: &Aabb) -> Self {
+        const FLAT: f32 = 1e-30;
+        let extent = bounds.diagonal();
+        let scale = Vec3::splat(BINS as f32 * (1.0 - 1e-6)) / extent.max(Vec3::splat(FLAT));
+        Self {
+            low: bounds.min,
+            scale: Vec3::select(extent.cmpgt(Vec3::splat(FLAT)), scale, Vec3::ZERO),
+        }
+    }
+
+    /// The bins by position.
+    #[inline]
+    pub(super) fn position(&self, prim: &Prim) -> [usize; 3] {
+        ((prim.center - self.low) * self.scale).to_array().map(bin)
+    }
+
+    /// The bin by position along one axis.
+    #[inline]
+    pub(super) fn along(&self, prim: &Prim, axis: usize) -> usize {
+        bin((prim.center[axis] - self.low[axis]) * self.scale[axis])
+    }
+
+    /// The bin by how narrow the cones are.
+    #[inline]
+    pub(super) fn narrowness(prim: &Prim) -> usize {
+        bin(2.0 * float::ln(1.0 + prim.axis_sq))
+    }
+
+    /// The sums of `prims` in bins by position.
+    pub(super) fn sums_by_position(&self, prims: &[Prim]) -> [Bins; 3] {
+        let mut bins = [Bins::EMPTY; 3];
+        for prim in prims {
+            let sums = Sums::of(prim, prim.center - self.low);
+            for (bins, bin) in bins.iter_mut().zip(self.position(prim)) {
+                bins.0[bin] = bins.0[bin].plus(&sums);
+            }
+        }
+        bins
+    }
+
+    /// The sums of `prims` in bins by how narrow their cones are.
+    pub(super) fn sums_by_narrowness(&self, prims: &[Prim]) -> Bins {
+        let mut bins = Bins::EMPTY;
+        for prim in prims {
+            let bin = Self::narrowness(prim);
+            bins.0[bin] = bins.0[bin].plus(&Sums::of(prim, prim.center - self.low));
+        }
+        bins
+    }
+}
+
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "float to integer casts saturate, and the bin is clamped"
+)]
+fn bin(x: f32) -> usize {
+    (x as u32).min(BINS as u32 - 1) as usize
+}
+
+/// Lights up to `bin` go left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    pub(super) bin: usize,
+    pub(super) costs: [f32; 2],
+}
+
+impl Plane {
+    pub(super) fn cost(&self) -> f32 {
+        self.costs[0] + self.costs[1]
+    }
+}
+
+/// The sums of the lights in each bin of a row.
+pub(super) struct Bins([Sums; BINS]);
+
+impl Bins {
+    const EMPTY: Self = Self([Sums([0.0; 9]); BINS]);
+
+    /// The sums of all lights.
+    pub(super) fn total(&self) -> Sums {
+        self.0
+            .iter()
+            .fold(Sums::default(), |total, sums| total.plus(sums))
+    }
+
+    /// The cheapest plane with lights on both sides.
+    pub(super) fn best_plane(&self) -> Option<Plane> {
+        let mut left = self.0;
+        for bin in 1..BINS {
+            left[bin] = left[bin].plus(&left[bin - 1]);
+        }
+        let mut right = self.0;
+        for bin in (0..BINS - 1).rev() {
+            right[bin] = right[bin].plus(&right[bin + 1]);
+        }
+        let (left_costs, right_costs) = (costs(&left), costs(&right));
+        let mut best: Option<Plane> = None;
+        for bin in 0..BINS - 1 {
+            let plane = Plane {
+                bin,
+                costs: [left_costs[bin], right_costs[bin + 1]],
+            };
+            let divides = left[bin].power() > 0.0 && right[bin + 1].power() > 0.0;
+            if divides && best.is_none_or(|best| plane.cost() < best.cost()) {
+                best = Some(plane);
+            }
+        }
+        best
+    }
+}
+
+/// All at once: most of the time of a split of few lights goes here.
+fn costs(sums: &[Sums; BINS]) -> [f32; BINS] {
+    let mut columns = [[0.0; BINS]; 9];
+    for (bin, sums) in sums.iter().enumerate() {
+        for (column, sum) in columns.iter_mut().zip(sums.0) {
+            column[bin] = sum;
+        }
+    }
+    let mut costs = [0.0; BINS];
+    for (bin, cost) in costs.iter_mut().enumerate() {
+        *cost = Sums(core::array::from_fn(|i| columns[i][bin])).cost();
+    }
+    costs
+}

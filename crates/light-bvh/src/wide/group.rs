@@ -1,0 +1,142 @@
+use super::moments::Moments;
+use super::node::WIDTH;
+
+/// Lights on their way into a tree, at least one.
+pub(super) trait Group: Sized + Send {
+    /// How many they are.
+    fn lights(&self) -> usize;
+
+    /// Whether they can be split.
+    fn is_divisible(&self) -> bool;
+
+    /// What splitting them may gain.
+    fn price(&self) -> f32;
+
+    /// Two groups that cost less together; neither is empty.
+    fn split(self) -> (Self, Self);
+
+    /// Two groups of the same number of lights, but for one.
+    fn halve(self) -> (Self, Self);
+
+    /// Calls `each` with every light.
+    fn each_light(&self, each: &mut dyn FnMut(u32, Moments));
+}
+
+/// The groups that become the children of a node.
+pub(super) struct Children<G> {
+    /// In the order of space.
+    groups: [Option<G>; WIDTH],
+    count: usize,
+    /// Bit `k`: the lights of group `k` become children themselves.
+    singles: u8,
+}
+
+/// Whether a node has so many lights below it that only halves of the same size are sure to fit below so few levels.
+pub(super) const fn is_tight(lights: usize, levels: usize) -> bool {
+    levels <= 11 && lights > 1 << (3 * (levels - 1))
+}
+
+impl<G: Group> Children<G> {
+    /// Divides `whole` among at most eight children, so that each fits below `levels - 1` more levels.
+    pub(super) fn new(whole: G, levels: usize) -> Self {
+        let tight = is_tight(whole.lights(), levels);
+        let mut children = Self {
+            groups: [const { None }; WIDTH],
+            count: 1,
+            singles: 0,
+        };
+        children.groups[0] = Some(whole);
+        while let Some(index) = children.costliest(tight) {
+            let Some(group) = children.groups[index].take() else {
+                break;
+            };
+            let (left, right) = if tight { group.halve() } else { group.split() };
+            children.groups[index + 1..=children.count].rotate_right(1);
+            children.groups[index] = Some(left);
+            children.groups[index + 1] = Some(right);
+            children.count += 1;
+        }
+        children.dissolve();
+        children
+    }
+
+    /// Which group to split next, of those that need a node of their own anyway.
+    fn costliest(&self, tight: bool) -> Option<usize> {
+        if self.count == WIDTH {
+            return None;
+        }
+        self.best(|_, group| {
+            (group.lights() > WIDTH && group.is_divisible()).then(|| {
+                if tight {
+                    group.lights() as f32
+                } else {
+                    group.price()
+                }
+            })
+        })
+    }
+
+    /// Puts the lights of small groups into the places that are left.
+    fn dissolve(&mut self) {
+        let mut free = WIDTH - self.count;
+        for (k, group) in self.groups.iter().enumerate() {
+            self.singles |= u8::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
+        }
+        while let Some(k) = self.best(|k, group| {
+            let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
+            fits.then(|| group.price())
+        }) {
+            free -= self.groups[k].as_ref().map_or(1, G::lights) - 1;
+            self.singles |= 1 << k;
+        }
+    }
+
+    /// The last of the groups with the highest worth.
+    fn best(&self, worth: impl Fn(usize, &G) -> Option<f32>) -> Option<usize> {
+        let mut best = None;
+        for (k, group) in self.groups[..self.count].iter().flatten().enumerate() {
+            if let Some(worth) = worth(k, group) {
+                best = match best {
+                    Some((_, most)) if worth < most => best,
+                    _ => Some((k, worth)),
+                };
+            }
+        }
+        best.map(|(k, _)| k)
+    }
+
+    /// How many lights become children themselves.
+    pub(super) fn lights(&self) -> usize {
+        self.parts()
+            .filter(|(_, single)| *single)
+            .map(|(g, _)| g.lights())
+            .sum()
+    }
+
+    /// Calls `each` with every light that becomes a child itself.
+    pub(super) fn each_light(&self, each: &mut dyn FnMut(u32, Moments)) {
+        for (group, single) in self.parts() {
+            if single {
+                group.each_light(each);
+            }
+        }
+    }
+
+    /// The groups that become nodes.
+    pub(super) fn into_nodes(self) -> impl Iterator<Item = G> {
+        let singles = self.singles;
+        let groups = self.groups.into_iter().enumerate();
+        groups.filter_map(move |(k, group)| group.filter(|_| singles >> k & 1 == 0))
+    }
+
+    /// How many groups become nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.count - self.singles.count_ones() as usize
+    }
+
+    fn parts(&self) -> impl Iterator<Item = (&G, bool)> {
+        let singles = self.singles;
+        let groups = self.groups[..self.count].iter().flatten().enumerate();
+        groups.map(move |(k, group)| (group, singles >> k & 1 == 1))
+    }
+}

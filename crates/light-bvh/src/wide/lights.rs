@@ -1,0 +1,40 @@
+use light_bounds::{LightBounds, LightExtent};
+
+use super::moments::Moments;
+
+/// The lights of a tree in the making.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lights<'a> {
+    extents: &'a [LightExtent],
+    /// One over the power of all of them, 0 if they have none.
+    inv_power: f64,
+}
+
+impl<'a> Lights<'a> {
+    pub(super) fn new(extents: &'a [LightExtent], power: f64) -> Self {
+        Self {
+            extents,
+            inv_power: if power > 0.0 { 1.0 / power } else { 0.0 },
+        }
+    }
+
+    /// The bounds of a light that is in the tree.
+    #[inline]
+    pub(super) fn bounds(&self, light: u32) -> &'a LightBounds {
+        self.extents[light as usize]
+            .bounded()
+            .expect("only bounded lights get into a tree")
+    }
+
+    #[inline]
+    pub(super) fn moments(&self, light: u32) -> Moments {
+        Moments::of_light(self.bounds(light), self.inv_power)
+    }
+
+    /// Power of a light as a share of that of all lights; above 0, so that lights that are off split somehow.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+    pub(super) fn share(&self, bounds: &LightBounds) -> f32 {
+        ((f64::from(bounds.phi) * self.inv_power) as f32).max(f32::MIN_POSITIVE)
+    }
+}

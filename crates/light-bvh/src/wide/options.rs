@@ -1,0 +1,58 @@
+/// How a [`LightBvh`](crate::LightBvh) is built.
+///
+/// ```
+/// use light_bvh::{LightBvh, LightBvhOptions};
+///
+/// let tree = LightBvh::build_with(&[], &LightBvhOptions::FAST)?;
+/// assert_eq!(tree.depth(), 0);
+/// # Ok::<(), light_bvh::LightBvhError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightBvhOptions {
+    /// What groups of lights are made of.
+    pub mode: BuildMode,
+    /// What becomes of lights that are switched off.
+    pub dark: DarkLights,
+}
+
+/// How lights are grouped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BuildMode {
+    /// Where the groups cost least: by power, by how far they spread, and by how little their axes agree.
+    #[default]
+    Binned,
+    /// By the cells of an octree that they lie in: built in less time, sampled with more noise.
+    Morton,
+}
+
+/// What becomes of lights without power when a tree is built.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DarkLights {
+    /// They get no place in the tree: no memory, and no way to switch them on by a refit.
+    #[default]
+    LeftOut,
+    /// They get a place, unreachable until a [refit](crate::LightBvh::refit) switches them on.
+    Kept,
+}
+
+impl LightBvhOptions {
+    /// The least noise: the default.
+    pub const QUALITY: Self = Self {
+        mode: BuildMode::Binned,
+        dark: DarkLights::LeftOut,
+    };
+
+    /// The least time to build.
+    pub const FAST: Self = Self {
+        mode: BuildMode::Morton,
+        ..Self::QUALITY
+    };
+
+    /// For lights that move and are switched on and off: every light gets a place.
+    pub const DYNAMIC: Self = Self {
+        dark: DarkLights::Kept,
+        ..Self::QUALITY
+    };
+}

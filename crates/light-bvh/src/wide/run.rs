@@ -1,0 +1,212 @@
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::ops::RangeInclusive;
+
+use light_math::Aabb;
+
+use super::bins::{Grid, Plane};
+use super::build::{Crowd, Plot};
+use super::group::Group;
+use super::lights::Lights;
+use super::moments::Moments;
+use super::morton::Entry;
+use super::node::WIDTH;
+use super::prim::{MIXED_AXES, Prim};
+use super::subtree::Subtree;
+
+/// Runs of so many lights are split where full nodes come out.
+const SNAP: RangeInclusive<usize> = WIDTH + 1..=16;
+
+/// Where the lights of a tree are kept while it is built.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sources<'a> {
+    pub(super) lights: &'a Lights<'a>,
+    /// Along the curve.
+    pub(super) entries: &'a [Entry],
+}
+
+/// Lights, or clusters of a few, that are split where the halves cost least.
+#[derive(Debug)]
+pub(super) struct Run<'a> {
+    prims: &'a mut [Prim],
+    sources: Sources<'a>,
+    /// Of all prims together.
+    lights: usize,
+    /// Box of the centres.
+    bounds: Aabb,
+    cost: f32,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(prims: &'a mut [Prim], sources: Sources<'a>) -> Self {
+        Self {
+            bounds: centers(prims),
+            lights: prims.iter().map(|p| p.lights as usize).sum(),
+            prims,
+            sources,
+            cost: f32::INFINITY,
+        }
+    }
+
+    /// The two parts on either side of prim `middle`.
+    fn split_at(self, middle: usize, bounds: [Aabb; 2], costs: [f32; 2]) -> (Self, Self) {
+        let only_lights = self.prims.len() == self.lights;
+        let (left, right) = self.prims.split_at_mut(middle);
+        let left_lights = if only_lights {
+            middle
+        } else {
+            left.iter().map(|p| p.lights as usize).sum()
+        };
+        let part = |prims, lights, side: usize| Self {
+            prims,
+            sources: self.sources,
+            lights,
+            bounds: bounds[side],
+            cost: costs[side],
+        };
+        (
+            part(left, left_lights, 0),
+            part(right, self.lights - left_lights, 1),
+        )
+    }
+
+    /// Two halves along an axis where `middle` prims are in the first.
+    fn split_near(self, axis: usize, middle: usize, costs: [f32; 2]) -> (Self, Self) {
+        self.prims
+            .select_nth_unstable_by(middle, |a, b| along(a, b, axis));
+        let (left, right) = self.prims.split_at(middle);
+        let bounds = [centers(left), centers(right)];
+        self.split_at(middle, bounds, costs)
+    }
+
+    /// The cheapest plane across an axis.
+    fn best_by_position(&self, grid: &Grid) -> (Option<(usize, Plane)>, f32) {
+        let bins = grid.sums_by_position(self.prims);
+        let mut best: Option<(usize, Plane)> = None;
+        for (axis, bins) in bins.iter().enumerate() {
+            if let Some(plane) = bins.best_plane() {
+                if best.is_none_or(|(_, best)| plane.cost() < best.cost()) {
+                    best = Some((axis, plane));
+                }
+            }
+        }
+        (best, bins[0].total().axis_variance())
+    }
+}
+
+impl Group for Run<'_> {
+    fn lights(&self) -> usize {
+        self.lights
+    }
+
+    fn is_divisible(&self) -> bool {
+        self.prims.len() > 1
+    }
+
+    fn price(&self) -> f32 {
+        self.cost
+    }
+
+    fn split(self) -> (Self, Self) {
+        let grid = Grid::new(&self.bounds);
+        let (best, axis_variance) = self.best_by_position(&grid);
+        if axis_variance > MIXED_AXES {
+            if let Some(plane) = grid.sums_by_narrowness(self.prims).best_plane() {
+                if best.is_none_or(|(_, best)| plane.cost() < best.cost()) {
+                    let is_left = |p: &Prim| Grid::narrowness(p) <= plane.bin;
+                    let (middle, bounds) = partition(self.prims, is_left);
+                    return self.split_at(middle, bounds, plane.costs);
+                }
+            }
+        }
+        let Some((axis, plane)) = best else {
+            // Nothing tells them apart: centres in one point, or too close to each other.
+            let costs = [self.cost / 2.0; 2];
+            let (middle, bounds) = (self.prims.len() / 2, [self.bounds; 2]);
+            return self.split_at(middle, bounds, costs);
+        };
+        let (middle, bounds) = partition(self.prims, |p| grid.along(p, axis) <= plane.bin);
+        if SNAP.contains(&self.prims.len()) {
+            // To the nearest multiple of eight lights, so that the lowest nodes come out full.
+            let middle = ((middle + WIDTH / 2) / WIDTH * WIDTH)
+                .clamp(WIDTH, (self.prims.len() - 1) / WIDTH * WIDTH);
+            return self.split_near(axis, middle, plane.costs);
+        }
+        self.split_at(middle, bounds, plane.costs)
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let axis = self.bounds.diagonal().max_position();
+        let (middle, costs) = (self.prims.len() / 2, [self.cost / 2.0; 2]);
+        self.split_near(axis, middle, costs)
+    }
+
+    fn each_light(&self, each: &mut dyn FnMut(u32, Moments)) {
+        for entry in self.prims.iter().flat_map(|p| self.sources.entries_of(p)) {
+            each(entry.light, self.sources.lights.moments(entry.light));
+        }
+    }
+}
+
+impl Crowd for Run<'_> {
+    /// From here on lights are split one by one.
+    fn plant(self, plot: Plot<'_>) -> Subtree {
+        let sources = self.sources;
+        let mut prims = Vec::with_capacity(self.lights);
+        prims.extend(self.prims.iter().flat_map(|p| sources.prims_of(p)));
+        plot.grow(Run::new(&mut prims, sources))
+    }
+}
+
+impl<'a> Sources<'a> {
+    fn entries_of(&self, prim: &Prim) -> &'a [Entry] {
+        &self.entries[prim.first as usize..][..prim.lights as usize]
+    }
+
+    /// The lights of a cluster, each for itself.
+    fn prims_of(&self, cluster: &Prim) -> impl Iterator<Item = Prim> + use<'a> {
+        let lights = self.lights;
+        let entries = (cluster.first..).zip(self.entries_of(cluster));
+        entries.map(move |(i, e)| Prim::of_light(lights.bounds(e.light), e.power, i))
+    }
+
+    /// A cluster of lights that follow each other along the curve.
+    pub(super) fn cluster(&self, first: u32, lights: u32) -> Prim {
+        let place = Prim {
+            first,
+            lights,
+            ..Prim::NOTHING
+        };
+        Prim::join(self.prims_of(&place))
+    }
+}
+
+/// The order of the centres along `axis`; of the places on the curve where they agree.
+fn along(a: &Prim, b: &Prim, axis: usize) -> Ordering {
+    a.center[axis]
+        .total_cmp(&b.center[axis])
+        .then(a.first.cmp(&b.first))
+}
+
+/// The box of the centres.
+fn centers(prims: &[Prim]) -> Aabb {
+    prims.iter().fold(Aabb::EMPTY, |b, p| b.extend(p.center))
+}
+
+/// Moves what is `left` to the front, and returns how many those are, and the boxes of both sides.
+fn partition(prims: &mut [Prim], left: impl Fn(&Prim) -> bool) -> (usize, [Aabb; 2]) {
+    let mut bounds = [Aabb::EMPTY; 2];
+    let (mut middle, mut end) = (0, prims.len());
+    while middle < end {
+        let prim = &prims[middle];
+        if left(prim) {
+            bounds[0] = bounds[0].extend(prim.center);
+            middle += 1;
+        } else {
+            bounds[1] = bounds[1].extend(prim.center);
+            end -= 1;
+            prims.swap(middle, end);
+        }
+    }
+    (middle, bounds)
+}

@@ -1,0 +1,93 @@
+use light_bounds::{LightExtent, LightId};
+use light_math::Aabb;
+
+use super::importance::FAR;
+use super::options::DarkLights;
+use crate::LightBvhError;
+use crate::join::join;
+use crate::validate::validate_light;
+
+/// Lights that are looked at in one go.
+const CHUNK: usize = 8192;
+
+/// What a first look at all lights tells.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scan {
+    /// The power of all lights together.
+    pub(super) power: f64,
+    /// How many lights the tree holds.
+    pub(super) count: usize,
+    /// Box of their centres.
+    pub(super) centers: Aabb,
+}
+
+impl Scan {
+    /// Looks at `lights`, of which `first` is the id of the first one, and lets `check` refuse some.
+    ///
+    /// Halves are added to each other the same way on any number of threads.
+    ///
+    /// # Errors
+    /// The first light with invalid bounds, a coordinate beyond the reach of the tree, or an error by `check`.
+    pub(super) fn new(
+        lights: &[LightExtent],
+        first: u32,
+        dark: DarkLights,
+        check: &(impl Fn(LightId, &LightExtent) -> Result<(), LightBvhError> + Sync),
+    ) -> Result<Self, LightBvhError> {
+        if lights.len() <= CHUNK {
+            return Self::of_chunk(lights, first, dark, check);
+        }
+        let (left, right) = lights.split_at(lights.len() / 2);
+        #[expect(clippy::cast_possible_truncation, reason = "ids have 32 bits")]
+        let middle = first + left.len() as u32;
+        let (left, right) = join(
+            lights.len(),
+            || Self::new(left, first, dark, check),
+            || Self::new(right, middle, dark, check),
+        );
+        let (left, right) = (left?, right?);
+        Ok(Self {
+            power: left.power + right.power,
+            count: left.count + right.count,
+            centers: left.centers.union(right.centers),
+        })
+    }
+
+    fn of_chunk(
+        lights: &[LightExtent],
+        first: u32,
+        dark: DarkLights,
+        check: &(impl Fn(LightId, &LightExtent) -> Result<(), LightBvhError> + Sync),
+    ) -> Result<Self, LightBvhError> {
+        let mut scan = Self {
+            power: 0.0,
+            count: 0,
+            centers: Aabb::EMPTY,
+        };
+        for (light, extent) in (first..).map(LightId).zip(lights) {
+            validate_light(light, extent)?;
+            check(light, extent)?;
+            let Some(bounds) = extent.bounded() else {
+                continue;
+            };
+            if is_far(&bounds.bounds) {
+                return Err(LightBvhError::TooFar { light });
+            }
+            if is_held(bounds.phi, dark) {
+                scan.power += f64::from(bounds.phi);
+                scan.count += 1;
+                scan.centers = scan.centers.extend(bounds.bounds.center());
+            }
+        }
+        Ok(scan)
+    }
+}
+
+/// Whether a light of power `phi` gets a place in the tree.
+pub(super) fn is_held(phi: f32, dark: DarkLights) -> bool {
+    phi > 0.0 || dark == DarkLights::Kept
+}
+
+fn is_far(bounds: &Aabb) -> bool {
+    bounds.min.min_element() < -FAR || bounds.max.max_element() > FAR
+}

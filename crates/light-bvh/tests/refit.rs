@@ -1,0 +1,206 @@
+//! Refits: the same tree for the same lights, every law kept for others, nothing allocated, nothing harmed by an error.
+
+#![cfg(feature = "alloc")]
+
+use core::alloc::{GlobalAlloc, Layout};
+use core::cell::Cell;
+use std::alloc::System;
+
+use light_bvh::light_bounds::light_math::glam::Vec3;
+use light_bvh::light_bounds::{
+    InfiniteBounds, LightBoundsError, LightExtent, LightId, LightSampleContext,
+};
+use light_bvh::{LightBvh, LightBvhError, LightBvhOptions};
+use light_testkit::Rng;
+
+mod support;
+use support::lamp;
+
+/// Counts what the thread under test allocates.
+struct Counting;
+
+std::thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: hands every call on to the system's allocator as it is.
+#[allow(unsafe_code, reason = "an allocator cannot be written without")]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // A thread that ends has no counter any more, and nothing that is counted.
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller keeps the contract.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn lamps(n: u32, seed: u64) -> Vec<LightExtent> {
+    let mut rng = Rng::new(seed);
+    (0..n)
+        .map(|_| {
+            let at = rng.vec3();
+            lamp(at, rng.log_range(0.01, 10.0))
+        })
+        .collect()
+}
+
+const MODES: [LightBvhOptions; 3] = [
+    LightBvhOptions::QUALITY,
+    LightBvhOptions::FAST,
+    LightBvhOptions::DYNAMIC,
+];
+
+fn pmf_sum(tree: &LightBvh, lights: usize, ctx: &LightSampleContext) -> f64 {
+    let ids = (0..).map(LightId).take(lights);
+    ids.map(|id| f64::from(tree.pmf(ctx, id))).sum()
+}
+
+#[test]
+fn the_same_lights_give_the_same_bits() {
+    for n in [1, 8, 9, 3000] {
+        let lights = lamps(n, 1);
+        for options in MODES {
+            let tree = LightBvh::build_with(&lights, &options).expect("valid lights");
+            let mut refitted = tree.clone();
+            refitted.refit(&lamps(n, 2)).expect("as many");
+            refitted.refit(&lights).expect("as many");
+            assert_eq!(refitted.view().nodes(), tree.view().nodes(), "{n} lights");
+            assert_eq!(refitted.power(), tree.power(), "{n} lights");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_allocated() {
+    // So few that no other thread takes part, which would count for itself.
+    let (lights, moved) = (lamps(1500, 1), lamps(1500, 2));
+    let mut tree = LightBvh::build(&lights).expect("valid lights");
+    let before = ALLOCATIONS.get();
+    tree.refit(&moved).expect("as many");
+    assert_eq!(ALLOCATIONS.get() - before, 0, "by a refit");
+    let before = ALLOCATIONS.get();
+    drop(LightBvh::build(&moved));
+    assert!(ALLOCATIONS.get() > before, "the counter counts");
+}
+
+#[test]
+fn lights_go_off_and_on() {
+    let on = lamps(500, 3);
+    let mut rng = Rng::new(4);
+    let some = |e: &LightExtent| match e {
+        LightExtent::Bounded(b) if rng.f32() < 0.5 => {
+            let mut off = *b;
+            off.phi = 0.0;
+            LightExtent::Bounded(off)
+        }
+        other => *other,
+    };
+    let half: Vec<LightExtent> = on.iter().map(some).collect();
+    let ctx = LightSampleContext::medium(Vec3::new(0.3, 0.2, -0.5));
+    for first in [&on, &half] {
+        let mut tree =
+            LightBvh::build_with(first, &LightBvhOptions::DYNAMIC).expect("valid lights");
+        for lights in [&half, &on, &half] {
+            tree.refit(lights).expect("as many");
+            for (id, extent) in (0..).map(LightId).zip(lights) {
+                let shines = extent.bounded().is_some_and(|b| b.phi > 0.0);
+                assert_eq!(tree.pmf(&ctx, id) > 0.0, shines, "{id:?}");
+            }
+            let sum = pmf_sum(&tree, 500, &ctx);
+            assert!((sum - 1.0).abs() < 1e-4, "{sum}");
+        }
+    }
+}
+
+#[test]
+fn all_lights_may_be_off() {
+    let lights: Vec<LightExtent> = (0..100).map(|i| lamp(Vec3::X * i as f32, 0.0)).collect();
+    let ctx = LightSampleContext::medium(Vec3::Y);
+    let mut tree = LightBvh::build_with(&lights, &LightBvhOptions::DYNAMIC).expect("valid lights");
+    assert_eq!(tree.sample(&ctx, 0.5), None, "nothing shines");
+    assert_eq!(pmf_sum(&tree, 100, &ctx), 0.0, "nothing shines");
+    assert_eq!(tree.irradiance(&ctx), 0.0, "nothing shines");
+    tree.refit(&lamps(100, 5)).expect("as many");
+    assert!((pmf_sum(&tree, 100, &ctx) - 1.0).abs() < 1e-4, "on");
+    tree.refit(&lights).expect("as many");
+    assert_eq!(tree.sample(&ctx, 0.5), None, "off again");
+    assert_eq!(tree.looseness(), 0.0, "no groups");
+}
+
+#[test]
+fn errors_leave_the_tree_as_it_was() {
+    let mut lights = lamps(100, 6);
+    lights[7] = lamp(Vec3::ONE, 0.0);
+    lights[9] = LightExtent::Infinite(InfiniteBounds::uniform(1.0));
+    let mut tree = LightBvh::build(&lights).expect("valid lights");
+    let untouched = tree.clone();
+    let light = LightId;
+    let cases = [
+        (
+            7,
+            lamp(Vec3::ONE, 1.0),
+            LightBvhError::NoPlace { light: light(7) },
+        ),
+        (9, lights[0], LightBvhError::NoPlace { light: light(9) }),
+        (8, lights[9], LightBvhError::NoPlace { light: light(8) }),
+        (
+            3,
+            lamp(Vec3::ONE, f32::NAN),
+            LightBvhError::BadBounds {
+                light: light(3),
+                reason: LightBoundsError::Power,
+            },
+        ),
+        (
+            99,
+            lamp(Vec3::splat(1e37), 1.0),
+            LightBvhError::TooFar { light: light(99) },
+        ),
+    ];
+    for (index, bad, error) in cases {
+        let mut changed = lamps(100, 7);
+        (changed[7], changed[9]) = (lights[7], lights[9]);
+        changed[index] = bad;
+        assert_eq!(tree.refit(&changed), Err(error), "light {index}");
+    }
+    assert_eq!(
+        tree.refit(&lights[1..]),
+        Err(LightBvhError::OtherLights { expected: 100 }),
+        "one too few"
+    );
+    assert_eq!(tree.view().nodes(), untouched.view().nodes(), "unharmed");
+    assert_eq!(tree.power(), untouched.power(), "unharmed");
+}
+
+#[test]
+fn a_tree_gets_looser_as_its_lights_mix_and_not_by_scale() {
+    let lights = lamps(3000, 8);
+    let mut tree = LightBvh::build(&lights).expect("valid lights");
+    let fresh = tree.looseness();
+    assert!(fresh > 0.0 && fresh < 1.0, "{fresh}");
+    let grown: Vec<LightExtent> = lights.iter().map(|e| moved(e, |p| p * 1024.0)).collect();
+    tree.refit(&grown).expect("as many");
+    assert!((tree.looseness() / fresh - 1.0).abs() < 1e-3, "scaled");
+    let mut rng = Rng::new(9);
+    let mut last = fresh;
+    for amount in [0.1, 0.3, 1.0] {
+        let mut jitter = |p: Vec3| p + amount * (rng.vec3() - 0.5);
+        let mixed: Vec<LightExtent> = lights.iter().map(|e| moved(e, &mut jitter)).collect();
+        tree.refit(&mixed).expect("as many");
+        assert!(tree.looseness() > last * 1.02, "moved by up to {amount}");
+        last = tree.looseness();
+    }
+}
+
+fn moved(extent: &LightExtent, to: impl FnOnce(Vec3) -> Vec3) -> LightExtent {
+    let bounds = extent.bounded().expect("a lamp");
+    lamp(to(bounds.bounds.min), bounds.phi)
+}
