@@ -65,6 +65,22 @@ impl Film {
         &mut self.sums
     }
 
+    /// Adds the samples of a film of the same size.
+    ///
+    /// # Panics
+    /// Panics if `other` has another size.
+    pub fn add(&mut self, other: &Self) {
+        assert_eq!(
+            self.resolution(),
+            other.resolution(),
+            "films of one picture"
+        );
+        self.samples += other.samples;
+        for (sum, &more) in self.sums.iter_mut().zip(&other.sums) {
+            *sum = *sum + more;
+        }
+    }
+
     /// The mean of each pixel's samples as linear RGB, row by row; black without samples.
     #[must_use]
     pub fn develop(&self) -> Vec<Vec3> {

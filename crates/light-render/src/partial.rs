@@ -94,6 +94,15 @@ impl PartialPicture {
         })
     }
 
+    /// Adds the samples that follow those of the part, as many as `film` has.
+    ///
+    /// # Panics
+    /// Panics if `film` has another size.
+    pub fn append(&mut self, film: &Film) {
+        self.samples.end += film.samples();
+        self.film.add(film);
+    }
+
     /// The film that all parts make together.
     ///
     /// # Errors
@@ -114,10 +123,7 @@ impl PartialPicture {
             if ranges.iter().any(overlaps) {
                 return Err(PartialPictureError::Overlap { samples });
             }
-            let sums = film.expose(part.film.samples());
-            for (sum, &more) in sums.iter_mut().zip(part.film.sums()) {
-                *sum = *sum + more;
-            }
+            film.add(&part.film);
             ranges.push(samples);
         }
         Ok(film)

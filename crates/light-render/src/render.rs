@@ -3,6 +3,7 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::time::Instant;
 
+use light_scene::Crop;
 use lights::samplers::LightSampler;
 use rayon::prelude::*;
 
@@ -56,7 +57,8 @@ pub fn render<S: LightSampler + Sync>(
     settings: &RenderSettings,
     mut report: impl FnMut(Progress),
 ) -> Rendering {
-    let (width, height) = view.resolution();
+    let Crop { min, max } = view.crop();
+    let (width, height) = (max[0] - min[0], max[1] - min[1]);
     let mut film = Film::new(width, height);
     let (rays, rejected) = (AtomicU64::new(0), AtomicU64::new(0));
     let start = Instant::now();
@@ -70,10 +72,10 @@ pub fn render<S: LightSampler + Sync>(
         let count = pass.end - pass.start;
         film.expose(count)
             .par_chunks_mut(width as usize)
-            .zip(0..height)
+            .zip(min[1]..max[1])
             .for_each(|(row, y)| {
                 let mut row_rays = 0;
-                for (pixel, x) in row.iter_mut().zip(0..width) {
+                for (pixel, x) in row.iter_mut().zip(min[0]..max[0]) {
                     for sample in pass.clone() {
                         let stream = SampleStream::new(settings.seed, (x, y), sample);
                         let numbers = stream.camera();

@@ -1,7 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
-use light_scene::Camera;
+use light_scene::{Camera, Crop};
 use lights::glam::{Vec2, Vec3};
 use lights::math::warp;
 
@@ -13,6 +13,8 @@ pub struct View {
     camera: Camera,
     width: u32,
     height: u32,
+    /// The pixels that are rendered.
+    crop: Crop,
     /// The distance of the screen, in pixels.
     screen_distance: f32,
 }
@@ -29,6 +31,8 @@ pub enum ViewError {
     Axes,
     /// The angle of view is not above 0 and below 180 degrees.
     FieldOfView,
+    /// The part of the picture that is asked for has no pixels, or some outside of it.
+    Crop,
     /// The lens radius is negative, or the focus distance is not positive.
     Lens,
 }
@@ -60,11 +64,35 @@ impl View {
             camera: *camera,
             width,
             height,
+            crop: Crop {
+                min: [0, 0],
+                max: [width, height],
+            },
             screen_distance: 0.5 * width.min(height) as f32 / (0.5 * camera.fov).tan(),
         })
     }
 
-    /// Width and height of the picture, in pixels.
+    /// The same view, of which only some pixels are rendered: to the same values as in the whole picture.
+    ///
+    /// # Errors
+    /// When `crop` has no pixels, or some that are outside of the picture.
+    pub fn with_crop(self, crop: Crop) -> Result<Self, ViewError> {
+        let Crop { min, max } = crop;
+        let is_within = |axis: usize, end: u32| min[axis] < max[axis] && max[axis] <= end;
+        if is_within(0, self.width) && is_within(1, self.height) {
+            Ok(Self { crop, ..self })
+        } else {
+            Err(ViewError::Crop)
+        }
+    }
+
+    /// The pixels that are rendered: all of them, unless [`with_crop`](Self::with_crop) chose some.
+    #[must_use]
+    pub const fn crop(&self) -> Crop {
+        self.crop
+    }
+
+    /// Width and height of the whole picture, in pixels.
     #[must_use]
     pub const fn resolution(&self) -> (u32, u32) {
         (self.width, self.height)
@@ -108,6 +136,7 @@ impl fmt::Display for ViewError {
             Self::HugePicture => "the picture must not have more than 2^31 pixels",
             Self::Axes => "the camera's position and axes must be finite",
             Self::FieldOfView => "the angle of view must lie between 0 and 180 degrees",
+            Self::Crop => "the part of the picture must have pixels, none of them outside of it",
             Self::Lens => {
                 "the lens radius must not be negative and its focus distance must be positive"
             }

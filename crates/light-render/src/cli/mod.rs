@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod checkpoint;
 mod compare;
 mod demo;
 mod env;
@@ -17,6 +18,7 @@ mod progress;
 mod references;
 mod render;
 mod scene_input;
+mod view_args;
 
 use std::process::ExitCode;
 

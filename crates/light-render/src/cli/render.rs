@@ -10,14 +10,16 @@ use light_render::{
     AnyLightSampler, PartialPicture, Progress, RenderSettings, Rendering, SamplerKind, ToneMap,
     View, World, light_sample_time, render,
 };
-use light_scene::{Camera, Diagnostic, Image, Scene};
+use light_scene::{Diagnostic, Image};
 use serde_json::json;
 
-use super::arguments::{LookAt, positive, sample_range};
+use super::arguments::{positive, sample_range};
+use super::checkpoint::CheckpointArgs;
 use super::failure::Failure;
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::scene_input::{SceneInput, report_warnings};
+use super::view_args::ViewArgs;
 
 /// Render a scene into an image.
 #[derive(Args, Debug)]
@@ -61,22 +63,10 @@ pub(crate) struct RenderArgs {
     /// How light is found: by light samples, by material samples, or by both, weighted.
     #[arg(long, value_enum, default_value_t = Estimator::Mis)]
     estimator: Estimator,
-    /// Width of the image in pixels.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
-    width: Option<u32>,
-    /// Height of the image in pixels.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
-    height: Option<u32>,
-    /// Where the camera stands, what it looks at, what is up.
-    #[arg(
-        long,
-        value_name = "ex,ey,ez,tx,ty,tz,ux,uy,uz",
-        allow_hyphen_values = true
-    )]
-    look_at: Option<LookAt>,
-    /// Angle of view across the shorter side.
-    #[arg(long, value_name = "DEGREES", value_parser = positive)]
-    fov: Option<f32>,
+    #[command(flatten)]
+    view: ViewArgs,
+    #[command(flatten)]
+    checkpoint: CheckpointArgs,
     /// Print one line of JSON about the rendering.
     #[arg(long)]
     json: bool,
@@ -111,7 +101,7 @@ impl RenderArgs {
         if !self.quiet {
             report_warnings(&scene.warnings);
         }
-        let view = self.view(&scene)?;
+        let view = self.view.view(&scene)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let world = self.input.build(scene)?;
         if world.lights().is_empty() {
@@ -134,8 +124,14 @@ impl RenderArgs {
         };
         let line = ProgressLine::new(self.input.scene.display().to_string(), volume);
         let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
+        let settings = self.settings(&world);
         let rendering =
-            pool.install(|| render(&world, &view, &sampler, &self.settings(&world), show));
+            pool.install(
+                || match self.checkpoint.open(|| self.subject(&world, &view))? {
+                    Some(checkpoint) => checkpoint.render(&world, &view, &sampler, &settings, show),
+                    None => Ok(render(&world, &view, &sampler, &settings, show)),
+                },
+            )?;
         drop(line);
         if rendering.rejected > 0 && !self.quiet {
             eprintln!(
@@ -237,31 +233,6 @@ impl RenderArgs {
                 },
             },
         }
-    }
-
-    /// The scene's camera, with what the arguments change, in the picture's size.
-    fn view(&self, scene: &Scene) -> Result<View, Failure> {
-        let mut camera = scene.camera_or_default();
-        let fov = self.fov.map_or(camera.fov, f32::to_radians);
-        if let Some(LookAt { eye, target, up }) = self.look_at {
-            let resolution = camera.resolution;
-            camera = Camera::look_at(eye, target, up, fov)
-                .map_err(|error| Failure::Input(format!("--look-at: {error}")))?;
-            camera.resolution = resolution;
-        }
-        camera.fov = fov;
-        let [w, h] = camera.resolution.unwrap_or([512, 512]);
-        let scaled = |n: u32, of: u32, to: u32| {
-            u32::try_from(u64::from(n) * u64::from(to) / u64::from(of.max(1)))
-                .map_or(1, |n| n.max(1))
-        };
-        let (width, height) = match (self.width, self.height) {
-            (Some(width), Some(height)) => (width, height),
-            (Some(width), None) => (width, scaled(h, w, width)),
-            (None, Some(height)) => (scaled(w, h, height), height),
-            (None, None) => (w, h),
-        };
-        View::new(&camera, width, height).map_err(Failure::input)
     }
 
     fn report(

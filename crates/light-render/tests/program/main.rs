@@ -1,0 +1,97 @@
+//! The program from outside: what it prints, how it ends, what it leaves behind.
+
+mod environments;
+mod folder;
+mod interrupted;
+mod refusals;
+
+use std::fs;
+use std::path::Path;
+
+use folder::{Folder, LIT, SMALL, UNLIT, assert_refused, lights, stdout};
+
+#[test]
+fn renders_reports_and_compares() {
+    let folder = Folder::new("renders");
+    let scene = folder.scene(LIT);
+    let (a, b, png) = (
+        folder.path("a.exr"),
+        folder.path("b.exr"),
+        folder.path("c.png"),
+    );
+    let line = stdout(&[&["render", &scene, "-o", &a, "--json"], &SMALL[..]].concat());
+    let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(
+        (&report["spp"], &report["lights"]),
+        (&4.into(), &2.into()),
+        "{line}"
+    );
+    assert!(report["rays"].as_u64() > Some(12 * 12 * 4), "{line}");
+    let quiet = stdout(&[&["render", &scene, "-o", &b, "--threads", "1"], &SMALL[..]].concat());
+    assert_eq!(quiet, "", "nothing to say");
+    let bytes = |path: &str| fs::read(path).expect("a picture");
+    assert_eq!(
+        bytes(&a),
+        bytes(&b),
+        "the same picture for any number of threads"
+    );
+    stdout(&[&["render", &scene, "-o", &png, "--seed", "1"], &SMALL[..]].concat());
+    let same = stdout(&["compare", &a, &b, "--json", "--max-relmse", "0"]);
+    let figures: serde_json::Value = serde_json::from_str(&same).expect("one line of JSON");
+    assert_eq!(
+        (&figures["relmse"], &figures["mse"]),
+        (&0.0.into(), &0.0.into()),
+        "{same}"
+    );
+    let diff = folder.path("d.png");
+    let other = lights(&["compare", &png, &a, "--max-relmse", "1e-9", "--diff", &diff]);
+    assert_eq!(other.status.code(), Some(1), "a check that fails");
+    assert!(Path::new(&diff).exists(), "but the difference is drawn");
+}
+
+#[test]
+fn parts_merge_into_the_same_bytes() {
+    let folder = Folder::new("merge");
+    let scene = folder.scene(LIT);
+    let [whole, a, b, merged] =
+        ["whole.exr", "a.exr", "b.exr", "merged.exr"].map(|name| folder.path(name));
+    let render = |out: &str, flag: &str, value: &str| {
+        stdout(&["render", &scene, "-o", out, "--width", "12", flag, value]);
+    };
+    render(&whole, "--spp", "7");
+    render(&a, "--samples", "0..3");
+    render(&b, "--samples", "3..7");
+    stdout(&["merge", &b, &a, "-o", &merged]);
+    let bytes = |path: &str| fs::read(path).expect("a picture");
+    assert_eq!(bytes(&merged), bytes(&whole), "as if rendered at once");
+    stdout(&["compare", &a, &whole]);
+    assert_refused(&["merge", &a, &a, "-o", &merged], &["0..3"]);
+    assert_refused(
+        &["merge", &a, &whole, "-o", &merged],
+        &["whole.exr", "--samples"],
+    );
+    let png = folder.path("a.png");
+    assert_refused(
+        &["render", &scene, "-o", &png, "--samples", "0..3"],
+        &["a.png", ".exr"],
+    );
+}
+
+#[test]
+fn info_counts_the_lights() {
+    let folder = Folder::new("info");
+    let line = stdout(&["info", &folder.scene(LIT), "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(report["kinds"][0]["count"], 2, "{line}");
+    assert_eq!(report["triangles"], 4, "{line}");
+    let turned_on = stdout(&["info", &folder.scene(UNLIT), "--emit", "floor=1,1,1"]);
+    assert!(turned_on.contains("lights     2"), "{turned_on}");
+    for wrong in ["roof=1,1,1", "floor=-1,1,1"] {
+        let words = ["scene.obj", &wrong[..4]];
+        assert_refused(&["info", &folder.scene(UNLIT), "--emit", wrong], &words);
+    }
+    assert!(
+        stdout(&["info", &folder.scene(UNLIT)]).contains("lights     0"),
+        "none"
+    );
+}

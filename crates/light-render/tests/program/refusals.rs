@@ -1,0 +1,78 @@
+//! Bad input and bad usage.
+
+use crate::folder::{Folder, LIT, UNLIT, assert_refused, lights};
+
+#[test]
+fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
+    let folder = Folder::new("refuses");
+    let scene = folder.scene(LIT);
+    let out = folder.path("out.exr");
+    let render = |scene: &str| assert_refused(&["render", scene, "-o", &out], &[scene]);
+    render(&folder.path("missing.obj"));
+    render(&folder.file("a.txt", "no scene"));
+    render("no-such-scene");
+    let broken = folder.file("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 one 0\nf 1 2 3\n");
+    assert_refused(&["render", &broken, "-o", &out], &["broken.obj:3"]);
+    let stray = folder.file(
+        "stray.obj",
+        "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\n",
+    );
+    assert_refused(&["render", &stray, "-o", &out], &["stray.obj:5", "glass"]);
+    let dark = folder.scene(UNLIT);
+    assert_refused(&["render", &dark, "-o", &out], &["scene.obj", "no light"]);
+    folder.scene(LIT);
+    let env = folder.file("env.exr", "not an image");
+    assert_refused(&["render", &scene, "-o", &out, "--env", &env], &["env.exr"]);
+    let nowhere = folder.path("no/such/out.exr");
+    assert_refused(&["render", &scene, "-o", &nowhere], &["out.exr"]);
+    assert_refused(
+        &["render", &scene, "-o", &folder.path("out.gif")],
+        &["out.gif", ".exr"],
+    );
+    assert!(
+        !folder.names().iter().any(|name| name.starts_with("out")),
+        "nothing is written"
+    );
+    assert!(
+        !folder.names().iter().any(|name| name.contains("part")),
+        "nothing half written"
+    );
+}
+
+#[test]
+fn nonsense_on_the_command_line_is_refused() {
+    let folder = Folder::new("nonsense");
+    let scene = folder.scene(LIT);
+    let out = folder.path("out.exr");
+    let with = |flag: &str, value: &str| {
+        assert_refused(&["render", &scene, "-o", &out, flag, value], &[flag]);
+    };
+    for (flag, value) in [
+        ("--spp", "0"),
+        ("--spp", "many"),
+        ("--max-depth", "-1"),
+        ("--light-samples", "0"),
+        ("--width", "0"),
+        ("--time", "0"),
+        ("--fov", "nan"),
+        ("--light-sampler", "best"),
+        ("--estimator", "luck"),
+        ("--look-at", "1,2,3"),
+        ("--look-at", "0,0,0,0,0,0,0,1,0"),
+    ] {
+        with(flag, value);
+    }
+    assert_refused(
+        &["render", &scene, "-o", &out, "--fov", "180"],
+        &["angle of view"],
+    );
+    assert_refused(&["render", &scene], &["--output"]);
+    assert_refused(&["redner"], &["redner"]);
+    assert_refused(&["render", &scene, "-o", &out, "--sp", "4"], &["--sp"]);
+    assert_refused(&["compare", &out, &out], &["out.exr"]);
+    assert_eq!(
+        lights(&["--help"]).status.code(),
+        Some(0),
+        "help was asked for"
+    );
+}
