@@ -1,11 +1,10 @@
 use core::f32::consts::{PI, TAU};
 use core::str::FromStr;
 
-use glam::{Vec2, Vec3};
-use lights::math::{Frame, float};
-use rand_core::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+use glam::Vec3;
+use lights::math::float;
 
+use super::random::Random;
 use super::{LightSetFile, SetLight, SetPoint};
 
 /// Shading points of a generated set.
@@ -59,9 +58,7 @@ impl LightSetFile {
     /// The set of `n` lights and 4096 points that `kind`, `n` and `seed` stand for.
     #[must_use]
     pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
-        let mut random = Random(Pcg64Mcg::seed_from_u64(
-            seed ^ (kind as u64) << 56 ^ (n as u64) << 24,
-        ));
+        let mut random = Random::new(seed ^ (kind as u64) << 56 ^ (n as u64) << 24);
         let r = &mut random;
         match kind {
             SetKind::Uniform => Self {
@@ -116,7 +113,7 @@ fn uniform_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
     repeat(n, || {
         let power = r.log_uniform(3.0);
         let (center, normal) = (r.cube(), r.direction());
-        triangle(r, center, normal, size, power, false)
+        r.triangle(center, normal, size, power, false)
     })
 }
 
@@ -163,7 +160,7 @@ fn cluster_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
             )
         };
         let two_sided = r.unit() < 0.05;
-        triangle(r, center, normal, size * cluster.radius, power, two_sided)
+        r.triangle(center, normal, size * cluster.radius, power, two_sided)
     })
 }
 
@@ -180,7 +177,7 @@ fn mixed_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
             _ => {
                 let power = 4.0 * PI * r.log_uniform(2.0);
                 let (center, normal) = (r.over_floor(0.5, 3.0), r.direction());
-                triangle(r, center, normal, 0.3 * size, power, kind == 1)
+                r.triangle(center, normal, 0.3 * size, power, kind == 1)
             }
         };
         scaled(light, strong)
@@ -198,102 +195,8 @@ fn scaled(light: SetLight, factor: f32) -> SetLight {
     light
 }
 
-/// A triangle of about the given size (radius of its circumscribed circle) and emitted power.
-fn triangle(
-    r: &mut Random,
-    center: Vec3,
-    normal: Vec3,
-    size: f32,
-    power: f32,
-    two_sided: bool,
-) -> SetLight {
-    let frame = Frame::from_z(normal);
-    let turn = TAU * r.unit();
-    let corner = |k: f32, stretch: f32| {
-        let (s, c) = float::sin_cos(turn + TAU * k / 3.0);
-        (frame.x * c + frame.y * s) * (size * stretch)
-    };
-    let corners = [
-        corner(0.0, 0.6 + 0.4 * r.unit()),
-        corner(1.0, 0.6 + 0.4 * r.unit()),
-        corner(2.0, 0.6 + 0.4 * r.unit()),
-    ];
-    let vertices = corners.map(|corner| center + corner);
-    let area = 0.5
-        * (corners[1] - corners[0])
-            .cross(corners[2] - corners[0])
-            .length();
-    SetLight::Triangle {
-        vertices,
-        radiance: power / (PI * area),
-        two_sided,
-    }
-}
-
 fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
     core::iter::repeat_with(make).take(n).collect()
-}
-
-struct Random(Pcg64Mcg);
-
-impl Random {
-    /// Uniform in `[0, 1)`.
-    fn unit(&mut self) -> f32 {
-        (self.0.next_u32() >> 8) as f32 / 16_777_216.0
-    }
-
-    /// From 1 to `10^decades`, uniform in the logarithm.
-    fn log_uniform(&mut self, decades: f32) -> f32 {
-        float::powf(10.0, decades * self.unit())
-    }
-
-    fn cube(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    fn square(&mut self) -> Vec2 {
-        Vec2::new(self.unit(), self.unit())
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let u = self.square();
-        let z = 1.0 - 2.0 * u.x;
-        let (s, c) = float::sin_cos(TAU * u.y);
-        let radius = float::safe_sqrt(1.0 - z * z);
-        Vec3::new(radius * c, radius * s, z).normalize()
-    }
-
-    fn over_floor(&mut self, low: f32, high: f32) -> Vec3 {
-        let u = self.square() * 10.0;
-        Vec3::new(u.x, u.y, low + (high - low) * self.unit())
-    }
-
-    fn on_floor(&mut self) -> SetPoint {
-        SetPoint {
-            p: self.over_floor(0.0, 0.0),
-            n: Vec3::Z,
-        }
-    }
-
-    fn point_light(&mut self) -> SetLight {
-        SetLight::Point {
-            p: self.over_floor(0.5, 3.0),
-            intensity: self.log_uniform(2.0),
-        }
-    }
-
-    fn spot(&mut self, narrow_deg: f32, wide_deg: f32) -> SetLight {
-        let p = self.over_floor(0.5, 3.0);
-        let aside = self.square() * 2.0 - 1.0;
-        let cone_deg = narrow_deg + (wide_deg - narrow_deg) * self.unit();
-        SetLight::Spot {
-            p,
-            target: Vec3::new(p.x + aside.x * p.z * 0.5, p.y + aside.y * p.z * 0.5, 0.0),
-            intensity: self.log_uniform(2.0),
-            cone_deg,
-            delta_deg: cone_deg * (0.1 + 0.4 * self.unit()),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -320,15 +223,5 @@ mod tests {
             assert_eq!(set.points.len(), POINTS, "points");
             assert_eq!(kind.name().parse(), Ok(kind), "name");
         }
-    }
-
-    #[test]
-    fn triangles_have_the_asked_power_and_side() {
-        let mut r = Random(Pcg64Mcg::seed_from_u64(1));
-        let normal = r.direction();
-        let light = triangle(&mut r, Vec3::ONE, normal, 0.1, 5.0, false);
-        let bounds = light.bounds();
-        assert!((bounds.phi - 5.0).abs() < 1e-3, "power");
-        assert!(bounds.w.dot(normal) > 0.999, "front side");
     }
 }

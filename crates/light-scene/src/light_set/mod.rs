@@ -5,6 +5,7 @@
 
 mod generate;
 mod light;
+mod random;
 mod reader;
 mod writer;
 

@@ -163,7 +163,7 @@ impl Reader {
                 return Err(tokens.diagnostic(message));
             }
         }
-        let typed = Typed::read(path, tokens)?;
+        let typed = Typed::read(path, tokens, self.files)?;
         let at = typed.at;
         match directive {
             "Camera" => self.set_camera(&typed)?,

@@ -23,10 +23,6 @@ impl Reader {
         if kind == "mix" {
             return self.mixed(typed);
         }
-        let eta = |default: f32| match parameters.string("eta") {
-            Some(glass) => named_glass(glass).unwrap_or(default),
-            None => parameters.number_or("eta", default),
-        };
         let surface = match kind {
             "diffuse" => Surface::Diffuse {
                 reflectance: self.color(typed, "reflectance", 0.5),
@@ -37,14 +33,16 @@ impl Reader {
             },
             "coateddiffuse" => Surface::CoatedDiffuse {
                 reflectance: self.color(typed, "reflectance", 0.5),
-                eta: eta(1.5),
+                eta: self.eta(typed),
                 alpha: alpha(typed),
             },
             "dielectric" => Surface::Dielectric {
-                eta: eta(1.5),
+                eta: self.eta(typed),
                 alpha: alpha(typed),
             },
-            "thindielectric" => Surface::ThinDielectric { eta: eta(1.5) },
+            "thindielectric" => Surface::ThinDielectric {
+                eta: self.eta(typed),
+            },
             "conductor" => self.conductor(typed),
             "interface" | "" => Surface::Interface,
             other => {
@@ -61,6 +59,29 @@ impl Reader {
         };
         self.warn_unused(typed.at, &format!("material \"{kind}\""), parameters);
         Ok(self.scene.add_material(Material::new(kind, surface)))
+    }
+
+    /// The index of refraction of something clear: a number, a glass by name, or a spectrum seen as one colour.
+    fn eta(&mut self, typed: &Typed<'_>) -> f32 {
+        const DEFAULT: f32 = 1.5;
+        let parameters = &typed.parameters;
+        if !parameters.has("eta") {
+            return DEFAULT;
+        }
+        let glass = parameters.string("eta");
+        let known = glass.and_then(named_glass);
+        let table = || {
+            parameters
+                .unbounded("eta")
+                .map(|rgb| rgb.element_sum() / 3.0)
+        };
+        let plain = || parameters.numbers("eta").flatten().map(|[eta]| eta);
+        let eta = known.or_else(table).or_else(plain);
+        eta.unwrap_or_else(|| {
+            let what = format!("the glass \"{}\"", glass.unwrap_or_default());
+            self.warn(typed.at, &what, "is not known; an index of 1.5 was taken");
+            DEFAULT
+        })
     }
 
     /// The larger part of a mixture of two named materials.
@@ -106,7 +127,7 @@ impl Reader {
             return Surface::conductor_of_reflectance(reflectance, alpha);
         }
         let names = [parameters.string("eta"), parameters.string("k")];
-        let numbers = [parameters.reflectance("eta"), parameters.reflectance("k")];
+        let numbers = [parameters.unbounded("eta"), parameters.unbounded("k")];
         if let [Some(eta), Some(k)] = numbers {
             return Surface::Conductor { eta, k, alpha };
         }

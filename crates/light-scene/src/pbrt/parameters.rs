@@ -1,10 +1,11 @@
 use core::cell::Cell;
+use std::path::Path;
 
 use super::spectrum;
 use super::tokens::{Token, Tokens, number_of};
-use crate::Diagnostic;
 use crate::glam::{Vec2, Vec3};
-use crate::text::shown;
+use crate::text::{shown, text_of};
+use crate::{Diagnostic, Files, Place};
 
 /// The parameter list of a directive, which remembers what was asked for.
 #[derive(Debug)]
@@ -58,6 +59,32 @@ impl Parameters {
             list.push(parameter);
         }
         Ok(Self { list })
+    }
+
+    /// Reads the files that spectra are in; a word without an ending is the name of a spectrum.
+    pub(super) fn load_spectra(&mut self, path: &Path, files: Files<'_>) -> Result<(), Diagnostic> {
+        for parameter in self.list.iter_mut().filter(|p| p.kind == "spectrum") {
+            let Some(file) = parameter.words.first() else {
+                continue;
+            };
+            let file = path.with_file_name(file);
+            if file.extension().is_none() {
+                continue;
+            }
+            let refuse =
+                |message: String| Diagnostic::at(path, Place::Line(parameter.line), message);
+            let bytes = files
+                .read(&file)
+                .map_err(|error| refuse(error.to_string()))?;
+            let pairs = spectrum::pairs_of(&text_of(&bytes)).ok_or_else(|| {
+                let file = file.display();
+                refuse(format!(
+                    "{file}: expected pairs of a wavelength and a value"
+                ))
+            })?;
+            parameter.numbers = pairs;
+        }
+        Ok(())
     }
 
     /// Names and lines of the parameters that nobody asked for.
@@ -171,7 +198,10 @@ impl Parameters {
         match parameter.kind.as_str() {
             "rgb" => parameter.rgb(),
             "blackbody" => spectrum::blackbody(single(*parameter.numbers.first()?)),
-            "spectrum" => spectrum::emission(&parameter.singles()),
+            "spectrum" => match parameter.words.first() {
+                Some(name) if parameter.numbers.is_empty() => spectrum::named_emission(name),
+                _ => spectrum::emission(&parameter.singles()),
+            },
             _ => None,
         }
     }

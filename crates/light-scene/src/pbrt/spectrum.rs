@@ -2,6 +2,7 @@
 
 use lights::math::spectrum::{Blackbody, Daylight, PiecewiseLinear, RgbColorSpace, Spectrum, cie};
 
+use super::tokens::number_of;
 use crate::glam::Vec3;
 
 /// The share that a surface of this spectrum (wavelength in nm and value by turns) reflects of daylight.
@@ -23,6 +24,27 @@ pub(super) fn unbounded(pairs: &[f32]) -> Option<Vec3> {
 /// The colour of a light of this spectrum, of luminance 1.
 pub(super) fn emission(pairs: &[f32]) -> Option<Vec3> {
     of_luminance_one(&piecewise(pairs)?)
+}
+
+/// The colour of a light whose spectrum has a name, of luminance 1.
+pub(super) fn named_emission(name: &str) -> Option<Vec3> {
+    match name {
+        "stdillum-A" => blackbody(2855.5),
+        "stdillum-D50" => of_luminance_one(&Daylight::D50),
+        "stdillum-D65" => of_luminance_one(&Daylight::D65),
+        _ => None,
+    }
+}
+
+/// The numbers in the text of a spectrum's file: wavelength in nm and value by turns, `#` before what is not one.
+pub(super) fn pairs_of(text: &str) -> Option<Vec<f64>> {
+    let plain = text
+        .lines()
+        .map(|line| line.split('#').next().unwrap_or_default());
+    let words = plain.flat_map(str::split_whitespace);
+    let number = |word: &str| number_of(word).and_then(|_| word.parse().ok());
+    let numbers: Vec<f64> = words.map(number).collect::<Option<_>>()?;
+    (!numbers.is_empty() && numbers.len() % 2 == 0).then_some(numbers)
 }
 
 /// The colour of a black body of this temperature in kelvin, of luminance 1.

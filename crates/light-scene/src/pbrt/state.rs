@@ -133,13 +133,18 @@ pub(super) struct Typed<'a> {
 }
 
 impl<'a> Typed<'a> {
-    pub(super) fn read(path: &'a Path, tokens: &mut Tokens<'_>) -> Result<Self, Diagnostic> {
+    pub(super) fn read(
+        path: &'a Path,
+        tokens: &mut Tokens<'_>,
+        files: Files<'_>,
+    ) -> Result<Self, Diagnostic> {
         let kind = tokens.quoted("a type")?.into_owned();
         let at = At {
             path,
             line: tokens.line(),
         };
-        let parameters = Parameters::read(tokens)?;
+        let mut parameters = Parameters::read(tokens)?;
+        parameters.load_spectra(path, files)?;
         Ok(Self {
             at,
             kind,

@@ -118,6 +118,57 @@ fn alpha_is_the_share_that_is_there() {
 }
 
 #[test]
+fn spectra_come_from_files_and_by_name() {
+    fn table(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        match path.to_str() {
+            Some("dir/grey.spd") => Ok(b"# nm value\n300 3\n900 3 # flat\n".to_vec()),
+            Some("dir/odd.spd") => Ok(b"300 3 900".to_vec()),
+            _ => Err(Diagnostic::file(path, "cannot be read")),
+        }
+    }
+    let text = |light: &str| {
+        format!(
+            "WorldBegin LightSource \"point\" \"spectrum I\" \"{light}\" \
+             Material \"conductor\" \"spectrum eta\" \"grey.spd\" \"spectrum k\" [300 4 900 4] Shape \"disk\""
+        )
+    };
+    let read = |light: &str| {
+        let scene = super::parse_pbrt(
+            Path::new("dir/a.pbrt"),
+            &text(light),
+            crate::Files::new(&table),
+        );
+        scene.map_err(|error| error.to_string())
+    };
+    let scene = read("stdillum-D65").expect("a scene");
+    let LightDesc::Point(light) = &scene.lights[0] else {
+        panic!("a point light");
+    };
+    assert!(
+        light.emission.abs_diff_eq(Vec3::ONE, 0.01),
+        "white: {}",
+        light.emission
+    );
+    let Surface::Conductor { eta, k, .. } = scene.material(scene.meshes[0].material).surface else {
+        panic!("a metal");
+    };
+    assert!(
+        eta.abs_diff_eq(Vec3::splat(3.0), 0.02),
+        "of the file: {eta}"
+    );
+    assert!(k.abs_diff_eq(Vec3::splat(4.0), 0.03), "above 1: {k}");
+    let error = read("odd.spd").expect_err("three numbers");
+    let expected = "dir/a.pbrt:1: dir/odd.spd: expected pairs of a wavelength and a value";
+    assert_eq!(error, expected, "pairs");
+    let unknown = read("stdillum-X").expect("a scene");
+    let warning = &unknown.warnings[0].message;
+    assert_eq!(
+        warning, "the spectrum of `I` is not understood and was taken as white",
+        "named"
+    );
+}
+
+#[test]
 fn mixtures_are_their_larger_part() {
     let chosen = |amount: &str| {
         let text = format!(

@@ -15,7 +15,7 @@ impl Reader {
     ) -> Result<(), Diagnostic> {
         let name = tokens.quoted("a texture's name")?.into_owned();
         tokens.quoted("a texture's type")?;
-        let typed = Typed::read(path, tokens)?;
+        let typed = Typed::read(path, tokens, self.files)?;
         let color = match typed.kind.as_str() {
             "constant" => self.color(&typed, "value", 1.0),
             "scale" => {
