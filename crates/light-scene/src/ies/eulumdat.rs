@@ -126,7 +126,7 @@ pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> 
 }
 
 /// The planes whose intensities a file holds, by index of their angles; none where their number does not suit the
-/// symmetry.
+/// symmetry. Symmetry 3, to the plane of C90 and C270, holds those from C270 over C0 to C90.
 fn used_planes(symmetry: usize, planes: usize) -> Option<Vec<usize>> {
     Some(match symmetry {
         _ if planes == 0 => return None,
