@@ -87,13 +87,14 @@ pub fn for_each_set(
     }
 }
 
-/// The packages whose tests run a second time with software float functions, the same bits on every machine.
-pub const SOFTWARE_FLOATS: &[&str] = &[
-    "light-math",
-    "light-bounds",
-    "light-bvh",
-    "light-samplers",
-    "light-sources",
+/// The sets whose tests run a second time, without std: float functions in software, the same bits on every machine.
+pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
+    alloc("light-math", "libm,alloc"),
+    core("light-bounds", "libm"),
+    alloc("light-bvh", "libm,alloc"),
+    alloc("light-samplers", "libm,alloc"),
+    alloc("light-sources", "libm,alloc"),
+    alloc("light-media", "libm,alloc"),
 ];
 
 const fn core(package: &'static str, features: &'static str) -> FeatureSet {
