@@ -64,7 +64,7 @@ fn run_targets(tool: &PathBuf, targets: &[String], seconds: u32) -> StepResult {
             .arg(root().join("fuzz/corpus").join(target))
             .arg("--")
             .arg(format!("-max_total_time={seconds}"))
-            .args(["-max_len=700", "-verbosity=0"])
+            .args(["-max_len=2000", "-verbosity=0"])
             .env("RUSTUP_TOOLCHAIN", "nightly")
             .env_remove("CARGO");
         run(&mut command)?;
