@@ -71,10 +71,23 @@ impl Accel {
     #[inline]
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<TriangleId>) -> Option<Hit> {
+        self.closest_where(ray, from, |_, _| true)
+    }
+
+    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by triangle and barycentric coordinates.
+    #[inline]
+    #[must_use]
+    pub fn closest_where(
+        &self,
+        ray: &Ray,
+        from: Option<TriangleId>,
+        is_there: impl Fn(TriangleId, Vec2) -> bool,
+    ) -> Option<Hit> {
         let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, f32::INFINITY);
         let mut hit = RayHit::none();
-        self.bvh
-            .ray_traverse(ray, &mut hit, |ray, slot| self.distance(ray, slot, from));
+        self.bvh.ray_traverse(ray, &mut hit, |ray, slot| {
+            self.distance(ray, slot, from, &is_there)
+        });
         let leaf = self.leaves.get(hit.primitive_id as usize)?;
         Some(Hit {
             triangle: self.triangle(hit.primitive_id as usize),
@@ -87,18 +100,42 @@ impl Accel {
     #[inline]
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32, from: Option<TriangleId>) -> bool {
+        self.occluded_where(ray, t_max, from, |_, _| true)
+    }
+
+    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by triangle and barycentric coordinates.
+    #[inline]
+    #[must_use]
+    pub fn occluded_where(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        from: Option<TriangleId>,
+        is_there: impl Fn(TriangleId, Vec2) -> bool,
+    ) -> bool {
         let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         !self
             .bvh
-            .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from))
+            .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &is_there))
     }
 
-    /// The distance to the triangle in `slot`, infinite for a miss and for the triangle that the ray starts on.
+    /// The distance to the triangle in `slot`, infinite for a miss, for the triangle that the ray starts on, and for a hit that does not
+    /// count.
     #[inline(always)]
-    fn distance(&self, ray: &ObvhsRay, slot: usize, from: Option<TriangleId>) -> f32 {
-        let t = self.leaves[slot].intersect(ray);
-        if t < f32::INFINITY && from == Some(self.triangle(slot)) {
-            return f32::INFINITY;
+    fn distance(
+        &self,
+        ray: &ObvhsRay,
+        slot: usize,
+        from: Option<TriangleId>,
+        is_there: impl Fn(TriangleId, Vec2) -> bool,
+    ) -> f32 {
+        let leaf = &self.leaves[slot];
+        let t = leaf.intersect(ray);
+        if t < f32::INFINITY {
+            let triangle = self.triangle(slot);
+            if from == Some(triangle) || !is_there(triangle, leaf.compute_barycentric(ray)) {
+                return f32::INFINITY;
+            }
         }
         t
     }

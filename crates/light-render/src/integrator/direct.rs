@@ -2,7 +2,7 @@ use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
 use lights::samplers::LightSampler;
-use lights::sources::{Light, LightType};
+use lights::sources::{Light, LightType, PdfCoverage};
 
 use super::{Estimator, Traced};
 use crate::bsdf::Scattering;
@@ -134,7 +134,13 @@ impl<S: LightSampler> DirectLight<'_, S> {
     ) -> Option<Unshadowed> {
         let Vertex { scattering, wo, .. } = *vertex;
         let light = self.world.lights().get(choice.light)?;
-        let coverage = self.estimator.coverage();
+        // Rays find no more of a light with holes than is there, but it gives light as if it had none.
+        let has_holes = self.world.has_holes(choice.light);
+        let coverage = if has_holes {
+            PdfCoverage::Complete
+        } else {
+            self.estimator.coverage()
+        };
         let sample = light.sample_li(&question.ctx, u_point, &(), coverage)?;
         let scattered = scattering.eval(wo, sample.wi) * sample.l;
         if scattered == Vec3::ZERO {
@@ -142,7 +148,7 @@ impl<S: LightSampler> DirectLight<'_, S> {
         }
         let density = question.count as f32 * choice.pmf * sample.pdf;
         let kind = light.light_type();
-        let weight = if kind.is_delta() {
+        let weight = if kind.is_delta() || has_holes {
             1.0
         } else {
             self.estimator

@@ -1,15 +1,15 @@
-use alloc::sync::Arc;
+mod holes;
+mod materials;
 
-use light_scene::{Color, ColorImage, Image, Material, Scene, Surface as Finish};
-use lights::bounds::{Gloss, LightId, LightSampleContext};
+use alloc::sync::Arc;
+use core::ops::Range;
+
+use light_scene::{Image, Material, Scene, Surface as Finish};
+use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
 use lights::sources::{LightSet, MediumId, Rgb, SurfacePoint};
 
-use crate::bsdf::{
-    Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, Microfacets, Mirror, Scattering,
-    ThinDielectric,
-};
 use crate::scene_lights::{SceneLights, SceneLightsError};
 use crate::world_media::WorldMedia;
 use crate::{Accel, Ray, Surface, TriangleId};
@@ -27,6 +27,10 @@ pub struct World {
     lights: LightSet<Rgb>,
     infinite: Vec<LightId>,
     media: WorldMedia,
+    /// Whether any surface has holes.
+    has_holes: bool,
+    /// The ids of the lights that have.
+    holed_lights: Vec<Range<u32>>,
 }
 
 /// The triangles of one material, with vertices that the lights share.
@@ -79,7 +83,10 @@ impl World {
             .iter()
             .flat_map(|m| m.indices.iter().map(|&t| m.corners(t)))
             .collect();
+        let holed_lights = holes::holed_lights(&meshes, &materials);
         Ok(Self {
+            has_holes: materials.iter().any(|material| material.alpha.is_some()),
+            holed_lights,
             accel: Accel::new(&corners),
             meshes,
             triangles,
@@ -114,7 +121,12 @@ impl World {
     #[inline]
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<TriangleId>) -> Option<Surface> {
-        let hit = self.accel.closest(ray, from)?;
+        let hit = if self.has_holes {
+            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            self.accel.closest_where(ray, from, is_there)?
+        } else {
+            self.accel.closest(ray, from)?
+        };
         Some(self.surface(hit.triangle, hit.barycentric))
     }
 
@@ -132,10 +144,7 @@ impl World {
             barycentric.x,
             barycentric.y,
         ];
-        if let Some(uvs) = &mesh.uvs {
-            let [a, b, c] = indices.map(|i| uvs[i as usize]);
-            surface.uv = a * weights[0] + b * weights[1] + c * weights[2];
-        }
+        surface.uv = mesh.uv(indices, barycentric);
         if let Some(normals) = &mesh.normals {
             let [a, b, c] = indices.map(|i| normals[i as usize]);
             let ns = a * weights[0] + b * weights[1] + c * weights[2];
@@ -184,7 +193,12 @@ impl World {
     /// Whether anything but the triangle `from` lies within `distance` along `ray`.
     #[inline]
     pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<TriangleId>) -> bool {
-        self.accel.occluded(ray, distance, from)
+        if self.has_holes {
+            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            self.accel.occluded_where(ray, distance, from, is_there)
+        } else {
+            self.accel.occluded(ray, distance, from)
+        }
     }
 
     /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
@@ -200,10 +214,7 @@ impl World {
             origin,
             direction: way / distance,
         };
-        distance > 0.0
-            && self
-                .accel
-                .occluded(&ray, distance * PART, Some(surface.triangle))
+        distance > 0.0 && self.blocked(&ray, distance * PART, Some(surface.triangle))
     }
 
     /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where it sends none.
@@ -237,81 +248,6 @@ impl World {
             .map_or(Vec3::ZERO, |light| light.le(ray.origin, ray.direction, &()))
     }
 
-    /// How the material at `surface` scatters light.
-    #[inline]
-    #[must_use]
-    pub fn scattering(&self, surface: &Surface) -> Scattering {
-        let (mesh, _) = self.mesh(surface.triangle);
-        let uv = surface.uv;
-        let bsdf = match &self.materials[mesh.material].surface {
-            Finish::Diffuse { reflectance } => {
-                Bsdf::Lambert(Lambert::opaque(self.color(reflectance, uv)))
-            }
-            Finish::DiffuseTransmission {
-                reflectance,
-                transmittance,
-            } => Bsdf::Lambert(Lambert {
-                reflectance: self.color(reflectance, uv),
-                transmittance: self.color(transmittance, uv),
-            }),
-            Finish::Mirror { reflectance } => Bsdf::Mirror(Mirror {
-                reflectance: *reflectance,
-            }),
-            Finish::Conductor { eta, k, alpha } => Bsdf::Conductor(Conductor {
-                eta: *eta,
-                k: *k,
-                facets: Microfacets::new(*alpha),
-            }),
-            Finish::Dielectric { eta, alpha } => Bsdf::Dielectric(Dielectric {
-                eta: *eta,
-                facets: Microfacets::new(*alpha),
-            }),
-            Finish::ThinDielectric { eta } => Bsdf::ThinDielectric(ThinDielectric { eta: *eta }),
-            Finish::CoatedDiffuse {
-                reflectance,
-                eta,
-                alpha,
-            } => Bsdf::CoatedDiffuse(CoatedDiffuse::new(
-                self.color(reflectance, uv),
-                *eta,
-                Microfacets::new(*alpha),
-            )),
-            // A boundary between equal indices bends and reflects nothing.
-            Finish::Interface => Bsdf::ThinDielectric(ThinDielectric { eta: 1.0 }),
-            _ => unreachable!("every kind of surface is handled above"),
-        };
-        Scattering::new(bsdf, surface)
-    }
-
-    /// The question that light samplers and lights answer at `surface`, seen from `wo`.
-    #[inline]
-    #[must_use]
-    pub fn light_context(
-        &self,
-        surface: &Surface,
-        scattering: &Scattering,
-        wo: Vec3,
-    ) -> LightSampleContext {
-        if scattering.bsdf().transmits() {
-            // Light counts from both sides, as it does in a medium.
-            return LightSampleContext::medium(surface.p).with_error(surface.p_error);
-        }
-        let ctx = surface.light_context(wo);
-        match scattering.bsdf().gloss() {
-            Some((alpha, diffuse)) => ctx.with_gloss(Gloss { wo, alpha, diffuse }),
-            None => ctx,
-        }
-    }
-
-    fn color(&self, color: &Color, uv: Vec2) -> Vec3 {
-        match color {
-            Color::Constant(color) => *color,
-            Color::Image(ColorImage { image, scale }) => {
-                bilinear(&self.images[image.0 as usize], uv) * *scale
-            }
-        }
-    }
-
     #[inline]
     fn mesh(&self, triangle: TriangleId) -> (&WorldMesh, [u32; 3]) {
         let MeshTriangle { mesh, index } = self.triangles[triangle.0 as usize];
@@ -321,6 +257,17 @@ impl World {
 }
 
 impl WorldMesh {
+    /// The texture coordinates on a triangle, which are barycentric ones where the mesh has no others.
+    #[inline]
+    fn uv(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec2 {
+        let Some(uvs) = &self.uvs else {
+            return barycentric;
+        };
+        let [a, b, c] = triangle.map(|i| uvs[i as usize]);
+        let Vec2 { x, y } = barycentric;
+        a * (1.0 - x - y) + b * x + c * y
+    }
+
     fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         triangle.map(|i| self.positions[i as usize])
     }
@@ -337,27 +284,4 @@ impl From<light_scene::Mesh> for WorldMesh {
             first_light: None,
         }
     }
-}
-
-/// The colour of a repeating image at `uv`, whose (0, 0) is the lower left corner.
-fn bilinear(image: &Image, uv: Vec2) -> Vec3 {
-    let (width, height) = (image.width(), image.height());
-    let x = uv.x * width as f32 - 0.5;
-    let y = (1.0 - uv.y) * height as f32 - 0.5;
-    let (x0, y0) = (x.floor(), y.floor());
-    let at = |dx: f32, dy: f32| image.texel(wrapped(x0 + dx, width), wrapped(y0 + dy, height));
-    let top = at(0.0, 0.0).lerp(at(1.0, 0.0), x - x0);
-    let bottom = at(0.0, 1.0).lerp(at(1.0, 1.0), x - x0);
-    top.lerp(bottom, y - y0)
-}
-
-/// The whole number `i` modulo `n`; 0 where `i` is no number.
-fn wrapped(i: f32, n: u32) -> u32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "below n, saturating otherwise"
-    )]
-    let index = i.rem_euclid(n as f32) as u32;
-    index.min(n - 1)
 }
