@@ -3,19 +3,15 @@ use core::f32::consts::PI;
 use core::fmt;
 
 use crate::amount::IntensityAmount;
-use crate::color::{ColorModel, Radiance};
-use crate::coverage::PdfCoverage;
-use crate::delta::sample_point;
+use crate::color::ColorModel;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::{Channels, Image};
-use crate::kind::LightType;
-use crate::light::Light;
 use crate::media::MediumInterface;
+use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::sphere_table::{SphereSample, SphereTable};
-use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bounds::LightBounds;
 use light_math::Aabb;
 use light_math::equal_area::sphere_to_square;
 
@@ -94,74 +90,55 @@ impl<C: ColorModel> GoniometricLight<C> {
             media: desc.media,
         })
     }
-
-    /// The part of the full intensity in the direction `w` away from the light.
-    fn distribution(&self, w: Vec3) -> f32 {
-        let uv = sphere_to_square(self.transform.inverse_vector(w));
-        self.image.nearest(uv).x
-    }
 }
 
-impl<C: ColorModel> Light<C> for GoniometricLight<C> {
-    fn light_type(&self) -> LightType {
-        LightType::DeltaPosition
+impl<C: ColorModel> PointSource for GoniometricLight<C> {
+    type Color = C;
+
+    fn position(&self) -> Vec3 {
+        self.transform.origin()
     }
 
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        let uv = sphere_to_square(self.transform.inverse_vector(w));
+        self.intensity.at(wavelengths) * self.image.nearest(uv).x
+    }
+
+    fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         self.intensity.at(wavelengths) * (4.0 * PI * self.mean)
     }
 
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        _u: Vec2,
-        wavelengths: &C::Wavelengths,
-        _coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        sample_point(ctx, self.transform.origin(), |w| {
-            self.intensity.at(wavelengths) * self.distribution(w)
-        })
-    }
-
-    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
-        0.0
-    }
-
-    /// The direction is chosen by `u1` in proportion to the intensity.
-    fn sample_le(
+    /// In proportion to the intensity, by `u1`.
+    fn sample_direction(
         &self,
         u1: Vec2,
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
+    ) -> Option<DirectionSample<C::Radiance>> {
         let SphereSample { uv, w, pdf } = self.table.sample(u1)?;
-        let l = self.intensity.at(wavelengths) * self.image.nearest(uv).x;
-        (!l.is_black()).then_some(LightLeSample {
-            l,
-            ray: EmittedRay::from_point(self.transform.origin(), self.transform.vector(w)),
-            pdf: LePdf { pos: 1.0, dir: pdf },
+        Some(DirectionSample {
+            w: self.transform.vector(w),
+            intensity: self.intensity.at(wavelengths) * self.image.nearest(uv).x,
+            pdf,
         })
     }
 
-    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        LePdf {
-            pos: 0.0,
-            dir: self.table.pdf(self.transform.inverse_vector(ray.direction)),
-        }
+    fn direction_pdf(&self, w: Vec3) -> f32 {
+        self.table.pdf(self.transform.inverse_vector(w))
     }
 
-    fn extent(&self) -> LightExtent {
-        LightExtent::Bounded(LightBounds {
+    fn point_bounds(&self) -> LightBounds {
+        LightBounds {
             bounds: Aabb::from_point(self.transform.origin()),
             w: Vec3::Z,
             phi: 4.0 * PI * self.intensity.maximum() * self.mean,
             cos_theta_o: -1.0,
             cos_theta_e: 0.0,
             two_sided: false,
-        })
+        }
     }
 
-    fn media(&self) -> MediumInterface {
+    fn surroundings(&self) -> MediumInterface {
         self.media
     }
 }

@@ -19,7 +19,6 @@ mod area;
 mod area_desc;
 mod color;
 mod coverage;
-mod delta;
 #[cfg(feature = "alloc")]
 mod desc;
 #[cfg(feature = "alloc")]
@@ -48,6 +47,7 @@ mod median_cut;
 #[cfg(feature = "alloc")]
 mod mesh;
 mod point;
+mod point_source;
 #[cfg(feature = "alloc")]
 mod portal;
 #[cfg(feature = "alloc")]
@@ -117,6 +117,7 @@ pub use median_cut::{
 #[cfg(feature = "alloc")]
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
 pub use point::{PointLight, PointLightDesc, PointLightError};
+pub use point_source::{DirectionSample, PointSource};
 #[cfg(feature = "alloc")]
 pub use portal_infinite::{PortalInfiniteLight, PortalInfiniteLightDesc, PortalInfiniteLightError};
 #[cfg(feature = "alloc")]

@@ -4,15 +4,11 @@ use core::fmt;
 
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
-use crate::coverage::PdfCoverage;
-use crate::delta::sample_point;
 use crate::glam::{Vec2, Vec3};
-use crate::kind::LightType;
-use crate::light::Light;
 use crate::media::MediumInterface;
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::point_source::{DirectionSample, PointSource};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
-use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bounds::LightBounds;
 use light_math::Aabb;
 use light_math::warp::uniform_sphere;
 
@@ -69,65 +65,50 @@ impl<C: ColorModel> PointLight<C> {
     }
 }
 
-impl<C: ColorModel> Light<C> for PointLight<C> {
-    fn light_type(&self) -> LightType {
-        LightType::DeltaPosition
+impl<C: ColorModel> PointSource for PointLight<C> {
+    type Color = C;
+
+    fn position(&self) -> Vec3 {
+        self.position
     }
 
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    fn intensity(&self, _w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.intensity.at(wavelengths)
+    }
+
+    fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         self.intensity.at(wavelengths) * (4.0 * PI)
     }
 
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        _u: Vec2,
-        wavelengths: &C::Wavelengths,
-        _coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        sample_point(ctx, self.position, |_| self.intensity.at(wavelengths))
-    }
-
-    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
-        0.0
-    }
-
-    fn sample_le(
+    fn sample_direction(
         &self,
         u1: Vec2,
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
-        let direction = uniform_sphere::sample(u1);
-        Some(LightLeSample {
-            l: self.intensity.at(wavelengths),
-            ray: EmittedRay::from_point(self.position, direction),
-            pdf: LePdf {
-                pos: 1.0,
-                dir: uniform_sphere::pdf(),
-            },
+    ) -> Option<DirectionSample<C::Radiance>> {
+        Some(DirectionSample {
+            w: uniform_sphere::sample(u1),
+            intensity: self.intensity.at(wavelengths),
+            pdf: uniform_sphere::pdf(),
         })
     }
 
-    fn pdf_le(&self, _ray: &EmittedRay) -> LePdf {
-        LePdf {
-            pos: 0.0,
-            dir: uniform_sphere::pdf(),
-        }
+    fn direction_pdf(&self, _w: Vec3) -> f32 {
+        uniform_sphere::pdf()
     }
 
-    fn extent(&self) -> LightExtent {
-        LightExtent::Bounded(LightBounds {
+    fn point_bounds(&self) -> LightBounds {
+        LightBounds {
             bounds: Aabb::from_point(self.position),
             w: Vec3::Z,
             phi: 4.0 * PI * self.intensity.maximum(),
             cos_theta_o: -1.0,
             cos_theta_e: 0.0,
             two_sided: false,
-        })
+        }
     }
 
-    fn media(&self) -> MediumInterface {
+    fn surroundings(&self) -> MediumInterface {
         self.media
     }
 }

@@ -6,18 +6,14 @@ use core::marker::PhantomData;
 
 use crate::amount::IntensityAmount;
 use crate::color::{ColorModel, Radiance};
-use crate::coverage::PdfCoverage;
-use crate::delta::sample_point;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
-use crate::kind::LightType;
-use crate::light::Light;
 use crate::media::MediumInterface;
+use crate::point_source::{DirectionSample, PointSource};
 use crate::rgb_sum::RgbSum;
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scaled_emission::EmissionError;
-use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bounds::LightBounds;
 use light_math::Aabb;
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::float::{sqrt, tan};
@@ -128,14 +124,6 @@ impl<C: ColorModel> ProjectionLight<C> {
         })
     }
 
-    /// Intensity in the direction `w` away from the light.
-    fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
-        match self.on_plane(w) {
-            Some(p) if p.abs().cmple(self.half).all() => self.picture(p, wavelengths),
-            _ => C::Radiance::BLACK,
-        }
-    }
-
     /// Intensity toward the point `p` of the plane z = 1, inside of the picture.
     fn picture(&self, p: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
         let uv = 0.5 * (p / self.half) + 0.5;
@@ -149,66 +137,49 @@ impl<C: ColorModel> ProjectionLight<C> {
     }
 }
 
-impl<C: ColorModel> Light<C> for ProjectionLight<C> {
-    fn light_type(&self) -> LightType {
-        LightType::DeltaPosition
+impl<C: ColorModel> PointSource for ProjectionLight<C> {
+    type Color = C;
+
+    fn position(&self) -> Vec3 {
+        self.transform.origin()
     }
 
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        match self.on_plane(w) {
+            Some(p) if p.abs().cmple(self.half).all() => self.picture(p, wavelengths),
+            _ => C::Radiance::BLACK,
+        }
+    }
+
+    fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         C::emit_texel(self.power, wavelengths) * self.scale
     }
 
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        _u: Vec2,
-        wavelengths: &C::Wavelengths,
-        _coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        sample_point(ctx, self.transform.origin(), |w| {
-            self.intensity(w, wavelengths)
-        })
-    }
-
-    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
-        0.0
-    }
-
-    /// The direction is chosen by `u1` in proportion to the intensity.
-    fn sample_le(
+    /// In proportion to the intensity, by `u1`.
+    fn sample_direction(
         &self,
         u1: Vec2,
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
+    ) -> Option<DirectionSample<C::Radiance>> {
         let Sample2D { p, pdf, .. } = self.table.as_ref()?.sample(u1);
-        let direction = self.transform.vector(p.extend(1.0).normalize());
-        let l = self.picture(p, wavelengths);
-        (!l.is_black()).then_some(LightLeSample {
-            l,
-            ray: EmittedRay::from_point(self.transform.origin(), direction),
-            pdf: LePdf {
-                pos: 1.0,
-                dir: pdf / solid_angle_per_area(p),
-            },
+        Some(DirectionSample {
+            w: self.transform.vector(p.extend(1.0).normalize()),
+            intensity: self.picture(p, wavelengths),
+            pdf: pdf / solid_angle_per_area(p),
         })
     }
 
-    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        let on_plane = self.on_plane(ray.direction);
-        let dir = self
-            .table
-            .as_ref()
-            .zip(on_plane)
-            .map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p));
-        LePdf { pos: 0.0, dir }
+    fn direction_pdf(&self, w: Vec3) -> f32 {
+        let on_plane = self.table.as_ref().zip(self.on_plane(w));
+        on_plane.map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p))
     }
 
-    fn extent(&self) -> LightExtent {
-        self.extent.into()
+    fn point_bounds(&self) -> LightBounds {
+        self.extent
     }
 
-    fn media(&self) -> MediumInterface {
+    fn surroundings(&self) -> MediumInterface {
         self.media
     }
 }

@@ -3,17 +3,13 @@ use core::f32::consts::{PI, TAU};
 use core::fmt;
 
 use crate::amount::IntensityAmount;
-use crate::color::{ColorModel, Radiance};
-use crate::coverage::PdfCoverage;
-use crate::delta::sample_point;
+use crate::color::ColorModel;
 use crate::glam::{Affine3A, Vec2, Vec3};
-use crate::kind::LightType;
-use crate::light::Light;
 use crate::media::MediumInterface;
+use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
-use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bounds::LightBounds;
 use light_math::Aabb;
 use light_math::float::{cos, safe_sqrt, sin, sin_cos};
 use light_math::warp::{smoothstep, uniform_cone};
@@ -123,39 +119,29 @@ impl<C: ColorModel> SpotLight<C> {
     }
 }
 
-impl<C: ColorModel> Light<C> for SpotLight<C> {
-    fn light_type(&self) -> LightType {
-        LightType::DeltaPosition
+impl<C: ColorModel> PointSource for SpotLight<C> {
+    type Color = C;
+
+    fn position(&self) -> Vec3 {
+        self.transform.origin()
     }
 
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.intensity.at(wavelengths) * self.falloff(w)
+    }
+
+    fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         self.intensity.at(wavelengths) * self.solid_angle()
     }
 
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        _u: Vec2,
-        wavelengths: &C::Wavelengths,
-        _coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        sample_point(ctx, self.transform.origin(), |w| {
-            self.intensity.at(wavelengths) * self.falloff(w)
-        })
-    }
-
-    fn pdf_li(&self, _ctx: &LightSampleContext, _wi: Vec3, _coverage: PdfCoverage) -> f32 {
-        0.0
-    }
-
-    /// The direction is chosen in proportion to the intensity, so that each ray carries the same power: `u2.x` chooses
-    /// between the core and the falloff, `u1` the direction in it.
-    fn sample_le(
+    /// In proportion to the intensity, so that each ray carries the same power: `u2.x` chooses between the core and the
+    /// falloff, `u1` the direction in it.
+    fn sample_direction(
         &self,
         u1: Vec2,
         u2: Vec2,
         wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
+    ) -> Option<DirectionSample<C::Radiance>> {
         let band = self.end - self.start;
         let core_share = self.start / (self.start + 0.5 * band);
         let w = if u2.x < core_share {
@@ -166,40 +152,33 @@ impl<C: ColorModel> Light<C> for SpotLight<C> {
             let (sin_phi, cos_phi) = sin_cos(TAU * u1.y);
             Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - x)
         };
-        let ray = EmittedRay::from_point(self.transform.origin(), self.transform.vector(w));
-        let falloff = self.falloff(ray.direction);
-        let l = self.intensity.at(wavelengths) * falloff;
-        (!l.is_black()).then_some(LightLeSample {
-            l,
-            ray,
-            pdf: LePdf {
-                pos: 1.0,
-                dir: falloff / self.solid_angle(),
-            },
+        let w = self.transform.vector(w);
+        let falloff = self.falloff(w);
+        (falloff > 0.0).then(|| DirectionSample {
+            w,
+            intensity: self.intensity.at(wavelengths) * falloff,
+            pdf: falloff / self.solid_angle(),
         })
     }
 
-    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        LePdf {
-            pos: 0.0,
-            dir: self.falloff(ray.direction) / self.solid_angle(),
-        }
+    fn direction_pdf(&self, w: Vec3) -> f32 {
+        self.falloff(w) / self.solid_angle()
     }
 
     /// The power is that of a light that shines in all directions: of two spots that light a point alike, the wide one
     /// must not be chosen more often.
-    fn extent(&self) -> LightExtent {
-        LightExtent::Bounded(LightBounds {
+    fn point_bounds(&self) -> LightBounds {
+        LightBounds {
             bounds: Aabb::from_point(self.transform.origin()),
             w: self.transform.axis(),
             phi: 4.0 * PI * self.intensity.maximum(),
             cos_theta_o: self.cos_theta_o,
             cos_theta_e: self.cos_theta_e,
             two_sided: false,
-        })
+        }
     }
 
-    fn media(&self) -> MediumInterface {
+    fn surroundings(&self) -> MediumInterface {
         self.media
     }
 }
@@ -242,6 +221,7 @@ impl From<EmissionError> for SpotLightError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::light::Light;
     use crate::rgb::Rgb;
 
     fn spot(angle: f32, falloff_start: f32) -> Result<SpotLight<Rgb>, SpotLightError> {
