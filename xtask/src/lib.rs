@@ -11,6 +11,7 @@ pub mod exhaustive;
 mod features;
 mod fuzz;
 mod gallery;
+mod march_convergence;
 mod median_cut_table;
 mod no_std;
 mod references;
@@ -29,6 +30,7 @@ usage: cargo xtask [COMMAND]
   bench [FILTER]              time everything, with ratios to the reference
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   gallery                     remake the pictures of the README and the references of the demo
+  march-convergence           redraw how marches through media converge, for the first page of light-media
   median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   no-std                      prove that no crate needs std, nor alloc where it promises that
@@ -48,6 +50,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
+        ("march-convergence", []) => one("march-convergence", march_convergence::march_convergence),
         ("median-cut-table", images) => one("median-cut-table", || {
             median_cut_table::median_cut_table(images)
         }),

@@ -5,7 +5,7 @@ use crate::transmittance;
 use light_bounds::{LightId, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::LightSampler;
-use light_sources::{ColorModel, Light, LightSet, PdfCoverage, Radiance};
+use light_sources::{ColorModel, Light, LightSet, LightType, PdfCoverage, Radiance};
 
 /// What the integrators must know of the geometry.
 pub trait Visibility {
@@ -78,20 +78,44 @@ where
         u: Vec2,
         next_u: &mut impl FnMut() -> f32,
     ) -> C::Radiance {
+        self.weighted_from(light, at, u, |_, _| 1.0, next_u)
+    }
+
+    /// The same, times a weight of the densities of the direction by the light and by the phase function, in sr^-1; Dirac
+    /// lights, which no other strategy finds, have the weight 1.
+    pub(crate) fn weighted_from(
+        &self,
+        light: LightId,
+        at: ScatteringPoint,
+        u: Vec2,
+        weight: impl Fn(f32, f32) -> f32,
+        next_u: &mut impl FnMut() -> f32,
+    ) -> C::Radiance {
         let ctx = LightSampleContext::medium(at.p);
-        let sample = self
-            .lights
-            .get(light)
-            .and_then(|light| light.sample_li(&ctx, u, self.wavelengths, PdfCoverage::Complete));
+        let Some(light) = self.lights.get(light) else {
+            return C::Radiance::BLACK;
+        };
+        let sample = light.sample_li(&ctx, u, self.wavelengths, PdfCoverage::Complete);
         let Some(li) = sample else {
             return C::Radiance::BLACK;
         };
-        let weight = self.medium.phase().pdf(at.wo, li.wi) / li.pdf;
-        if li.l.is_black() || !(weight > 0.0) || !self.scene.unoccluded(at.p, li.p_light) {
+        let phase = self.medium.phase().pdf(at.wo, li.wi);
+        let weight = if light.light_type().is_delta() {
+            1.0
+        } else {
+            weight(li.pdf, phase)
+        };
+        let factor = weight * phase / li.pdf;
+        if li.l.is_black() || !(factor > 0.0) || !self.scene.unoccluded(at.p, li.p_light) {
             return C::Radiance::BLACK;
         }
         let ray = Ray { o: at.p, d: li.wi };
-        let left = match Span::new(0.0, at.p.distance(li.p_light)) {
+        let distance = match light.light_type() {
+            LightType::DeltaPosition | LightType::Area => at.p.distance(li.p_light),
+            // Fog without end lets nothing through from infinity.
+            LightType::DeltaDirection | LightType::Infinite => f32::INFINITY,
+        };
+        let left = match Span::new(0.0, distance) {
             Some(span) => transmittance::best::<C, M>(
                 self.medium,
                 &ray,
@@ -102,6 +126,6 @@ where
             ),
             None => C::Radiance::splat(1.0),
         };
-        li.l * left * weight
+        li.l * left * factor
     }
 }

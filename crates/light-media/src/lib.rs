@@ -28,6 +28,8 @@ mod medium;
 #[cfg(feature = "alloc")]
 mod next_event;
 pub mod phase;
+#[cfg(feature = "alloc")]
+mod phase_mis;
 mod ray;
 mod ray_march;
 mod region;
@@ -52,6 +54,8 @@ pub use medium::{
     MajorantSegment, Majorants, Medium, Substance,
 };
 pub use phase::{Phase, PhaseFunction, PhaseSample};
+#[cfg(feature = "alloc")]
+pub use phase_mis::{FirstHit, Intersection, ScatteringNumbers};
 pub use ray::{Ray, Span};
 pub use region::{Region, RegionError};
 pub use stratify::LatinHypercube;

@@ -94,6 +94,13 @@ impl SampleStream {
         FlightNumbers::new(unit(first), u64::from(self.seed) << 32 | u64::from(path))
     }
 
+    /// A number of its own for every sample of every pixel, for whoever draws from it.
+    #[inline]
+    #[must_use]
+    pub const fn key(&self) -> u32 {
+        sobol::hash(self.seed ^ sobol::hash(self.index))
+    }
+
     /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.
     #[inline]
     fn set(&self, set: u32) -> [u32; 4] {

@@ -2,13 +2,14 @@
 
 mod support;
 
-use light_render::integrator::{Estimator, Integrator};
+use light_render::integrator::{Estimator, Integrator, SingleScattering};
 use light_scene::glam::{Affine3A, DVec3, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
 use lights::math::Aabb;
 use lights::media::phase::{HenyeyGreenstein, Isotropic};
 use lights::media::{
-    AnyMedium, DensityGrid, Glow, GridMedium, Homogeneous, Phase, PhaseFunction, Region, Substance,
+    AnyMedium, DensityGrid, Glow, GridMedium, Homogeneous, Phase, PhaseFunction, Region, StepSize,
+    Substance,
 };
 use lights::sources::{
     IntensityAmount, LightDesc, MediumInterface, PointLightDesc, RadianceAmount, Rgb,
@@ -310,4 +311,40 @@ fn without_media_both_integrators_make_the_same_picture() {
     };
     let (path, volpath) = (picture(Integrator::Path), picture(Integrator::VolPath));
     assert!(path == volpath, "bit for bit");
+}
+
+#[test]
+fn three_ways_to_scatter_once_agree() {
+    let (mut scene, _) = lamp_in_fog();
+    let floor = scene.add_material(Material::diffuse("floor", Vec3::splat(0.5)));
+    let lamp = scene.add_material(Material {
+        emission: Some(Emission::two_sided(Vec3::splat(8.0))),
+        ..Material::diffuse("lamp", Vec3::ZERO)
+    });
+    let at = |scale: f32, place: Vec3| move |p: Vec3| (p - 0.5) * scale + place;
+    let corners = room()[0].map(at(6.0, Vec3::new(0.0, 2.0, -3.0)));
+    scene.meshes.push(Mesh::quad("floor", floor, corners));
+    let corners = room()[1].map(at(0.4, Vec3::new(-0.8, 0.6, -2.5)));
+    scene.meshes.push(Mesh::quad("lamp", lamp, corners));
+    scene.camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y, 1.0).ok();
+    let of = |integrator| {
+        let shot = Shot {
+            max_depth: 2,
+            spp: 32,
+            integrator: Some(integrator),
+            ..Shot::default()
+        };
+        shot.mean(&scene)
+    };
+    let step = StepSize::new(0.25).expect("positive");
+    let paths = of(Integrator::VolPath);
+    let asked = of(Integrator::SingleScattering(SingleScattering::NextEvent));
+    let marched = of(Integrator::SingleScattering(SingleScattering::Classic(
+        step,
+    )));
+    assert!(agree(asked, paths), "asked {asked:?}, paths {paths:?}");
+    assert!(
+        agree(marched, paths),
+        "marched {marched:?}, paths {paths:?}"
+    );
 }

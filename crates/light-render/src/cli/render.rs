@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use light_render::integrator::{self, Integrator, PathSettings};
+use light_render::integrator::{self, Integrator, PathSettings, SingleScattering};
 use light_render::{
     AnyLightSampler, PartialPicture, Progress, RenderSettings, Rendering, SamplerKind, ToneMap,
     View, World, light_sample_time, render,
 };
 use light_scene::{Diagnostic, Image};
+use lights::media::StepSize;
 use serde_json::json;
 
 use super::arguments::{positive, sample_range};
@@ -45,9 +46,13 @@ pub(crate) struct RenderArgs {
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     max_depth: u32,
-    /// What scatters light: surfaces alone, or media as well; without it volpath where the scene has media, else path.
+    /// What scatters light: surfaces alone (path), or media as well (volpath), or either once (single-scattering, with
+    /// lights for the ray as a whole, and -classic, in steps); without it volpath where the scene has media, else path.
     #[arg(long, value_enum)]
     integrator: Option<IntegratorName>,
+    /// Length of the steps of single-scattering-classic; without it a hundredth of the scene.
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    step: Option<f32>,
     /// Same seed, same image.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
@@ -80,6 +85,8 @@ pub(crate) struct RenderArgs {
 enum IntegratorName {
     Path,
     Volpath,
+    SingleScattering,
+    SingleScatteringClassic,
 }
 
 /// The names of the estimators on the command line.
@@ -104,7 +111,7 @@ impl RenderArgs {
         let view = self.view.view(&scene)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let world = self.input.build(scene)?;
-        if world.lights().is_empty() {
+        if world.lights().is_empty() && !world.has_media() {
             let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";
             return Err(Failure::input(Diagnostic::file(&self.input.scene, nothing)));
         }
@@ -207,6 +214,22 @@ impl RenderArgs {
         )
     }
 
+    fn integrator(&self, world: &World) -> Integrator {
+        match self.integrator {
+            Some(IntegratorName::Path) => Integrator::Path,
+            Some(IntegratorName::Volpath) => Integrator::VolPath,
+            Some(IntegratorName::SingleScattering) => {
+                Integrator::SingleScattering(SingleScattering::NextEvent)
+            }
+            Some(IntegratorName::SingleScatteringClassic) => {
+                let step = self.step.and_then(|step| StepSize::new(step).ok());
+                let step = step.unwrap_or_else(|| integrator::coarse_step(world));
+                Integrator::SingleScattering(SingleScattering::Classic(step))
+            }
+            None => Integrator::fitting(world),
+        }
+    }
+
     fn settings(&self, world: &World) -> RenderSettings {
         let samples = match (&self.samples, self.spp, self.time) {
             (Some(samples), _, _) => samples.clone(),
@@ -226,11 +249,7 @@ impl RenderArgs {
                     Estimator::Bsdf => integrator::Estimator::Bsdf,
                 },
                 light_samples: self.light_samples,
-                integrator: match self.integrator {
-                    Some(IntegratorName::Path) => Integrator::Path,
-                    Some(IntegratorName::Volpath) => Integrator::VolPath,
-                    None => Integrator::fitting(world),
-                },
+                integrator: self.integrator(world),
             },
         }
     }

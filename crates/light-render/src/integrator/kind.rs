@@ -1,16 +1,18 @@
 use lights::samplers::LightSampler;
 
-use super::{PathSettings, Traced, trace, trace_volume};
+use super::{PathSettings, SingleScattering, Traced, trace, trace_single_scattering, trace_volume};
 use crate::{Ray, SampleStream, World};
 
 /// How the light along a camera ray is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Integrator {
     /// Paths from surface to surface; media are left out.
     #[default]
     Path,
     /// Paths that scatter in media as well.
     VolPath,
+    /// Light that was scattered once.
+    SingleScattering(SingleScattering),
 }
 
 impl Integrator {
@@ -38,5 +40,8 @@ pub fn follow<S: LightSampler>(
     match settings.integrator {
         Integrator::Path => trace(world, sampler, settings, ray, stream),
         Integrator::VolPath => trace_volume(world, sampler, settings, ray, stream),
+        Integrator::SingleScattering(method) => {
+            trace_single_scattering(world, sampler, settings, method, ray, stream)
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::{Estimator, Integrator};
 use crate::{Ray, SampleStream, World};
 
 /// How paths are traced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
     /// The number of segments of the longest path: 1 sees emitters directly, 2 adds direct light, and so on.
     pub max_depth: u32,

@@ -201,6 +201,18 @@ impl World {
         }
     }
 
+    /// Whether nothing lies between two points; a surface that the second lies on does not count.
+    #[inline]
+    pub(crate) fn sees(&self, from: Vec3, to: Vec3) -> bool {
+        let way = to - from;
+        let distance = way.length();
+        let ray = Ray {
+            origin: from,
+            direction: way / distance,
+        };
+        !(distance > 0.0 && self.blocked(&ray, distance * (1.0 - 1e-4), None))
+    }
+
     /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
     #[inline]
     #[must_use]

@@ -2,6 +2,7 @@
 
 mod cornell;
 mod dice;
+mod fog;
 mod modeller;
 mod night;
 mod rotunda;
@@ -17,6 +18,8 @@ use crate::Scene;
 pub enum BuiltinScene {
     /// Two blocks in a coloured room under one lamp; the classic test, from its published measurements.
     CornellBox,
+    /// A wood in fog with a thousand lamps among its trunks.
+    Fog,
     /// A town canal by night: twenty thousand small lights, most of them hidden from any one point.
     Night,
     /// Columns in still water around four spheres, under a photographed sky.
@@ -25,13 +28,14 @@ pub enum BuiltinScene {
 
 impl BuiltinScene {
     /// All scenes, from the simplest on.
-    pub const ALL: [Self; 3] = [Self::CornellBox, Self::Rotunda, Self::Night];
+    pub const ALL: [Self; 4] = [Self::CornellBox, Self::Rotunda, Self::Fog, Self::Night];
 
     /// The name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::CornellBox => "cornell-box",
+            Self::Fog => "fog",
             Self::Night => "night",
             Self::Rotunda => "rotunda",
         }
@@ -42,6 +46,7 @@ impl BuiltinScene {
     pub fn load(self) -> Scene {
         match self {
             Self::CornellBox => cornell::cornell_box(),
+            Self::Fog => fog::fog(FOG_SEED),
             Self::Night => night::night(NIGHT_SEED),
             Self::Rotunda => rotunda::rotunda(),
         }
@@ -53,6 +58,9 @@ impl fmt::Display for BuiltinScene {
         f.write_str(self.name())
     }
 }
+
+/// The wood that ships.
+const FOG_SEED: u64 = 1;
 
 /// The night that ships.
 const NIGHT_SEED: u64 = 1;

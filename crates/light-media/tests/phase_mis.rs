@@ -1,0 +1,138 @@
+//! Light samples and phase samples, weighted, have the mean of either and less noise than light samples alone.
+
+use light_math::glam::{Affine3A, Vec2, Vec3};
+use light_media::phase::HenyeyGreenstein;
+use light_media::{
+    FirstHit, Homogeneous, Intersection, Phase, Region, ScatteringNumbers, ScatteringPoint,
+    StepSize, Substance, Visibility, VolumeIntegrator,
+};
+use light_samplers::UniformLightSampler;
+use light_sources::shape::ShapeDesc;
+use light_sources::{
+    AreaLightDesc, DiffuseEmissionDesc, LightDesc, LightSetBuilder, RadianceAmount, Rgb,
+    SceneSphere, SurfaceColor, SurfacePoint, UniformInfiniteLightDesc,
+};
+use light_testkit::Rng;
+
+const CENTRE: Vec3 = Vec3::new(0.4, 0.0, 2.0);
+const RADIUS: f32 = 1.2;
+
+/// One shining ball and nothing else.
+struct Ball;
+
+impl Ball {
+    /// The distance at which a ray from outside meets it.
+    fn distance(from: Vec3, wi: Vec3) -> Option<f32> {
+        let to = CENTRE - from;
+        let along = to.dot(wi);
+        let root = along * along - to.length_squared() + RADIUS * RADIUS;
+        (root > 0.0 && along > 0.0).then(|| along - root.sqrt())
+    }
+}
+
+impl Visibility for Ball {
+    fn unoccluded(&self, from: Vec3, to: Vec3) -> bool {
+        let way = to - from;
+        let hit = Self::distance(from, way.normalize());
+        hit.is_none_or(|t| t > way.length() * 0.999)
+    }
+}
+
+impl Intersection for Ball {
+    fn first(&self, from: Vec3, wi: Vec3) -> FirstHit {
+        let Some(t) = Self::distance(from, wi) else {
+            return FirstHit::Nothing;
+        };
+        let p = from + wi * t;
+        let at = SurfacePoint {
+            p,
+            n: (p - CENTRE).normalize(),
+            uv: Vec2::ZERO,
+        };
+        FirstHit::Light(light_bounds::LightId(0), at)
+    }
+}
+
+#[test]
+fn both_strategies_have_one_mean_and_together_less_noise() {
+    let fog = Homogeneous::<Rgb> {
+        substance: Substance::new(Vec3::splat(0.05), Vec3::splat(0.2), Vec3::ZERO).expect("valid"),
+        phase: Phase::HenyeyGreenstein(HenyeyGreenstein::new(0.95).expect("in range")),
+        // Light from the sky has to come in.
+        region: Region::new(
+            light_math::Aabb::new(Vec3::splat(-4.0), Vec3::splat(4.0)),
+            Affine3A::IDENTITY,
+        )
+        .expect("a box"),
+    };
+    let mut lights =
+        LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 10.0).expect("a sphere"));
+    let color = SurfaceColor::Uniform(Vec3::new(3.0, 2.0, 1.0));
+    lights
+        .add(LightDesc::Area(AreaLightDesc {
+            shape: ShapeDesc::Sphere {
+                transform: Affine3A::from_translation(CENTRE),
+                radius: RADIUS,
+            },
+            emission: DiffuseEmissionDesc::new(color, RadianceAmount::default()),
+        }))
+        .expect("a light");
+    lights
+        .add(LightDesc::UniformInfinite(UniformInfiniteLightDesc {
+            emission: Vec3::splat(0.5),
+            amount: RadianceAmount::default(),
+        }))
+        .expect("a sky");
+    let lights = lights.build();
+    let step = StepSize::new(0.5).expect("positive");
+    let integrator = VolumeIntegrator {
+        medium: &fog,
+        lights: &lights,
+        sampler: &UniformLightSampler::new(2),
+        scene: &Ball,
+        wavelengths: &(),
+        step,
+        shadow_step: step,
+    };
+    let at = ScatteringPoint {
+        p: Vec3::ZERO,
+        wo: Vec3::NEG_Z,
+    };
+    let n = 100_000;
+    let mut rng = Rng::new(5);
+    let mut next_u = || rng.f32();
+    let mut estimate = |mis: bool| {
+        let (mut sum, mut squares) = (0.0f64, 0.0f64);
+        for _ in 0..n {
+            let mut pair = || Vec2::new(next_u(), next_u());
+            let (point, direction) = (pair(), pair());
+            let light = f64::from(next_u());
+            let numbers = ScatteringNumbers {
+                light,
+                point,
+                direction,
+            };
+            let l = if mis {
+                integrator.in_scattered_mis(at, numbers, &mut next_u)
+            } else {
+                integrator.in_scattered(at, light, point, &mut next_u)
+            };
+            sum += f64::from(l.x);
+            squares += f64::from(l.x) * f64::from(l.x);
+        }
+        let mean = sum / f64::from(n);
+        let variance = squares / f64::from(n) - mean * mean;
+        (mean, variance)
+    };
+    let (light, light_variance) = estimate(false);
+    let (both, both_variance) = estimate(true);
+    let error = ((light_variance + both_variance) / f64::from(n)).sqrt();
+    assert!(
+        (light - both).abs() < 4.0 * error,
+        "{light} and {both} +- {error}"
+    );
+    assert!(
+        both_variance * 4.0 < light_variance,
+        "variance {both_variance} against {light_variance}"
+    );
+}

@@ -1,0 +1,144 @@
+use core::cell::Cell;
+
+use lights::glam::Vec3;
+use lights::media::{Span, StepSize, Visibility, VolumeIntegrator, VolumeLight};
+use lights::samplers::LightSampler;
+use lights::sources::{LightType, Rgb};
+
+use super::direct::{DirectLight, LightQuestion, Vertex};
+use super::path::{Origin, sky};
+use super::through::transmittance;
+use super::volume_vertex::VolumeVertex;
+use super::{Estimator, PathSettings, Traced};
+use crate::{Ray, SampleStream, World};
+
+/// How the light that a medium scatters once is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SingleScattering {
+    /// Lights are chosen for the ray as a whole, as many as `light_samples` says, each with a distance of its own.
+    NextEvent,
+    /// A march in steps of this length, one light a step: the classic integrator.
+    Classic(StepSize),
+}
+
+/// The light along a camera ray that was scattered once at most, by the medium in which the camera stands or by the first
+/// surface. Mirrors and glass stay black.
+///
+/// # Source
+/// The marches and choices are those of [`VolumeIntegrator`].
+#[must_use]
+pub fn trace_single_scattering<S: LightSampler>(
+    world: &World,
+    sampler: &S,
+    settings: &PathSettings,
+    method: SingleScattering,
+    ray: Ray,
+    stream: &SampleStream,
+) -> Traced {
+    let direct = DirectLight {
+        world,
+        sampler,
+        // No ray goes on from the surface, so light samples have to find everything.
+        estimator: Estimator::Light,
+    };
+    let mut flight = stream.flight(0);
+    let medium = world.media().camera;
+    let surface = world.closest(&ray, None);
+    let mut rays = 1;
+    let distance = surface.map_or(f32::INFINITY, |s| (s.p - ray.origin).length());
+    let mut lo = Vec3::ZERO;
+    match surface {
+        None => lo = sky(&direct, &ray, Origin::Dirac),
+        Some(surface) => {
+            let wo = -ray.direction;
+            if let Some((_, l)) = world.emitted(&surface, wo) {
+                lo += l;
+            }
+            let vertex = VolumeVertex::on_surface(world, surface, medium);
+            if !vertex.is_dirac() {
+                let question = LightQuestion {
+                    ctx: vertex.light_context(world, wo),
+                    count: settings.first_choices(world),
+                };
+                let at = Vertex {
+                    scattering: &vertex,
+                    wo,
+                    number: 0,
+                };
+                let lit = direct.sample(&question, &at, &stream.vertex(0), stream, |light| {
+                    let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
+                    let target = is_near.then_some(light.p_light);
+                    let from = vertex.spawn(world, light.wi);
+                    transmittance(world, from, target, &mut || flight.next_u())
+                });
+                lo += lit.radiance;
+                rays += lit.rays;
+            }
+        }
+    }
+    let medium = world.media().get(medium);
+    let volume = match medium.zip(Span::new(0.0, distance)) {
+        None => VolumeLight::vacuum(),
+        Some((medium, span)) => {
+            let shadows = Shadows {
+                world,
+                rays: Cell::new(0),
+            };
+            let step = match method {
+                SingleScattering::Classic(step) => step,
+                SingleScattering::NextEvent => coarse_step(world),
+            };
+            let integrator = VolumeIntegrator::<Rgb, _, _, _> {
+                medium,
+                lights: world.lights(),
+                sampler,
+                scene: &shadows,
+                wavelengths: &(),
+                step,
+                shadow_step: step,
+            };
+            let (ray, seed) = ((&ray).into(), stream.key());
+            let next_u = &mut || flight.next_u();
+            let volume = match method {
+                SingleScattering::Classic(_) => {
+                    integrator.single_scattering(&ray, span, seed, next_u)
+                }
+                SingleScattering::NextEvent => {
+                    let count = settings.first_choices(world);
+                    integrator.next_event(&ray, span, count, seed, next_u)
+                }
+            };
+            rays += shadows.rays.get();
+            volume
+        }
+    };
+    Traced {
+        radiance: lo * volume.transmittance + volume.l,
+        rays,
+    }
+}
+
+/// What hides lights from points in a medium, and how often that was asked.
+#[derive(Debug)]
+struct Shadows<'a> {
+    world: &'a World,
+    rays: Cell<u32>,
+}
+
+impl Visibility for Shadows<'_> {
+    fn unoccluded(&self, from: Vec3, to: Vec3) -> bool {
+        self.rays.set(self.rays.get() + 1);
+        self.world.sees(from, to)
+    }
+}
+
+/// A hundredth of the scene: the steps of marches where nobody says how long they are.
+///
+/// # Panics
+/// Never: a scene without size gets steps of 0.1.
+#[must_use]
+pub fn coarse_step(world: &World) -> StepSize {
+    let size = world.bounds().diagonal().length();
+    let step = StepSize::new(0.01 * size).or(StepSize::new(0.1));
+    step.expect("a positive length")
+}
