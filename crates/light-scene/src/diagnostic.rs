@@ -1,4 +1,4 @@
-use core::fmt;
+use core::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// What is wrong with a file, or was ignored in it, and where: the error of every reader, and its warnings.
@@ -47,10 +47,16 @@ impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let path = self.path.display();
         match self.place {
-            Place::File => write!(f, "{path}: {}", self.message),
-            Place::Line(line) => write!(f, "{path}:{line}: {}", self.message),
-            Place::Byte(byte) => write!(f, "{path}: byte {byte}: {}", self.message),
+            Place::File => write!(f, "{path}: ")?,
+            Place::Line(line) => write!(f, "{path}:{line}: ")?,
+            Place::Byte(byte) => write!(f, "{path}: byte {byte}: ")?,
         }
+        // Names that files give, and messages of decoders, may hold anything.
+        let printable = |c: char| if c.is_control() { '?' } else { c };
+        self.message
+            .chars()
+            .map(printable)
+            .try_for_each(|c| f.write_char(c))
     }
 }
 
@@ -74,6 +80,11 @@ mod tests {
             shown(Place::Byte(9)),
             "a/b.obj: byte 9: expected a number",
             "byte"
+        );
+        let odd = Diagnostic::file(path, "found channels B, \n, R").to_string();
+        assert_eq!(
+            odd, "a/b.obj: found channels B, ?, R",
+            "one line whatever is named"
         );
     }
 }
