@@ -5,6 +5,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
 use light_testkit::LightSet;
 use lights::bounds::LightExtent;
+use lights::bvh::LightBvhOptions;
 use lights::samplers::{
     BvhLightSampler, LightSampler, PowerLightSampler, ReferenceBvhLightSampler,
 };
@@ -107,6 +108,13 @@ fn build(c: &mut Criterion) {
         });
         group.bench_function(BenchmarkId::new("bvh", name(&set)), |b| {
             b.iter(|| BvhLightSampler::new(&extents));
+        });
+        group.bench_function(BenchmarkId::new("bvh-morton", name(&set)), |b| {
+            b.iter(|| BvhLightSampler::with(&extents, &LightBvhOptions::FAST));
+        });
+        let mut tree = BvhLightSampler::new(&extents).expect("valid lights");
+        group.bench_function(BenchmarkId::new("refit", name(&set)), |b| {
+            b.iter(|| tree.refit(&extents));
         });
     }
 }

@@ -6,32 +6,42 @@ use core::hint::black_box;
 
 use benches::{Queries, queries_of};
 use light_testkit::LightSet;
-use lights::bounds::{LightBounds, LightId, LightSampleContext};
+use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+use lights::bvh::reference::ReferenceLightBvh;
+use lights::bvh::{LightBvh, LightBvhOptions};
 use lights::math::OctahedralVector;
 use lights::math::distribution::AliasTable;
 use lights::samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
 
-/// Calls of each path.
+/// Calls of a path that takes microseconds.
 const CALLS: u32 = 1000;
 
-/// Lights in the trees.
+/// Lights in the trees that are asked.
 const LIGHTS: usize = 2000;
 
-const PATHS: [(&str, fn()); 7] = [
-    ("alias_sample", alias_sample),
-    ("importance", importance),
-    ("octahedral_decode", octahedral_decode),
-    ("pmf", pmf),
-    ("pmf_reference", pmf_reference),
-    ("sample", sample),
-    ("sample_reference", sample_reference),
+/// Lights of the trees that are built.
+const LIGHTS_TO_BUILD: usize = 10_000;
+
+/// Names, calls, and what makes them.
+const PATHS: [(&str, u32, fn()); 11] = [
+    ("alias_sample", CALLS, alias_sample),
+    ("build", 1, build),
+    ("build_morton", 1, build_morton),
+    ("build_reference", 1, build_reference),
+    ("importance", CALLS, importance),
+    ("octahedral_decode", CALLS, octahedral_decode),
+    ("pmf", CALLS, pmf),
+    ("pmf_reference", CALLS, pmf_reference),
+    ("refit", 1, refit),
+    ("sample", CALLS, sample),
+    ("sample_reference", CALLS, sample_reference),
 ];
 
 fn main() {
     let asked = std::env::args().nth(1);
-    for (name, path) in PATHS {
+    for (name, calls, path) in PATHS {
         match &asked {
-            None => println!("{name} {CALLS}"),
+            None => println!("{name} {calls}"),
             Some(asked) if asked == name => path(),
             Some(_) => {}
         }
@@ -87,6 +97,52 @@ fn bvh() -> (LightSet, BvhLightSampler) {
     let set = LightSet::clusters(LIGHTS, 1);
     let sampler = BvhLightSampler::new(&set.extents()).expect("valid lights");
     (set, sampler)
+}
+
+/// Lights for a tree, and `work` on them, on one thread: callgrind counts by thread.
+fn on_one_thread(work: impl FnOnce(&[LightExtent]) + Send) {
+    let extents = LightSet::clusters(LIGHTS_TO_BUILD, 1).extents();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a thread").install(|| work(&extents));
+}
+
+fn build() {
+    on_one_thread(count_build);
+}
+
+#[inline(never)]
+fn count_build(extents: &[LightExtent]) {
+    black_box(LightBvh::build(extents)).expect("valid lights");
+}
+
+fn build_morton() {
+    on_one_thread(count_build_morton);
+}
+
+#[inline(never)]
+fn count_build_morton(extents: &[LightExtent]) {
+    black_box(LightBvh::build_with(extents, &LightBvhOptions::FAST)).expect("valid lights");
+}
+
+fn build_reference() {
+    on_one_thread(count_build_reference);
+}
+
+#[inline(never)]
+fn count_build_reference(extents: &[LightExtent]) {
+    black_box(ReferenceLightBvh::build(extents)).expect("valid lights");
+}
+
+fn refit() {
+    on_one_thread(|extents| {
+        let mut tree = LightBvh::build(extents).expect("valid lights");
+        count_refit(&mut tree, extents);
+    });
+}
+
+#[inline(never)]
+fn count_refit(tree: &mut LightBvh, extents: &[LightExtent]) {
+    black_box(tree.refit(extents)).expect("as many lights");
 }
 
 fn sample() {

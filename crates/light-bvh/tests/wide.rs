@@ -75,3 +75,39 @@ fn lights_without_power_are_not_in_the_tree() {
     assert_eq!(tree.pmf(&medium, LightId(0)), 0.0, "known, but dark");
     assert_eq!(tree.irradiance(&medium), 0.0, "no light");
 }
+
+#[test]
+fn many_lights_at_one_point_along_a_line_or_in_nested_clusters_make_no_deep_tree() {
+    let n = 60_000u16;
+    let sets: [&dyn Fn(u16) -> Vec3; 3] = [&|_| Vec3::ONE, &|i| Vec3::X * f32::from(i), &|i| {
+        Vec3::new(1.0, f32::from(i % 7), f32::from(i % 5)) * 0.125f32.powi(i32::from(i % 24))
+    }];
+    for (k, at) in sets.iter().enumerate() {
+        let lights: Vec<LightExtent> = (0..n).map(|i| lamp(at(i), 1.0)).collect();
+        for options in MODES {
+            let tree = LightBvh::build_with(&lights, &options).expect("valid lights");
+            assert!(tree.depth() <= MAX_DEPTH, "set {k}: {}", tree.depth());
+            assert!(
+                tree.bytes() < 40 * lights.len(),
+                "set {k}: {} bytes",
+                tree.bytes()
+            );
+        }
+    }
+}
+
+#[test]
+fn lights_far_closer_than_the_cells_of_the_whole_set_part_by_place() {
+    // Two clusters of 300 lights in turn, 1e-3 apart, and a lamp so far away that a cell of the whole is wider than both.
+    let place = |i: u16| match i {
+        600 => Vec3::splat(1e6),
+        _ => Vec3::X * 1e-3 * (f32::from(i % 2) + 0.1 * f32::from(i) / 600.0),
+    };
+    let lights: Vec<LightExtent> = (0..601).map(|i| lamp(place(i), 1.0)).collect();
+    for options in MODES {
+        let tree = LightBvh::build_with(&lights, &options).expect("valid lights");
+        let order = tree.view().order();
+        let turns = order.windows(2).filter(|w| w[0] % 2 != w[1] % 2).count();
+        assert!(turns < 8, "{options:?}: clusters mix {turns} times");
+    }
+}

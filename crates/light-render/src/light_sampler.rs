@@ -135,6 +135,16 @@ impl AnyLightSampler {
         }
     }
 
+    /// How little a step down the hierarchy narrows a group of lights (see
+    /// [`LightBvh::looseness`](lights::bvh::LightBvh::looseness)); `None` for samplers that do not know.
+    #[must_use]
+    pub fn looseness(&self) -> Option<f64> {
+        match self {
+            Self::Bvh(sampler) => Some(sampler.tree().looseness()),
+            Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
+        }
+    }
+
     /// Nodes on the longest way down a hierarchy; 0 without one.
     #[must_use]
     pub fn depth(&self) -> usize {

@@ -198,3 +198,23 @@ impl Group for Range<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_are_interleaved() {
+        assert_eq!(spread(0b1011), 0b1_000_001_001, "bits apart");
+        assert_eq!(spread((1 << BITS) - 1), 0x1249_2492_4924_9249, "all bits");
+        let grid = Grid::new(&Aabb::new(Vec3::ZERO, Vec3::splat(8.0))).expect("not flat");
+        assert_eq!(grid.key(Vec3::ZERO), 0, "the lowest corner");
+        assert_eq!(grid.key(Vec3::splat(8.0)), (1 << 63) - 1, "the highest");
+        assert_eq!(grid.key(Vec3::new(4.0, 0.0, 0.0)), 1 << 62, "half way");
+    }
+
+    #[test]
+    fn a_point_has_no_cells() {
+        assert!(Grid::new(&Aabb::from_point(Vec3::ONE)).is_none(), "no side");
+    }
+}

@@ -88,6 +88,7 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
                     )
                 }
             });
+            let refit_ms = pool.install(|| subject.refit_ms(&extents));
             let laws = pool.install(|| laws::check(subject, &contexts));
             BenchRow {
                 set: name.to_owned(),
@@ -95,6 +96,7 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
                 sampler: subject.kind(),
                 k: options.k,
                 build_ms: *build_ms,
+                refit_ms,
                 bytes: subject.bytes(),
                 depth: subject.depth(),
                 time,

@@ -20,6 +20,8 @@ pub struct BenchRow {
     pub k: u32,
     /// Milliseconds to build.
     pub build_ms: f64,
+    /// Milliseconds to follow lights that moved, where the sampler can.
+    pub refit_ms: Option<f64>,
     /// Bytes that a query may touch.
     pub bytes: usize,
     /// Nodes on the longest way down.
@@ -37,12 +39,13 @@ impl BenchRow {
     #[must_use]
     pub fn header() -> String {
         format!(
-            "{:<10} {:>8} {:<14} {:>3} {:>10} {:>8} {:>5} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}",
+            "{:<10} {:>8} {:<14} {:>3} {:>10} {:>9} {:>8} {:>5} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}",
             "set",
             "lights",
             "sampler",
             "k",
             "build ms",
+            "refit ms",
             "B/light",
             "depth",
             "ns/sample",
@@ -64,6 +67,7 @@ impl BenchRow {
             "sampler": self.sampler.name(),
             "k": self.k,
             "build_ms": self.build_ms,
+            "refit_ms": self.refit_ms,
             "bytes": self.bytes,
             "depth": self.depth,
             "ns_sample": self.time.sample,
@@ -87,12 +91,14 @@ impl fmt::Display for BenchRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{:<10} {:>8} {:<14} {:>3} {:>10.2} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9.3} {:>9.3} {:>9.2} {:>9.1e} {:>8.4}",
+            "{:<10} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9.3} {:>9.3} {:>9.2} {:>9.1e} {:>8.4}",
             self.set,
             self.n_lights,
             self.sampler.name(),
             self.k,
             self.build_ms,
+            self.refit_ms
+                .map_or_else(String::new, |ms| format!("{ms:.2}")),
             self.bytes as f64 / self.n_lights.max(1) as f64,
             self.depth,
             self.time.sample,

@@ -1,6 +1,7 @@
 use lights::bounds::LightExtent;
 use lights::samplers::LightSampler;
 
+use super::timing;
 use crate::{AnyLightSampler, SamplerKind};
 
 /// A sampler under measurement.
@@ -18,6 +19,16 @@ impl Subject {
             n_lights: extents.len(),
             sampler: AnyLightSampler::over(kind, extents).expect("a set's lights are valid"),
         }
+    }
+
+    /// Milliseconds of the fastest of several refits to the same lights; `None` if the sampler knows none.
+    pub(super) fn refit_ms(&self, extents: &[LightExtent]) -> Option<f64> {
+        let AnyLightSampler::Bvh(sampler) = &self.sampler else {
+            return None;
+        };
+        let mut sampler = sampler.clone();
+        let (milliseconds, refitted) = timing::build(|| sampler.refit(extents));
+        refitted.ok().map(|()| milliseconds)
     }
 
     pub(super) const fn kind(&self) -> SamplerKind {

@@ -28,6 +28,8 @@ struct Tree {
     bytes: usize,
     /// The relative variance of one choice; `None` where no light arrives.
     quality: Option<f64>,
+    /// How little a step down the tree narrows a group.
+    looseness: Option<f64>,
 }
 
 impl InfoArgs {
@@ -82,6 +84,7 @@ impl InfoArgs {
                 "bytes": tree.bytes,
                 "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
                 "quality": tree.quality,
+                "looseness": tree.looseness,
             },
             "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         })
@@ -109,6 +112,11 @@ impl InfoArgs {
                 "  quality    {quality:.3}: relative variance of one choice, nothing in the way, the median over points"
             );
         }
+        if let Some(looseness) = tree.looseness {
+            println!(
+                "  looseness  {looseness:.3}: spread of a group over that of its parent; lights that move raise it"
+            );
+        }
         for warning in warnings {
             println!("  ignored    {warning}");
         }
@@ -125,6 +133,7 @@ impl Tree {
             sampler: kind,
             build_ms,
             quality: choice_variance(world, &sampler),
+            looseness: sampler.looseness(),
             depth: sampler.depth(),
             bytes: sampler.bytes(world.lights().len()),
         })
