@@ -6,8 +6,8 @@ use core::num::NonZeroU32;
 
 use light_render::SamplerKind;
 use light_render::integrator::Estimator;
-use light_scene::Scene;
 use light_scene::glam::Vec3;
+use light_scene::{Camera, Emission, Material, Mesh, Scene};
 use support::{Shot, agree, cornell, lamps};
 
 #[test]
@@ -138,4 +138,27 @@ fn depth_adds_light() {
         seen < direct && direct < indirect,
         "{seen}, {direct}, {indirect}"
     );
+}
+
+/// Rounding puts half of the points of a tilted triangle behind it, where its own light would fall on them from all over the hemisphere.
+#[test]
+fn a_lamp_does_not_light_its_own_back() {
+    let mut scene = Scene::default();
+    let lamp = scene.add_material(Material {
+        emission: Some(Emission::one_sided(Vec3::ONE)),
+        ..Material::diffuse("lamp", Vec3::splat(0.5))
+    });
+    let corners = [(0.3, 0.1), (1.4, 0.2), (1.3, 1.1), (0.1, 1.2)]
+        .map(|(x, y)| Vec3::new(x, y, 0.37 * x - 0.61 * y));
+    scene.meshes.push(Mesh::quad("lamp", lamp, corners));
+    let from_behind = Vec3::new(0.5, 0.6, -3.0);
+    scene.camera = Camera::look_at(from_behind, Vec3::new(0.7, 0.7, 0.0), Vec3::Y, 0.3).ok();
+    for estimator in [Estimator::Light, Estimator::Mis] {
+        let shot = Shot {
+            estimator,
+            ..Shot::default()
+        };
+        let (mean, _) = shot.mean(&scene);
+        assert_eq!(mean.max_element(), 0.0, "{estimator:?}");
+    }
 }

@@ -142,6 +142,9 @@ impl<S: LightSampler> DirectLight<'_, S> {
             self.estimator.coverage()
         };
         let sample = light.sample_li(&question.ctx, u_point, &(), coverage)?;
+        if is_in_the_surface(&question.ctx, sample.p_light) {
+            return None;
+        }
         let scattered = scattering.eval(wo, sample.wi) * sample.l;
         if scattered == Vec3::ZERO {
             return None;
@@ -180,4 +183,11 @@ impl<S: LightSampler> DirectLight<'_, S> {
             0.0
         }
     }
+}
+
+/// Whether a point of a light is no farther from the surface that asks than rounding could have put it: a lamp does not light its own
+/// back. Rays leave from beyond that error, so the material's samples do not find such light either.
+#[inline]
+fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
+    (p_light - ctx.p).dot(ctx.n).abs() < ctx.n.abs().dot(ctx.p_error)
 }

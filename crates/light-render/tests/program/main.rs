@@ -4,6 +4,7 @@ mod environments;
 mod folder;
 mod interrupted;
 mod refusals;
+mod samplers;
 
 use std::fs;
 use std::path::Path;
