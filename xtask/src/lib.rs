@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 mod bench;
+mod bench_table;
 mod check;
 mod ci;
 pub mod conformance;
@@ -28,6 +29,7 @@ usage: cargo xtask [COMMAND]
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
+  bench --table [N...]        measure light hierarchies for the first page of light-bvh (sets of N lights only: print those)
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for the first page of light-media
@@ -47,6 +49,9 @@ pub fn run(arguments: &[String]) -> ExitCode {
     match (command.as_str(), rest) {
         ("ci", []) => all(ci::add_steps),
         ("no-std", []) => all(no_std::add_steps),
+        ("bench", [flag, sizes @ ..]) if flag == "--table" => {
+            one("bench --table", || bench_table::bench_table(sizes))
+        }
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),

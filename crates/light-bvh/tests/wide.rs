@@ -2,8 +2,8 @@
 
 #![cfg(feature = "alloc")]
 
-use light_bvh::light_bounds::light_math::glam::Vec3;
-use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext};
+use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
+use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use light_bvh::{LightBvh, LightBvhError, LightBvhOptions, MAX_DEPTH};
 
 mod support;
@@ -110,4 +110,98 @@ fn lights_far_closer_than_the_cells_of_the_whole_set_part_by_place() {
         let turns = order.windows(2).filter(|w| w[0] % 2 != w[1] % 2).count();
         assert!(turns < 8, "{options:?}: clusters mix {turns} times");
     }
+}
+
+/// Numbers of `[0, 1)` that are the same in every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / 16_777_216.0
+    }
+
+    fn vec3(&mut self) -> Vec3 {
+        Vec3::new(self.next(), self.next(), self.next())
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        (self.vec3() - 0.5).normalize_or(Vec3::X)
+    }
+}
+
+/// Every point of a surface that shines at a point by however little, and every direction within a cone, has a probability above 0.
+#[test]
+fn lights_are_given_up_only_where_no_part_of_them_shines() {
+    let mut numbers = Numbers(5);
+    let (mut given_up, mut kept) = (0, 0);
+    for round in 0..3000 {
+        let extent = [0.01, 0.3, 3.0][round % 3];
+        let count = 1 + round % 7;
+        let triangles: Vec<[Vec3; 3]> = (0..count)
+            .map(|_| {
+                let at = numbers.vec3();
+                [0; 3].map(|_| at + (numbers.vec3() - 0.5) * extent)
+            })
+            .collect();
+        let narrow = round % 2 == 0;
+        let half_angle = 0.02 + 1.5 * numbers.next();
+        let lights: Vec<LightExtent> = triangles
+            .iter()
+            .map(|[a, b, c]| {
+                LightExtent::Bounded(LightBounds {
+                    bounds: if narrow {
+                        Aabb::from_point(*a)
+                    } else {
+                        Aabb::from_points([*a, *b, *c])
+                    },
+                    w: (*b - *a).cross(*c - *a).normalize_or(Vec3::Z),
+                    phi: 1.0 + numbers.next(),
+                    cos_theta_o: if narrow { half_angle.cos() } else { 1.0 },
+                    cos_theta_e: if narrow { 1.0 } else { 0.0 },
+                    two_sided: false,
+                })
+            })
+            .collect();
+        let tree = LightBvh::build(&lights).expect("valid lights");
+        let (p, n) = (numbers.vec3() * 2.0 - 0.5, numbers.direction());
+        let floor = LightSampleContext::surface(p, n, n);
+        let pane = LightSampleContext::two_sided(p, n, n);
+        for (id, ([a, b, c], light)) in (0..).map(LightId).zip(triangles.iter().zip(&lights)) {
+            let w = light.bounded().expect("a triangle").w;
+            let shines = |point: Vec3| {
+                let to_light = point - p;
+                let cos = -w.dot(to_light.normalize());
+                let edge = if narrow { half_angle.cos() } else { 0.0 };
+                (cos > edge + 1e-6, n.dot(to_light) > 1e-6)
+            };
+            let points = (0..64).map(|i| {
+                let (s, t) = ((i / 8) as f32 / 7.0, (i % 8) as f32 / 7.0);
+                if narrow {
+                    *a
+                } else {
+                    *a + (*b - *a) * (s * (1.0 - t)) + (*c - *a) * t
+                }
+            });
+            for (emits, above) in points.map(shines) {
+                assert!(
+                    !emits || tree.pmf(&pane, id) > 0.0,
+                    "{id:?} of {lights:?} at {p}"
+                );
+                assert!(
+                    !(emits && above) || tree.pmf(&floor, id) > 0.0,
+                    "{id:?} of {lights:?} at {p}, {n}"
+                );
+            }
+            if tree.pmf(&pane, id) > 0.0 {
+                kept += 1;
+            } else {
+                given_up += 1;
+            }
+        }
+    }
+    assert!(given_up > kept / 10, "{given_up} given up, {kept} kept");
 }

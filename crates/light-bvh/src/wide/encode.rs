@@ -88,7 +88,46 @@ impl WideNode {
         };
         let spread = float::ceil(spread(child) * inv_unit);
         self.spread[k] = spread.clamp(1.0, 255.0) as u8;
+        if child.spread_sq == 0.0 && child.shape != Shape::BothSides {
+            let decoded = Vec3::from(self.axis.map(|axis| f32::from(axis[k])));
+            if let Some(offset) =
+                offset_below(decoded, child.axis * inv_unit, child.offset * inv_unit)
+            {
+                self.offset[k] = offset;
+                self.spread[k] = 0;
+            }
+        }
     }
+}
+
+/// The code of an offset so that `dot(decoded, w)` is above it wherever `dot(axis, w)` is above `offset`, for all unit vectors `w`;
+/// `None` if there is no such code.
+#[expect(clippy::cast_possible_truncation, reason = "checked to be in range")]
+fn offset_below(decoded: Vec3, axis: Vec3, offset: f32) -> Option<i8> {
+    /// What is left to round-off, in codes.
+    const MARGIN: f32 = 0.01;
+    let length = axis.length();
+    let (along, aside) = if length > 0.0 {
+        let along = decoded.dot(axis) / length;
+        (along, (decoded - axis * (along / length)).length())
+    } else {
+        (0.0, decoded.length())
+    };
+    // The edge of the lit directions, seen from the exact axis, and the decoded axis' least component in it: at the edge on the far side,
+    // or opposite to the decoded axis if that is lit.
+    let cos = if length > 0.0 {
+        (offset / length).clamp(-1.0, 1.0)
+    } else {
+        -1.0
+    };
+    let sin = float::safe_sqrt(1.0 - cos * cos);
+    let least = if along * sin + aside * cos <= 0.0 {
+        -float::sqrt(along * along + aside * aside)
+    } else {
+        along * cos - aside * sin
+    };
+    let code = float::floor(least - MARGIN).min(float::round(offset));
+    (code >= -127.0).then_some(code as i8)
 }
 
 /// The unit of a child's axis, offset and spread: what makes the largest of them fit its code.

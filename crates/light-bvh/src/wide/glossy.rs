@@ -107,6 +107,7 @@ mod tests {
             axis: [0.0; 3],
             offset: -1.0,
             spread: 0.0,
+            sharp: false,
             both_sides: false,
             power: 1.0,
         }

@@ -12,11 +12,14 @@ pub(crate) const FAR: f32 = 1e36;
 /// Round-off of a child's position, in units of the distance (see [`Lane`]): what a sound test has to leave.
 const SLACK: f32 = 1e-5;
 
+/// The same for emission, whose unit is the 127th part of the largest component of axis and offset.
+const EMISSION_SLACK: f32 = 400.0 * SLACK;
+
 /// How much of the variance of a height over the horizon counts, and how much of the emission ramp's variance by position and by
 /// spread, and of the variance of the distance.
-const HEIGHT: f32 = 0.4;
-const RAMP_BY_POSITION: f32 = 0.05;
-const RAMP_BY_SPREAD: f32 = 0.30;
+const HEIGHT: f32 = 0.45;
+const RAMP_BY_POSITION: f32 = 0.03;
+const RAMP_BY_SPREAD: f32 = 0.35;
 pub(crate) const DISTANCE: f32 = 0.06;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
@@ -70,11 +73,8 @@ impl Receiver for SurfaceReceiver {
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
         let (height, _, support) = lane.height(self.n);
-        let lit = height + support > -SLACK;
-        let expected = self.expected_height(lane);
-        // Masked rather than branched over: all lanes of a node are computed together.
-        let mask = if lit { u32::MAX } else { 0 };
-        f32::from_bits((expected * lane.emitted()).to_bits() & mask)
+        let lit = (height + support > -SLACK) & lane.shines_here();
+        masked(self.expected_height(lane) * lane.emitted(), lit)
     }
 }
 
@@ -104,7 +104,7 @@ impl Receiver for TwoSidedReceiver {
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
         let (height, height_var, _) = lane.height(self.n);
         let expected = float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
-        2.0 * expected * lane.emitted()
+        masked(2.0 * expected * lane.emitted(), lane.shines_here())
     }
 }
 
@@ -207,7 +207,27 @@ pub(crate) fn near(p: Vec3) -> Vec3 {
     p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
 }
 
+/// `x` where `there`, otherwise 0: without a branch, so that all lanes of a node are computed together.
+#[inline(always)]
+fn masked(x: f32, there: bool) -> f32 {
+    let mask = if there { u32::MAX } else { 0 };
+    f32::from_bits(x.to_bits() & mask)
+}
+
 impl Lane {
+    /// Whether any of the child may emit toward the receiver's position. Sound there only: not for other places of a segment.
+    #[inline(always)]
+    fn shines_here(&self) -> bool {
+        let [hx, hy, hz] = self.extent;
+        let [vx, vy, vz] = self.mean;
+        let [mx, my, mz] = self.axis;
+        let along = -(mx * vx + my * vy + mz * vz + self.offset * self.dist);
+        // From any point of the box the direction differs by less than the box is wide.
+        let reach =
+            mx.abs() * hx + my.abs() * hy + mz.abs() * hz + self.offset.abs() * (hx + hy + hz);
+        (along + reach > -EMISSION_SLACK) | !self.sharp
+    }
+
     /// The same child from a place `offset` away from the receiver's position.
     #[inline(always)]
     pub(crate) fn seen_from(&self, offset: Vec3) -> Self {

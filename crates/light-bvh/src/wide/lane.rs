@@ -23,6 +23,8 @@ pub struct Lane {
     pub offset: f32,
     /// Root mean square deviation of axis and offset.
     pub spread: f32,
+    /// Whether no light of the child emits beyond its axis and offset: where these say nothing is emitted, nothing is.
+    pub sharp: bool,
     /// Whether the child emits alike to both sides.
     pub both_sides: bool,
     /// Scale of the emission; 0 for an empty slot.
@@ -39,9 +41,9 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// What the children of `node` are worth to `receiver`.
+    /// What the children of `node` are worth to `receiver`, in the vectors of the build's target.
     #[inline(always)]
-    pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+    pub(crate) fn narrow<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let mut lanes = [0.0; WIDTH];
         let inv_unit = for_each_lane(node, receiver, |k, lane, inv_unit| {
             lanes[k] = receiver.weigh(lane, inv_unit);
@@ -51,7 +53,7 @@ impl Weights {
 
     /// The same, and for each child how rough its estimate is: 0 for a point far away, 1 for a box around the receiver.
     #[inline(always)]
-    pub(crate) fn with_roughness<R: Receiver>(
+    pub(crate) fn narrow_with_roughness<R: Receiver>(
         node: &WideNode,
         receiver: &R,
     ) -> (Self, [f32; WIDTH]) {
@@ -124,7 +126,8 @@ fn for_each_lane<R: Receiver>(
             } else {
                 f32::from(node.offset[k])
             },
-            spread: f32::from(node.spread[k]),
+            spread: f32::from(node.spread[k].max(1)),
+            sharp: node.spread[k] == 0,
             both_sides,
             power: decode_power(node.power[k]),
         };

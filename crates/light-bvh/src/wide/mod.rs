@@ -42,6 +42,7 @@ mod select;
 #[cfg(feature = "alloc")]
 mod subtree;
 mod tree;
+mod vectors;
 
 pub use cut::{CutDetail, LightCut};
 pub use glossy::GlossyReceiver;

@@ -106,7 +106,13 @@ impl Moments {
             let part = part.in_group(shape, joined.axis);
             let axis = part.axis - joined.axis;
             let offset = part.offset - joined.offset;
-            joined.spread_sq += share * (part.spread_sq + shape.deviation_sq(axis, offset, along));
+            let deviation_sq = part.spread_sq + shape.deviation_sq(axis, offset, along);
+            joined.spread_sq += if deviation_sq > 0.0 {
+                // Only lights that are all alike have none.
+                (share * deviation_sq).max(f32::MIN_POSITIVE)
+            } else {
+                0.0
+            };
         }
         joined
     }

@@ -17,7 +17,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 24 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
 /// | 48 | `axis[axis][child]` | mean emission axis, signed |
 /// | 72 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
-/// | 80 | `spread[child]` | how far axis and offset vary within the child |
+/// | 80 | `spread[child]` | how far axis and offset vary within the child; 0 if no light of it emits toward any `w` of `dot(axis, w) <= offset` |
 /// | 88 | `power[child]` | five bits of exponent, three of mantissa, relative to the node's `gain`; 0 for an empty slot |
 /// | 96 | `origin` | |
 /// | 108 | `scale` | |

@@ -4,6 +4,9 @@
 //! is summed over all lights, not sampled, so that a rare large term cannot hide.
 
 mod laws;
+mod occluders;
+mod question;
+mod receiver;
 mod row;
 mod statistics;
 mod subject;
@@ -12,15 +15,17 @@ mod truth;
 mod variance;
 
 pub use laws::Laws;
+pub use receiver::ReceiverKind;
 pub use row::BenchRow;
 pub use timing::QueryTime;
 pub use truth::Truth;
 pub use variance::Variance;
 
 use light_scene::light_set::LightSetFile;
-use lights::bounds::{LightExtent, LightSampleContext};
+use lights::bounds::LightExtent;
 
 use crate::SamplerKind;
+use question::Question;
 use subject::Subject;
 
 /// What to measure.
@@ -36,6 +41,10 @@ pub struct BenchOptions {
     pub threads: usize,
     /// What counts as the contribution of a light.
     pub truth: Truth,
+    /// Who asks.
+    pub receiver: ReceiverKind,
+    /// Spheres that stand between lights and points, unknown to the samplers.
+    pub occluders: usize,
 }
 
 /// One row for each sampler, all measured in this run and in turns, so that their ratios mean something on a busy machine.
@@ -45,11 +54,7 @@ pub struct BenchOptions {
 #[must_use]
 pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<BenchRow> {
     let extents: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
-    let contexts: Vec<LightSampleContext> = set
-        .points
-        .iter()
-        .map(|at| LightSampleContext::surface(at.p, at.n, at.n))
-        .collect();
+    let question = Question::new(set, options);
     let var_points = options
         .var_points
         .unwrap_or(if set.lights.len() > 10_000 {
@@ -69,7 +74,7 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
         .map(|&kind| pool.install(|| timing::build(|| Subject::new(kind, &extents))))
         .collect();
     let subjects: Vec<&Subject> = built.iter().map(|(_, subject)| subject).collect();
-    let times = timing::queries(&subjects, &contexts, options.k);
+    let times = timing::queries(&subjects, &question.contexts, options.k);
 
     built
         .iter()
@@ -77,19 +82,13 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
         .map(|((build_ms, subject), time)| {
             let variance = pool.install(|| {
                 if options.k == 1 {
-                    variance::exact(subject, set, &contexts[..var_points], options.truth)
+                    variance::exact(subject, set, &question, var_points)
                 } else {
-                    variance::repeated(
-                        subject,
-                        set,
-                        &contexts[..var_points],
-                        options.truth,
-                        options.k,
-                    )
+                    variance::repeated(subject, set, &question, var_points, options.k)
                 }
             });
             let refit_ms = pool.install(|| subject.refit_ms(&extents));
-            let laws = pool.install(|| laws::check(subject, &contexts));
+            let laws = pool.install(|| laws::check(subject, &question.contexts));
             BenchRow {
                 set: name.to_owned(),
                 n_lights: set.lights.len(),
@@ -119,6 +118,8 @@ mod tests {
             var_points: Some(16),
             threads: 1,
             truth: Truth::Centroid,
+            receiver: ReceiverKind::Diffuse,
+            occluders: 0,
         }
     }
 

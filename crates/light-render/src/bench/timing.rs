@@ -10,9 +10,12 @@ use super::subject::Subject;
 
 /// Passes over all points that every sampler gets at least, and how long to go on.
 const MIN_PASSES: usize = 9;
+
+/// Queries that are timed together.
+const RUN: usize = 64;
 const TIME_PER_SUBJECT: Duration = Duration::from_millis(600);
 
-/// Nanoseconds a query: the fastest of many passes, which a busy machine disturbs least.
+/// Nanoseconds a query: the fastest of many passes, in short runs, which a busy machine disturbs least.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QueryTime {
     /// One sample, or one of the `k` samples of a call.
@@ -49,49 +52,76 @@ pub(super) fn queries(
         .iter()
         .map(|subject| Plan::new(subject, contexts, &us, &mut rng))
         .collect();
-    let mut times = vec![
-        QueryTime {
-            sample: f64::INFINITY,
-            pmf: f64::INFINITY,
-            pmf_random_light: f64::INFINITY,
-        };
-        subjects.len()
-    ];
+    let mut times = vec![Times::default(); subjects.len()];
     let begin = Instant::now();
     let limit = TIME_PER_SUBJECT * u32::try_from(subjects.len()).unwrap_or(u32::MAX);
     let mut passes = 0;
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
         for ((subject, plan), time) in subjects.iter().zip(&plans).zip(&mut times) {
-            let sample = per_call(contexts.len() * k as usize, || {
+            let asked: Vec<_> = contexts.iter().zip(&us).collect();
+            time.sample.pass(&asked, |(ctx, u)| {
                 if k == 1 {
-                    for (ctx, &u) in contexts.iter().zip(&us) {
-                        black_box(subject.sampler().sample(ctx, u));
-                    }
+                    black_box(subject.sampler().sample(ctx, **u));
                 } else {
-                    for (ctx, &u) in contexts.iter().zip(&us) {
-                        subject.sampler().sample_many(ctx, u, k, &mut |sample| {
-                            black_box(sample);
-                        });
-                    }
+                    subject.sampler().sample_many(ctx, **u, k, &mut |sample| {
+                        black_box(sample);
+                    });
                 }
             });
-            let pmf = |queries: &[(LightSampleContext, LightId)]| {
-                per_call(queries.len(), || {
-                    for (ctx, light) in queries {
-                        black_box(match k {
-                            1 => subject.sampler().pmf(ctx, *light),
-                            _ => subject.sampler().pmf_many(ctx, *light),
-                        });
-                    }
-                })
+            let pmf = |(ctx, light): &(LightSampleContext, LightId)| {
+                black_box(match k {
+                    1 => subject.sampler().pmf(ctx, *light),
+                    _ => subject.sampler().pmf_many(ctx, *light),
+                });
             };
-            time.sample = time.sample.min(sample);
-            time.pmf = time.pmf.min(pmf(&plan.picked));
-            time.pmf_random_light = time.pmf_random_light.min(pmf(&plan.random));
+            time.pmf.pass(&plan.picked, pmf);
+            time.pmf_random_light.pass(&plan.random, pmf);
         }
     }
     times
+        .iter()
+        .map(|time| QueryTime {
+            sample: time.sample.per_query() / f64::from(k),
+            pmf: time.pmf.per_query(),
+            pmf_random_light: time.pmf_random_light.per_query(),
+        })
+        .collect()
+}
+
+/// The times of the three queries of a sampler.
+#[derive(Clone, Default)]
+struct Times {
+    sample: Fastest,
+    pmf: Fastest,
+    pmf_random_light: Fastest,
+}
+
+/// The time of many queries, as the sum of the fastest times of short runs of them: a run is over before a busy machine takes the processor
+/// away, if not in this pass then in another.
+#[derive(Clone, Default)]
+struct Fastest {
+    seconds: Vec<f64>,
+    queries: usize,
+}
+
+impl Fastest {
+    /// Asks all `queries` once, and keeps what was faster than ever.
+    fn pass<T>(&mut self, queries: &[T], mut ask: impl FnMut(&T)) {
+        self.queries = queries.len();
+        self.seconds
+            .resize(queries.len().div_ceil(RUN), f64::INFINITY);
+        for (run, fastest) in queries.chunks(RUN).zip(&mut self.seconds) {
+            let start = Instant::now();
+            run.iter().for_each(&mut ask);
+            *fastest = fastest.min(start.elapsed().as_secs_f64());
+        }
+    }
+
+    /// Nanoseconds a query.
+    fn per_query(&self) -> f64 {
+        self.seconds.iter().sum::<f64>() * 1e9 / self.queries.max(1) as f64
+    }
 }
 
 /// Uniform in `[0, 1)` with 53 bits.
@@ -127,11 +157,4 @@ impl Plan {
             .collect();
         Self { picked, random }
     }
-}
-
-/// Nanoseconds that one of `calls` takes.
-fn per_call(calls: usize, pass: impl FnOnce()) -> f64 {
-    let start = Instant::now();
-    pass();
-    start.elapsed().as_secs_f64() * 1e9 / calls.max(1) as f64
 }

@@ -1,6 +1,7 @@
 use core::str::FromStr;
 
-use light_scene::light_set::{SetLight, SetPoint};
+use light_scene::light_set::SetLight;
+use lights::glam::DVec3;
 
 /// What counts as the contribution of a light at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,12 +14,13 @@ pub enum Truth {
 }
 
 impl Truth {
-    /// Irradiance at `at` by `light`, without occlusion.
-    pub(super) fn contribution(self, light: &SetLight, at: &SetPoint) -> f64 {
-        match self {
-            Self::Centroid => light.contribution(at),
-            Self::Area => light.area_contribution(at, &SIXTEEN),
-        }
+    /// The points of `light` that its contribution is the mean over.
+    pub(super) fn points(self, light: &SetLight) -> impl ExactSizeIterator<Item = DVec3> {
+        let barycentric = match (self, light) {
+            (Self::Area, SetLight::Triangle { .. }) => &SIXTEEN[..],
+            _ => &[(1.0 / 3.0, 1.0 / 3.0)],
+        };
+        barycentric.iter().map(|&(s, t)| light.point(s, t))
     }
 }
 
@@ -84,8 +86,13 @@ mod tests {
         let mut at = set.points[0];
         at.p.z -= 1000.0;
         for light in &set.lights {
-            let a = Truth::Centroid.contribution(light, &at);
-            let b = Truth::Area.contribution(light, &at);
+            let [a, b] = [Truth::Centroid, Truth::Area].map(|truth| {
+                let n = at.n.as_dvec3();
+                let from = |p| light.contribution_from(p, &at, |wi| n.dot(wi).max(0.0));
+                let points = truth.points(light);
+                let count = points.len() as f64;
+                points.map(from).sum::<f64>() / count
+            });
             assert!((a - b).abs() <= 1e-3 * a.max(b), "{a} against {b}");
         }
     }

@@ -1,10 +1,10 @@
 use light_scene::light_set::LightSetFile;
-use lights::bounds::{LightId, LightSampleContext};
+use lights::bounds::LightId;
 use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
-use super::Truth;
+use super::question::Question;
 use super::statistics::Summary;
 use super::subject::Subject;
 use super::timing::unit;
@@ -39,21 +39,20 @@ struct AtPoint {
 pub(super) fn exact(
     subject: &Subject,
     set: &LightSetFile,
-    contexts: &[LightSampleContext],
-    truth: Truth,
+    question: &Question,
+    points: usize,
 ) -> Variance {
-    let at_points = contexts
+    let at_points = question.askers[..points]
         .par_iter()
-        .zip(&set.points)
-        .map(|(ctx, at)| {
+        .map(|asker| {
             let (mut total, mut reached, mut second_moment) = (0.0, 0.0, 0.0);
             for (id, light) in (0u32..).zip(&set.lights) {
-                let f = truth.contribution(light, at);
+                let f = question.contribution(light, asker);
                 if f <= 0.0 {
                     continue;
                 }
                 total += f;
-                let pmf = f64::from(subject.sampler().pmf(ctx, LightId(id)));
+                let pmf = f64::from(subject.sampler().pmf(&asker.ctx, LightId(id)));
                 if pmf > 0.0 {
                     reached += f;
                     second_moment += f * f / pmf;
@@ -73,19 +72,18 @@ pub(super) fn exact(
 pub(super) fn repeated(
     subject: &Subject,
     set: &LightSetFile,
-    contexts: &[LightSampleContext],
-    truth: Truth,
+    question: &Question,
+    points: usize,
     k: u32,
 ) -> Variance {
-    let at_points = contexts
+    let at_points = question.askers[..points]
         .par_iter()
-        .zip(&set.points)
         .enumerate()
-        .map(|(i, (ctx, at))| {
+        .map(|(i, asker)| {
             let total: f64 = set
                 .lights
                 .iter()
-                .map(|light| truth.contribution(light, at))
+                .map(|light| question.contribution(light, asker))
                 .sum();
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
@@ -93,8 +91,8 @@ pub(super) fn repeated(
                 let mut mean = 0.0;
                 subject
                     .sampler()
-                    .sample_many(ctx, unit(&mut rng), k, &mut |sample| {
-                        let f = truth.contribution(&set.lights[sample.light.index()], at);
+                    .sample_many(&asker.ctx, unit(&mut rng), k, &mut |sample| {
+                        let f = question.contribution(&set.lights[sample.light.index()], asker);
                         mean += f / f64::from(sample.pmf) / f64::from(k);
                     });
                 squares += (mean - total) * (mean - total) / CALLS as f64;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, BenchRow, Truth, bench};
+use light_render::bench::{BenchOptions, BenchRow, ReceiverKind, Truth, bench};
 use light_scene::light_set::{LightSetFile, SetKind};
 
 /// Measure light samplers side by side on a set of lights.
@@ -43,6 +43,12 @@ pub(crate) struct BenchArgs {
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
     #[arg(long, default_value = "centroid")]
     truth: Truth,
+    /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half microfacets.
+    #[arg(long, default_value = "diffuse")]
+    receiver: ReceiverKind,
+    /// Spheres that block light, a tenth of the set's volume together.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    occluders: usize,
     /// One JSON object a line instead of a table.
     #[arg(long)]
     json: bool,
@@ -72,6 +78,8 @@ impl BenchArgs {
             var_points: self.var_points,
             threads: self.threads.max(1),
             truth: self.truth,
+            receiver: self.receiver,
+            occluders: self.occluders,
         };
         let rows = bench(&name, &set, &options);
         if !self.json {

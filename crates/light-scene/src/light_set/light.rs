@@ -54,26 +54,41 @@ impl SetLight {
     /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at its position.
     #[must_use]
     pub fn contribution(&self, at: &SetPoint) -> f64 {
-        let to_light = self.position() - at.p.as_dvec3();
-        self.intensity_toward(-to_light) * geometry(to_light, at)
+        let n = at.n.as_dvec3();
+        self.contribution_from(self.position(), at, |wi| n.dot(wi).max(0.0))
     }
 
-    /// The irradiance that reaches `at` without occlusion, a triangle's taken as the mean over `samples`, barycentric coordinates
-    /// of points on it.
+    /// What reaches `at` from `position` as if all of the light were there, times `response` to the unit vector toward it.
     #[must_use]
-    pub fn area_contribution(&self, at: &SetPoint, samples: &[(f64, f64)]) -> f64 {
-        let Self::Triangle { vertices, .. } = self else {
-            return self.contribution(at);
-        };
-        let [a, b, c] = vertices.map(Vec3::as_dvec3);
-        let sum: f64 = samples
-            .iter()
-            .map(|&(s, t)| {
-                let to_light = a + (b - a) * s + (c - a) * t - at.p.as_dvec3();
-                self.intensity_toward(-to_light) * geometry(to_light, at)
-            })
-            .sum();
-        sum / samples.len() as f64
+    pub fn contribution_from(
+        &self,
+        position: DVec3,
+        at: &SetPoint,
+        response: impl FnOnce(DVec3) -> f64,
+    ) -> f64 {
+        let to_light = position - at.p.as_dvec3();
+        let dist_sq = to_light.length_squared();
+        if dist_sq == 0.0 {
+            return 0.0;
+        }
+        let intensity = self.intensity_toward(-to_light);
+        if intensity > 0.0 {
+            intensity * response(to_light / dist_sq.sqrt()) / dist_sq
+        } else {
+            0.0
+        }
+    }
+
+    /// The point of a triangle with the barycentric coordinates `s` and `t` of its second and third vertex; of other lights the only one.
+    #[must_use]
+    pub fn point(&self, s: f64, t: f64) -> DVec3 {
+        match self {
+            Self::Triangle { vertices, .. } => {
+                let [a, b, c] = vertices.map(Vec3::as_dvec3);
+                a + (b - a) * s + (c - a) * t
+            }
+            Self::Point { p, .. } | Self::Spot { p, .. } => p.as_dvec3(),
+        }
     }
 
     /// What a light sampler is told about the light.
@@ -155,15 +170,6 @@ impl SetLight {
             }
         }
     }
-}
-
-/// Cosine at the surface over the squared distance; 0 for a light at the point itself.
-fn geometry(to_light: DVec3, at: &SetPoint) -> f64 {
-    let dist_sq = to_light.length_squared();
-    if dist_sq == 0.0 {
-        return 0.0;
-    }
-    at.n.as_dvec3().dot(to_light).max(0.0) / (dist_sq * dist_sq.sqrt())
 }
 
 /// Smooth step from 0 at `cos_end` to 1 at `cos_start`.

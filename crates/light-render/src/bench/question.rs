@@ -1,0 +1,46 @@
+use light_scene::light_set::{LightSetFile, SetLight};
+use lights::bounds::LightSampleContext;
+
+use super::occluders::Occluders;
+use super::receiver::Asker;
+use super::{BenchOptions, Truth};
+
+/// What is asked at the points of a set, and the true answer.
+pub(super) struct Question {
+    pub(super) askers: Vec<Asker>,
+    pub(super) contexts: Vec<LightSampleContext>,
+    truth: Truth,
+    occluders: Occluders,
+}
+
+impl Question {
+    pub(super) fn new(set: &LightSetFile, options: &BenchOptions) -> Self {
+        let askers: Vec<Asker> = (0..)
+            .zip(&set.points)
+            .map(|(index, &at)| options.receiver.asker(index, at))
+            .collect();
+        Self {
+            contexts: askers.iter().map(|asker| asker.ctx).collect(),
+            askers,
+            truth: options.truth,
+            occluders: Occluders::among(set, options.occluders),
+        }
+    }
+
+    /// What `light` contributes at the asker's point.
+    pub(super) fn contribution(&self, light: &SetLight, asker: &Asker) -> f64 {
+        let points = self.truth.points(light);
+        let count = points.len() as f64;
+        let sum: f64 = points
+            .map(|p| {
+                let f = light.contribution_from(p, &asker.at, |wi| asker.response(wi));
+                if f > 0.0 && self.occluders.block(asker.at.p.as_dvec3(), p) {
+                    0.0
+                } else {
+                    f
+                }
+            })
+            .sum();
+        sum / count
+    }
+}
