@@ -135,10 +135,10 @@ mod tests {
         }
     }
 
-    /// The white furnace: what a rough surface reflects of the same radiance from everywhere is below one, and most of it.
+    /// The white furnace: what a rough surface reflects of the same radiance from everywhere is below one; the rougher, the more is lost between facets.
     #[test]
     fn microfacets_reflect_no_more_than_arrives() {
-        for roughness in [0.3, 0.6, 1.0] {
+        for (roughness, least) in [(0.1, 0.9), (0.3, 0.8), (0.6, 0.5), (1.0, 0.3)] {
             let gloss = Gloss {
                 wo: Vec3::new(0.6, 0.0, 0.8),
                 alpha: roughness,
@@ -157,7 +157,7 @@ mod tests {
                 }
             }
             let albedo = sum * core::f64::consts::TAU / f64::from(steps * steps);
-            assert!(albedo < 1.0 && albedo > 0.5, "{roughness}: {albedo}");
+            assert!(albedo < 1.0 && albedo > least, "{roughness}: {albedo}");
         }
     }
 }
