@@ -162,7 +162,11 @@ mod tests {
 
     #[test]
     fn ratios_are_to_the_first_line() {
-        let lines = lines("spots, 100", &[row(800.0), row(200.0), row(100.0)]).expect("rows");
+        let lines = lines(
+            "spots, 100",
+            &[row(800.0), row(200.0), row(160.0), row(100.0)],
+        )
+        .expect("rows");
         let lines: Vec<&str> = lines.lines().collect();
         assert!(
             lines[0].starts_with("| spots, 100 | reference | 800 | 800 |"),
@@ -175,7 +179,9 @@ mod tests {
             "{}",
             lines[1]
         );
-        assert!(lines[2].contains("| 100 (8.0 x) |  |"), "{}", lines[2]);
+        assert!(lines[2].ends_with("| 160 (5.0 x) |"), "{}", lines[2]);
+        // One call for many lights has no build and no bytes of its own.
+        assert!(lines[3].contains("| 100 (8.0 x) |  |"), "{}", lines[3]);
     }
 
     #[test]
