@@ -38,9 +38,6 @@ const PRESETS: [(&str, [f32; 3], [f32; 3]); 12] = [
     ("Wholemilk", [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014]),
 ];
 
-/// What a homogeneous medium is made of unless its file says so: whole milk.
-const MILK: usize = 11;
-
 impl Reader {
     /// `MakeNamedMedium "name" "string type" ...`.
     pub(super) fn make_medium(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -134,16 +131,10 @@ impl Reader {
     }
 
     fn homogeneous(&mut self, typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
-        let preset = typed.parameters.string("preset").map(str::to_owned);
-        let known = |name: &String| PRESETS.iter().find(|(preset, ..)| preset == name);
-        let found = preset.as_ref().and_then(known);
-        if let (Some(name), None) = (&preset, found) {
-            let what = format!("the preset \"{name}\"");
-            self.warn(typed.at, &what, "is not known; whole milk was taken");
-        }
-        let (_, sigma_s, sigma_a) = found.unwrap_or(&PRESETS[MILK]);
-        let sigma_a = self.coefficient(typed, "sigma_a", Vec3::from(*sigma_a));
-        let sigma_s = self.coefficient(typed, "sigma_s", Vec3::from(*sigma_s));
+        let [sigma_s, sigma_a] = match self.preset(typed) {
+            Some(measured) => measured,
+            None => ["sigma_s", "sigma_a"].map(|name| self.coefficient(typed, name, Vec3::ONE)),
+        };
         let le = self.glow(typed) * typed.parameters.number_or("Lescale", 1.0);
         let scale = typed.parameters.number_or("scale", 1.0);
         Ok(Homogeneous {
@@ -152,6 +143,17 @@ impl Reader {
             region: Region::UNBOUNDED,
         }
         .into())
+    }
+
+    /// Scattering and absorption of the preset that the file names: it counts before the file's own coefficients.
+    fn preset(&mut self, typed: &Typed<'_>) -> Option<[Vec3; 2]> {
+        let name = typed.parameters.string("preset")?;
+        let found = PRESETS.iter().find(|(preset, ..)| *preset == name);
+        if found.is_none() {
+            let what = format!("the preset \"{}\"", shown(name));
+            self.warn(typed.at, &what, "is not known");
+        }
+        found.map(|(_, sigma_s, sigma_a)| [Vec3::from(*sigma_s), Vec3::from(*sigma_a)])
     }
 
     /// A coefficient per unit of length.

@@ -185,3 +185,21 @@ fn bad_media_are_refused_with_the_line() {
         assert_eq!(error, format!("a.pbrt:{line}: {expected}"), "{text}");
     }
 }
+
+#[test]
+fn a_preset_counts_before_coefficients_and_one_is_the_default() {
+    let text = r#"
+WorldBegin
+MakeNamedMedium "bare" "string type" "homogeneous"
+MakeNamedMedium "both" "string type" "homogeneous" "string preset" "Skin1" "rgb sigma_a" [ 9 9 9 ]
+MakeNamedMedium "odd" "string type" "homogeneous" "string preset" "Tar" "rgb sigma_a" [ 9 9 9 ]
+Camera "perspective"
+"#;
+    let scene = read("pbrt_presets", text).expect("a scene");
+    let [bare, both, odd] = [0, 1, 2].map(|i| at(&scene.media[i].medium, Vec3::ZERO));
+    assert_eq!(bare, [Vec3::ONE, Vec3::ONE, Vec3::ZERO], "as pbrt has it");
+    assert_eq!(both[0], Vec3::new(0.032, 0.17, 0.48), "measured");
+    assert_eq!(odd[0], Vec3::splat(9.0), "of the file");
+    let warned = scene.warnings.iter().any(|w| w.to_string().contains("Tar"));
+    assert!(warned, "{:?}", scene.warnings);
+}

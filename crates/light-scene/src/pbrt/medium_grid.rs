@@ -30,7 +30,9 @@ impl Reader {
             let grid = Grid::new(size, scale);
             glow.scale = Some(grid.map_err(|error| bad_values(typed, "Lescale", error))?);
         }
-        let offset = parameters.number_or("temperatureoffset", 0.0);
+        // The second name is the older one.
+        let offset = parameters.number_or("temperaturecutoff", 0.0);
+        let offset = parameters.number_or("temperatureoffset", offset);
         let scale = parameters.number_or("temperaturescale", 1.0);
         let mut le = self.glow(typed);
         if let Some(mut kelvin) = values(typed, "temperature", size, 1)? {
