@@ -1,7 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
-// Not forbidden: one private module, `wide::vectors`, calls code for wider vectors after asking whether the machine has them.
-#![deny(unsafe_code)]
+// Not forbidden where one private module, `wide::vectors`, calls code for wider vectors after asking whether the machine has them.
+#![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), forbid(unsafe_code))]
+#![deny(unsafe_code, clippy::undocumented_unsafe_blocks)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 #[cfg(feature = "alloc")]

@@ -1,6 +1,9 @@
-#![expect(
-    unsafe_code,
-    reason = "code for instructions that not every machine has can only be called so"
+#![cfg_attr(
+    all(feature = "std", target_arch = "x86_64"),
+    expect(
+        unsafe_code,
+        reason = "code for instructions that not every machine has can only be called so"
+    )
 )]
 
 //! Which vectors a node's lanes are computed in: the widest that the machine has, asked at run time where there is an operating system.
