@@ -209,4 +209,14 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn samples_pass_chi_squared_over_the_sphere() {
+        let wo = Vec3::new(0.48, -0.6, 0.64);
+        for f in all() {
+            let outcome = light_testkit::DensityTest::default()
+                .sphere(|rng| Some(f.sample(wo, rng.vec2()).wi), |wi| f.pdf(wo, wi));
+            assert_eq!(outcome.fault(all().len()), None, "{f:?}: {outcome:?}");
+        }
+    }
 }
