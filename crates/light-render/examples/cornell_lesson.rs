@@ -1,5 +1,5 @@
 //! The lesson of the Cornell box: ten samples toward the lamp show less noise than a thousand over the hemisphere, with
-//! the same mean; and the lamp lights the ceiling only when it shines on both sides.
+//! the same mean; and a lamp that hangs below the ceiling lights it only when it shines on both sides.
 //!
 //! `cargo run --release -p light-render --example cornell_lesson`
 
@@ -13,12 +13,8 @@ const SIZE: u32 = 48;
 
 fn main() -> Result<(), Box<dyn core::error::Error>> {
     let scene = BuiltinScene::CornellBox.load();
-    let mut two_sided = scene.clone();
-    for material in &mut two_sided.materials {
-        if let Some(emission) = &mut material.emission {
-            emission.sides = EmissionSides::Both;
-        }
-    }
+    let one_sided = hung(&scene, EmissionSides::Front);
+    let two_sided = hung(&scene, EmissionSides::Both);
     println!(
         "{:<34} {:>5} {:>9} {:>9}",
         "direct light", "spp", "mean", "noise"
@@ -28,7 +24,13 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
         ("over the hemisphere", &scene, Estimator::Bsdf, 1000),
         ("both, weighted", &scene, Estimator::Mis, 10),
         (
-            "toward a lamp that is two-sided",
+            "a lamp 20 cm lower, one-sided",
+            &one_sided,
+            Estimator::Light,
+            10,
+        ),
+        (
+            "a lamp 20 cm lower, two-sided",
             &two_sided,
             Estimator::Light,
             10,
@@ -45,6 +47,18 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
         );
     }
     Ok(())
+}
+
+/// The scene with its lamp 200 mm below the ceiling, in whose plane it lies otherwise, shining on the given `sides`.
+fn hung(scene: &Scene, sides: EmissionSides) -> Scene {
+    let mut scene = scene.clone();
+    for mesh in &mut scene.meshes {
+        if let Some(emission) = &mut scene.materials[mesh.material.0 as usize].emission {
+            emission.sides = sides;
+            mesh.positions.iter_mut().for_each(|p| p.y -= 200.0);
+        }
+    }
+    scene
 }
 
 /// Direct light alone, the lamp itself left out.
