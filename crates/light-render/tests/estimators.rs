@@ -8,24 +8,11 @@ use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::glam::Vec3;
 use light_scene::{Camera, Emission, Material, Mesh, Scene};
-use support::{Shot, agree, cornell, lamps};
+use support::{Shot, agree, assert_estimators_agree, cornell, lamps};
 
 #[test]
 fn light_and_material_samples_and_both_have_the_same_mean() {
-    let scene = cornell();
-    let of = |estimator, spp| {
-        let shot = Shot {
-            estimator,
-            spp,
-            ..Shot::default()
-        };
-        shot.mean(&scene)
-    };
-    let mis = of(Estimator::Mis, 16);
-    let light = of(Estimator::Light, 16);
-    let bsdf = of(Estimator::Bsdf, 64);
-    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
-    assert!(agree(bsdf, mis), "material {bsdf:?} and both {mis:?}");
+    assert_estimators_agree(&cornell());
 }
 
 #[test]

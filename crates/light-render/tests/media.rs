@@ -15,7 +15,7 @@ use lights::sources::{
     IntensityAmount, LightDesc, MediumInterface, PointLightDesc, RadianceAmount, Rgb,
     UniformInfiniteLightDesc,
 };
-use support::{Shot, agree, cornell, room};
+use support::{Shot, agree, assert_estimators_agree, cornell, room};
 
 const ISOTROPIC: Phase = Phase::Isotropic(Isotropic);
 
@@ -245,20 +245,7 @@ fn smoky_room() -> Scene {
 
 #[test]
 fn all_ways_to_find_light_agree_in_smoke() {
-    let scene = smoky_room();
-    let of = |estimator, spp| {
-        let shot = Shot {
-            estimator,
-            spp,
-            ..Shot::default()
-        };
-        shot.mean(&scene)
-    };
-    let mis = of(Estimator::Mis, 16);
-    let light = of(Estimator::Light, 16);
-    let bsdf = of(Estimator::Bsdf, 64);
-    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
-    assert!(agree(bsdf, mis), "scattered {bsdf:?} and both {mis:?}");
+    assert_estimators_agree(&smoky_room());
 }
 
 #[test]

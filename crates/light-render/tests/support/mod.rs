@@ -166,3 +166,20 @@ pub(crate) fn agree((a, a_error): (DVec3, DVec3), (b, b_error): (DVec3, DVec3)) 
     let rounding = b.abs() * 2e-5;
     (a - b).abs().cmple(error * 4.5 + rounding).all()
 }
+
+/// Light samples, material samples, and both weighted have one mean in `scene`.
+pub(crate) fn assert_estimators_agree(scene: &Scene) {
+    let of = |estimator, spp| {
+        let shot = Shot {
+            estimator,
+            spp,
+            ..Shot::default()
+        };
+        shot.mean(scene)
+    };
+    let mis = of(Estimator::Mis, 16);
+    let light = of(Estimator::Light, 16);
+    let bsdf = of(Estimator::Bsdf, 64);
+    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
+    assert!(agree(bsdf, mis), "scattered {bsdf:?} and both {mis:?}");
+}
