@@ -116,15 +116,6 @@ impl<C: ColorModel, S: AsRef<[f32]>> Medium<C> for ColorGridMedium<C, S> {
         self.region.clip(ray, span)
     }
 
-    fn optical_thickness(
-        &self,
-        _ray: &Ray,
-        _span: Span,
-        _wavelengths: &C::Wavelengths,
-    ) -> Option<C::Radiance> {
-        None
-    }
-
     fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_> {
         let [a, s] = &self.majorants;
         let layers: [Layer<'_>; 2] = [

@@ -62,15 +62,6 @@ impl<C: ColorModel, S: AsRef<[f32]>> Medium<C> for GridMedium<C, S> {
         self.region.clip(ray, span)
     }
 
-    fn optical_thickness(
-        &self,
-        _ray: &Ray,
-        _span: Span,
-        _wavelengths: &C::Wavelengths,
-    ) -> Option<C::Radiance> {
-        None
-    }
-
     fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_> {
         let max_sigma_t = self.substance.sigma_t(wavelengths).maximum();
         let layers = [Some((self.density.majorants(), max_sigma_t)), None];

@@ -45,14 +45,16 @@ pub trait Medium<C: ColorModel> {
     /// The part of `span` in which the medium may be other than vacuum.
     fn clip(&self, ray: &Ray, span: Span) -> Option<Span>;
 
-    /// The optical thickness, the integral of the extinction over `span`, where it has a closed form. `span` lies in
-    /// the medium.
+    /// The optical thickness, the integral of the extinction over `span`, where it has a closed form; `None`, unless
+    /// told otherwise. `span` lies in the medium.
     fn optical_thickness(
         &self,
-        ray: &Ray,
-        span: Span,
-        wavelengths: &C::Wavelengths,
-    ) -> Option<C::Radiance>;
+        _ray: &Ray,
+        _span: Span,
+        _wavelengths: &C::Wavelengths,
+    ) -> Option<C::Radiance> {
+        None
+    }
 
     /// Upper bounds of the extinction over consecutive segments that fill `span`. `span` lies in the medium.
     fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_>;
