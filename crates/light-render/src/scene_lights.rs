@@ -1,14 +1,15 @@
 use core::error::Error;
 use core::fmt;
+use std::collections::HashMap;
 
-use light_scene::{Color, EmissionSides, Image, Material};
+use light_scene::{Color, EmissionSides, ImageId, Material};
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, DiffuseEmissionDesc, Light, LightDesc, LightDescError, LightSet,
+    self as sources, DiffuseEmissionDesc, Image, Light, LightDesc, LightDescError, LightSet,
     LightSetBuilder, LightType, MeshLightDesc, RadianceAmount, Rgb, SceneSphere, SceneSphereError,
-    Sides, SurfaceColor,
+    Sides, SurfaceColor, Texture, TextureMapping,
 };
 
 use crate::world::WorldMesh;
@@ -34,11 +35,11 @@ pub enum SceneLightsError {
         /// What is wrong with it.
         error: LightDescError,
     },
-    /// An image that shines has texels that are no light.
+    /// An image has texels that are no light.
     Image {
-        /// Which light.
+        /// Which image.
         name: String,
-        /// What is wrong with its image.
+        /// What is wrong with it.
         error: sources::ImageError,
     },
 }
@@ -60,10 +61,14 @@ impl SceneLights {
             SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
         };
         let mut builder = LightSetBuilder::new(sphere.map_err(SceneLightsError::Bounds)?);
+        let mut textures = Textures {
+            images,
+            made: HashMap::new(),
+        };
         let mut shining = Vec::new();
         for (index, mesh) in meshes.iter().enumerate() {
             let material = &materials[mesh.material];
-            if let Some(desc) = mesh_light(mesh, material, images)? {
+            if let Some(desc) = textures.mesh_light(mesh, material) {
                 let source = add(&mut builder, &material.name, desc)?;
                 shining.push((index, source));
             }
@@ -99,42 +104,60 @@ fn add(
     })
 }
 
-/// The light that a mesh is, if its material shines.
-fn mesh_light(
-    mesh: &WorldMesh,
-    material: &Material,
-    images: &[Image],
-) -> Result<Option<LightDesc<Rgb>>, SceneLightsError> {
-    let Some(emission) = &material.emission else {
-        return Ok(None);
+/// The images of a scene, as lights and surfaces hold them.
+pub(crate) fn shown_images(
+    images: Vec<light_scene::Image>,
+) -> Result<Vec<Image>, SceneLightsError> {
+    let shown = |(number, image): (usize, light_scene::Image)| {
+        image.to_light().map_err(|error| SceneLightsError::Image {
+            name: format!("image {number}"),
+            error,
+        })
     };
-    let color = match &emission.radiance {
-        Color::Constant(radiance) => SurfaceColor::Uniform(*radiance),
-        Color::Image(texture) => {
-            let image = &images[texture.image.0 as usize];
-            let image = image
-                .to_light(texture.scale)
-                .map_err(|error| SceneLightsError::Image {
-                    name: material.name.clone(),
-                    error,
-                })?;
-            SurfaceColor::Image(image)
-        }
-    };
-    let sides = match emission.sides {
-        EmissionSides::Front => Sides::Front,
-        EmissionSides::Both => Sides::Both,
-    };
-    Ok(Some(LightDesc::Mesh(MeshLightDesc {
-        positions: mesh.positions.clone(),
-        indices: mesh.indices.clone(),
-        uvs: mesh.uvs.clone(),
-        emission: DiffuseEmissionDesc {
-            sides,
-            media: material.media,
-            ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
-        },
-    })))
+    images.into_iter().enumerate().map(shown).collect()
+}
+
+/// The textures of surfaces that shine, each made once.
+struct Textures<'a> {
+    images: &'a [Image],
+    made: HashMap<ImageId, Texture>,
+}
+
+impl Textures<'_> {
+    fn texture(&mut self, id: ImageId) -> Texture {
+        let make = || Texture::new(self.images[id.0 as usize].clone());
+        self.made.entry(id).or_insert_with(make).clone()
+    }
+
+    /// The light that a mesh is, if its material shines.
+    fn mesh_light(&mut self, mesh: &WorldMesh, material: &Material) -> Option<LightDesc<Rgb>> {
+        let emission = material.emission.as_ref()?;
+        let (color, mapping) = match &emission.radiance {
+            Color::Constant(radiance) => {
+                (SurfaceColor::Uniform(*radiance), TextureMapping::default())
+            }
+            Color::Image(shown) => {
+                let texture = self.texture(shown.image);
+                let tint = shown.scale;
+                (SurfaceColor::Image { texture, tint }, shown.mapping)
+            }
+        };
+        let sides = match emission.sides {
+            EmissionSides::Front => Sides::Front,
+            EmissionSides::Both => Sides::Both,
+        };
+        Some(LightDesc::Mesh(MeshLightDesc {
+            positions: mesh.positions.clone(),
+            indices: mesh.indices.clone(),
+            uvs: mesh.uvs.clone(),
+            emission: DiffuseEmissionDesc {
+                sides,
+                mapping,
+                media: material.media,
+                ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
+            },
+        }))
+    }
 }
 
 impl fmt::Display for SceneLightsError {
@@ -142,7 +165,7 @@ impl fmt::Display for SceneLightsError {
         match self {
             Self::Bounds(error) => error.fmt(f),
             Self::Light { name, error } => write!(f, "{name}: {error}"),
-            Self::Image { name, error } => write!(f, "{name}: image: {error}"),
+            Self::Image { name, error } => write!(f, "{name}: {error}"),
         }
     }
 }

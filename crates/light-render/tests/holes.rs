@@ -78,9 +78,8 @@ fn holes_are_where_the_image_says() {
     let scene = under_roof(|scene| {
         let texels = [1.0, 1.0, 0.0, 0.0].map(Vec3::splat).to_vec();
         let image = scene.add_image(Image::new(1, 4, texels).expect("an image"));
-        let scale = Vec3::ONE;
         Some(Alpha {
-            share: Color::Image(ColorImage { image, scale }),
+            share: Color::Image(ColorImage::new(image)),
             cutoff: Some(0.5),
         })
     });

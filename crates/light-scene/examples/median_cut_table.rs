@@ -129,7 +129,7 @@ impl Sky {
     fn read(path: &Path) -> Result<Self, Failure> {
         let file = light_scene::read_image(path).map_err(|error| error.to_string())?;
         let n = equal_area_size(file.image.height());
-        let image = file.image.to_light(Vec3::ONE)?;
+        let image = file.image.to_light()?;
         let image = image.resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])?;
         let exact = (0..NORMALS).map(normal);
         let exact = exact

@@ -1,4 +1,4 @@
-use lights::sources::MediumInterface;
+use lights::sources::{MediumInterface, TextureMapping};
 
 use crate::ImageId;
 use crate::glam::{Vec2, Vec3};
@@ -99,13 +99,15 @@ pub struct Alpha {
     pub cutoff: Option<f32>,
 }
 
-/// An image over texture coordinates, times a factor; it repeats in both directions.
+/// An image over texture coordinates, times a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorImage {
     /// The image.
     pub image: ImageId,
     /// Multiplies every texel.
     pub scale: Vec3,
+    /// Where it lies, and what is beyond its edges.
+    pub mapping: TextureMapping,
 }
 
 /// Light that a surface emits, the same in all directions.
@@ -143,6 +145,18 @@ impl Material {
             emission: None,
             alpha: None,
             media: MediumInterface::default(),
+        }
+    }
+}
+
+impl ColorImage {
+    /// The image as it is, over and over.
+    #[must_use]
+    pub const fn new(image: ImageId) -> Self {
+        Self {
+            image,
+            scale: Vec3::ONE,
+            mapping: TextureMapping::REPEAT,
         }
     }
 }

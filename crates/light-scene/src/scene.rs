@@ -124,7 +124,7 @@ impl Scene {
         image: &Image,
         transform: Affine3A,
     ) -> Result<(), sources::ImageError> {
-        let map = EnvironmentMap::LatLong(image.to_light(Vec3::ONE)?);
+        let map = EnvironmentMap::LatLong(image.to_light()?);
         let sky = ImageInfiniteLightDesc {
             transform,
             map,

@@ -1,3 +1,5 @@
+use alloc::sync::Arc;
+use alloc::vec::Vec;
 use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
@@ -5,13 +7,15 @@ use core::fmt;
 use crate::amount::SurfaceAmount;
 use crate::color::{ColorModel, Radiance};
 use crate::glam::{Vec2, Vec3};
-use crate::image::Image;
+use crate::image::{Channels, Image};
 use crate::media::MediumInterface;
 use crate::rgb_sum::RgbSum;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::shape::Shape;
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;
+use crate::texture::Texture;
+use crate::texture_mapping::TextureMapping;
 use crate::texture_means::TextureMeans;
 
 /// How a surface shines, whatever its shape; as a user describes it.
@@ -25,6 +29,8 @@ pub struct DiffuseEmissionDesc<C: ColorModel> {
     pub sides: Sides,
     /// Where it emits.
     pub mask: EmissionMask,
+    /// How the images of colour and mask lie on the surface.
+    pub mapping: TextureMapping,
     /// The media behind and in front of the surface.
     pub media: MediumInterface,
 }
@@ -34,8 +40,13 @@ pub struct DiffuseEmissionDesc<C: ColorModel> {
 pub enum SurfaceColor<C: ColorModel> {
     /// The same everywhere.
     Uniform(C::Emission),
-    /// An image over the surface parameters; its row 0 lies at v = 1.
-    Image(Image),
+    /// An image over the surface parameters.
+    Image {
+        /// The image; lights that share it hold it once.
+        texture: Texture,
+        /// Multiplies every texel.
+        tint: Vec3,
+    },
 }
 
 /// Where an emitting surface emits.
@@ -44,9 +55,9 @@ pub enum EmissionMask {
     /// Everywhere.
     #[default]
     Opaque,
-    /// In proportion to an image over the surface parameters, `[0, 1]`; its row 0 lies at v = 1. Emission already
-    /// holds this factor: a ray that meets the surface counts in full.
-    Alpha(Image),
+    /// In proportion to an image over the surface parameters, `[0, 1]`. Emission already holds this factor: a ray that
+    /// meets the surface counts in full.
+    Alpha(Texture),
     /// Everywhere, but no ray meets the surface: the light stays, of type
     /// [`DeltaPosition`](crate::LightType::DeltaPosition), and is found by sampling it alone.
     Invisible,
@@ -58,15 +69,20 @@ pub struct DiffuseEmission<C: ColorModel> {
     color: Color<C>,
     sides: Sides,
     mask: EmissionMask,
+    mapping: TextureMapping,
     /// Of what varies over the surface: image times alpha. None where nothing does.
-    means: Option<TextureMeans>,
+    means: Option<Arc<TextureMeans>>,
     media: MediumInterface,
 }
 
 #[derive(Clone, Debug)]
 enum Color<C: ColorModel> {
     Uniform(ScaledEmission<C>),
-    Image { image: Image, scale: f32 },
+    Image {
+        texture: Texture,
+        tint: Vec3,
+        scale: f32,
+    },
 }
 
 /// Why a description is no emission; each variant names a field.
@@ -88,6 +104,7 @@ impl<C: ColorModel> DiffuseEmissionDesc<C> {
             amount: amount.into(),
             sides: Sides::Front,
             mask: EmissionMask::Opaque,
+            mapping: TextureMapping::default(),
             media: MediumInterface::default(),
         }
     }
@@ -103,16 +120,19 @@ impl<C: ColorModel> DiffuseEmission<C> {
         desc: DiffuseEmissionDesc<C>,
         shapes: impl IntoIterator<Item = impl Shape>,
     ) -> Result<Self, DiffuseEmissionError> {
-        if let EmissionMask::Alpha(image) = &desc.mask {
-            if image.texels().any(|texel| texel.max_element() > 1.0) {
+        if let EmissionMask::Alpha(texture) = &desc.mask {
+            if texture.means().brightest().max_element() > 1.0 {
                 return Err(DiffuseEmissionError::Mask);
             }
         }
         let means = means(&desc.color, &desc.mask);
+        let mapping = desc.mapping;
         let etendue = || {
             let mut sum = RgbSum::default();
             for shape in shapes {
-                let texture = texture_over(means.as_ref(), &shape);
+                let texture = means
+                    .as_ref()
+                    .map_or(Vec3::ONE, |m| m.over(&shape, &mapping));
                 sum.add(texture, f64::from(shape.area()));
             }
             sum.over(1.0) * (PI * desc.sides.count())
@@ -123,14 +143,23 @@ impl<C: ColorModel> DiffuseEmission<C> {
                 let scale = desc.amount.scale(radiance, || radiance * etendue().x)?;
                 Color::Uniform(ScaledEmission::new(emission, scale)?)
             }
-            SurfaceColor::Image(image) => {
-                let white = C::flux_of_texel(Vec3::ONE);
-                let scale = desc.amount.scale(white, || C::flux_of_texel(etendue()))?;
-                let brightest = image.texels().map(Vec3::max_element).fold(0.0, f32::max);
-                if !(scale >= 0.0 && (brightest * scale).is_finite()) {
+            SurfaceColor::Image { texture, tint } => {
+                if !(tint.is_finite() && tint.min_element() >= 0.0) {
+                    return Err(EmissionError::Emission.into());
+                }
+                let white = C::flux_of_texel(tint);
+                let scale = desc
+                    .amount
+                    .scale(white, || C::flux_of_texel(etendue() * tint))?;
+                let brightest = texture.means().brightest() * tint * scale;
+                if !(scale >= 0.0 && brightest.is_finite()) {
                     return Err(EmissionError::Amount.into());
                 }
-                Color::Image { image, scale }
+                Color::Image {
+                    texture,
+                    tint,
+                    scale,
+                }
             }
         };
         Ok(Self {
@@ -138,6 +167,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
             color,
             sides: desc.sides,
             mask: desc.mask,
+            mapping,
             media: desc.media,
         })
     }
@@ -167,65 +197,95 @@ impl<C: ColorModel> DiffuseEmission<C> {
         if !self.sides.emit_toward(at.n, w) {
             return C::Radiance::BLACK;
         }
-        let uv = Vec2::new(at.uv.x, 1.0 - at.uv.y);
+        let shown = |texture: &Texture| texture.image().on_surface(at.uv, &self.mapping);
         let l = match &self.color {
             Color::Uniform(radiance) => radiance.at(wavelengths),
-            Color::Image { image, scale } => {
-                C::emit_texel(image.bilinear(uv), wavelengths) * *scale
-            }
+            Color::Image {
+                texture,
+                tint,
+                scale,
+            } => C::emit_texel(shown(texture) * *tint, wavelengths) * *scale,
         };
         match &self.mask {
             EmissionMask::Opaque | EmissionMask::Invisible => l,
-            EmissionMask::Alpha(alpha) => l * alpha.bilinear(uv).x,
+            EmissionMask::Alpha(texture) => l * shown(texture).x,
         }
     }
 
     /// Power in W that a shape emits, on all sides.
     #[must_use]
     pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let texture = texture_over(self.means.as_ref(), shape);
+        let texture = self.means.as_ref();
+        let texture = texture.map_or(Vec3::ONE, |means| means.over(shape, &self.mapping));
         let mean = match &self.color {
             Color::Uniform(radiance) => radiance.at(wavelengths) * texture.x,
-            Color::Image { scale, .. } => C::emit_texel(texture, wavelengths) * *scale,
+            Color::Image { tint, scale, .. } => {
+                C::emit_texel(texture * *tint, wavelengths) * *scale
+            }
         };
         mean * (PI * self.sides.count() * shape.area())
     }
 
-    /// Power that a shape emits on one side in one number, by which light samplers compare.
+    /// Power that a shape emits on one side in one number, by which light samplers compare: above 0 unless all of it is
+    /// black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
-        let texture = texture_over(self.means.as_ref(), shape);
+        /// What the points miss, at which the texture is looked at, is about that part of it.
+        const MISSED: f32 = 1.0 / 64.0;
+        let texture = self.means.as_ref().map_or(Vec3::ONE, |means| {
+            let least = MISSED * means.around(shape, &self.mapping);
+            means.over(shape, &self.mapping).max(least)
+        });
         let mean = match &self.color {
             Color::Uniform(radiance) => radiance.maximum() * texture.x,
-            Color::Image { scale, .. } => texture.average() * *scale,
+            Color::Image { tint, scale, .. } => (texture * *tint).average() * *scale,
         };
         PI * mean * shape.area()
     }
+
+    /// The textures, and the means that belong to none of them.
+    pub(crate) fn textures(&self) -> (impl Iterator<Item = &Texture>, Option<&Arc<TextureMeans>>) {
+        let color = match &self.color {
+            Color::Image { texture, .. } => Some(texture),
+            Color::Uniform(_) => None,
+        };
+        let mask = match &self.mask {
+            EmissionMask::Alpha(texture) => Some(texture),
+            EmissionMask::Opaque | EmissionMask::Invisible => None,
+        };
+        let is_product = color.is_some() && mask.is_some();
+        let product = self.means.as_ref().filter(|_| is_product);
+        (color.into_iter().chain(mask), product)
+    }
 }
 
-/// The mean over a shape of what varies over it, 1 where nothing does.
-fn texture_over(means: Option<&TextureMeans>, shape: &impl Shape) -> Vec3 {
-    means.map_or(Vec3::ONE, |means| means.over(shape))
+/// The means of image times alpha, which are those of the one that is there; of both they are made anew, on the grid of the
+/// image.
+fn means<C: ColorModel>(color: &SurfaceColor<C>, mask: &EmissionMask) -> Option<Arc<TextureMeans>> {
+    match (color, mask) {
+        (SurfaceColor::Image { texture, .. }, EmissionMask::Alpha(alpha)) => {
+            let product = product(texture.image(), alpha.image())?;
+            Some(Arc::new(TextureMeans::new(product)))
+        }
+        (SurfaceColor::Image { texture, .. }, _) | (_, EmissionMask::Alpha(texture)) => {
+            Some(texture.means().clone())
+        }
+        (SurfaceColor::Uniform(_), _) => None,
+    }
 }
 
-/// The means of image times alpha, on the grid of the one that is there.
-fn means<C: ColorModel>(color: &SurfaceColor<C>, mask: &EmissionMask) -> Option<TextureMeans> {
-    let (size, texels) = match (color, mask) {
-        (SurfaceColor::Image(image), EmissionMask::Alpha(alpha)) => {
-            let [width, height] = image.size();
-            let extent = Vec2::new(width as f32, height as f32);
-            let at = |i: u32| Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
-            let texels = (0..).zip(image.texels());
-            let texels = texels.map(|(i, texel)| texel * alpha.bilinear(at(i) / extent).x);
-            (image.size(), texels.collect())
-        }
-        (SurfaceColor::Image(image), _) => (image.size(), image.texels().collect()),
-        (SurfaceColor::Uniform(_), EmissionMask::Alpha(alpha)) => {
-            (alpha.size(), alpha.texels().collect())
-        }
-        (SurfaceColor::Uniform(_), _) => return None,
+/// Each texel of `image` times the value of `alpha` there, which is at most 1.
+fn product(image: &Image, alpha: &Image) -> Option<Image> {
+    let [width, height] = image.size();
+    let extent = Vec2::new(width as f32, height as f32);
+    let texel = |x: u32, y: u32| {
+        let uv = (Vec2::new(x as f32, y as f32) + 0.5) / extent;
+        image.texel(x, y) * alpha.bilinear(uv).x
     };
-    Some(TextureMeans::new(size, texels))
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let texels = texels.flat_map(|(x, y)| texel(x, y).to_array());
+    let texels: Vec<f32> = texels.collect();
+    Image::from_f32([width, height], Channels::Rgb, texels).ok()
 }
 
 impl fmt::Display for DiffuseEmissionError {

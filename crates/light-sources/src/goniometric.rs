@@ -90,6 +90,14 @@ impl<C: ColorModel> GoniometricLight<C> {
             media: desc.media,
         })
     }
+
+    pub(crate) const fn image(&self) -> &Image {
+        &self.image
+    }
+
+    pub(crate) fn table_bytes(&self) -> usize {
+        self.table.bytes()
+    }
 }
 
 impl<C: ColorModel> PointSource for GoniometricLight<C> {

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use crate::glam::{Vec2, Vec3};
 use crate::image_error::ImageError;
 use crate::rgb_sum::RgbSum;
+use crate::texture_mapping::{TextureMapping, Wrap};
 use half::f16;
 
 /// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere negative.
@@ -142,6 +143,24 @@ impl Image {
         top.lerp(bottom, f.y)
     }
 
+    /// The colour at the surface parameters `uv` of a surface on which the image lies as `mapping` says.
+    #[must_use]
+    pub fn on_surface(&self, uv: Vec2, mapping: &TextureMapping) -> Vec3 {
+        self.bilinear_wrapped(mapping.place(uv), mapping.wrap)
+    }
+
+    /// As [`bilinear`](Self::bilinear), with `wrap` beyond the edges.
+    pub(crate) fn bilinear_wrapped(&self, uv: Vec2, wrap: [Wrap; 2]) -> Vec3 {
+        let x = wrap[0].around(uv.x, self.size[0]);
+        let y = wrap[1].around(uv.y, self.size[1]);
+        let at = |x: Option<u32>, y: Option<u32>| match (x, y) {
+            (Some(x), Some(y)) => self.texel(x, y),
+            _ => Vec3::ZERO,
+        };
+        let row = |y| at(x.texels[0], y).lerp(at(x.texels[1], y), x.part);
+        row(y.texels[0]).lerp(row(y.texels[1]), y.part)
+    }
+
     /// All texels, row by row.
     pub fn texels(&self) -> impl Iterator<Item = Vec3> + '_ {
         let [width, height] = self.size;
@@ -162,7 +181,15 @@ impl Image {
         self.texels().map(|t| t.element_sum() / 3.0).collect()
     }
 
-    fn extent(&self) -> Vec2 {
+    /// Where the texels are, the same for clones.
+    pub(crate) fn address(&self) -> usize {
+        match &self.texels {
+            Texels::Single(texels) => texels.as_ptr().addr(),
+            Texels::Half(texels) => texels.as_ptr().addr(),
+        }
+    }
+
+    pub(crate) fn extent(&self) -> Vec2 {
         Vec2::new(self.size[0] as f32, self.size[1] as f32)
     }
 

@@ -103,6 +103,14 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         })
     }
 
+    pub(crate) const fn image(&self) -> &Image {
+        &self.image
+    }
+
+    pub(crate) fn table_bytes(&self) -> usize {
+        self.distribution.bytes() + self.compensated.bytes()
+    }
+
     fn distribution(&self, coverage: PdfCoverage) -> &SphereTable {
         match coverage {
             PdfCoverage::Complete => &self.distribution,

@@ -28,6 +28,8 @@ mod flux;
 #[cfg(feature = "alloc")]
 mod goniometric;
 #[cfg(feature = "alloc")]
+mod halved;
+#[cfg(feature = "alloc")]
 mod image;
 #[cfg(feature = "alloc")]
 mod image_error;
@@ -41,6 +43,8 @@ mod light_ref;
 mod light_set;
 #[cfg(feature = "alloc")]
 mod light_set_builder;
+#[cfg(feature = "alloc")]
+mod light_set_bytes;
 mod media;
 #[cfg(feature = "alloc")]
 mod median_cut;
@@ -72,6 +76,9 @@ mod sphere_table;
 mod spot;
 mod sun;
 mod surface_point;
+#[cfg(feature = "alloc")]
+mod texture;
+mod texture_mapping;
 #[cfg(feature = "alloc")]
 mod texture_means;
 mod uniform_infinite;
@@ -109,6 +116,8 @@ pub use light_ref::LightRef;
 pub use light_set::{LightSet, SourceId};
 #[cfg(feature = "alloc")]
 pub use light_set_builder::LightSetBuilder;
+#[cfg(feature = "alloc")]
+pub use light_set_bytes::LightSetBytes;
 pub use media::{MediumId, MediumInterface};
 #[cfg(feature = "alloc")]
 pub use median_cut::{
@@ -135,4 +144,7 @@ pub use spectral_emission::SpectralEmission;
 pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
 pub use sun::{SunAmount, SunLight, SunLightDesc, SunLightError};
 pub use surface_point::SurfacePoint;
+#[cfg(feature = "alloc")]
+pub use texture::Texture;
+pub use texture_mapping::{TextureMapping, Wrap};
 pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};

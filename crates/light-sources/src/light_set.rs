@@ -196,6 +196,23 @@ impl<C: ColorModel> LightSet<C> {
         self.iter().map(|(_, light)| power(light)).collect()
     }
 
+    /// Bytes of the lists themselves.
+    pub(crate) fn own_bytes(&self) -> usize {
+        size_of_val(&*self.points)
+            + size_of_val(&*self.spots)
+            + size_of_val(&*self.projections)
+            + size_of_val(&*self.goniometrics)
+            + size_of_val(&*self.areas)
+            + size_of_val(&*self.meshes)
+            + size_of_val(&*self.distants)
+            + size_of_val(&*self.suns)
+            + size_of_val(&*self.uniform_infinites)
+            + size_of_val(&*self.image_infinites)
+            + size_of_val(&*self.portal_infinites)
+            + size_of_val(&*self.mesh_ends)
+            + size_of_val(&*self.sources)
+    }
+
     #[inline]
     fn ids(&self, kind: Kind) -> Range<u32> {
         let kind = kind as usize;

@@ -111,6 +111,10 @@ impl<C: ColorModel> MeshLight<C> {
         &self.emission
     }
 
+    pub(crate) fn vertices(&self) -> (&[Vec3], &[[u32; 3]], Option<&[Vec2]>) {
+        (&self.positions, &self.indices, self.uvs.as_deref())
+    }
+
     /// The light that triangle number `index` is; `None` beyond the last.
     #[inline]
     #[must_use]

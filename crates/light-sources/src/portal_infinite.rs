@@ -132,6 +132,14 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         &self.image
     }
 
+    /// A sum for each texel.
+    pub(crate) fn table_bytes(&self) -> usize {
+        let [width, height] = self.image.size().map(|n| n as usize);
+        self.table
+            .as_ref()
+            .map_or(0, |_| width * height * size_of::<u64>())
+    }
+
     fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }

@@ -124,6 +124,15 @@ impl<C: ColorModel> ProjectionLight<C> {
         })
     }
 
+    pub(crate) const fn image(&self) -> &Image {
+        &self.image
+    }
+
+    pub(crate) fn table_bytes(&self) -> usize {
+        let table = self.table.as_ref();
+        table.map_or(0, |table| size_of_val(table.table()))
+    }
+
     /// Intensity toward the point `p` of the plane z = 1, inside of the picture.
     fn picture(&self, p: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
         let uv = 0.5 * (p / self.half) + 0.5;

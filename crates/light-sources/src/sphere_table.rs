@@ -30,6 +30,11 @@ impl SphereTable {
         Self(PiecewiseConstant2D::new(weights, n as usize, n as usize).ok())
     }
 
+    pub(crate) fn bytes(&self) -> usize {
+        let table = self.0.as_ref();
+        table.map_or(0, |table| size_of_val(table.table()))
+    }
+
     pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {
         let Sample2D { p: uv, pdf, .. } = self.0.as_ref()?.sample(u);
         Some(SphereSample {

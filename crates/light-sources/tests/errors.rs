@@ -142,12 +142,15 @@ fn emissions() {
     };
     assert!(said(nan).starts_with("area light, amount: "), "scale NaN");
     let bright = DiffuseEmissionDesc::new(
-        SurfaceColor::Image(image([1, 1], Channels::Rgb, 1e30)),
+        SurfaceColor::Image {
+            texture: image([1, 1], Channels::Rgb, 1e30).into(),
+            tint: Vec3::ONE,
+        },
         RadianceAmount::Radiometric(1e30),
     );
     assert!(said(bright).starts_with("area light, amount: "), "overflow");
     let mask = DiffuseEmissionDesc {
-        mask: EmissionMask::Alpha(image([1, 1], Channels::Gray, 1.5)),
+        mask: EmissionMask::Alpha(image([1, 1], Channels::Gray, 1.5).into()),
         ..emission()
     };
     assert!(

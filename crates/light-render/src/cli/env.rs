@@ -79,7 +79,7 @@ impl Environment {
             }
         };
         let image = image
-            .to_light(lights::glam::Vec3::ONE)
+            .to_light()
             .map_err(|error| refuse(error.to_string()))?;
         Ok(Self { image, map })
     }

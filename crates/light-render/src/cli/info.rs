@@ -71,6 +71,7 @@ impl InfoArgs {
             })
             .collect();
         let bounds = world.bounds();
+        let bytes = world.lights().bytes();
         json!({
             "scene": self.input.scene.display().to_string(),
             "triangles": world.triangle_count(),
@@ -85,6 +86,12 @@ impl InfoArgs {
                 "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
                 "quality": tree.quality,
                 "looseness": tree.looseness,
+            },
+            "bytes": {
+                "vertices": bytes.vertices,
+                "images": bytes.images,
+                "lights": bytes.lights,
+                "per_light": tree.bytes_per_light(world),
             },
             "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         })
@@ -106,6 +113,15 @@ impl InfoArgs {
         println!(
             "  hierarchy  {}: depth {}, {} bytes, built in {:.2} ms",
             tree.sampler, tree.depth, tree.bytes, tree.build_ms
+        );
+        let bytes = world.lights().bytes();
+        println!(
+            "  memory     {:.1} bytes a light: hierarchy {}, lights {}, images {}; {} of vertices",
+            tree.bytes_per_light(world),
+            tree.bytes,
+            bytes.lights,
+            bytes.images,
+            bytes.vertices
         );
         if let Some(quality) = tree.quality {
             println!(
@@ -137,5 +153,12 @@ impl Tree {
             depth: sampler.depth(),
             bytes: sampler.bytes(world.lights().len()),
         })
+    }
+
+    /// What a light takes beyond its vertices, images that several share counted once.
+    fn bytes_per_light(&self, world: &World) -> f64 {
+        let bytes = world.lights().bytes();
+        let all = self.bytes + bytes.lights + bytes.images;
+        all as f64 / world.lights().len().max(1) as f64
     }
 }

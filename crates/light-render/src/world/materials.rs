@@ -1,4 +1,4 @@
-use light_scene::{Color, ColorImage, Image, Surface as Finish};
+use light_scene::{Color, ColorImage, Surface as Finish};
 use lights::bounds::{Gloss, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 
@@ -79,32 +79,11 @@ impl World {
     pub(super) fn color(&self, color: &Color, uv: Vec2) -> Vec3 {
         match color {
             Color::Constant(color) => *color,
-            Color::Image(ColorImage { image, scale }) => {
-                bilinear(&self.images[image.0 as usize], uv) * *scale
-            }
+            Color::Image(ColorImage {
+                image,
+                scale,
+                mapping,
+            }) => self.images[image.0 as usize].on_surface(uv, mapping) * *scale,
         }
     }
-}
-
-/// The colour of a repeating image at `uv`, whose (0, 0) is the lower left corner.
-fn bilinear(image: &Image, uv: Vec2) -> Vec3 {
-    let (width, height) = (image.width(), image.height());
-    let x = uv.x * width as f32 - 0.5;
-    let y = (1.0 - uv.y) * height as f32 - 0.5;
-    let (x0, y0) = (x.floor(), y.floor());
-    let at = |dx: f32, dy: f32| image.texel(wrapped(x0 + dx, width), wrapped(y0 + dy, height));
-    let top = at(0.0, 0.0).lerp(at(1.0, 0.0), x - x0);
-    let bottom = at(0.0, 1.0).lerp(at(1.0, 1.0), x - x0);
-    top.lerp(bottom, y - y0)
-}
-
-/// The whole number `i` modulo `n`; 0 where `i` is no number.
-fn wrapped(i: f32, n: u32) -> u32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "below n, saturating otherwise"
-    )]
-    let index = i.rem_euclid(n as f32) as u32;
-    index.min(n - 1)
 }

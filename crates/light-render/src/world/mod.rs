@@ -4,13 +4,14 @@ mod materials;
 use alloc::sync::Arc;
 use core::ops::Range;
 
-use light_scene::{Image, Material, Scene, Surface as Finish};
+use light_scene::{Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
-use lights::sources::{LightSet, MediumId, Rgb, SurfacePoint};
+use lights::sources::shape::Triangle;
+use lights::sources::{Image, LightSet, MediumId, Rgb, SurfacePoint};
 
-use crate::scene_lights::{SceneLights, SceneLightsError};
+use crate::scene_lights::{SceneLights, SceneLightsError, shown_images};
 use crate::world_media::WorldMedia;
 use crate::{Accel, Ray, Surface, TriangleId};
 
@@ -67,6 +68,7 @@ impl World {
             camera_medium,
             ..
         } = scene;
+        let images = shown_images(images)?;
         let media = WorldMedia::new(media, camera_medium, &materials);
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
         let SceneLights { lights, infinite } =
@@ -269,13 +271,13 @@ impl World {
 }
 
 impl WorldMesh {
-    /// The texture coordinates on a triangle, which are barycentric ones where the mesh has no others.
+    /// The texture coordinates on a triangle: those that its light has too.
     #[inline]
     fn uv(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec2 {
-        let Some(uvs) = &self.uvs else {
-            return barycentric;
+        let [a, b, c] = match &self.uvs {
+            Some(uvs) => triangle.map(|i| uvs[i as usize]),
+            None => Triangle::DEFAULT_UV,
         };
-        let [a, b, c] = triangle.map(|i| uvs[i as usize]);
         let Vec2 { x, y } = barycentric;
         a * (1.0 - x - y) + b * x + c * y
     }

@@ -85,6 +85,14 @@ fn info_counts_the_lights() {
     let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
     assert_eq!(report["kinds"][0]["count"], 2, "{line}");
     assert_eq!(report["triangles"], 4, "{line}");
+    assert_eq!(report["bytes"]["vertices"], 4 * 12 + 2 * 12, "{line}");
+    let tree = report["tree"]["bytes"].as_f64().expect("a number");
+    let lights = report["bytes"]["lights"].as_f64().expect("a number");
+    assert_eq!(
+        report["bytes"]["per_light"],
+        (tree + lights) / 2.0,
+        "{line}"
+    );
     let turned_on = stdout(&["info", &folder.scene(UNLIT), "--emit", "floor=1,1,1"]);
     assert!(turned_on.contains("lights     2"), "{turned_on}");
     for wrong in ["roof=1,1,1", "floor=-1,1,1"] {

@@ -99,8 +99,8 @@ impl<'a> Reader<'a> {
         finish.base = match base {
             None => Color::Constant(factor),
             Some(texture) => Color::Image(ColorImage {
-                image: self.color_image(texture),
                 scale: factor,
+                ..ColorImage::new(self.color_image(texture))
             }),
         };
         finish.metallic = pbr.amount_or("metallicFactor", 1.0)?.min(1.0);
@@ -159,7 +159,7 @@ impl<'a> Reader<'a> {
     fn one_color(&mut self, item: &Item<'a>, color: Color) -> Vec3 {
         match color {
             Color::Constant(color) => color,
-            Color::Image(ColorImage { image, scale }) => {
+            Color::Image(ColorImage { image, scale, .. }) => {
                 self.warn(
                     item,
                     "has a base colour whose texture was taken as its mean",
@@ -193,8 +193,8 @@ impl<'a> Reader<'a> {
             radiance: match texture {
                 None => Color::Constant(scale),
                 Some(texture) => Color::Image(ColorImage {
-                    image: self.color_image(texture),
                     scale,
+                    ..ColorImage::new(self.color_image(texture))
                 }),
             },
             sides: if two_sided {
@@ -223,7 +223,10 @@ impl<'a> Reader<'a> {
         };
         let scale = Vec3::splat(opacity);
         let share = match base.and_then(|texture| self.alpha_image(texture)) {
-            Some(image) => Color::Image(ColorImage { image, scale }),
+            Some(image) => Color::Image(ColorImage {
+                scale,
+                ..ColorImage::new(image)
+            }),
             None if opacity == 1.0 => return Ok(None),
             None => Color::Constant(scale),
         };

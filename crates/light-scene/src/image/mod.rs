@@ -8,6 +8,7 @@ mod file;
 mod openexr;
 mod srgb;
 
+use alloc::sync::Arc;
 use core::fmt;
 
 use lights::sources::{self as sources, Channels};
@@ -83,14 +84,19 @@ impl Image {
         self.texels
     }
 
-    /// The image as lights hold it, each texel times `scale`.
+    /// The image as lights hold it: with one channel where all three are alike.
     ///
     /// # Errors
     /// When a texel is negative or not finite.
-    pub fn to_light(&self, scale: Vec3) -> Result<sources::Image, sources::ImageError> {
-        let texels = self.texels.iter().flat_map(|&t| (t * scale).to_array());
-        let texels: Vec<f32> = texels.collect();
-        sources::Image::from_f32([self.width, self.height], Channels::Rgb, texels)
+    pub fn to_light(&self) -> Result<sources::Image, sources::ImageError> {
+        let size = [self.width, self.height];
+        let texels = self.texels.iter();
+        if self.texels.iter().all(|t| t.x == t.y && t.y == t.z) {
+            let texels: Arc<[f32]> = texels.map(|t| t.x).collect();
+            return sources::Image::from_f32(size, Channels::Gray, texels);
+        }
+        let texels: Arc<[f32]> = texels.flat_map(|t| t.to_array()).collect();
+        sources::Image::from_f32(size, Channels::Rgb, texels)
     }
 
     /// The texel of column `x` and row `y`.

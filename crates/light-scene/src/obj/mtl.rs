@@ -121,7 +121,10 @@ impl Description {
         let radiance = match self.emitted_map {
             Some(image) => {
                 let scale = if shines { self.emitted } else { Vec3::ONE };
-                Color::Image(ColorImage { image, scale })
+                Color::Image(ColorImage {
+                    scale,
+                    ..ColorImage::new(image)
+                })
             }
             None if shines => Color::Constant(self.emitted),
             None => return None,
@@ -148,8 +151,8 @@ impl Description {
             _ => Surface::Diffuse {
                 reflectance: match self.diffuse_map {
                     Some(image) => Color::Image(ColorImage {
-                        image,
                         scale: self.diffuse.unwrap_or(Vec3::ONE),
+                        ..ColorImage::new(image)
                     }),
                     None => Color::Constant(diffuse),
                 },

@@ -262,8 +262,10 @@ fn images_color_surfaces_and_lights() {
     let scene = read(mtl).expect("a scene");
     assert_eq!(scene.images.len(), 1, "shared");
     let texture = |scale: f32| {
-        let (image, scale) = (crate::ImageId(0), Vec3::splat(scale));
-        Color::Image(crate::ColorImage { image, scale })
+        Color::Image(crate::ColorImage {
+            scale: Vec3::splat(scale),
+            ..crate::ColorImage::new(crate::ImageId(0))
+        })
     };
     let reflectance = texture(0.5);
     let material = &scene.materials[0];

@@ -3,14 +3,14 @@ use core::f32::consts::{FRAC_1_PI, PI};
 use lights::sources::{
     DistantLightDesc, EnvironmentMap, ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount,
     LightDesc, MediumInterface, PointLightDesc, PortalInfiniteLightDesc, ProjectionLightDesc,
-    RadianceAmount, SpotLightDesc, UniformInfiniteLightDesc,
+    RadianceAmount, SpotLightDesc, TextureMapping, UniformInfiniteLightDesc,
 };
 
 use super::state::{AreaLight, At, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Quat, Vec3};
 use crate::image::read_image_from;
-use crate::{Color, Diagnostic};
+use crate::{Color, ColorImage, Diagnostic};
 
 impl Reader {
     pub(super) fn light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -134,7 +134,7 @@ impl Reader {
         }
         let scale = Vec3::splat(parameters.number_or("scale", 1.0));
         let radiance = match parameters.string("filename") {
-            Some(file) => self.image(*at, file, scale)?,
+            Some(file) => clamped(self.image(*at, file, scale)?),
             None => scaled(Color::Constant(self.emission(typed, "L")), scale),
         };
         self.state.area_light = Some(AreaLight {
@@ -165,8 +165,19 @@ impl Reader {
         let file = read_image_from(&path.with_file_name(name), self.files);
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
-        let image = file.image.to_light(Vec3::ONE);
+        let image = file.image.to_light();
         image.map_err(|error| typed.at.diagnostic(error.to_string()))
+    }
+}
+
+/// An image that does not repeat.
+fn clamped(color: Color) -> Color {
+    match color {
+        Color::Image(image) => Color::Image(ColorImage {
+            mapping: TextureMapping::default(),
+            ..image
+        }),
+        Color::Constant(_) => color,
     }
 }
 

@@ -96,7 +96,10 @@ impl Reader {
                 image
             }
         };
-        Ok(Color::Image(ColorImage { image, scale }))
+        Ok(Color::Image(ColorImage {
+            scale,
+            ..ColorImage::new(image)
+        }))
     }
 }
 

@@ -173,6 +173,10 @@ impl Shape for AnyShape {
         for_each_shape!(self, shape => shape.normal_cone())
     }
 
+    fn uv_bounds(&self) -> [Vec2; 2] {
+        for_each_shape!(self, shape => shape.uv_bounds())
+    }
+
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
         for_each_shape!(self, shape => shape.sample(u))
     }

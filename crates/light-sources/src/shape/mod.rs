@@ -37,6 +37,11 @@ pub trait Shape {
     /// A cone around the normals of the front side.
     fn normal_cone(&self) -> DirectionCone;
 
+    /// The least and the largest surface parameters.
+    fn uv_bounds(&self) -> [Vec2; 2] {
+        [Vec2::ZERO, Vec2::ONE]
+    }
+
     /// A point of the surface, for light that leaves it, with its density per area; `None` without area.
     fn sample(&self, u: Vec2) -> Option<ShapeSample>;
 
@@ -65,6 +70,10 @@ impl<S: Shape> Shape for &S {
 
     fn normal_cone(&self) -> DirectionCone {
         (**self).normal_cone()
+    }
+
+    fn uv_bounds(&self) -> [Vec2; 2] {
+        (**self).uv_bounds()
     }
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {

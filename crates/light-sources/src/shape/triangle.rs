@@ -132,6 +132,11 @@ impl Shape for Triangle {
             .map_or(DirectionCone::EMPTY, DirectionCone::from_direction)
     }
 
+    fn uv_bounds(&self) -> [Vec2; 2] {
+        let [a, b, c] = self.uv;
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
         let at = self.at(uniform_triangle::sample(u), self.normal()?);
         let pdf = 1.0 / self.area();

@@ -141,9 +141,12 @@ fn textures() {
     let alpha = Image::from_f32([4, 1], Channels::Gray, [1.0, 0.25, 0.0, 0.75]);
     let emission = DiffuseEmission::<Rgb>::new(
         DiffuseEmissionDesc {
-            mask: EmissionMask::Alpha(alpha.expect("a mask")),
+            mask: EmissionMask::Alpha(alpha.expect("a mask").into()),
             ..DiffuseEmissionDesc::new(
-                SurfaceColor::Image(image.expect("an image")),
+                SurfaceColor::Image {
+                    texture: image.expect("an image").into(),
+                    tint: Vec3::ONE,
+                },
                 RadianceAmount::Radiometric(0.5),
             )
         },

@@ -66,10 +66,17 @@ fn surfaces<M: Model>(name: &str) {
     let alpha = Image::from_f32([1, 1], Channels::Gray, vec![0.25]).expect("an image");
     for (color, mask, mean) in [
         (SurfaceColor::Uniform(M::lamp()), EmissionMask::Opaque, 1.0),
-        (SurfaceColor::Image(picture), EmissionMask::Opaque, 0.5),
+        (
+            SurfaceColor::Image {
+                texture: picture.into(),
+                tint: Vec3::ONE,
+            },
+            EmissionMask::Opaque,
+            0.5,
+        ),
         (
             SurfaceColor::Uniform(M::lamp()),
-            EmissionMask::Alpha(alpha),
+            EmissionMask::Alpha(alpha.into()),
             0.25,
         ),
     ] {

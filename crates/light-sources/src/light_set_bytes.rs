@@ -1,0 +1,134 @@
+use alloc::collections::BTreeSet;
+
+use crate::color::ColorModel;
+use crate::diffuse_emission::DiffuseEmission;
+use crate::image::Image;
+use crate::light_set::LightSet;
+use crate::texture_means::TextureMeans;
+
+/// What a [`LightSet`] holds in memory, in bytes; what several lights share counts once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightSetBytes {
+    /// Vertices of meshes, which are shared with whoever else needs them: positions, indices, surface parameters.
+    pub vertices: usize,
+    /// Images, the means of textures, and the tables by which the texels of a sky are chosen.
+    pub images: usize,
+    /// The rest: lights, and where they are in the set.
+    pub lights: usize,
+}
+
+/// Counts each piece of memory once.
+#[derive(Default)]
+struct Count {
+    seen: BTreeSet<usize>,
+    bytes: LightSetBytes,
+}
+
+impl<C: ColorModel> LightSet<C> {
+    /// What the set holds in memory.
+    #[must_use]
+    pub fn bytes(&self) -> LightSetBytes {
+        let mut count = Count::default();
+        count.bytes.lights = self.own_bytes();
+        for source in &self.areas {
+            count.emission(source.light().emission());
+        }
+        for mesh in &self.meshes {
+            let (positions, indices, uvs) = mesh.vertices();
+            count.vertices(positions);
+            count.vertices(indices);
+            uvs.into_iter().for_each(|uvs| count.vertices(uvs));
+            count.emission(mesh.emission());
+        }
+        for light in &self.projections {
+            count.image(light.image());
+            count.bytes.images += light.table_bytes();
+        }
+        for light in &self.goniometrics {
+            count.image(light.image());
+            count.bytes.images += light.table_bytes();
+        }
+        for light in &self.image_infinites {
+            count.image(light.image());
+            count.bytes.images += light.table_bytes();
+        }
+        for light in &self.portal_infinites {
+            count.image(light.rectified());
+            count.bytes.images += light.table_bytes();
+        }
+        count.bytes
+    }
+}
+
+impl Count {
+    fn vertices<T>(&mut self, list: &[T]) {
+        if self.seen.insert(list.as_ptr().addr()) {
+            self.bytes.vertices += size_of_val(list);
+        }
+    }
+
+    fn image(&mut self, image: &Image) {
+        if self.seen.insert(image.address()) {
+            self.bytes.images += image.bytes();
+        }
+    }
+
+    fn means(&mut self, means: &TextureMeans) {
+        means.levels().iter().for_each(|level| self.image(level));
+    }
+
+    fn emission<C: ColorModel>(&mut self, emission: &DiffuseEmission<C>) {
+        let (textures, product) = emission.textures();
+        textures.for_each(|texture| self.means(texture.means()));
+        product.into_iter().for_each(|means| self.means(means));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amount::RadianceAmount;
+    use crate::desc::LightDesc;
+    use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+    use crate::glam::{Vec2, Vec3};
+    use crate::image::Channels;
+    use crate::light_set_builder::LightSetBuilder;
+    use crate::mesh::MeshLightDesc;
+    use crate::rgb::Rgb;
+    use crate::scene_sphere::SceneSphere;
+    use crate::texture::Texture;
+    use alloc::vec;
+
+    #[test]
+    fn a_thousand_meshes_hold_their_image_once() {
+        let image = Image::from_f32([64, 64], Channels::Gray, vec![0.5; 64 * 64]);
+        let texture = Texture::new(image.expect("an image"));
+        let scene = SceneSphere::new(Vec3::ZERO, 2.0).expect("a sphere");
+        let mut builder = LightSetBuilder::<Rgb>::new(scene);
+        for i in 0..1000u16 {
+            let corner = Vec3::splat(f32::from(i));
+            let mesh = MeshLightDesc {
+                positions: [corner, corner + Vec3::X, corner + Vec3::Y].into(),
+                indices: [[0, 1, 2]].into(),
+                uvs: Some([Vec2::ZERO, Vec2::X, Vec2::Y].into()),
+                emission: DiffuseEmissionDesc::new(
+                    SurfaceColor::Image {
+                        texture: texture.clone(),
+                        tint: Vec3::ONE,
+                    },
+                    RadianceAmount::default(),
+                ),
+            };
+            builder.add(LightDesc::Mesh(mesh)).expect("a light");
+        }
+        let bytes = builder.build().bytes();
+        assert_eq!(bytes.vertices, 1000 * (36 + 12 + 24), "of each mesh");
+        assert_eq!(bytes.images, texture.bytes(), "of all together");
+        assert!(
+            texture.bytes() < 4 * 64 * 64 * 3 / 2,
+            "the means are a third"
+        );
+        let each = bytes.lights / 1000;
+        assert!((100..400).contains(&each), "{each} bytes a mesh");
+    }
+}
