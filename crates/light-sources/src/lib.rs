@@ -78,6 +78,7 @@ mod sun;
 mod surface_point;
 #[cfg(feature = "alloc")]
 mod texture;
+#[cfg(feature = "alloc")]
 mod texture_mapping;
 #[cfg(feature = "alloc")]
 mod texture_means;
@@ -146,5 +147,6 @@ pub use sun::{SunAmount, SunLight, SunLightDesc, SunLightError};
 pub use surface_point::SurfacePoint;
 #[cfg(feature = "alloc")]
 pub use texture::Texture;
+#[cfg(feature = "alloc")]
 pub use texture_mapping::{TextureMapping, Wrap};
 pub use uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};
