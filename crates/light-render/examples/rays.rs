@@ -7,7 +7,7 @@ use core::hint::black_box;
 use core::time::Duration;
 use std::time::Instant;
 
-use light_render::{Accel, Ray, SampleStream, TriangleId, View, World};
+use light_render::{Accel, PrimitiveId, Ray, SampleStream, View, World};
 use light_scene::glam::{Vec2, Vec3};
 use light_scene::{BuiltinScene, Scene};
 use lights::samplers::{BvhLightSampler, LightSampler};
@@ -27,8 +27,8 @@ const ROUNDS: u32 = 9;
 /// The rays of some paths, in the order in which the paths ask for them.
 #[derive(Default)]
 struct Rays {
-    closest: Vec<(Ray, Option<TriangleId>)>,
-    shadow: Vec<(Ray, f32, TriangleId)>,
+    closest: Vec<(Ray, Option<PrimitiveId>)>,
+    shadow: Vec<(Ray, f32, PrimitiveId)>,
 }
 
 /// Who traces rays.
@@ -200,7 +200,7 @@ fn follow_paths(scene: Scene) -> Result<Rays, Box<dyn core::error::Error>> {
                             direction: way / t,
                         },
                         t * (1.0 - 1e-4),
-                        surface.triangle,
+                        surface.primitive,
                     ));
                 }
             }
@@ -208,7 +208,7 @@ fn follow_paths(scene: Scene) -> Result<Rays, Box<dyn core::error::Error>> {
                 break;
             };
             ray = surface.spawn(sample.wi);
-            from = Some(surface.triangle);
+            from = Some(surface.primitive);
         }
     }
     Ok(rays)

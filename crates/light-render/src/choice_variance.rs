@@ -3,7 +3,7 @@ use lights::glam::Vec2;
 use lights::samplers::LightSampler;
 use lights::sources::{Light, PdfCoverage};
 
-use crate::{TriangleId, World};
+use crate::World;
 
 /// How well `sampler` chooses among the lights of `world`: the exact relative variance of one choice, the median over points
 /// spread over the scene's triangles. Every light counts by the light of its middle, with nothing in the way; 0 would be a
@@ -17,8 +17,8 @@ pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f6
     let points = (LOOKS / world.lights().len().max(1)).clamp(1, POINTS);
     let mut variances: Vec<f64> = (0..points.min(triangles))
         .filter_map(|i| {
-            let triangle = u32::try_from((2 * i + 1) * triangles / (2 * points)).ok()?;
-            let surface = world.surface(TriangleId(triangle), Vec2::splat(1.0 / 3.0));
+            let triangle = world.triangle((2 * i + 1) * triangles / (2 * points))?;
+            let surface = world.surface(triangle, Vec2::splat(1.0 / 3.0));
             let ctx = world.light_context(&surface, &world.scattering(&surface), surface.n);
             variance_at(world, sampler, &ctx)
         })

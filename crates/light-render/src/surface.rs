@@ -1,7 +1,7 @@
 use lights::bounds::LightSampleContext;
 use lights::glam::{Vec2, Vec3};
 
-use crate::{Ray, TriangleId};
+use crate::{PrimitiveId, Ray};
 
 /// A point on a surface where a path meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +16,8 @@ pub struct Surface {
     pub ns: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
-    /// The triangle.
-    pub triangle: TriangleId,
+    /// What it is a point of.
+    pub primitive: PrimitiveId,
 }
 
 impl Surface {
@@ -27,7 +27,7 @@ impl Surface {
     /// outside of it does not meet a neighbour in the same plane.
     #[inline]
     #[must_use]
-    pub fn on_triangle(triangle: TriangleId, corners: [Vec3; 3], barycentric: Vec2) -> Self {
+    pub fn on_triangle(triangle: PrimitiveId, corners: [Vec3; 3], barycentric: Vec2) -> Self {
         const ERROR: f32 = 8.0 * f32::EPSILON;
         let [a, b, c] = corners;
         let weights = [
@@ -43,8 +43,21 @@ impl Surface {
             n,
             ns: n,
             uv: barycentric,
-            triangle,
+            primitive: triangle,
         }
+    }
+
+    /// The point with the shading normal that `normals` of the corners give, turned to the side of `n`; flat without them.
+    #[inline]
+    #[must_use]
+    pub(crate) fn with_normals(self, normals: Option<[Vec3; 3]>, barycentric: Vec2) -> Self {
+        let Some([a, b, c]) = normals else {
+            return self;
+        };
+        let Vec2 { x, y } = barycentric;
+        let ns = (a * (1.0 - x - y) + b * x + c * y).normalize_or(self.n);
+        let ns = if ns.dot(self.n) < 0.0 { -ns } else { ns };
+        Self { ns, ..self }
     }
 
     /// A ray from here in the unit direction `wi`, started beyond the error bounds of the surface.
@@ -78,7 +91,7 @@ mod tests {
 
     fn surface() -> Surface {
         let corners = [Vec3::ZERO, Vec3::X * 3.0, Vec3::Y * 3.0].map(|v| v + Vec3::Z * 100.0);
-        Surface::on_triangle(TriangleId(5), corners, Vec2::new(0.25, 0.5))
+        Surface::on_triangle(PrimitiveId::new(5), corners, Vec2::new(0.25, 0.5))
     }
 
     #[test]

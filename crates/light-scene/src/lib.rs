@@ -22,6 +22,7 @@ mod material;
 mod mesh;
 mod obj;
 mod pbrt;
+mod placement;
 mod scene;
 mod scene_file;
 #[cfg(test)]
@@ -44,6 +45,7 @@ pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, 
 pub use mesh::Mesh;
 pub use obj::{parse_obj, read_obj};
 pub use pbrt::{parse_ply, read_pbrt};
+pub use placement::{Placement, Prototype, PrototypeId};
 pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
 pub use write_whole::write_whole;

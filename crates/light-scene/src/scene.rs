@@ -6,7 +6,7 @@ use lights::sources::{
 };
 
 use crate::glam::{Affine3A, Vec3};
-use crate::{Camera, Diagnostic, Image, Material, Mesh};
+use crate::{Camera, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId};
 
 /// Position of a material in [`Scene::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,8 +31,12 @@ pub struct NamedMedium {
 /// negative radiance); the lights built from it may not.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Triangles, one mesh per group and material of the file.
+    /// Triangles that stand where they are, one mesh per group and material of the file.
     pub meshes: Vec<Mesh>,
+    /// Objects that stand in several places; a placement names its prototype by position.
+    pub prototypes: Vec<Prototype>,
+    /// Where they stand.
+    pub placements: Vec<Placement>,
     /// Materials; a mesh names its material by position. A mesh shines when its material does.
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
@@ -50,11 +54,17 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The box around all meshes; empty when there are none.
+    /// A box around all that is there, empty when there is nothing. Around meshes it is the smallest; a placement counts by the
+    /// corners of the boxes of its meshes.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let boxes = self.meshes.iter().map(Mesh::bounds);
-        boxes.fold(Aabb::EMPTY, |all, one| all.union(one))
+        let meshes = boxes.fold(Aabb::EMPTY, Aabb::union);
+        let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
+        let placed = self.placements.iter();
+        let placed =
+            placed.map(|placement| placement.bounds(&boxes[placement.prototype.0 as usize]));
+        placed.fold(meshes, Aabb::union)
     }
 
     /// The material with this id.
@@ -66,18 +76,43 @@ impl Scene {
         &self.materials[id.0 as usize]
     }
 
-    /// The number of triangles of all meshes.
+    /// The prototype with this id.
+    ///
+    /// # Panics
+    /// Panics if the scene has no such prototype; readers never make such an id.
     #[must_use]
-    pub fn triangle_count(&self) -> usize {
-        self.meshes.iter().map(|mesh| mesh.indices.len()).sum()
+    pub fn prototype(&self, id: PrototypeId) -> &Prototype {
+        &self.prototypes[id.0 as usize]
     }
 
-    /// The number of triangles whose material emits light.
+    /// The number of triangles to be seen: those of prototypes in each of their places.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.count(|_| true)
+    }
+
+    /// The number of triangles to be seen whose material emits light.
     #[must_use]
     pub fn emissive_triangle_count(&self) -> usize {
-        let shines = |mesh: &&Mesh| self.material(mesh.material).emission.is_some();
-        let emissive = self.meshes.iter().filter(shines);
-        emissive.map(|mesh| mesh.indices.len()).sum()
+        self.count(|mesh| self.shines(mesh))
+    }
+
+    /// Whether the mesh is made of what emits light.
+    #[must_use]
+    pub fn shines(&self, mesh: &Mesh) -> bool {
+        self.material(mesh.material).emission.is_some()
+    }
+
+    /// The triangles of the meshes that `counts`, as often as they are to be seen.
+    fn count(&self, counts: impl Fn(&Mesh) -> bool) -> usize {
+        let of = |meshes: &[Mesh]| -> usize {
+            let counted = meshes.iter().filter(|mesh| counts(mesh));
+            counted.map(|mesh| mesh.indices.len()).sum()
+        };
+        let prototypes: Vec<usize> = self.prototypes.iter().map(|p| of(&p.meshes)).collect();
+        let placed = self.placements.iter();
+        let placed: usize = placed.map(|p| prototypes[p.prototype.0 as usize]).sum();
+        of(&self.meshes) + placed
     }
 
     /// The scene's camera or, if it has none, one in front of the scene (toward +z of its centre) that sees all of it.
@@ -95,6 +130,16 @@ impl Scene {
         let id = u32::try_from(self.materials.len()).expect("fewer than 2^32 materials");
         self.materials.push(material);
         MaterialId(id)
+    }
+
+    /// Adds a prototype, which stands nowhere yet, and returns its id.
+    ///
+    /// # Panics
+    /// Panics if there are already 2^32 prototypes.
+    pub fn add_prototype(&mut self, prototype: Prototype) -> PrototypeId {
+        let id = u32::try_from(self.prototypes.len()).expect("fewer than 2^32 prototypes");
+        self.prototypes.push(prototype);
+        PrototypeId(id)
     }
 
     /// Adds a medium and returns its id.
@@ -165,5 +210,17 @@ mod tests {
         assert_eq!(scene.triangle_count(), 4, "two quads");
         assert_eq!(scene.emissive_triangle_count(), 2, "one of them shines");
         assert_eq!(scene.bounds(), Aabb::new(Vec3::ZERO, Vec3::ONE), "box");
+
+        let lamps = vec![Mesh::quad("lamp", lamp, corners)];
+        let prototype = scene.add_prototype(Prototype::new("lamps", lamps));
+        assert_eq!(scene.triangle_count(), 4, "it stands nowhere");
+        for x in [0.0, 4.0] {
+            let place = Affine3A::from_translation(Vec3::X * x);
+            scene.placements.push(Placement { prototype, place });
+        }
+        assert_eq!(scene.triangle_count(), 8, "it stands twice");
+        assert_eq!(scene.emissive_triangle_count(), 6, "and shines twice");
+        let farthest = Vec3::new(5.0, 1.0, 1.0);
+        assert_eq!(scene.bounds(), Aabb::new(Vec3::ZERO, farthest), "box");
     }
 }

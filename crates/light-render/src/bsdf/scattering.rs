@@ -78,12 +78,16 @@ impl Scattering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::TriangleId;
+    use crate::PrimitiveId;
     use crate::bsdf::Lambert;
 
     /// A surface whose shading normal leans away from the geometric one.
     fn leaning() -> Surface {
-        let flat = Surface::on_triangle(TriangleId(0), [Vec3::ZERO, Vec3::X, Vec3::Y], Vec2::ZERO);
+        let flat = Surface::on_triangle(
+            PrimitiveId::new(0),
+            [Vec3::ZERO, Vec3::X, Vec3::Y],
+            Vec2::ZERO,
+        );
         Surface {
             ns: Vec3::new(0.6, 0.0, 0.8),
             ..flat

@@ -157,7 +157,7 @@ pub fn trace<S: LightSampler>(
             None => Origin::Dirac,
         };
         ray = surface.spawn(sample.wi);
-        from = Some(surface.triangle);
+        from = Some(surface.primitive);
     }
     traced
 }

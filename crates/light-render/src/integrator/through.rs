@@ -67,7 +67,7 @@ pub(super) fn across(
 ) -> VolumeRay {
     VolumeRay {
         ray: surface.spawn(ray.direction),
-        from: Some(surface.triangle),
+        from: Some(surface.primitive),
         medium: world.medium_toward(surface, ray.direction, medium),
     }
 }

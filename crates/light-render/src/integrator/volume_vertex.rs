@@ -5,7 +5,7 @@ use lights::sources::MediumId;
 
 use super::direct::Scatters;
 use crate::bsdf::Scattering;
-use crate::{Ray, Surface, TriangleId, World};
+use crate::{PrimitiveId, Ray, Surface, World};
 
 /// A point at which a path through media scatters: on a surface or in a medium.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub(super) enum VolumeVertex {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VolumeRay {
     pub(super) ray: Ray,
-    pub(super) from: Option<TriangleId>,
+    pub(super) from: Option<PrimitiveId>,
     pub(super) medium: Option<MediumId>,
 }
 
@@ -105,7 +105,7 @@ impl VolumeVertex {
                 surface, medium, ..
             } => VolumeRay {
                 ray: surface.spawn(wi),
-                from: Some(surface.triangle),
+                from: Some(surface.primitive),
                 medium: world.medium_toward(surface, wi, *medium),
             },
             Self::Medium { p, medium, .. } => VolumeRay {

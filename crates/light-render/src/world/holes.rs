@@ -5,19 +5,19 @@ use lights::bounds::LightId;
 use lights::glam::Vec2;
 
 use super::{World, WorldMesh};
-use crate::{Ray, TriangleId, sobol};
+use crate::{PrimitiveId, Ray, sobol};
 
 impl World {
     /// Whether `ray` meets a triangle at a place of it, or passes through a hole.
     ///
     /// A surface that is partly there is met by its share of the rays, chosen by a hash of ray and triangle: the same ray always
     /// gets the same answer.
-    pub(super) fn is_there(&self, ray: &Ray, triangle: TriangleId, barycentric: Vec2) -> bool {
-        let (mesh, indices) = self.mesh(triangle);
+    pub(super) fn is_there(&self, ray: &Ray, triangle: PrimitiveId, barycentric: Vec2) -> bool {
+        let (mesh, indices, weights) = self.spot(triangle, barycentric);
         let Some(Alpha { share, cutoff }) = &self.materials[mesh.material].alpha else {
             return true;
         };
-        let share = self.color(share, mesh.uv(indices, barycentric)).x;
+        let share = self.color(share, mesh.uv(indices, weights)).x;
         match cutoff {
             Some(cutoff) => share >= *cutoff,
             None => share >= 1.0 || chance(ray, triangle) < share,
@@ -42,10 +42,11 @@ pub(super) fn holed_lights(meshes: &[WorldMesh], materials: &[Material]) -> Vec<
 }
 
 /// A number in `[0, 1)` that ray and triangle decide.
-fn chance(ray: &Ray, TriangleId(triangle): TriangleId) -> f32 {
+fn chance(ray: &Ray, triangle: PrimitiveId) -> f32 {
     let parts = [ray.origin, ray.direction].map(|v| v.to_array());
     let bits = parts.as_flattened().iter().map(|x| x.to_bits());
-    let hash = bits.fold(triangle, |hash, bits| {
+    let placement = triangle.placement().map_or(0, sobol::hash);
+    let hash = bits.fold(triangle.number() ^ placement, |hash, bits| {
         sobol::hash(hash.rotate_left(9) ^ bits)
     });
     (hash >> 8) as f32 / (1u32 << 24) as f32

@@ -14,7 +14,7 @@ impl World {
     #[inline]
     #[must_use]
     pub fn scattering(&self, surface: &Surface) -> Scattering {
-        let (mesh, _) = self.mesh(surface.triangle);
+        let (mesh, _) = self.mesh(surface.primitive);
         let uv = surface.uv;
         let bsdf = match &self.materials[mesh.material].surface {
             Finish::Diffuse { reflectance } => {

@@ -1,25 +1,34 @@
+mod error;
 mod holes;
 mod materials;
+mod mesh;
+mod objects;
+mod rays;
 
-use alloc::sync::Arc;
 use core::ops::Range;
 
 use light_scene::{Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
-use lights::sources::shape::Triangle;
 use lights::sources::{Image, LightSet, MediumId, Rgb, SurfacePoint};
 
-use crate::scene_lights::{SceneLights, SceneLightsError, shown_images};
+use crate::scene_lights::{SceneLights, shown_images};
 use crate::world_media::WorldMedia;
-use crate::{Accel, Ray, Surface, TriangleId};
+use crate::{Accel, PrimitiveId, Prototype, Ray, Surface};
+pub use error::WorldError;
+pub(crate) use mesh::WorldMesh;
+use objects::{Objects, PlacedObject};
 
-/// A scene made ready for rays: triangles in a hierarchy, materials, lights.
+/// A scene made ready for rays: triangles in hierarchies, materials, lights.
+///
+/// What stands in several places is stored once, but for triangles that shine: each is a light of its own, with an id and vertices in
+/// the scene. Objects of very few triangles are copied as well, because a placement takes as much memory as they do.
 #[derive(Debug)]
 pub struct World {
+    /// Those that stand where they are stored, then those of prototypes.
     meshes: Vec<WorldMesh>,
-    /// Mesh and number in the mesh, a triangle.
+    /// Mesh and number in the mesh, a stored triangle.
     triangles: Vec<MeshTriangle>,
     accel: Accel,
     materials: Vec<Material>,
@@ -34,18 +43,6 @@ pub struct World {
     holed_lights: Vec<Range<u32>>,
 }
 
-/// The triangles of one material, with vertices that the lights share.
-#[derive(Debug)]
-pub(crate) struct WorldMesh {
-    pub(crate) positions: Arc<[Vec3]>,
-    pub(crate) normals: Option<Vec<Vec3>>,
-    pub(crate) uvs: Option<Arc<[Vec2]>>,
-    pub(crate) indices: Arc<[[u32; 3]]>,
-    pub(crate) material: usize,
-    /// The id of the first triangle as a light, if the mesh shines.
-    pub(crate) first_light: Option<LightId>,
-}
-
 #[derive(Clone, Copy, Debug)]
 struct MeshTriangle {
     mesh: u32,
@@ -56,9 +53,10 @@ impl World {
     /// The world that `scene` describes.
     ///
     /// # Errors
-    /// When a light of the scene makes no sense.
-    pub fn new(scene: Scene) -> Result<Self, SceneLightsError> {
+    /// When a light of the scene makes no sense, an object stands where it would be flat, or shining objects stand in too many places.
+    pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
         let bounds = scene.bounds();
+        let Objects { copies, placed } = Objects::take(&mut scene)?;
         let Scene {
             meshes,
             materials,
@@ -70,28 +68,40 @@ impl World {
         } = scene;
         let images = shown_images(images)?;
         let media = WorldMedia::new(media, camera_medium, &materials);
-        let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
+        let mut meshes: Vec<WorldMesh> = meshes
+            .into_iter()
+            .chain(copies)
+            .map(WorldMesh::from)
+            .collect();
         let SceneLights { lights, infinite } =
             SceneLights::new(&mut meshes, &materials, &images, lights, &bounds)?;
-        let triangles: Vec<MeshTriangle> = (0u32..)
-            .zip(&meshes)
-            .flat_map(|(mesh, m)| {
-                (0u32..)
-                    .zip(m.indices.iter())
-                    .map(move |(index, _)| MeshTriangle { mesh, index })
-            })
-            .collect();
-        let corners: Vec<[Vec3; 3]> = meshes
-            .iter()
-            .flat_map(|m| m.indices.iter().map(|&t| m.corners(t)))
-            .collect();
         let holed_lights = holes::holed_lights(&meshes, &materials);
+        let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
+        let prototypes = placed.into_iter().map(
+            |PlacedObject {
+                 meshes: own,
+                 places,
+             }| {
+                let first = meshes.len();
+                meshes.extend(own.into_iter().map(WorldMesh::from));
+                let triangles = meshes[first..]
+                    .iter()
+                    .flat_map(WorldMesh::triangles)
+                    .collect();
+                Prototype { triangles, places }
+            },
+        );
+        let accel = Accel::with_prototypes(&corners, prototypes);
+        let triangles = (0u32..).zip(&meshes).flat_map(|(mesh, m)| {
+            let indices = (0u32..).zip(m.indices.iter());
+            indices.map(move |(index, _)| MeshTriangle { mesh, index })
+        });
         Ok(Self {
             has_holes: materials.iter().any(|material| material.alpha.is_some()),
             holed_lights,
-            accel: Accel::new(&corners),
+            triangles: triangles.collect(),
+            accel,
             meshes,
-            triangles,
             materials,
             images,
             bounds,
@@ -101,7 +111,7 @@ impl World {
         })
     }
 
-    /// The box around all triangles.
+    /// A box around all triangles.
     #[must_use]
     pub const fn bounds(&self) -> &Aabb {
         &self.bounds
@@ -113,23 +123,46 @@ impl World {
         &self.lights
     }
 
-    /// How many triangles there are.
+    /// How many triangles there are to be seen: those of prototypes in each of their places.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
+        let placed: usize = self.accel.placements().map(|numbers| numbers.len()).sum();
+        self.accel.world_triangle_count() as usize + placed
+    }
+
+    /// How many triangles are stored.
+    #[must_use]
+    pub fn stored_triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The first point of a surface along `ray`, which starts on the triangle `from`.
-    #[inline]
+    /// How many objects are stored once and stand in several places.
     #[must_use]
-    pub fn closest(&self, ray: &Ray, from: Option<TriangleId>) -> Option<Surface> {
-        let hit = if self.has_holes {
-            let is_there = |triangle, place| self.is_there(ray, triangle, place);
-            self.accel.closest_where(ray, from, is_there)?
-        } else {
-            self.accel.closest(ray, from)?
-        };
-        Some(self.surface(hit.triangle, hit.barycentric))
+    pub fn prototype_count(&self) -> usize {
+        self.accel.prototype_count()
+    }
+
+    /// In how many places they stand, all together.
+    #[must_use]
+    pub fn placement_count(&self) -> usize {
+        self.accel.placements().len()
+    }
+
+    /// The `n`th of the triangles that [`triangle_count`](Self::triangle_count) counts.
+    #[must_use]
+    pub fn triangle(&self, n: usize) -> Option<PrimitiveId> {
+        let world = self.accel.world_triangle_count();
+        let number = u32::try_from(n).ok().filter(|&number| number < world);
+        number.map(PrimitiveId::new).or_else(|| {
+            let mut before = world as usize;
+            (0u32..)
+                .zip(self.accel.placements())
+                .find_map(|(placement, mut numbers)| {
+                    let here = n.checked_sub(before);
+                    before += numbers.len();
+                    Some(PrimitiveId::placed(numbers.nth(here?)?, placement))
+                })
+        })
     }
 
     /// The point of a triangle at the given barycentric coordinates of its second and third corner.
@@ -138,22 +171,22 @@ impl World {
     /// Panics if there is no such triangle.
     #[inline]
     #[must_use]
-    pub fn surface(&self, triangle: TriangleId, barycentric: Vec2) -> Surface {
-        let (mesh, indices) = self.mesh(triangle);
-        let mut surface = Surface::on_triangle(triangle, mesh.corners(indices), barycentric);
-        let weights = [
-            1.0 - barycentric.x - barycentric.y,
-            barycentric.x,
-            barycentric.y,
-        ];
-        surface.uv = mesh.uv(indices, barycentric);
-        if let Some(normals) = &mesh.normals {
-            let [a, b, c] = indices.map(|i| normals[i as usize]);
-            let ns = a * weights[0] + b * weights[1] + c * weights[2];
-            let ns = ns.normalize_or(surface.n);
-            surface.ns = if ns.dot(surface.n) < 0.0 { -ns } else { ns };
+    pub fn surface(&self, triangle: PrimitiveId, barycentric: Vec2) -> Surface {
+        let (mesh, indices, weights) = self.spot(triangle, barycentric);
+        let (mut corners, mut normals) = (mesh.corners(indices), mesh.normals(indices));
+        let place = triangle.placement().map(|p| self.accel.place(p));
+        if let Some(place) = place {
+            // As a copy would look: corners and normals are moved before they are mixed.
+            corners = corners.map(|corner| place.point(corner));
+            normals = normals.map(|all| all.map(|n| place.normal(n).normalize_or_zero()));
         }
-        surface
+        let surface = Surface::on_triangle(triangle, corners, weights);
+        let error = place.map_or(Vec3::ZERO, |place| place.error(surface.p));
+        Surface {
+            uv: mesh.uv(indices, weights),
+            p_error: surface.p_error + error,
+            ..surface.with_normals(normals, weights)
+        }
     }
 
     /// Whether there are media between the surfaces.
@@ -169,7 +202,7 @@ impl World {
     /// Whether light passes unchanged through the material at `surface`.
     #[inline]
     pub(crate) fn is_interface(&self, surface: &Surface) -> bool {
-        let (mesh, _) = self.mesh(surface.triangle);
+        let (mesh, _) = self.mesh(surface.primitive);
         self.materials[mesh.material].surface == Finish::Interface
     }
 
@@ -181,7 +214,7 @@ impl World {
         wi: Vec3,
         arrived: Option<MediumId>,
     ) -> Option<MediumId> {
-        let (mesh, _) = self.mesh(surface.triangle);
+        let (mesh, _) = self.mesh(surface.primitive);
         let media = self.materials[mesh.material].media;
         if media.inside == media.outside {
             arrived
@@ -192,50 +225,11 @@ impl World {
         }
     }
 
-    /// Whether anything but the triangle `from` lies within `distance` along `ray`.
-    #[inline]
-    pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<TriangleId>) -> bool {
-        if self.has_holes {
-            let is_there = |triangle, place| self.is_there(ray, triangle, place);
-            self.accel.occluded_where(ray, distance, from, is_there)
-        } else {
-            self.accel.occluded(ray, distance, from)
-        }
-    }
-
-    /// Whether nothing lies between two points; a surface that the second lies on does not count.
-    #[inline]
-    pub(crate) fn sees(&self, from: Vec3, to: Vec3) -> bool {
-        let way = to - from;
-        let distance = way.length();
-        let ray = Ray {
-            origin: from,
-            direction: way / distance,
-        };
-        !(distance > 0.0 && self.blocked(&ray, distance * (1.0 - 1e-4), None))
-    }
-
-    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
-    #[inline]
-    #[must_use]
-    pub fn occluded(&self, surface: &Surface, wi: Vec3, p_light: Vec3) -> bool {
-        /// How much of the way is looked at: the light itself must not be in the way.
-        const PART: f32 = 1.0 - 1e-4;
-        let origin = surface.spawn(wi).origin;
-        let way = p_light - origin;
-        let distance = way.length();
-        let ray = Ray {
-            origin,
-            direction: way / distance,
-        };
-        distance > 0.0 && self.blocked(&ray, distance * PART, Some(surface.triangle))
-    }
-
     /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where it sends none.
     #[inline]
     #[must_use]
     pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
-        let MeshTriangle { mesh, index } = self.triangles[surface.triangle.0 as usize];
+        let MeshTriangle { mesh, index } = self.triangles[surface.primitive.number() as usize];
         let LightId(first) = self.meshes[mesh as usize].first_light?;
         let id = LightId(first + index);
         let at = SurfacePoint {
@@ -263,39 +257,22 @@ impl World {
     }
 
     #[inline]
-    fn mesh(&self, triangle: TriangleId) -> (&WorldMesh, [u32; 3]) {
-        let MeshTriangle { mesh, index } = self.triangles[triangle.0 as usize];
+    fn mesh(&self, triangle: PrimitiveId) -> (&WorldMesh, [u32; 3]) {
+        let MeshTriangle { mesh, index } = self.triangles[triangle.number() as usize];
         let mesh = &self.meshes[mesh as usize];
         (mesh, mesh.indices[index as usize])
     }
-}
 
-impl WorldMesh {
-    /// The texture coordinates on a triangle: those that its light has too.
+    /// The mesh of a triangle, its corners in the order in which they run counter-clockwise on its front, and the weights of the
+    /// second and the third: where a placement mirrors, these change places.
     #[inline]
-    fn uv(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec2 {
-        let [a, b, c] = match &self.uvs {
-            Some(uvs) => triangle.map(|i| uvs[i as usize]),
-            None => Triangle::DEFAULT_UV,
-        };
-        let Vec2 { x, y } = barycentric;
-        a * (1.0 - x - y) + b * x + c * y
-    }
-
-    fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
-        triangle.map(|i| self.positions[i as usize])
-    }
-}
-
-impl From<light_scene::Mesh> for WorldMesh {
-    fn from(mesh: light_scene::Mesh) -> Self {
-        Self {
-            positions: mesh.positions.into(),
-            normals: mesh.normals,
-            uvs: mesh.uvs.map(Arc::from),
-            indices: mesh.indices.into(),
-            material: mesh.material.0 as usize,
-            first_light: None,
+    fn spot(&self, triangle: PrimitiveId, barycentric: Vec2) -> (&WorldMesh, [u32; 3], Vec2) {
+        let (mesh, [a, b, c]) = self.mesh(triangle);
+        match triangle.placement() {
+            Some(placement) if self.accel.place(placement).mirrors() => {
+                (mesh, [a, c, b], Vec2::new(barycentric.y, barycentric.x))
+            }
+            _ => (mesh, [a, b, c], barycentric),
         }
     }
 }

@@ -103,7 +103,16 @@ fn scene(answered: Result<Scene, Diagnostic>) {
             .for_each(|emission| image(&emission.radiance));
         material.alpha.iter().for_each(|alpha| image(&alpha.share));
     }
-    for mesh in &scene.meshes {
+    for placement in &scene.placements {
+        assert!(
+            (placement.prototype.0 as usize) < scene.prototypes.len(),
+            "a prototype"
+        );
+        assert!(placement.place.is_finite(), "a place");
+    }
+    let prototypes = scene.prototypes.iter();
+    let placed = prototypes.flat_map(|prototype| &prototype.meshes);
+    for mesh in scene.meshes.iter().chain(placed) {
         assert!(
             (mesh.material.0 as usize) < scene.materials.len(),
             "a material"

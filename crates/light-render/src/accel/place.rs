@@ -1,0 +1,148 @@
+use lights::glam::{Affine3A, Mat3A, Vec3, Vec3A};
+use lights::math::Aabb;
+
+use crate::Ray;
+
+/// Where a prototype stands: an affine map that can be undone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    to_world: Affine3A,
+    /// Undoes `to_world` but for its translation.
+    to_object: Mat3A,
+}
+
+/// A generous multiple of the rounding error of one component of a map.
+const ERROR: f32 = 8.0 * f32::EPSILON;
+
+impl Place {
+    /// The place that `to_world` takes a prototype to; `None` unless both the map and its inverse are finite, squares included.
+    #[must_use]
+    pub fn new(to_world: Affine3A) -> Option<Self> {
+        let to_object = to_world.matrix3.inverse();
+        let is_good = |matrix: &Mat3A| {
+            let squares = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(Vec3A::length_squared);
+            squares.iter().sum::<f32>().is_finite()
+        };
+        let is_good = to_world.is_finite() && is_good(&to_world.matrix3) && is_good(&to_object);
+        is_good.then_some(Self {
+            to_world,
+            to_object,
+        })
+    }
+
+    /// A point of the prototype in the world.
+    #[inline]
+    #[must_use]
+    pub fn point(&self, p: Vec3) -> Vec3 {
+        self.to_world.transform_point3(p)
+    }
+
+    /// A normal of the prototype in the world, of any length.
+    #[inline]
+    #[must_use]
+    pub fn normal(&self, n: Vec3) -> Vec3 {
+        (self.to_object.transpose() * Vec3A::from(n)).into()
+    }
+
+    /// Whether what runs counter-clockwise in the prototype runs clockwise in the world.
+    #[inline]
+    #[must_use]
+    pub fn mirrors(&self) -> bool {
+        self.to_world.matrix3.determinant() < 0.0
+    }
+
+    /// `ray` as the prototype sees it, and how long a scene unit along it is there.
+    ///
+    /// The direction gets unit length again: among components near the rounding unit a ray is taken as parallel to its box.
+    #[inline]
+    #[must_use]
+    pub fn to_object(&self, ray: &Ray) -> (Ray, f32) {
+        let from_here = Vec3A::from(ray.origin) - self.to_world.translation;
+        let direction = self.to_object * Vec3A::from(ray.direction);
+        let stretch = direction.length();
+        let ray = Ray {
+            origin: (self.to_object * from_here).into(),
+            direction: (direction / stretch).into(),
+        };
+        (ray, stretch)
+    }
+
+    /// How far from `p`, component by component, rounding may move a ray that starts there on its way to the prototype.
+    #[inline]
+    #[must_use]
+    pub fn error(&self, p: Vec3) -> Vec3 {
+        let from_here = (Vec3A::from(p) - self.to_world.translation).abs();
+        let there = self.to_object.abs() * from_here;
+        (self.to_world.matrix3.abs() * there * ERROR).into()
+    }
+
+    /// A box around what `bounds` contains, in the world, rounding errors included.
+    #[must_use]
+    pub fn bounds(&self, bounds: &Aabb) -> Aabb {
+        let center = bounds.center();
+        let half = Vec3A::from(bounds.max - center);
+        let reach = self.to_world.matrix3.abs() * half;
+        let largest = self.to_world.matrix3.abs() * (Vec3A::from(center).abs() + half)
+            + self.to_world.translation.abs();
+        let (center, reach) = (self.point(center), Vec3::from(reach + largest * ERROR));
+        Aabb {
+            min: center - reach,
+            max: center + reach,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lights::glam::Quat;
+
+    fn skewed() -> Place {
+        let rotation = Quat::from_axis_angle(Vec3::new(1.0, 2.0, -2.0) / 3.0, 1.1);
+        let turned = Affine3A::from_quat(rotation);
+        let to_world = Affine3A::from_translation(Vec3::new(5.0, -3.0, 100.0))
+            * turned
+            * Affine3A::from_scale(Vec3::new(-2.0, 0.1, 7.0))
+            * turned;
+        Place::new(to_world).expect("it can be undone")
+    }
+
+    #[test]
+    fn rays_meet_in_the_prototype_what_they_meet_in_the_world() {
+        let place = skewed();
+        let p = Vec3::new(0.3, -0.2, 0.9);
+        let origin = Vec3::new(7.0, 1.0, 90.0);
+        let way = place.point(p) - origin;
+        let direction = way.normalize();
+        let (ray, stretch) = place.to_object(&Ray { origin, direction });
+        assert!(
+            (ray.direction.length() - 1.0).abs() < 1e-6,
+            "of unit length"
+        );
+        let there = ray.at(way.length() * stretch);
+        assert!(there.distance(p) < 1e-4, "{there} is {p}");
+    }
+
+    #[test]
+    fn normals_stay_normals_and_boxes_contain() {
+        let place = skewed();
+        let [a, b, c] = [Vec3::X, Vec3::new(0.1, 0.9, 0.0), Vec3::splat(-0.5)];
+        let n = place.normal((b - a).cross(c - a)).normalize();
+        let [p, q, r] = [a, b, c].map(|v| place.point(v));
+        let across = (q - p).cross(r - p).normalize();
+        assert!(place.mirrors(), "one scale is negative");
+        assert!(n.distance(-across) < 1e-5, "mirrored, the front stays");
+        let bounds = place.bounds(&Aabb::from_points([a, b, c]));
+        assert!([p, q, r].iter().all(|&v| bounds.contains(v)), "in the box");
+    }
+
+    #[test]
+    fn maps_that_cannot_be_undone_are_no_places() {
+        let flat = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
+        let nowhere = Affine3A::from_translation(Vec3::NAN);
+        let huge = Affine3A::from_scale(Vec3::splat(1e30));
+        for bad in [flat, nowhere, huge] {
+            assert_eq!(Place::new(bad), None, "{bad}");
+        }
+    }
+}

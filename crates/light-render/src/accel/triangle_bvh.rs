@@ -1,0 +1,142 @@
+use core::time::Duration;
+
+use lights::glam::{Vec2, Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::{Ray as ObvhsRay, RayHit};
+use obvhs::rt_triangle::RtTriangle;
+use obvhs::triangle::Triangle;
+
+use crate::Ray;
+
+/// Where a ray meets the triangles first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TriangleHit {
+    /// Which triangle, in the order in which they were given to [`TriangleBvh::new`].
+    pub(super) number: u32,
+    /// Distance along the ray.
+    pub(super) t: f32,
+    /// Weights of the triangle's second and third corner; the first has the rest.
+    pub(super) barycentric: Vec2,
+}
+
+/// A binary hierarchy of boxes over triangles that are stored leaf by leaf.
+#[derive(Default)]
+pub(super) struct TriangleBvh {
+    bvh: Bvh2,
+    /// Triangles in leaf order; one that was split stands in several leaves.
+    leaves: Vec<RtTriangle>,
+    /// How many triangles there are.
+    count: u32,
+}
+
+impl TriangleBvh {
+    /// A hierarchy over the corners of `triangles`, whose numbers are the positions in the slice.
+    ///
+    /// # Panics
+    /// Panics at 2^32 triangles.
+    pub(super) fn new(triangles: &[[Vec3; 3]]) -> Self {
+        let triangles: Vec<Triangle> = triangles
+            .iter()
+            .map(|&[a, b, c]| Triangle {
+                v0: a.into(),
+                v1: b.into(),
+                v2: c.into(),
+            })
+            .collect();
+        if triangles.is_empty() {
+            return Self::default();
+        }
+        // Splitting pays most for the long triangles of buildings, but its memory does not suit the largest scenes.
+        let params = if triangles.len() < 1 << 20 {
+            BvhBuildParams::slow_build()
+        } else {
+            BvhBuildParams::medium_build()
+        };
+        let mut bvh = build_bvh2_from_tris(&triangles, params, &mut Duration::default());
+        pad(&mut bvh);
+        let leaves = bvh
+            .primitive_indices
+            .iter()
+            .map(|&i| (&triangles[i as usize]).into())
+            .collect();
+        let count = u32::try_from(triangles.len()).expect("fewer than 2^32 triangles");
+        Self { bvh, leaves, count }
+    }
+
+    /// How many triangles there are.
+    pub(super) const fn triangle_count(&self) -> u32 {
+        self.count
+    }
+
+    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by triangle and
+    /// barycentric coordinates; leaving out the triangle `from`.
+    #[inline]
+    pub(super) fn closest(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        from: Option<u32>,
+        is_there: impl Fn(u32, Vec2) -> bool,
+    ) -> Option<TriangleHit> {
+        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
+        let mut hit = RayHit::none();
+        self.bvh.ray_traverse(ray, &mut hit, |ray, slot| {
+            self.distance(ray, slot, from, &is_there)
+        });
+        let leaf = self.leaves.get(hit.primitive_id as usize)?;
+        Some(TriangleHit {
+            number: self.bvh.primitive_indices[hit.primitive_id as usize],
+            t: hit.t,
+            barycentric: leaf.compute_barycentric(&ray),
+        })
+    }
+
+    /// Whether anything that counts, other than the triangle `from`, is nearer than `t_max`.
+    #[inline]
+    pub(super) fn occluded(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        from: Option<u32>,
+        is_there: impl Fn(u32, Vec2) -> bool,
+    ) -> bool {
+        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
+        !self
+            .bvh
+            .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &is_there))
+    }
+
+    /// The distance to the triangle in `slot`, infinite for a miss, for the triangle that the ray starts on, and for a hit that does not
+    /// count.
+    #[inline(always)]
+    fn distance(
+        &self,
+        ray: &ObvhsRay,
+        slot: usize,
+        from: Option<u32>,
+        is_there: impl Fn(u32, Vec2) -> bool,
+    ) -> f32 {
+        let leaf = &self.leaves[slot];
+        let t = leaf.intersect(ray);
+        if t < f32::INFINITY {
+            let number = self.bvh.primitive_indices[slot];
+            if from == Some(number) || !is_there(number, leaf.compute_barycentric(ray)) {
+                return f32::INFINITY;
+            }
+        }
+        t
+    }
+}
+
+/// Enlarges each box by its rounding error, so that a ray along an edge of a box cannot slip past what is inside.
+fn pad(bvh: &mut Bvh2) {
+    for node in &mut bvh.nodes {
+        let mut aabb = *node.aabb();
+        let margin = aabb.min.abs().max(aabb.max.abs()) * Vec3A::splat(2.0 * f32::EPSILON);
+        aabb.min -= margin;
+        aabb.max += margin;
+        node.set_aabb(aabb);
+    }
+}

@@ -1,0 +1,58 @@
+use lights::glam::Vec3;
+
+use super::World;
+use crate::{PrimitiveId, Ray, Surface};
+
+impl World {
+    /// The first point of a surface along `ray`, which starts on the primitive `from`.
+    #[inline]
+    #[must_use]
+    pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Surface> {
+        let hit = if self.has_holes {
+            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            self.accel.closest_where(ray, from, is_there)?
+        } else {
+            self.accel.closest(ray, from)?
+        };
+        Some(self.surface(hit.primitive, hit.barycentric))
+    }
+
+    /// Whether anything but the primitive `from` lies within `distance` along `ray`.
+    #[inline]
+    pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<PrimitiveId>) -> bool {
+        if self.has_holes {
+            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            self.accel.occluded_where(ray, distance, from, is_there)
+        } else {
+            self.accel.occluded(ray, distance, from)
+        }
+    }
+
+    /// Whether nothing lies between two points; a surface that the second lies on does not count.
+    #[inline]
+    pub(crate) fn sees(&self, from: Vec3, to: Vec3) -> bool {
+        let way = to - from;
+        let distance = way.length();
+        let ray = Ray {
+            origin: from,
+            direction: way / distance,
+        };
+        !(distance > 0.0 && self.blocked(&ray, distance * (1.0 - 1e-4), None))
+    }
+
+    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
+    #[inline]
+    #[must_use]
+    pub fn occluded(&self, surface: &Surface, wi: Vec3, p_light: Vec3) -> bool {
+        /// How much of the way is looked at: the light itself must not be in the way.
+        const PART: f32 = 1.0 - 1e-4;
+        let origin = surface.spawn(wi).origin;
+        let way = p_light - origin;
+        let distance = way.length();
+        let ray = Ray {
+            origin,
+            direction: way / distance,
+        };
+        distance > 0.0 && self.blocked(&ray, distance * PART, Some(surface.primitive))
+    }
+}
