@@ -2,7 +2,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use crate::glam::{Vec2, Vec3};
-use crate::image_error::ImageError;
+use crate::image_error::{ImageError, check_texels};
 use crate::rgb_sum::RgbSum;
 use crate::texture_mapping::{TextureMapping, Wrap};
 use half::f16;
@@ -43,6 +43,18 @@ impl Channels {
             Self::Rgb => 3,
         }
     }
+
+    /// The colour of texel `index` in a list of numbers.
+    #[inline]
+    fn color(self, index: usize, number: impl Fn(usize) -> f32) -> Vec3 {
+        match self {
+            Self::Gray => Vec3::splat(number(index)),
+            Self::Rgb => {
+                let i = 3 * index;
+                Vec3::new(number(i), number(i + 1), number(i + 2))
+            }
+        }
+    }
 }
 
 impl Image {
@@ -56,7 +68,7 @@ impl Image {
         texels: impl Into<Arc<[f32]>>,
     ) -> Result<Self, ImageError> {
         let texels = texels.into();
-        check(size, channels, texels.len(), |i| texels[i])?;
+        check_texels(size, channels, texels.len(), |i| texels[i])?;
         Ok(Self {
             size,
             channels,
@@ -74,7 +86,7 @@ impl Image {
         texels: impl Into<Arc<[f16]>>,
     ) -> Result<Self, ImageError> {
         let texels = texels.into();
-        check(size, channels, texels.len(), |i| texels[i].to_f32())?;
+        check_texels(size, channels, texels.len(), |i| texels[i].to_f32())?;
         Ok(Self {
             size,
             channels,
@@ -110,12 +122,9 @@ impl Image {
         let [width, height] = self.size;
         let (x, y) = (x.min(width - 1), y.min(height - 1));
         let index = y as usize * width as usize + x as usize;
-        match self.channels {
-            Channels::Gray => Vec3::splat(self.number(index)),
-            Channels::Rgb => {
-                let i = 3 * index;
-                Vec3::new(self.number(i), self.number(i + 1), self.number(i + 2))
-            }
+        match &self.texels {
+            Texels::Single(texels) => self.channels.color(index, |i| texels[i]),
+            Texels::Half(texels) => self.channels.color(index, |i| texels[i].to_f32()),
         }
     }
 
@@ -150,6 +159,7 @@ impl Image {
     }
 
     /// As [`bilinear`](Self::bilinear), with `wrap` beyond the edges.
+    #[inline]
     pub(crate) fn bilinear_wrapped(&self, uv: Vec2, wrap: [Wrap; 2]) -> Vec3 {
         let x = wrap[0].around(uv.x, self.size[0]);
         let y = wrap[1].around(uv.y, self.size[1]);
@@ -192,14 +202,6 @@ impl Image {
     pub(crate) fn extent(&self) -> Vec2 {
         Vec2::new(self.size[0] as f32, self.size[1] as f32)
     }
-
-    #[inline]
-    fn number(&self, index: usize) -> f32 {
-        match &self.texels {
-            Texels::Single(texels) => texels[index],
-            Texels::Half(texels) => texels[index].to_f32(),
-        }
-    }
 }
 
 /// The texel index under a coordinate that may lie outside; NaN gives 0.
@@ -211,40 +213,6 @@ impl Image {
 )]
 const fn index(t: f32) -> u32 {
     t as u32
-}
-
-fn check(
-    size: [u32; 2],
-    channels: Channels,
-    len: usize,
-    number: impl Fn(usize) -> f32,
-) -> Result<(), ImageError> {
-    if size.contains(&0) {
-        return Err(ImageError::Empty);
-    }
-    let texels = (size[0] as usize).checked_mul(size[1] as usize);
-    let numbers = texels.and_then(|texels| texels.checked_mul(channels.count()));
-    if numbers != Some(len) {
-        return Err(ImageError::Length);
-    }
-    for i in 0..len {
-        let value = number(i);
-        if value >= 0.0 && value.is_finite() {
-            continue;
-        }
-        let channel = i % channels.count();
-        let i = i / channels.count();
-        #[expect(clippy::cast_possible_truncation, reason = "both below a u32")]
-        let texel = [(i % size[0] as usize) as u32, (i / size[0] as usize) as u32];
-        return Err(if value.is_nan() {
-            ImageError::NotANumber { texel, channel }
-        } else if value < 0.0 {
-            ImageError::Negative { texel, channel }
-        } else {
-            ImageError::Infinite { texel, channel }
-        });
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,3 +1,4 @@
+use crate::image::Channels;
 use core::error::Error;
 use core::fmt;
 
@@ -53,3 +54,38 @@ impl fmt::Display for ImageError {
 }
 
 impl Error for ImageError {}
+
+/// Whether `len` numbers, of which `number` gives each, are an image of light.
+pub(crate) fn check_texels(
+    size: [u32; 2],
+    channels: Channels,
+    len: usize,
+    number: impl Fn(usize) -> f32,
+) -> Result<(), ImageError> {
+    if size.contains(&0) {
+        return Err(ImageError::Empty);
+    }
+    let texels = (size[0] as usize).checked_mul(size[1] as usize);
+    let numbers = texels.and_then(|texels| texels.checked_mul(channels.count()));
+    if numbers != Some(len) {
+        return Err(ImageError::Length);
+    }
+    for i in 0..len {
+        let value = number(i);
+        if value >= 0.0 && value.is_finite() {
+            continue;
+        }
+        let channel = i % channels.count();
+        let i = i / channels.count();
+        #[expect(clippy::cast_possible_truncation, reason = "both below a u32")]
+        let texel = [(i % size[0] as usize) as u32, (i / size[0] as usize) as u32];
+        return Err(if value.is_nan() {
+            ImageError::NotANumber { texel, channel }
+        } else if value < 0.0 {
+            ImageError::Negative { texel, channel }
+        } else {
+            ImageError::Infinite { texel, channel }
+        });
+    }
+    Ok(())
+}
