@@ -1,7 +1,7 @@
 use lights::sources::{MediumInterface, TextureMapping};
 
-use crate::ImageId;
 use crate::glam::{Vec2, Vec3};
+use crate::{ImageId, MaterialId};
 
 /// What a surface is made of, and whether it shines.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +72,13 @@ pub enum Surface {
         eta: f32,
         /// Roughness of the coat.
         alpha: Vec2,
+    },
+    /// The surface of one of two materials at each point, chosen at random: paint that comes off, dust on a metal.
+    Mix {
+        /// The two, of which nothing but the surfaces counts. They come before this one in the scene's list, or are black.
+        materials: [MaterialId; 2],
+        /// How likely the second is, in [0, 1]; of a colour the first channel counts.
+        amount: Color,
     },
     /// Nothing to see: light passes unchanged; only bounds a medium.
     Interface,

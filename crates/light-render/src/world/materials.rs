@@ -14,9 +14,8 @@ impl World {
     #[inline]
     #[must_use]
     pub fn scattering(&self, surface: &Surface) -> Scattering {
-        let (mesh, _) = self.mesh(surface.primitive);
         let uv = surface.uv;
-        let bsdf = match &self.materials[mesh.material].surface {
+        let bsdf = match self.finish(surface) {
             Finish::Diffuse { reflectance } => {
                 Bsdf::Lambert(Lambert::opaque(self.color(reflectance, uv)))
             }

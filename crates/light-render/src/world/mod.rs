@@ -2,6 +2,7 @@ mod error;
 mod holes;
 mod materials;
 mod mesh;
+mod mixtures;
 mod objects;
 mod rays;
 
@@ -202,8 +203,7 @@ impl World {
     /// Whether light passes unchanged through the material at `surface`.
     #[inline]
     pub(crate) fn is_interface(&self, surface: &Surface) -> bool {
-        let (mesh, _) = self.mesh(surface.primitive);
-        self.materials[mesh.material].surface == Finish::Interface
+        matches!(self.finish(surface), Finish::Interface)
     }
 
     /// The medium that a ray from `surface` in the direction `wi` starts in, if it `arrived` there through another one.

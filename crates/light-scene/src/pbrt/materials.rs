@@ -20,10 +20,8 @@ impl Reader {
         typed: &Typed<'_>,
     ) -> Result<MaterialId, Diagnostic> {
         let parameters = &typed.parameters;
-        if kind == "mix" {
-            return self.mixed(typed);
-        }
         let surface = match kind {
+            "mix" => self.mixed(typed)?,
             "diffuse" => Surface::Diffuse {
                 reflectance: self.color(typed, "reflectance", 0.5),
             },
@@ -84,29 +82,21 @@ impl Reader {
         })
     }
 
-    /// The larger part of a mixture of two named materials.
-    fn mixed(&mut self, typed: &Typed<'_>) -> Result<MaterialId, Diagnostic> {
+    /// A mixture of two named materials; the amount is that of the second.
+    fn mixed(&mut self, typed: &Typed<'_>) -> Result<Surface, Diagnostic> {
         let [first, second] = typed.parameters.strings("materials") else {
             let message = "expected \"string materials\" with two names";
             return Err(typed.at.diagnostic(message));
         };
-        // The amount is that of the second one.
-        let chosen = match self.color(typed, "amount", 0.5) {
-            Color::Constant(amount) if amount.x < 0.5 => first,
-            Color::Constant(_) => second,
-            Color::Image(_) => first,
+        let known = |name: &String| {
+            let known = self.materials.get(name).copied();
+            let message = || format!("expected a named material, found \"{}\"", shown(name));
+            known.ok_or_else(|| typed.at.diagnostic(message()))
         };
-        let known = self.materials.get(chosen).copied();
-        let message = || format!("expected a named material, found \"{}\"", shown(chosen));
-        let known = known.ok_or_else(|| typed.at.diagnostic(message()))?;
-        let what = format!("material \"mix\" of \"{first}\" and \"{second}\"");
-        self.warn(
-            typed.at,
-            &what,
-            &format!("was taken as \"{}\"", shown(chosen)),
-        );
-        self.warn_unused(typed.at, "material \"mix\"", &typed.parameters);
-        Ok(known)
+        Ok(Surface::Mix {
+            materials: [known(first)?, known(second)?],
+            amount: self.color(typed, "amount", 0.5),
+        })
     }
 
     fn conductor(&mut self, typed: &Typed<'_>) -> Surface {

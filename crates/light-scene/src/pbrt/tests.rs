@@ -169,29 +169,43 @@ fn spectra_come_from_files_and_by_name() {
 }
 
 #[test]
-fn mixtures_are_their_larger_part() {
-    let chosen = |amount: &str| {
+fn mixtures_hold_their_parts() {
+    let of = |materials: &str, amount: &str| {
         let text = format!(
             "WorldBegin MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \
-             MakeNamedMaterial \"b\" \"string type\" \"conductor\" \
-             Material \"mix\" \"string materials\" [\"a\" \"b\"] {amount} Shape \"disk\""
+             MakeNamedMaterial \"b\" \"string type\" \"interface\" \
+             Material \"mix\" {materials} {amount} Shape \"disk\""
         );
-        let scene = read("pbrt_mix", &text).expect("a scene");
-        let name = scene.material(scene.meshes[0].material).name.clone();
-        (name, scene.warnings[0].message.clone())
+        let scene = read("pbrt_mix", &text)?;
+        assert_eq!(
+            scene.warnings.len(),
+            1,
+            "of the disk alone: {:?}",
+            scene.warnings
+        );
+        Ok::<_, String>(scene.material(scene.meshes[0].material).surface.clone())
     };
-    let of = "material \"mix\" of \"a\" and \"b\" was taken as";
-    let (name, warning) = chosen("\"float amount\" 0.2");
-    assert_eq!(name, "diffuse", "mostly the first");
-    assert_eq!(warning, format!("{of} \"a\""), "said so");
-    assert_eq!(
-        chosen("\"float amount\" 0.8").0,
-        "conductor",
-        "mostly the second"
-    );
-    let error = read("pbrt_mix_bad", "WorldBegin Material \"mix\"").expect_err("no names");
-    let expected = "a.pbrt:1: expected \"string materials\" with two names";
-    assert_eq!(error, expected, "two names");
+    let both = "\"string materials\" [\"a\" \"b\"]";
+    for (amount, expected) in [("\"float amount\" 0.2", 0.2), ("", 0.5)] {
+        let mix = Surface::Mix {
+            materials: [crate::MaterialId(0), crate::MaterialId(1)],
+            amount: Color::Constant(Vec3::splat(expected)),
+        };
+        assert_eq!(of(both, amount), Ok(mix), "{amount}");
+    }
+    for (materials, expected) in [
+        ("", "a.pbrt:1: expected \"string materials\" with two names"),
+        (
+            "\"string materials\" [\"a\"]",
+            "a.pbrt:1: expected \"string materials\" with two names",
+        ),
+        (
+            "\"string materials\" [\"a\" \"c\"]",
+            "a.pbrt:1: expected a named material, found \"c\"",
+        ),
+    ] {
+        assert_eq!(of(materials, ""), Err(expected.to_owned()), "{materials}");
+    }
 }
 
 #[test]

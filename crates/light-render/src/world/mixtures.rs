@@ -1,0 +1,44 @@
+use light_scene::{Color, Surface as Finish};
+use lights::glam::Vec3;
+
+use super::World;
+use crate::{Surface, sobol};
+
+/// What a mixture is that names no material before it.
+const BLACK: &Finish = &Finish::Diffuse {
+    reflectance: Color::Constant(Vec3::ZERO),
+};
+
+impl World {
+    /// How the surface scatters light there: of a mixture one of its parts, chosen by a hash of the place, so that all who ask
+    /// about the same point get the same answer.
+    ///
+    /// # Source
+    /// `[PBRT4]`, section 10.5.1.
+    #[inline]
+    pub(crate) fn finish(&self, surface: &Surface) -> &Finish {
+        let (mesh, _) = self.mesh(surface.primitive);
+        let mut id = mesh.material;
+        while let Finish::Mix { materials, amount } = &self.materials[id].surface {
+            let amount = self.color(amount, surface.uv).x;
+            let second = chance(surface.p, id) < amount;
+            let next = materials[usize::from(second)].0 as usize;
+            // Only ever down, so that it ends.
+            if next >= id {
+                return BLACK;
+            }
+            id = next;
+        }
+        &self.materials[id].surface
+    }
+}
+
+/// A number in `[0, 1)` that a place and the number of a material decide.
+#[expect(clippy::cast_possible_truncation, reason = "any bits will do")]
+fn chance(p: Vec3, material: usize) -> f32 {
+    let bits = p.to_array().map(f32::to_bits);
+    let hash = bits.into_iter().fold(material as u32, |hash, bits| {
+        sobol::hash(hash.rotate_left(9) ^ bits)
+    });
+    (hash >> 8) as f32 / (1u32 << 24) as f32
+}
