@@ -2,15 +2,18 @@
 
 mod support;
 
+use std::path::Path;
+
 use light_render::{Ray, Surface, World, WorldError};
 use light_scene::glam::{Affine3A, Quat, Vec2, Vec3};
 use light_scene::{
-    Alpha, Color, ColorImage, Emission, Image, Material, MaterialId, Mesh, Placement, Prototype,
-    Scene, Surface as Finish,
+    Alpha, Color, ColorImage, Emission, Files, Image, Material, MaterialId, Mesh, Placement,
+    Prototype, Scene, Surface as Finish, parse_scene,
 };
 use lights::media::phase::Isotropic;
 use lights::media::{Homogeneous, Region, Substance};
 use lights::sources::MediumInterface;
+use serde_json::json;
 use support::{Shot, agree, cornell, room};
 
 /// A ball of `columns` times half as many quads, with normals and texture coordinates.
@@ -184,6 +187,77 @@ fn pictures_are_those_of_copies() {
         alpha: Vec2::splat(0.2),
     };
     assert_looks_flattened(&grove(Material::new("metal", metal)), "metal");
+}
+
+/// A lamp in a room, and three balls on stools.
+const STOOLS: &str = r#"
+    Scale -1 1 1 LookAt 0 1 4  0 1 0  0 1 0
+    Camera "perspective" "float fov" 50
+    WorldBegin
+    AttributeBegin
+        AreaLightSource "diffuse" "rgb L" [ 9 8 7 ] Translate 0 3 0 Rotate 90 1 0 0
+        Shape "disk" "float radius" 1
+    AttributeEnd
+    Shape "trianglemesh" "point3 P" [ -9 0 9  9 0 9  9 0 -9  -9 0 -9 ] "integer indices" [ 0 1 2 0 2 3 ]
+    ObjectBegin "stool"
+        Material "diffuse" "rgb reflectance" [ 0.5 0.3 0.1 ]
+        Rotate 90 1 0 0 Shape "cylinder" "float zmin" -1 "float zmax" 0 "float radius" 0.3
+        Material "dielectric" Translate 0 0 -1.5 ReverseOrientation Shape "sphere" "float radius" 0.4
+    ObjectEnd
+    ObjectInstance "stool"
+    AttributeBegin Translate -1.2 0 0.3 Scale 1 0.5 -0.7 ObjectInstance "stool" AttributeEnd
+    Translate 1.2 0 0.3 Rotate 40 0 0.6 0.8 ObjectInstance "stool""#;
+
+#[test]
+fn objects_of_pbrt_files_look_flattened() {
+    let scene = parse_scene(Path::new("a.pbrt"), STOOLS.as_bytes(), Files::NONE);
+    let scene = scene.expect("a scene");
+    let world = world(&scene);
+    assert_eq!(
+        (world.prototype_count(), world.placement_count()),
+        (1, 3),
+        "stools"
+    );
+    assert_looks_flattened(&scene, "pbrt");
+}
+
+#[test]
+fn nodes_of_gltf_files_look_flattened() {
+    let folder =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../light-scene/testdata/three_formats");
+    let path = folder.join("room.gltf");
+    let text = std::fs::read_to_string(&path).expect("it ships");
+    let mut document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let primitive = |positions: u32, material: u32| json!({"attributes": {"POSITION": positions, "TEXCOORD_0": 0}, "indices": 1, "material": material});
+    // Matt and metal, and what shines.
+    let primitives = [(2, 0), (5, 3), (4, 2)].map(|(p, m)| primitive(p, m));
+    let lists = |document: &mut serde_json::Value, list: &str, more: serde_json::Value| {
+        document[list].as_array_mut().expect("a list").push(more);
+    };
+    lists(&mut document, "meshes", json!({"primitives": primitives}));
+    let places = [
+        json!({"mesh": 4, "translation": [0.4, 0.5, 0.0], "scale": [0.2, 0.3, 0.2]}),
+        json!({"mesh": 4, "translation": [-0.6, 1.0, 0.5], "scale": [-0.2, 0.1, 0.3], "rotation": [0.0, 0.6, 0.0, 0.8]}),
+        json!({"mesh": 4, "translation": [0.7, 1.4, 0.5], "scale": [0.2, 0.2, 0.2], "rotation": [0.36, 0.48, 0.0, 0.8]}),
+    ];
+    for (number, node) in (5..).zip(places) {
+        lists(&mut document, "nodes", node);
+        lists(&mut document["scenes"][0], "nodes", json!(number));
+    }
+    let text = document.to_string();
+    let scene = parse_scene(&path, text.as_bytes(), Files::DISK).expect("a scene");
+    let world = world(&scene);
+    assert_eq!(
+        (world.prototype_count(), world.placement_count()),
+        (1, 3),
+        "placed"
+    );
+    assert_eq!(
+        world.stored_triangle_count(),
+        8 + 3 * 2 + 4,
+        "the shining part is copied"
+    );
+    assert_looks_flattened(&scene, "glTF");
 }
 
 #[test]

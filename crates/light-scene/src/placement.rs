@@ -48,11 +48,19 @@ impl Prototype {
 impl Placement {
     /// A box around `boxes` where the placement puts them.
     pub(crate) fn bounds(&self, boxes: &[Aabb]) -> Aabb {
-        let corners = boxes
-            .iter()
-            .filter(|bounds| !bounds.is_empty())
-            .flat_map(corners);
-        Aabb::from_points(corners.map(|corner| self.place.transform_point3(corner)))
+        Aabb::from_points(self.corners(boxes))
+    }
+
+    /// Whether all that lies in `boxes` has finite coordinates where the placement puts it.
+    pub(crate) fn is_finite(&self, boxes: &[Aabb]) -> bool {
+        self.corners(boxes).all(|corner| corner.is_finite())
+    }
+
+    /// The corners of `boxes` where the placement puts them.
+    fn corners(&self, boxes: &[Aabb]) -> impl Iterator<Item = Vec3> {
+        let boxes = boxes.iter().filter(|bounds| !bounds.is_empty());
+        let corners = boxes.flat_map(corners);
+        corners.map(|corner| self.place.transform_point3(corner))
     }
 }
 

@@ -75,6 +75,9 @@ impl InfoArgs {
         json!({
             "scene": self.input.scene.display().to_string(),
             "triangles": world.triangle_count(),
+            "stored_triangles": world.stored_triangle_count(),
+            "prototypes": world.prototype_count(),
+            "placements": world.placement_count(),
             "bounds": [bounds.min.to_array(), bounds.max.to_array()],
             "lights": count,
             "kinds": kinds,
@@ -101,6 +104,14 @@ impl InfoArgs {
         let bounds = world.bounds();
         println!("{}", self.input.scene.display());
         println!("  triangles  {}", world.triangle_count());
+        if world.placement_count() > 0 {
+            println!(
+                "  objects    {} stored once, in {} places: {} triangles stored",
+                world.prototype_count(),
+                world.placement_count(),
+                world.stored_triangle_count()
+            );
+        }
         println!("  bounds     {} to {}", bounds.min, bounds.max);
         println!("  lights     {}", world.lights().len());
         for k in kinds {

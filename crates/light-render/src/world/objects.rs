@@ -5,7 +5,7 @@ use super::WorldError;
 use crate::Place;
 
 /// Objects of no more triangles are copied: those take no more memory than a placement does, and rays find them sooner.
-const FEW: usize = 4;
+const FEW: usize = 2;
 
 /// Triangles of shining objects that may be copied, about 8 GB of them.
 const MOST_COPIES: usize = 1 << 25;

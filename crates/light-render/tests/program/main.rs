@@ -85,6 +85,8 @@ fn info_counts_the_lights() {
     let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
     assert_eq!(report["kinds"][0]["count"], 2, "{line}");
     assert_eq!(report["triangles"], 4, "{line}");
+    assert_eq!(report["stored_triangles"], 4, "{line}");
+    assert_eq!(report["placements"], 0, "{line}");
     assert_eq!(report["bytes"]["vertices"], 4 * 12 + 2 * 12, "{line}");
     let tree = report["tree"]["bytes"].as_f64().expect("a number");
     let lights = report["bytes"]["lights"].as_f64().expect("a number");

@@ -10,6 +10,7 @@ mod lights;
 #[cfg(test)]
 mod lights_tests;
 mod materials;
+mod mesh_uses;
 mod nodes;
 mod primitives;
 mod reader;

@@ -60,12 +60,13 @@ impl<'a> Reader<'a> {
         let Some(mesh) = node.get("mesh")? else {
             return Ok(());
         };
-        let (_, mesh) = mesh.target("meshes")?;
+        let (index, mesh) = mesh.target("meshes")?;
         if place.matrix3.determinant() == 0.0 {
             self.warn(node, "was left out: its transform makes its mesh flat");
             return Ok(());
         }
-        self.mesh(&mesh, place)
+        self.uses.add(index, mesh, node.clone(), *place);
+        Ok(())
     }
 
     fn camera(

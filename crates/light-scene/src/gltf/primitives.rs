@@ -4,32 +4,37 @@ use super::reader::Reader;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Diagnostic, Mesh};
 
-/// Triangles that a document may place, however often it names the same ones.
+/// Triangles that a document may hold, however often it names the same ones.
 const MOST_TRIANGLES: usize = 1 << 27;
 
 impl<'a> Reader<'a> {
-    /// Places the primitives of a mesh.
-    pub(super) fn mesh(&mut self, mesh: &Item<'a>, place: &Affine3A) -> Result<(), Diagnostic> {
+    /// The primitives of a mesh that have triangles, moved by `place`.
+    pub(super) fn primitives(
+        &mut self,
+        mesh: &Item<'a>,
+        place: &Affine3A,
+    ) -> Result<Vec<Mesh>, Diagnostic> {
+        let mut placed = Vec::new();
         for primitive in mesh.list("primitives")? {
             let Some(mut triangles) = self.primitive(&primitive)? else {
                 continue;
             };
-            triangles.name = mesh.name().to_owned();
-            let mut placed = triangles.transformed(place);
-            placed.drop_empty_triangles();
-            if !placed.positions.iter().all(|position| position.is_finite()) {
+            mesh.name().clone_into(&mut triangles.name);
+            let mut triangles = triangles.transformed(place);
+            triangles.drop_empty_triangles();
+            if !triangles.positions.iter().all(|p| p.is_finite()) {
                 return Err(primitive.error("expected a transform that keeps vertices finite"));
             }
-            if placed.indices.is_empty() {
-                continue;
-            }
-            if self.scene.triangle_count() + placed.indices.len() > MOST_TRIANGLES {
+            self.triangles += triangles.indices.len();
+            if self.triangles > MOST_TRIANGLES {
                 let message = format!("expected at most {MOST_TRIANGLES} triangles in all");
                 return Err(primitive.error(&message));
             }
-            self.scene.meshes.push(placed);
+            if !triangles.indices.is_empty() {
+                placed.push(triangles);
+            }
         }
-        Ok(())
+        Ok(placed)
     }
 
     /// The triangles of a primitive, if it has any.

@@ -5,6 +5,7 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::item::Item;
 use super::materials::Materials;
+use super::mesh_uses::MeshUses;
 use super::textures::Textures;
 use crate::{Diagnostic, Files, Scene};
 
@@ -27,6 +28,9 @@ pub(super) struct Reader<'a> {
     pub(super) scene: Scene,
     pub(super) textures: Textures,
     pub(super) materials: Materials,
+    pub(super) uses: MeshUses<'a>,
+    /// How many the document holds so far.
+    pub(super) triangles: usize,
     warned: BTreeSet<String>,
 }
 
@@ -56,6 +60,8 @@ impl<'a> Reader<'a> {
             scene: Scene::default(),
             textures: Textures::default(),
             materials: Materials::default(),
+            uses: MeshUses::default(),
+            triangles: 0,
             warned: BTreeSet::new(),
         })
     }
@@ -63,6 +69,7 @@ impl<'a> Reader<'a> {
     /// The scene.
     pub(super) fn read(mut self) -> Result<Scene, Diagnostic> {
         self.nodes()?;
+        self.place_meshes()?;
         for item in self.document.unasked() {
             self.warn(&item, "was ignored");
         }

@@ -3,7 +3,7 @@ use std::path::Path;
 use super::data_uri::tests::data_uri;
 use super::glb::tests::glb;
 use super::parse_gltf;
-use crate::glam::{Vec2, Vec3};
+use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Color, EmissionSides, Files, Scene, Surface};
 
 /// A square of four vertices in z = 0 and its two triangles as bytes: positions, texture coordinates, indices.
@@ -115,6 +115,34 @@ fn reads_nodes_meshes_materials_and_a_camera() {
     for message in expected {
         assert!(warnings.contains(&message), "{message} in {warnings:?}");
     }
+}
+
+#[test]
+fn meshes_of_several_nodes_are_placed() {
+    let json = r#""scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0, "scale": [2, 1, 1], "children": [3]}, {"mesh": 1}, {"mesh": 0},
+            {"mesh": 0, "translation": [1, 0, 0]}],
+        "meshes": [{"name": "square", "primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]},
+            {"primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]}]"#;
+    let scene = read(json).expect("a scene");
+    assert_eq!(scene.meshes.len(), 1, "one node shows the second");
+    let [square] = &scene.prototypes[..] else {
+        panic!("one, not {}", scene.prototypes.len());
+    };
+    assert_eq!(square.name, "square", "its name");
+    assert_eq!(square.meshes[0].positions[1], Vec3::X, "in its own place");
+    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    let wide = Affine3A::from_scale(Vec3::new(2.0, 1.0, 1.0));
+    let moved = wide * Affine3A::from_translation(Vec3::X);
+    assert_eq!(places, [wide, moved, Affine3A::IDENTITY], "three nodes");
+    assert_eq!(scene.triangle_count(), 8, "four squares");
+    let far = json.replace("[1, 0, 0]", "[3e38, 0, 0]");
+    let far = far.replace("[2, 1, 1]", "[1, 1, 1]");
+    assert!(read(&far).is_ok(), "far");
+    let farther = far.replace("3e38, 0, 0]", "3.4e38, 0, 0], \"scale\": [1e37, 1, 1]");
+    let error = read(&farther).expect_err("its far side is nowhere");
+    let expected = "a.gltf: nodes[3]: expected a transform that keeps vertices finite";
+    assert_eq!(error, expected, "nowhere");
 }
 
 #[test]

@@ -3,7 +3,7 @@ use std::path::Path;
 use super::state::{At, Reader, Typed};
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
-use crate::glam::{Affine3A, Mat4, Vec3};
+use crate::glam::{Mat4, Vec3};
 use crate::gunzip::gunzipped;
 use crate::text::{shown, text_of};
 
@@ -48,35 +48,26 @@ impl Reader {
         match directive {
             "AttributeBegin" => self.saved.push(self.state.clone()),
             "AttributeEnd" => {
-                let saved = self.saved.pop();
-                self.state = saved.ok_or_else(|| unmatched(at, "AttributeBegin"))?;
+                let saved = self.saved_state();
+                self.state = saved.ok_or_else(|| at.unmatched("AttributeBegin"))?;
             }
             "TransformBegin" => self.saved_transforms.push(self.state.transform),
             "TransformEnd" => {
                 let saved = self.saved_transforms.pop();
-                self.state.transform = saved.ok_or_else(|| unmatched(at, "TransformBegin"))?;
+                self.state.transform = saved.ok_or_else(|| at.unmatched("TransformBegin"))?;
             }
             "WorldBegin" => {
                 self.in_world = true;
                 self.state.transform = Mat4::IDENTITY;
             }
             "ObjectBegin" => {
-                let name = tokens.quoted("an object's name")?.into_owned();
-                self.saved.push(self.state.clone());
-                self.object = Some((name, Vec::new()));
+                let name = tokens.quoted("an object's name")?;
+                self.object_begin(at, &name)?;
             }
-            "ObjectEnd" => {
-                let (name, meshes) = self
-                    .object
-                    .take()
-                    .ok_or_else(|| unmatched(at, "ObjectBegin"))?;
-                self.objects.insert(name, meshes);
-                let saved = self.saved.pop();
-                self.state = saved.ok_or_else(|| unmatched(at, "ObjectBegin"))?;
-            }
+            "ObjectEnd" => self.object_end(at)?,
             "ObjectInstance" => {
                 let name = tokens.quoted("an object's name")?;
-                self.instance(at, &name)?;
+                self.object_instance(at, &name)?;
             }
             "ReverseOrientation" => self.state.reversed ^= true,
             "NamedMaterial" => {
@@ -196,22 +187,6 @@ impl Reader {
         self.warn_unused(at, &name, &typed.parameters);
         Ok(())
     }
-
-    fn instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
-        let message = || format!("expected an object's name, found \"{}\"", shown(name));
-        let meshes = self
-            .objects
-            .get(name)
-            .ok_or_else(|| at.diagnostic(message()))?;
-        let place = Affine3A::from_mat4(self.state.transform);
-        let placed: Vec<_> = meshes.iter().map(|mesh| mesh.transformed(&place)).collect();
-        self.scene.meshes.extend(placed);
-        Ok(())
-    }
-}
-
-fn unmatched(at: At<'_>, begin: &str) -> Diagnostic {
-    at.diagnostic(format!("expected `{begin}` before"))
 }
 
 /// From the world to a camera at `eye`.

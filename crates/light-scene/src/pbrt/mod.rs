@@ -7,6 +7,9 @@ mod lights;
 mod materials;
 mod media;
 mod medium_grid;
+mod objects;
+#[cfg(test)]
+mod objects_tests;
 mod parameters;
 mod ply;
 mod shapes;

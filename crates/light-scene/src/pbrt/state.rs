@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 use lights::sources::MediumInterface;
 
 use super::media::MediumSlot;
+use super::objects::Objects;
 use super::parameters::Parameters;
 use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
-use crate::{
-    Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Mesh, Place, Scene,
-};
+use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
 
 /// What the directives so far have built, and the state that the next one acts on.
 #[derive(Debug, Default)]
@@ -29,9 +28,7 @@ pub(super) struct Reader {
     pub(super) media: Vec<MediumSlot>,
     /// The twins of materials that bound media.
     pub(super) interfaces: HashMap<(MaterialId, MediumInterface), MaterialId>,
-    pub(super) objects: HashMap<String, Vec<Mesh>>,
-    /// The object that shapes belong to between `ObjectBegin` and `ObjectEnd`.
-    pub(super) object: Option<(String, Vec<Mesh>)>,
+    pub(super) objects: Objects,
     pub(super) camera: Option<Camera>,
     pub(super) resolution: Option<[u32; 2]>,
     pub(super) crop: Option<Crop>,
@@ -69,6 +66,11 @@ impl At<'_> {
     pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::at(self.path, Place::Line(self.line), message)
     }
+
+    /// Says that a directive lacks the one that it ends, or one in between.
+    pub(super) fn unmatched(&self, before: &str) -> Diagnostic {
+        self.diagnostic(format!("expected `{before}` before"))
+    }
 }
 
 impl Reader {
@@ -101,14 +103,6 @@ impl Reader {
         }
     }
 
-    /// A mesh of the world, or of the object that is being described.
-    pub(super) fn add_mesh(&mut self, mesh: Mesh) {
-        match &mut self.object {
-            Some((_, meshes)) => meshes.push(mesh),
-            None => self.scene.meshes.push(mesh),
-        }
-    }
-
     /// The scene, once all files are read.
     pub(super) fn finish(mut self, path: &Path) -> Result<Scene, Diagnostic> {
         if !self.in_world {
@@ -120,6 +114,7 @@ impl Reader {
             ..camera
         });
         self.scene.media = self.finished_media()?;
+        self.scene.prototypes = self.finished_objects()?;
         Ok(self.scene)
     }
 }

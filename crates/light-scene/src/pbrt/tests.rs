@@ -3,12 +3,12 @@ use std::path::Path;
 
 use super::ply::parse_ply;
 use super::read_pbrt;
-use crate::glam::{Vec2, Vec3};
+use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::test_folder::TestFolder;
-use crate::{Color, Diagnostic, Scene, Surface};
+use crate::{Color, Diagnostic, Prototype, Scene, Surface};
 use ::lights::sources::LightDesc;
 
-fn read(name: &str, text: &str) -> Result<Scene, String> {
+pub(super) fn read(name: &str, text: &str) -> Result<Scene, String> {
     let folder = TestFolder::new(name);
     let path = folder.path("a.pbrt");
     fs::write(&path, text).expect("written");
@@ -53,8 +53,8 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     assert!(camera.position.abs_diff_eq(Vec3::NEG_Z * 5.0, 1e-5), "eye");
     assert_eq!(camera.resolution, Some([64, 48]), "film");
     assert_eq!(camera.lens.expect("a lens").focus_distance, 5.0, "lens");
-    let [quad, ball, other] = &scene.meshes[..] else {
-        panic!("three meshes, not {}", scene.meshes.len());
+    let [quad] = &scene.meshes[..] else {
+        panic!("one mesh, not {}", scene.meshes.len());
     };
     assert_eq!(quad.positions[0], Vec3::Y * 2.0, "translated");
     assert_eq!(scene.emissive_triangle_count(), 2, "the quad shines");
@@ -62,14 +62,14 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     let radiance = Color::Constant(Vec3::new(2.0, 4.0, 6.0));
     assert_eq!(emission.radiance, radiance, "scaled");
     assert_eq!(emission.sides, crate::EmissionSides::Both, "two-sided");
-    assert!(
-        ball.bounds().center().abs_diff_eq(Vec3::X * 3.0, 1e-3),
-        "placed"
-    );
-    assert!(
-        other.bounds().center().abs_diff_eq(Vec3::ZERO, 1e-3),
-        "as it is"
-    );
+    let [Prototype { name, meshes }] = &scene.prototypes[..] else {
+        panic!("one object, not {}", scene.prototypes.len());
+    };
+    assert_eq!((name.as_str(), meshes.len()), ("ball", 1), "a sphere");
+    let ball = &meshes[0];
+    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    let moved = [Vec3::X * 3.0, Vec3::ZERO].map(Affine3A::from_translation);
+    assert_eq!(places, moved, "placed twice");
     let gold = &scene.material(ball.material).surface;
     let Surface::Conductor { alpha, .. } = gold else {
         panic!("a metal, not {gold:?}");
@@ -256,10 +256,6 @@ fn broken_files_give_one_clear_line() {
         ("AttributeEnd", "a.pbrt:1: expected `AttributeBegin` before"),
         ("TransformEnd", "a.pbrt:1: expected `TransformBegin` before"),
         ("ObjectEnd", "a.pbrt:1: expected `ObjectBegin` before"),
-        (
-            "ObjectInstance \"a\"",
-            "a.pbrt:1: expected an object's name, found \"a\"",
-        ),
         (
             "NamedMaterial \"a\"",
             "a.pbrt:1: expected a named material, found \"a\"",

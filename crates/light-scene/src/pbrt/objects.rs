@@ -1,0 +1,126 @@
+use std::collections::HashMap;
+
+use super::state::{At, Reader, State};
+use crate::glam::Affine3A;
+use crate::text::shown;
+use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId};
+
+/// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they describe it.
+#[derive(Debug, Default)]
+pub(super) struct Objects {
+    by_name: HashMap<String, PrototypeId>,
+    slots: Vec<ObjectSlot>,
+    /// The one that is being described.
+    open: Option<OpenObject>,
+}
+
+#[derive(Debug)]
+struct ObjectSlot {
+    name: String,
+    /// What to say if nobody describes it.
+    unknown: Diagnostic,
+    meshes: Option<Vec<Mesh>>,
+}
+
+/// An object between `ObjectBegin` and `ObjectEnd`.
+#[derive(Debug)]
+struct OpenObject {
+    id: PrototypeId,
+    meshes: Vec<Mesh>,
+    /// How many states are saved, its own included.
+    depth: usize,
+    /// What to say if nobody ends it.
+    unclosed: Diagnostic,
+}
+
+impl Objects {
+    fn id(&mut self, at: At<'_>, name: &str) -> PrototypeId {
+        if let Some(&id) = self.by_name.get(name) {
+            return id;
+        }
+        let id = u32::try_from(self.slots.len()).expect("fewer than 2^32 objects");
+        self.by_name.insert(name.to_owned(), PrototypeId(id));
+        let message = format!("expected an object's name, found \"{}\"", shown(name));
+        self.slots.push(ObjectSlot {
+            name: name.to_owned(),
+            unknown: at.diagnostic(message),
+            meshes: None,
+        });
+        PrototypeId(id)
+    }
+}
+
+impl Reader {
+    /// `ObjectBegin "name"`: what follows stands nowhere yet.
+    pub(super) fn object_begin(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
+        if self.objects.open.is_some() {
+            return Err(at.diagnostic("expected `ObjectEnd` before another `ObjectBegin`"));
+        }
+        let id = self.objects.id(at, name);
+        if self.objects.slots[id.0 as usize].meshes.is_some() {
+            let message = format!("expected one object \"{}\", found another", shown(name));
+            return Err(at.diagnostic(message));
+        }
+        self.saved.push(self.state.clone());
+        self.objects.open = Some(OpenObject {
+            id,
+            meshes: Vec::new(),
+            depth: self.saved.len(),
+            unclosed: at.diagnostic("expected `ObjectEnd` after `ObjectBegin`"),
+        });
+        Ok(())
+    }
+
+    pub(super) fn object_end(&mut self, at: At<'_>) -> Result<(), Diagnostic> {
+        let open = self.objects.open.take();
+        let open = open.ok_or_else(|| at.unmatched("ObjectBegin"))?;
+        if self.saved.len() > open.depth {
+            return Err(at.unmatched("AttributeEnd"));
+        }
+        self.objects.slots[open.id.0 as usize].meshes = Some(open.meshes);
+        self.state = self
+            .saved
+            .pop()
+            .ok_or_else(|| at.unmatched("ObjectBegin"))?;
+        Ok(())
+    }
+
+    /// `ObjectInstance "name"`: the transform in force acts on top of those that the object was described with.
+    pub(super) fn object_instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
+        if self.objects.open.is_some() {
+            return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));
+        }
+        let prototype = self.objects.id(at, name);
+        let place = Affine3A::from_mat4(self.state.transform);
+        self.scene.placements.push(Placement { prototype, place });
+        Ok(())
+    }
+
+    /// The state that `AttributeEnd` goes back to, unless it belongs to an object.
+    pub(super) fn saved_state(&mut self) -> Option<State> {
+        let open = self.objects.open.as_ref();
+        let kept = open.map_or(0, |open| open.depth);
+        (self.saved.len() > kept).then(|| self.saved.pop())?
+    }
+
+    /// A mesh of the world, or of the object that is being described.
+    pub(super) fn add_mesh(&mut self, mesh: Mesh) {
+        match &mut self.objects.open {
+            Some(open) => open.meshes.push(mesh),
+            None => self.scene.meshes.push(mesh),
+        }
+    }
+
+    /// All objects, in the order of their ids, once everything is read.
+    pub(super) fn finished_objects(&mut self) -> Result<Vec<Prototype>, Diagnostic> {
+        let Objects { slots, open, .. } = core::mem::take(&mut self.objects);
+        if let Some(open) = open {
+            return Err(open.unclosed);
+        }
+        let prototype = |slot: ObjectSlot| {
+            let meshes = slot.meshes.ok_or(slot.unknown)?;
+            Ok(Prototype::new(slot.name, meshes))
+        };
+        slots.into_iter().map(prototype).collect()
+    }
+}

@@ -1,0 +1,84 @@
+use super::tests::read;
+use crate::glam::{Affine3A, Vec3};
+
+const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]";
+
+#[test]
+fn transforms_of_places_act_on_top_of_those_of_objects() {
+    let text = format!(
+        "Scale 9 9 9 WorldBegin
+        ObjectInstance \"later\"
+        Translate 5 0 0
+        ObjectBegin \"later\" Translate 1 0 0 {TRIANGLE} ObjectEnd
+        AttributeBegin Scale 2 2 -2 ObjectInstance \"later\" AttributeEnd
+        ObjectInstance \"later\""
+    );
+    let scene = read("pbrt_places", &text).expect("a scene");
+    assert!(scene.meshes.is_empty(), "nothing stands by itself");
+    let own = scene.prototypes[0].meshes[0].positions[1];
+    assert_eq!(own, Vec3::X * 7.0, "moved where it is described");
+    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    let moved = Affine3A::from_translation(Vec3::X * 5.0);
+    let mirrored = moved * Affine3A::from_scale(Vec3::new(2.0, 2.0, -2.0));
+    assert_eq!(
+        places,
+        [Affine3A::IDENTITY, mirrored, moved],
+        "the state of the object ended with it"
+    );
+    assert_eq!(scene.triangle_count(), 3, "one in three places");
+    assert_eq!(
+        scene.bounds().max,
+        Vec3::new(19.0, 2.0, 0.0),
+        "the mirrored"
+    );
+}
+
+#[test]
+fn nothing_can_be_placed() {
+    let text = "WorldBegin ObjectBegin \"n\" ObjectEnd ObjectInstance \"n\"";
+    let scene = read("pbrt_nothing", text).expect("a scene");
+    assert_eq!(
+        (scene.placements.len(), scene.triangle_count()),
+        (1, 0),
+        "n"
+    );
+    assert!(scene.bounds().is_empty(), "it is nowhere");
+}
+
+#[test]
+fn misplaced_objects_give_one_clear_line() {
+    let cases = [
+        (
+            "WorldBegin\nObjectInstance \"a\"\nObjectInstance \"a\"",
+            "a.pbrt:2: expected an object's name, found \"a\"",
+        ),
+        (
+            "WorldBegin ObjectBegin \"a\"\nObjectBegin \"b\"",
+            "a.pbrt:2: expected `ObjectEnd` before another `ObjectBegin`",
+        ),
+        (
+            "WorldBegin ObjectBegin \"a\"\nObjectInstance \"b\"",
+            "a.pbrt:2: expected `ObjectEnd` before `ObjectInstance`",
+        ),
+        (
+            "WorldBegin ObjectBegin \"a\" ObjectEnd\nObjectBegin \"a\"",
+            "a.pbrt:2: expected one object \"a\", found another",
+        ),
+        (
+            "WorldBegin\nObjectBegin \"a\"\nTranslate 1 0 0",
+            "a.pbrt:2: expected `ObjectEnd` after `ObjectBegin`",
+        ),
+        (
+            "WorldBegin AttributeBegin ObjectBegin \"a\"\nAttributeEnd",
+            "a.pbrt:2: expected `AttributeBegin` before",
+        ),
+        (
+            "WorldBegin ObjectBegin \"a\" AttributeBegin\nObjectEnd",
+            "a.pbrt:2: expected `AttributeEnd` before",
+        ),
+    ];
+    for (text, expected) in cases {
+        let error = read("pbrt_objects", text).expect_err(text);
+        assert_eq!(error, expected, "{text}");
+    }
+}
