@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::glam::Vec3;
 use crate::ies::parse_luminaire;
+use crate::image::tests::png;
 use crate::test_folder::TestFolder;
 use crate::{
     Diagnostic, Files, Image, parse_image, parse_obj, parse_ply, parse_scene, write_image,
@@ -66,19 +67,23 @@ fn refused<T>(
 
 const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nvt 0 1\nvn 0 0 1\no a\nusemtl a\n\
     f 1/1/1 2/1/1 3/1/1\nf -1//1 -2//1 -3//1\n";
-const MTL: &str = "newmtl a\nKd .5 .5 .5\nKe 1 2 3\nillum 5\nNi 1.5\n";
+const MTL: &str = "newmtl a\nKd .5 .5 .5\nKe 1 2 3\nillum 5\nNi 1.5\nnewmtl b\nd .5\nTr .5\nPr .3\nKs .1\n\
+    map_d -s 2 2 1 -clamp on a.png\nmap_Kd -o .5 a.png\n";
 
 #[test]
 fn obj_and_its_materials() {
     let path = Path::new("no/such/file");
-    let n = refused("obj", OBJ.as_bytes(), |bytes| {
-        let text = String::from_utf8_lossy(bytes);
-        parse_obj(path, &text, Files::new(&|_| Ok(MTL.into())))
-    });
+    let texel = png(image::GrayImage::new(1, 1));
+    let read = |obj: &[u8], mtl: &[u8]| {
+        let beside = |path: &Path| match path.extension() {
+            Some(ending) if ending == "png" => Ok(texel.clone()),
+            _ => Ok(mtl.to_vec()),
+        };
+        parse_obj(path, &String::from_utf8_lossy(obj), Files::new(&beside))
+    };
+    let n = refused("obj", OBJ.as_bytes(), |obj| read(obj, MTL.as_bytes()));
     assert!(n >= 100, "{n} of {VARIANTS} OBJ files");
-    let n = refused("mtl", MTL.as_bytes(), |bytes| {
-        parse_obj(path, OBJ, Files::new(&|_| Ok(bytes.to_vec())))
-    });
+    let n = refused("mtl", MTL.as_bytes(), |mtl| read(OBJ.as_bytes(), mtl));
     assert!(n >= 100, "{n} of {VARIANTS} MTL files");
 }
 

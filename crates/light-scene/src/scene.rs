@@ -6,7 +6,7 @@ use lights::sources::{
 };
 
 use crate::glam::{Affine3A, Vec3};
-use crate::{Camera, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId};
+use crate::{Camera, Color, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId};
 
 /// Position of a material in [`Scene::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -74,6 +74,18 @@ impl Scene {
     #[must_use]
     pub fn material(&self, id: MaterialId) -> &Material {
         &self.materials[id.0 as usize]
+    }
+
+    /// The mean of a colour over the whole of its image.
+    ///
+    /// # Panics
+    /// Panics if the scene has no such image; readers never make such a colour.
+    #[must_use]
+    pub fn mean(&self, color: &Color) -> Vec3 {
+        match color {
+            Color::Constant(color) => *color,
+            Color::Image(shown) => shown.scale * self.images[shown.image.0 as usize].mean(),
+        }
     }
 
     /// The prototype with this id.

@@ -157,17 +157,13 @@ impl<'a> Reader<'a> {
 
     /// One colour for a surface that has no place for more.
     fn one_color(&mut self, item: &Item<'a>, color: Color) -> Vec3 {
-        match color {
-            Color::Constant(color) => color,
-            Color::Image(ColorImage { image, scale, .. }) => {
-                self.warn(
-                    item,
-                    "has a base colour whose texture was taken as its mean",
-                );
-                let texels = self.scene.images[image.0 as usize].texels();
-                scale * texels.iter().copied().sum::<Vec3>() / texels.len() as f32
-            }
+        if let Color::Image(_) = color {
+            self.warn(
+                item,
+                "has a base colour whose texture was taken as its mean",
+            );
         }
+        self.scene.mean(&color)
     }
 
     /// Emission is in nits where its colour is white.

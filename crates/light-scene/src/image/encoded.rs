@@ -50,6 +50,13 @@ impl EncodedImage {
         has_holes.then(|| self.of_texels(texels))
     }
 
+    /// How bright each texel is as it is written, alike in all channels.
+    pub(crate) fn brightness(&self) -> Image {
+        let image = self.0.to_luma16();
+        let texels = image.pixels().map(|texel| Vec3::splat(part(texel.0[0])));
+        self.of_texels(texels.collect())
+    }
+
     /// The mean of the channels as they are written.
     pub(crate) fn mean_of_data(&self) -> Vec3 {
         let image = self.0.to_rgb16();

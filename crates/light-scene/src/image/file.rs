@@ -46,6 +46,19 @@ pub fn parse_image(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
     }
 }
 
+/// How opaque an image says that a surface is: by the alpha channel of a PNG file that has one, by the brightness of others,
+/// alike in all channels.
+pub(crate) fn read_opacity_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
+    if matches!(ending(path).as_str(), "exr" | "hdr") {
+        return read_image_from(path, files);
+    }
+    let encoded = EncodedImage::parse(path, &files.read(path)?)?;
+    Ok(ImageFile {
+        image: encoded.alpha().unwrap_or_else(|| encoded.brightness()),
+        warning: None,
+    })
+}
+
 /// Whether [`read_image`] reads files whose name ends so.
 pub(crate) fn is_image_name(path: &Path) -> bool {
     matches!(

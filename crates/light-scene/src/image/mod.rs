@@ -13,14 +13,14 @@ use core::fmt;
 
 use lights::sources::{self as sources, Channels};
 
-use crate::glam::Vec3;
+use crate::glam::{DVec3, Vec3};
 
 pub use channels::ChannelFile;
 use checked::checked;
 pub use display::{write_hdr, write_png};
 pub(crate) use encoded::EncodedImage;
 pub use file::{ImageFile, parse_image, read_image, write_image};
-pub(crate) use file::{is_image_name, read_image_from};
+pub(crate) use file::{is_image_name, read_image_from, read_opacity_from};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 
 /// A linear RGB image in memory, row 0 on top.
@@ -84,6 +84,13 @@ impl Image {
         self.texels
     }
 
+    /// The mean of all texels.
+    #[must_use]
+    pub fn mean(&self) -> Vec3 {
+        let sum: DVec3 = self.texels.iter().map(|texel| texel.as_dvec3()).sum();
+        (sum / self.texels.len() as f64).as_vec3()
+    }
+
     /// The image as lights hold it: with one channel where all three are alike.
     ///
     /// # Errors
@@ -122,4 +129,4 @@ impl fmt::Display for ImageError {
 impl core::error::Error for ImageError {}
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -9,6 +9,14 @@ fn picture() -> Image {
     Image::new(3, 2, (0..6).map(texel).collect()).expect("3 x 2")
 }
 
+/// The bytes of a PNG file.
+pub(crate) fn png(image: impl Into<::image::DynamicImage>) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = image.into().write_to(&mut bytes, ::image::ImageFormat::Png);
+    written.expect("a PNG file");
+    bytes.into_inner()
+}
+
 #[test]
 fn sizes_must_fit() {
     let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, Vec3::ZERO];

@@ -1,7 +1,6 @@
 use super::*;
 use crate::glam::Vec2;
-use crate::test_folder::TestFolder;
-use crate::{Color, Emission, Image, Surface};
+use crate::{Color, Emission, Surface};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -150,65 +149,6 @@ fn broken_obj_lines_give_one_clear_line() {
 }
 
 #[test]
-fn broken_mtl_lines_give_one_clear_line() {
-    let cases = [
-        (
-            "",
-            "dir/a.mtl: expected at least one material (`newmtl NAME`)",
-        ),
-        (
-            "Kd 1 1 1\n",
-            "dir/a.mtl:1: expected `newmtl NAME` before `Kd`",
-        ),
-        ("newmtl\n", "dir/a.mtl:1: expected a material's name"),
-        (
-            "newmtl a\nKd\n",
-            "dir/a.mtl:2: expected a colour channel, found the end of the line",
-        ),
-        (
-            "newmtl a\nKd 1 1\n",
-            "dir/a.mtl:2: expected a colour channel, found the end of the line",
-        ),
-        (
-            "newmtl a\nKe 1 -1 1\n",
-            "dir/a.mtl:2: expected colour channels of at least 0",
-        ),
-        (
-            "newmtl a\nNi -1\n",
-            "dir/a.mtl:2: expected an index of refraction of at least 0, found -1",
-        ),
-        (
-            "newmtl a\nillum 11\n",
-            "dir/a.mtl:2: expected an illumination model of 0 to 10, found `11`",
-        ),
-    ];
-    for (mtl, expected) in cases {
-        assert_eq!(error("mtllib a.mtl\n", mtl), expected, "{mtl}");
-    }
-}
-
-#[test]
-fn materials_mean_what_the_documentation_says() {
-    let mtl = "newmtl mirror\nKs .9 .9 .9\nillum 5\nnewmtl glass\nNi 1.3\nillum 7\n\
-        newmtl gold\nPm 1\nPr .5\nKd 1 .7 .3\nnewmtl grey\nKd .4\n";
-    let obj = format!("mtllib a.mtl\n{TRIANGLE}f 1 2 3\n");
-    let scene = parse(&obj, mtl).expect("a scene");
-    let surfaces: Vec<_> = scene.materials.iter().map(|m| &m.surface).collect();
-    let reflectance = Vec3::splat(0.9);
-    assert_eq!(surfaces[0], &Surface::Mirror { reflectance }, "illum 5");
-    let alpha = Vec2::ZERO;
-    assert_eq!(
-        surfaces[1],
-        &Surface::Dielectric { eta: 1.3, alpha },
-        "illum 7"
-    );
-    let gold = Surface::conductor_of_reflectance(Vec3::new(1.0, 0.7, 0.3), Vec2::splat(0.25));
-    assert_eq!(surfaces[2], &gold, "Pm");
-    let reflectance = Color::Constant(Vec3::splat(0.4));
-    assert_eq!(surfaces[3], &Surface::Diffuse { reflectance }, "one number");
-}
-
-#[test]
 fn missing_file_is_named() {
     let error = read_obj(Path::new("no/such.obj")).expect_err("an error");
     let shown = error.to_string();
@@ -245,43 +185,4 @@ fn agrees_with_tobj() {
             .map(|e| Emission::one_sided(Vec3::from(e)));
         assert_eq!(emission, theirs, "emission");
     }
-}
-
-#[test]
-fn images_color_surfaces_and_lights() {
-    let folder = TestFolder::new("obj_textures");
-    let image = Image::new(1, 1, vec![Vec3::ONE]).expect("1 x 1");
-    crate::write_image(&folder.path("a b.png"), &image).expect("written");
-    let obj = format!("mtllib a.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\n");
-    std::fs::write(folder.path("a.obj"), obj).expect("written");
-    let read = |mtl: &str| {
-        std::fs::write(folder.path("a.mtl"), mtl).expect("written");
-        read_obj(&folder.path("a.obj"))
-    };
-    let mtl = "newmtl a\nKd .5 .5 .5\nmap_Kd a b.png\nmap_Ke a b.png\nnewmtl b\nmap_Kd c.tga\n";
-    let scene = read(mtl).expect("a scene");
-    assert_eq!(scene.images.len(), 1, "shared");
-    let texture = |scale: f32| {
-        Color::Image(crate::ColorImage {
-            scale: Vec3::splat(scale),
-            ..crate::ColorImage::new(crate::ImageId(0))
-        })
-    };
-    let reflectance = texture(0.5);
-    let material = &scene.materials[0];
-    assert_eq!(
-        material.surface,
-        Surface::Diffuse { reflectance },
-        "Kd times"
-    );
-    let emission = material.emission.expect("emission");
-    assert_eq!(emission.radiance, texture(1.0), "map_Ke alone");
-    let warning = &scene.warnings[0].message;
-    assert_eq!(
-        warning, "`c.tga` was ignored: expected .exr, .hdr, .png or .jpg",
-        "kind"
-    );
-    let error = read("newmtl a\nmap_Kd no.png\n").expect_err("missing");
-    assert_eq!(error.place, crate::Place::Line(2), "with its line");
-    assert!(error.message.contains("no.png: cannot be read"), "{error}");
 }

@@ -73,14 +73,7 @@ impl Reader {
         let Some(light) = self.state.area_light else {
             return;
         };
-        let mean = match light.radiance {
-            Color::Constant(radiance) => radiance,
-            Color::Image(texture) => {
-                let image = &self.scene.images[texture.image.0 as usize];
-                let sum: Vec3 = image.texels().iter().copied().sum();
-                texture.scale * sum / image.texels().len() as f32
-            }
-        };
+        let mean = self.scene.mean(&light.radiance);
         let scale = area_scale(&light, mean, mesh.area());
         let emission = Emission {
             radiance: scaled(light.radiance, Vec3::splat(scale)),

@@ -1,0 +1,234 @@
+use crate::glam::{Vec2, Vec3};
+use crate::text::{Line, shown};
+use crate::{
+    Alpha, Color, ColorImage, Diagnostic, Emission, EmissionSides, Material, Scene, Surface,
+};
+
+/// One material as the library writes it.
+#[derive(Debug)]
+pub(super) struct Description {
+    pub(super) name: String,
+    diffuse: Option<Vec3>,
+    pub(super) diffuse_map: Option<ColorImage>,
+    specular: Vec3,
+    emitted: Vec3,
+    pub(super) emitted_map: Option<ColorImage>,
+    /// `d`: how much of the surface is there.
+    dissolve: Option<f32>,
+    /// `Tr`: how much is not.
+    transparency: Option<f32>,
+    pub(super) dissolve_map: Option<ColorImage>,
+    index_of_refraction: f32,
+    roughness: Option<f32>,
+    metallic: f32,
+    illumination: u8,
+}
+
+/// What a description is nearest to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Finish {
+    Matt,
+    Lacquer,
+    Metal,
+    Mirror,
+    Glass,
+}
+
+impl Description {
+    pub(super) fn new(name: String) -> Self {
+        Self {
+            name,
+            diffuse: None,
+            diffuse_map: None,
+            specular: Vec3::ZERO,
+            emitted: Vec3::ZERO,
+            emitted_map: None,
+            dissolve: None,
+            transparency: None,
+            dissolve_map: None,
+            index_of_refraction: 1.5,
+            roughness: None,
+            metallic: 0.0,
+            illumination: 2,
+        }
+    }
+
+    /// Takes in one line; whether its keyword is understood.
+    pub(super) fn parameter(
+        &mut self,
+        keyword: &str,
+        line: &mut Line<'_>,
+    ) -> Result<bool, Diagnostic> {
+        match keyword {
+            "Kd" => self.diffuse = Some(color(line)?.min(Vec3::ONE)),
+            "Ks" => self.specular = color(line)?.min(Vec3::ONE),
+            "Ke" => self.emitted = color(line)?,
+            "d" => self.dissolve = Some(share(line, "a dissolve")?),
+            "Tr" => self.transparency = Some(share(line, "a transparency")?),
+            "Ni" => self.index_of_refraction = at_least_zero(line, "an index of refraction")?,
+            "Pr" => self.roughness = Some(share(line, "a roughness")?),
+            "Pm" => self.metallic = share(line, "a metalness")?,
+            "illum" => self.illumination = illumination(line)?,
+            // Ambient light has no place where light is traced; the exponent goes with the gloss of `Ks`.
+            "Ka" | "map_Ka" | "Ns" => {}
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What of the description does not count, in words.
+    pub(super) fn simplifications(&self) -> impl Iterator<Item = &'static str> {
+        let finish = self.finish();
+        let has_diffuse =
+            self.diffuse_map.is_some() || self.diffuse.is_some_and(|c| c != Vec3::ZERO);
+        let has_specular = self.specular != Vec3::ZERO;
+        let disagree = |(d, tr): (f32, f32)| (d + tr - 1.0).abs() > 1e-3;
+        [
+            (
+                finish == Finish::Matt && has_specular,
+                "`Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or `illum 3` or `5` of a mirror",
+            ),
+            (
+                finish == Finish::Mirror && has_diffuse,
+                "`Kd` of a mirror was ignored",
+            ),
+            (
+                finish == Finish::Glass && has_diffuse,
+                "`Kd` of glass was ignored",
+            ),
+            (
+                finish == Finish::Metal && self.diffuse_map.is_some(),
+                "`map_Kd` of a metal was taken as its mean",
+            ),
+            (
+                self.metallic != 0.0 && self.metallic != 1.0,
+                "`Pm` was taken as the nearer of 0 and 1",
+            ),
+            (
+                self.dissolve.zip(self.transparency).is_some_and(disagree),
+                "`Tr` was ignored: expected 1 minus `d`",
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(is_so, message)| is_so.then_some(message))
+    }
+
+    pub(super) fn into_material(self, scene: &Scene) -> Material {
+        Material {
+            emission: self.emission(),
+            alpha: self.alpha(),
+            ..Material::new(self.name.clone(), self.surface(scene))
+        }
+    }
+
+    fn emission(&self) -> Option<Emission> {
+        // Emission of a material that does not emit is written as `Ke 0 0 0` by most exporters.
+        let shines = self.emitted != Vec3::ZERO;
+        let radiance = match self.emitted_map {
+            Some(image) => {
+                let scale = if shines { self.emitted } else { Vec3::ONE };
+                Color::Image(ColorImage { scale, ..image })
+            }
+            None if shines => Color::Constant(self.emitted),
+            None => return None,
+        };
+        Some(Emission {
+            radiance,
+            sides: EmissionSides::Front,
+        })
+    }
+
+    fn alpha(&self) -> Option<Alpha> {
+        let stated = self.dissolve.or(self.transparency.map(|tr| 1.0 - tr));
+        // What glass does not hold back is light that passes it.
+        let is_glass = self.finish() == Finish::Glass;
+        let scale = Vec3::splat(stated.filter(|_| !is_glass).unwrap_or(1.0));
+        let share = match self.dissolve_map {
+            Some(image) => Color::Image(ColorImage { scale, ..image }),
+            None if scale == Vec3::ONE => return None,
+            None => Color::Constant(scale),
+        };
+        let cutoff = None;
+        Some(Alpha { share, cutoff })
+    }
+
+    fn finish(&self) -> Finish {
+        let diffuse = self.diffuse.unwrap_or_default();
+        match self.illumination {
+            _ if self.metallic >= 0.5 => Finish::Metal,
+            5 => Finish::Mirror,
+            3 if self.specular.max_element() > diffuse.max_element() => Finish::Mirror,
+            4 | 6 | 7 | 9 if self.index_of_refraction > 0.0 => Finish::Glass,
+            _ if self.roughness.is_some() && self.index_of_refraction > 1.0 => Finish::Lacquer,
+            _ => Finish::Matt,
+        }
+    }
+
+    fn surface(&self, scene: &Scene) -> Surface {
+        // Perceived roughness to the width of the microfacet distribution, as exporters of `Pr` mean it.
+        let roughness = self.roughness.unwrap_or(0.5);
+        let alpha = Vec2::splat(roughness * roughness);
+        let reflectance = match self.diffuse_map {
+            Some(image) => Color::Image(ColorImage {
+                scale: self.diffuse.unwrap_or(Vec3::ONE),
+                ..image
+            }),
+            None => Color::Constant(self.diffuse.unwrap_or(Vec3::splat(0.5))),
+        };
+        let eta = self.index_of_refraction;
+        match self.finish() {
+            Finish::Matt => Surface::Diffuse { reflectance },
+            Finish::Lacquer => Surface::CoatedDiffuse {
+                reflectance,
+                eta,
+                alpha,
+            },
+            Finish::Metal => Surface::conductor_of_reflectance(scene.mean(&reflectance), alpha),
+            Finish::Mirror => Surface::Mirror {
+                reflectance: self.specular,
+            },
+            Finish::Glass => Surface::Dielectric {
+                eta,
+                alpha: Vec2::ZERO,
+            },
+        }
+    }
+}
+
+/// Three channels, or one for all of them.
+fn color(line: &mut Line<'_>) -> Result<Vec3, Diagnostic> {
+    let red = at_least_zero(line, "a colour channel")?;
+    let Some(green) = line.optional_number("a colour channel")? else {
+        return Ok(Vec3::splat(red));
+    };
+    let color = Vec3::new(red, green, line.number("a colour channel")?);
+    if color.min_element() < 0.0 {
+        return Err(line.diagnostic("expected colour channels of at least 0"));
+    }
+    Ok(color)
+}
+
+fn at_least_zero(line: &mut Line<'_>, what: &str) -> Result<f32, Diagnostic> {
+    let number = line.number(what)?;
+    if number < 0.0 {
+        return Err(line.diagnostic(format!("expected {what} of at least 0, found {number}")));
+    }
+    Ok(number)
+}
+
+/// A number of at least 0; 1 where it is larger.
+fn share(line: &mut Line<'_>, what: &str) -> Result<f32, Diagnostic> {
+    Ok(at_least_zero(line, what)?.min(1.0))
+}
+
+fn illumination(line: &mut Line<'_>) -> Result<u8, Diagnostic> {
+    let word = line.word().unwrap_or_default();
+    let model = word.parse::<u8>().ok().filter(|model| *model <= 10);
+    model.ok_or_else(|| {
+        let message = format!(
+            "expected an illumination model of 0 to 10, found `{}`",
+            shown(word)
+        );
+        line.diagnostic(message)
+    })
+}
