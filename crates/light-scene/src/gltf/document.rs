@@ -112,7 +112,9 @@ impl<'a> Unasked<'a, '_> {
             value,
             path,
         };
-        if self.asked.contains(&core::ptr::from_ref(value)) {
+        // Who does not know an extension does not ask for its list either.
+        let is_list_of_extensions = item.path.ends_with("extensions");
+        if is_list_of_extensions || self.asked.contains(&core::ptr::from_ref(value)) {
             self.walk(item);
         } else if self.kinds.insert(item.kind()) {
             self.found.push(item);
@@ -131,14 +133,16 @@ pub(super) mod tests {
     #[test]
     fn what_nobody_asked_for_is_named_once_a_kind() {
         let document = document(
-            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1}}"#,
+            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1},
+            "extensions": {"E": {"f": 1}}}"#,
         );
         for item in document.root().list("a").expect("a list") {
             item.number_or("x", 0.0).expect("a number");
         }
         let unasked = document.unasked();
         let paths: Vec<_> = unasked.iter().map(|item| item.path.as_str()).collect();
-        assert_eq!(paths, ["a[0].y", "b", "c"], "the first of each kind");
+        let expected = ["a[0].y", "b", "c", "extensions.E"];
+        assert_eq!(paths, expected, "the first of each kind");
     }
 
     #[test]

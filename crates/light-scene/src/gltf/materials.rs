@@ -6,9 +6,7 @@ use super::item::Item;
 use super::reader::Reader;
 use super::textures::Texture;
 use crate::glam::{Vec2, Vec3};
-use crate::{
-    Alpha, Color, ColorImage, Diagnostic, Emission, EmissionSides, Material, MaterialId, Surface,
-};
+use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Material, MaterialId, Surface};
 
 /// The materials so far, by their places in the document, and which texture coordinates each uses.
 #[derive(Debug, Default)]
@@ -98,10 +96,7 @@ impl<'a> Reader<'a> {
         let base = self.texture(&pbr, "baseColorTexture")?;
         finish.base = match base {
             None => Color::Constant(factor),
-            Some(texture) => Color::Image(ColorImage {
-                scale: factor,
-                ..ColorImage::new(self.color_image(texture))
-            }),
+            Some(texture) => Color::Image(self.color_image(texture, factor)),
         };
         finish.metallic = pbr.amount_or("metallicFactor", 1.0)?.min(1.0);
         finish.roughness = pbr.amount_or("roughnessFactor", 1.0)?.min(1.0);
@@ -188,10 +183,7 @@ impl<'a> Reader<'a> {
         Ok(Some(Emission {
             radiance: match texture {
                 None => Color::Constant(scale),
-                Some(texture) => Color::Image(ColorImage {
-                    scale,
-                    ..ColorImage::new(self.color_image(texture))
-                }),
+                Some(texture) => Color::Image(self.color_image(texture, scale)),
             },
             sides: if two_sided {
                 EmissionSides::Both
@@ -218,11 +210,8 @@ impl<'a> Reader<'a> {
             },
         };
         let scale = Vec3::splat(opacity);
-        let share = match base.and_then(|texture| self.alpha_image(texture)) {
-            Some(image) => Color::Image(ColorImage {
-                scale,
-                ..ColorImage::new(image)
-            }),
+        let share = match base.and_then(|texture| self.alpha_image(texture, scale)) {
+            Some(image) => Color::Image(image),
             None if opacity == 1.0 => return Ok(None),
             None => Color::Constant(scale),
         };

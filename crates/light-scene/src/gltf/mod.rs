@@ -15,6 +15,8 @@ mod nodes;
 mod primitives;
 mod reader;
 #[cfg(test)]
+mod refusals_tests;
+#[cfg(test)]
 mod tests;
 mod textures;
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::textures::Textures;
 use crate::{Diagnostic, Files, Scene};
 
 /// Extensions that a document may require.
-const KNOWN: [&str; 7] = [
+const KNOWN: [&str; 8] = [
     "EXT_lights_ies",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
@@ -18,6 +18,7 @@ const KNOWN: [&str; 7] = [
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_mesh_quantization",
+    "KHR_texture_transform",
 ];
 
 /// What a document has become so far.

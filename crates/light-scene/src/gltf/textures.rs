@@ -1,10 +1,12 @@
 use std::collections::HashMap;
 
+use lights::sources::{TextureMapping, Wrap};
+
 use super::item::Item;
 use super::reader::Reader;
-use crate::glam::Vec3;
+use crate::glam::{Affine2, Mat2, Vec2, Vec3};
 use crate::image::EncodedImage;
-use crate::{Diagnostic, Image, ImageId};
+use crate::{ColorImage, Diagnostic, Image, ImageId};
 
 /// The images of a document, each decoded and kept once.
 #[derive(Debug, Default)]
@@ -15,10 +17,11 @@ pub(super) struct Textures {
 }
 
 /// A texture that a material names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Texture {
     /// Which of the mesh's texture coordinates.
     pub(super) uv_set: usize,
+    mapping: TextureMapping,
     /// Place in the document's list of images.
     image: usize,
 }
@@ -33,10 +36,15 @@ impl<'a> Reader<'a> {
         let Some(info) = owner.get(name)? else {
             return Ok(None);
         };
-        let uv_set = info.whole_or("texCoord", 0)?;
+        let mut uv_set = info.whole_or("texCoord", 0)?;
+        let mut mapping = TextureMapping::REPEAT;
+        if let Some(moved) = info.extension("KHR_texture_transform")? {
+            uv_set = moved.whole_or("texCoord", uv_set)?;
+            mapping.transform = texture_transform(&moved)?;
+        }
         let (_, texture) = info.require("index")?.target("textures")?;
         if let Some(sampler) = texture.get("sampler")? {
-            self.sampler(&sampler.target("samplers")?.1)?;
+            mapping.wrap = self.sampler(&sampler.target("samplers")?.1)?;
         }
         let Some(source) = texture.get("source")? else {
             self.warn(&texture, "was ignored: it has no PNG or JPEG image");
@@ -57,47 +65,80 @@ impl<'a> Reader<'a> {
             let decoded = decoded.map_err(|error| item.error(&error.message))?;
             self.textures.decoded.insert(image, decoded);
         }
-        Ok(Some(Texture { uv_set, image }))
+        Ok(Some(Texture {
+            uv_set,
+            mapping,
+            image,
+        }))
     }
 
-    /// Images repeat, and are smooth between texels.
-    fn sampler(&mut self, sampler: &Item<'a>) -> Result<(), Diagnostic> {
-        const REPEAT: usize = 10497;
+    /// What is beyond the edges of an image; all are smooth between texels.
+    fn sampler(&mut self, sampler: &Item<'a>) -> Result<[Wrap; 2], Diagnostic> {
         const LINEAR: usize = 9729;
-        for (name, taken, message) in [
-            ("wrapS", REPEAT, "was ignored: images repeat"),
-            ("wrapT", REPEAT, "was ignored: images repeat"),
-            ("magFilter", LINEAR, "was ignored: images are smooth"),
-        ] {
-            let Some(member) = sampler.get(name)? else {
-                continue;
-            };
-            if member.whole()? != taken {
-                self.warn(&member, message);
+        if let Some(filter) = sampler.get("magFilter")? {
+            if filter.whole()? != LINEAR {
+                self.warn(&filter, "was ignored: images are smooth");
             }
         }
-        Ok(())
+        Ok([wrap(sampler, "wrapS")?, wrap(sampler, "wrapT")?])
     }
 
-    /// The image of a texture as linear colours.
-    pub(super) fn color_image(&mut self, texture: Texture) -> ImageId {
+    /// The image of a texture as linear colours times `scale`.
+    pub(super) fn color_image(&mut self, texture: Texture, scale: Vec3) -> ColorImage {
         let (textures, scene) = (&mut self.textures, &mut self.scene);
         let decoded = &textures.decoded[&texture.image];
         let known = textures.colors.entry(texture.image);
-        *known.or_insert_with(|| scene.add_image(decoded.color()))
+        let image = *known.or_insert_with(|| scene.add_image(decoded.color()));
+        texture.shown(image, scale)
     }
 
-    /// How opaque the image of a texture is, alike in all channels; none if it is so everywhere.
-    pub(super) fn alpha_image(&mut self, texture: Texture) -> Option<ImageId> {
+    /// How opaque the image of a texture is, alike in all channels, times `scale`; none if it is so everywhere.
+    pub(super) fn alpha_image(&mut self, texture: Texture, scale: Vec3) -> Option<ColorImage> {
         let (textures, scene) = (&mut self.textures, &mut self.scene);
         let decoded = &textures.decoded[&texture.image];
         let known = textures.alphas.entry(texture.image);
         let add = |image: Image| scene.add_image(image);
-        *known.or_insert_with(|| decoded.alpha().map(add))
+        let image = *known.or_insert_with(|| decoded.alpha().map(add));
+        image.map(|image| texture.shown(image, scale))
     }
 
     /// The mean of an image's channels as they are written.
     pub(super) fn mean_of_data(&self, texture: Texture) -> Vec3 {
         self.textures.decoded[&texture.image].mean_of_data()
+    }
+}
+
+impl Texture {
+    fn shown(&self, image: ImageId, scale: Vec3) -> ColorImage {
+        ColorImage {
+            image,
+            scale,
+            mapping: self.mapping,
+        }
+    }
+}
+
+/// From our texture coordinates, of which (0, 0) is the lower left corner, to the moved ones.
+///
+/// The extension's own have (0, 0) in the upper left corner; a positive angle turns u away from v.
+fn texture_transform(moved: &Item<'_>) -> Result<Affine2, Diagnostic> {
+    let offset = Vec2::from(moved.numbers_or("offset", [0.0; 2])?);
+    let angle = moved.number_or("rotation", 0.0)?;
+    let scale = Vec2::from(moved.numbers_or("scale", [1.0; 2])?);
+    let moved = Affine2::from_scale_angle_translation(scale, -angle, offset);
+    let flip = Affine2::from_mat2_translation(Mat2::from_diagonal(Vec2::new(1.0, -1.0)), Vec2::Y);
+    Ok(flip * moved * flip)
+}
+
+/// What is beyond two edges of an image.
+fn wrap(sampler: &Item<'_>, name: &str) -> Result<Wrap, Diagnostic> {
+    let Some(mode) = sampler.get(name)? else {
+        return Ok(Wrap::Repeat);
+    };
+    match mode.whole()? {
+        10497 => Ok(Wrap::Repeat),
+        33071 => Ok(Wrap::Clamp),
+        33648 => Ok(Wrap::Mirror),
+        _ => Err(mode.expected("10497 (repeat), 33071 (clamp) or 33648 (mirror)")),
     }
 }

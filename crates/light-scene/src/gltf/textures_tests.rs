@@ -1,7 +1,88 @@
+use lights::sources::{TextureMapping, Wrap};
+
 use super::data_uri::tests::data_uri;
 use super::tests::read;
-use crate::glam::Vec3;
-use crate::{Color, Image, Surface, write_png};
+use crate::glam::{Vec2, Vec3};
+use crate::image::tests::png;
+use crate::{Color, Image, Scene, Surface, write_png};
+
+/// A square with a texture of one texel in its base colour; `info` goes into the reference, `texture` into the texture,
+/// `wrap` into its sampler.
+fn shown(info: &str, texture: &str, wrap: u32) -> Result<Scene, String> {
+    let image = data_uri(&png(image::GrayImage::new(1, 1)));
+    read(&format!(
+        r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
+            {{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2, "material": 0}}]}}],
+        "materials": [{{"pbrMetallicRoughness": {{"metallicFactor": 0, "baseColorTexture": {{"index": 0 {info}}}}}}}],
+        "textures": [{{{texture}, "sampler": 0}}], "samplers": [{{"wrapS": {wrap}}}], "images": [{{"uri": "{image}"}}]"#
+    ))
+}
+
+fn mapping(info: &str) -> TextureMapping {
+    let scene = shown(info, r#""source": 0"#, 10497).expect("a scene");
+    assert_eq!(scene.warnings, [], "all understood");
+    let Surface::CoatedDiffuse {
+        reflectance: Color::Image(shown),
+        ..
+    } = scene.material(scene.meshes[0].material).surface
+    else {
+        panic!("an image");
+    };
+    shown.mapping
+}
+
+#[test]
+fn transforms_move_texture_coordinates_as_the_extension_says() {
+    assert_eq!(mapping(""), TextureMapping::REPEAT, "none");
+    // Its first example: the lower left quarter of the image, turned clockwise by a right angle.
+    let quarter = mapping(
+        r#", "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5]}}"#,
+    );
+    // Corners by our texture coordinates, and the places that they show, of which (0, 0) is the upper left corner.
+    for (corner, place) in [
+        (Vec2::Y, Vec2::Y),
+        (Vec2::ONE, Vec2::new(0.0, 0.5)),
+        (Vec2::ZERO, Vec2::new(0.5, 1.0)),
+        (Vec2::X, Vec2::splat(0.5)),
+    ] {
+        let found = quarter.place(corner);
+        assert!(found.abs_diff_eq(place, 1e-6), "{corner}: {found}");
+    }
+    // Its second example: v runs up.
+    let turned = mapping(
+        r#", "extensions": {"KHR_texture_transform": {"offset": [0, 1], "scale": [1, -1]}}"#,
+    );
+    let place = turned.place(Vec2::new(0.25, 0.125));
+    assert_eq!(place, Vec2::new(0.25, 0.125), "upside down");
+}
+
+#[test]
+fn what_is_no_image_that_is_read_is_named() {
+    let basis = shown(
+        "",
+        r#""extensions": {"KHR_texture_basisu": {"source": 0}}"#,
+        10497,
+    )
+    .expect("a scene");
+    let messages: Vec<_> = basis.warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "textures[0]: was ignored: it has no PNG or JPEG image",
+        "textures[0].extensions.KHR_texture_basisu: was ignored",
+    ];
+    for message in &expected {
+        assert!(messages.contains(message), "{message} in {messages:?}");
+    }
+    let other = shown(
+        r#", "extensions": {"KHR_texture_transform": {"texCoord": 1}}"#,
+        r#""source": 0"#,
+        33071,
+    );
+    let other = other.expect("a scene");
+    assert_eq!(other.meshes[0].uvs, None, "there is no second set");
+    let error = shown("", r#""source": 0"#, 7).map(|_| ());
+    let expected = "a.gltf: samplers[0].wrapS: expected 10497 (repeat), 33071 (clamp) or 33648 (mirror), found 7";
+    assert_eq!(error, Err(expected.to_owned()), "a mode");
+}
 
 #[test]
 fn textures_are_decoded_once_and_their_alpha_masks() {
@@ -25,7 +106,7 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
             {{"alphaMode": "MASK", "alphaCutoff": 0.3, "pbrMetallicRoughness": {{
                 "baseColorTexture": {{"index": 1}}, "metallicRoughnessTexture": {{"index": 0}}}}}}],
         "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}],
-        "samplers": [{{"wrapS": 33071, "wrapT": 10497, "minFilter": 9987}}],
+        "samplers": [{{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728, "minFilter": 9987}}],
         "images": [{{"uri": "{opaque}"}}, {{"uri": "{holes}"}}]"#
         )
         .replace(r#""material": 0"#, r#""indices": 2, "material": 0"#),
@@ -58,11 +139,12 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
     let Color::Image(share) = alpha.share else {
         panic!("an image");
     };
+    assert_eq!(share.mapping.wrap, [Wrap::Clamp, Wrap::Mirror], "edges");
     let share = scene.images[share.image.0 as usize].texels();
     assert_eq!(share, [Vec3::ONE, Vec3::splat(0.2)], "as it is written");
     let messages: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
     let expected = [
-        "samplers[0].wrapS: was ignored: images repeat",
+        "samplers[0].magFilter: was ignored: images are smooth",
         "materials[1].pbrMetallicRoughness.metallicRoughnessTexture: was taken as its mean",
         "materials[1]: is partly metallic and was taken as the nearer of metal and none",
     ];
