@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 #[cfg(feature = "rayon")]
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// Runs both, on two threads where the feature `rayon` allows it and `work` is worth it.
 pub(crate) fn join<A: Send, B: Send>(
@@ -27,4 +27,20 @@ pub(crate) fn map<J: Send, T: Send>(jobs: Vec<J>, each: impl Fn(J) -> T + Send +
     return jobs.into_par_iter().map(each).collect();
     #[cfg(not(feature = "rayon"))]
     jobs.into_iter().map(each).collect()
+}
+
+/// What `each` makes of every number below `count`, in their order, on all threads that the feature `rayon` allows.
+pub(crate) fn table<T: Send>(count: usize, each: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    /// Fewer are made before another thread has woken up.
+    #[cfg(feature = "rayon")]
+    const WORTH_A_THREAD: usize = 4096;
+
+    #[cfg(feature = "rayon")]
+    return (0..count)
+        .into_par_iter()
+        .with_min_len(WORTH_A_THREAD)
+        .map(each)
+        .collect();
+    #[cfg(not(feature = "rayon"))]
+    (0..count).map(each).collect()
 }

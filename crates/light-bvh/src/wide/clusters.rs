@@ -1,9 +1,9 @@
 use alloc::vec::Vec;
 
 use super::group::Group;
+use super::lamp::Lamp;
 use super::morton::Range;
 use super::prim::{MIXED_AXES, Prim};
-use super::run::Sources;
 use crate::join::{join, map};
 
 /// Lights of a cluster, at most.
@@ -50,8 +50,8 @@ fn add_ends(range: Range<'_>, first: u32, ends: &mut Vec<u32>) {
     add_ends(right, middle, ends);
 }
 
-/// The clusters that end at `ends`.
-pub(super) fn clusters(ends: &[u32], sources: &Sources<'_>) -> Vec<Prim> {
+/// The clusters of `lamps` that end at `ends`.
+pub(super) fn clusters(ends: &[u32], lamps: &[Lamp]) -> Vec<Prim> {
     let mut start = 0;
     let chunks = ends.chunks(CHUNK).map(|ends| {
         let first = start;
@@ -60,13 +60,14 @@ pub(super) fn clusters(ends: &[u32], sources: &Sources<'_>) -> Vec<Prim> {
     });
     let prims = map(chunks.collect(), |(first, ends): (u32, &[u32])| {
         let starts = core::iter::once(&first).chain(ends);
-        let runs = starts.zip(ends);
         let mut prims = Vec::with_capacity(ends.len());
-        for (&start, &end) in runs {
-            let cluster = sources.cluster(start, end - start);
+        for (&start, &end) in starts.zip(ends) {
+            let lamps = (start..).zip(&lamps[start as usize..end as usize]);
+            let lights = lamps.map(|(place, lamp)| Prim::of_lamp(lamp, place));
+            let cluster = Prim::join(lights.clone());
             if cluster.axis_variance() > MIXED_AXES {
                 // Wide cones among narrow ones part early, before they are taken one by one.
-                prims.extend((start..end).map(|entry| sources.cluster(entry, 1)));
+                prims.extend(lights);
             } else {
                 prims.push(cluster);
             }

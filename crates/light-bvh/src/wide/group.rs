@@ -1,4 +1,3 @@
-use super::moments::Moments;
 use super::node::WIDTH;
 
 /// Lights on their way into a tree, at least one.
@@ -19,7 +18,7 @@ pub(super) trait Group: Sized + Send {
     fn halve(self) -> (Self, Self);
 
     /// Calls `each` with every light.
-    fn each_light(&self, each: &mut dyn FnMut(u32, Moments));
+    fn each_light(&self, each: impl FnMut(u32));
 }
 
 /// The groups that become the children of a node.
@@ -114,10 +113,10 @@ impl<G: Group> Children<G> {
     }
 
     /// Calls `each` with every light that becomes a child itself.
-    pub(super) fn each_light(&self, each: &mut dyn FnMut(u32, Moments)) {
+    pub(super) fn each_light(&self, mut each: impl FnMut(u32)) {
         for (group, single) in self.parts() {
             if single {
-                group.each_light(each);
+                group.each_light(&mut each);
             }
         }
     }

@@ -42,14 +42,16 @@ impl LightBvh {
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
-        let (nodes, order) = build(lights, &scan, options);
-        let slots = slots(&nodes, &order, lights.len());
-        Ok(Self {
+        let (skeleton, order) = build(lights, &scan, options);
+        let (nodes, slots) = skeleton.lay_out(&order, lights.len());
+        let mut tree = Self {
             nodes,
             order,
             slots,
             power: scan.power,
-        })
+        };
+        tree.fill(lights);
+        Ok(tree)
     }
 
     /// What queries need, borrowed.
@@ -106,15 +108,4 @@ impl LightBvh {
         }
         deepest
     }
-}
-
-fn slots(nodes: &[WideNode], order: &[u32], lights: usize) -> Vec<u32> {
-    let mut slots = vec![NOWHERE; lights];
-    for (index, node) in (0u32..).zip(nodes) {
-        for child in u32::from(node.inner)..u32::from(node.count) {
-            let entry = node.light_base + child - u32::from(node.inner);
-            slots[order[entry as usize] as usize] = index * 8 + child;
-        }
-    }
-    slots
 }

@@ -28,7 +28,12 @@ impl<'a> Lights<'a> {
 
     #[inline]
     pub(super) fn moments(&self, light: u32) -> Moments {
-        Moments::of_light(self.bounds(light), self.inv_power)
+        self.moments_of(self.bounds(light))
+    }
+
+    #[inline]
+    pub(super) fn moments_of(&self, bounds: &LightBounds) -> Moments {
+        Moments::of_light(bounds, self.inv_power)
     }
 
     /// Power of a light as a share of that of all lights; above 0, so that lights that are off split somehow.

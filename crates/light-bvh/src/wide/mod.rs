@@ -13,6 +13,8 @@ mod glossy;
 #[cfg(feature = "alloc")]
 mod group;
 mod importance;
+#[cfg(feature = "alloc")]
+mod lamp;
 mod lane;
 #[cfg(feature = "alloc")]
 mod light_bvh;
@@ -40,7 +42,7 @@ mod scan;
 mod segment;
 mod select;
 #[cfg(feature = "alloc")]
-mod subtree;
+mod skeleton;
 mod tree;
 mod vectors;
 

@@ -192,10 +192,8 @@ impl Group for Range<'_> {
         self.split_at(middle)
     }
 
-    fn each_light(&self, each: &mut dyn FnMut(u32, Moments)) {
-        for entry in &*self.entries {
-            each(entry.light, self.lights.moments(entry.light));
-        }
+    fn each_light(&self, each: impl FnMut(u32)) {
+        self.entries.iter().map(|e| e.light).for_each(each);
     }
 }
 

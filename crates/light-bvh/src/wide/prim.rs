@@ -1,8 +1,7 @@
-use light_bounds::LightBounds;
 use light_math::float;
 use light_math::glam::Vec3;
 
-use super::moments::Moments;
+use super::lamp::Lamp;
 
 /// Variance of the axes beyond which lights are also split by how narrow their cones are, and squared length of an axis beyond which a
 /// cone is narrow. Diffuse lights stay below 1.
@@ -20,7 +19,7 @@ pub(super) struct Prim {
     pub(super) axis_sq: f32,
     /// Variance of the positions.
     pub(super) variance: f32,
-    /// The place of the first of the lights among all entries.
+    /// The place of the first of the lights along the curve.
     pub(super) first: u32,
     pub(super) lights: u32,
 }
@@ -37,17 +36,16 @@ impl Prim {
         lights: 0,
     };
 
-    /// One light of the given power; `entry` is its place among all entries.
+    /// One light; `place` is its place along the curve.
     #[inline]
-    pub(super) fn of_light(bounds: &LightBounds, power: f32, entry: u32) -> Self {
-        let axis = Moments::of_light(bounds, 1.0).axis;
+    pub(super) fn of_lamp(lamp: &Lamp, place: u32) -> Self {
         Self {
-            center: bounds.bounds.center(),
-            power,
-            axis,
-            axis_sq: axis.length_squared(),
+            center: lamp.center,
+            power: lamp.power,
+            axis: lamp.axis,
+            axis_sq: lamp.axis.length_squared(),
             variance: 0.0,
-            first: entry,
+            first: place,
             lights: 1,
         }
     }
@@ -57,7 +55,7 @@ impl Prim {
         self.axis_sq - self.axis.length_squared()
     }
 
-    /// Neighbours together, whose entries follow each other.
+    /// Neighbours together, that follow each other along the curve.
     pub(super) fn join(parts: impl IntoIterator<Item = Self>) -> Self {
         let mut all = parts.into_iter();
         let Some(first) = all.next() else {

@@ -1,4 +1,4 @@
-use light_bounds::LightExtent;
+use light_bounds::{LightBounds, LightExtent};
 
 use super::LightBvh;
 use super::lights::Lights;
@@ -9,8 +9,8 @@ use super::scan::Scan;
 use crate::LightBvhError;
 use crate::join::join;
 
-/// Nodes of a tree count for so many lights when work is shared out.
-const LIGHTS_PER_NODE: usize = 5;
+/// Subtrees of so many lights read them all before they make use of them.
+const BATCH: usize = 128;
 
 impl LightBvh {
     /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
@@ -40,70 +40,131 @@ impl LightBvh {
                 Err(LightBvhError::NoPlace { light })
             }
         })?;
-        let refit = Refit {
-            lights: Lights::new(lights, scan.power),
+        self.power = scan.power;
+        self.fill(lights);
+        Ok(())
+    }
+
+    /// Tells all nodes, which know their places, what is below them; `lights` are valid and have the tree's power.
+    pub(super) fn fill(&mut self, lights: &[LightExtent]) {
+        let filling = Filling {
+            lights: Lights::new(lights, self.power),
             order: &self.order,
         };
         if let Some((root, below)) = self.nodes.split_first_mut() {
-            refit.node(root, below, 1);
+            filling.subtree(root, below, 1, self.order.len());
         }
-        self.power = scan.power;
-        Ok(())
     }
 }
 
-/// What all steps of a refit share.
-struct Refit<'a> {
+/// What all steps share.
+struct Filling<'a> {
     lights: Lights<'a>,
     order: &'a [u32],
 }
 
-impl Refit<'_> {
-    /// Makes a subtree anew. `below` are the nodes below `node`, and `base` is the place of the first of them in the tree.
-    fn node(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
-        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
-        let mut moments = [Moments::NOTHING; WIDTH];
-        let lights = &self.order[node.light_base as usize..];
-        for (moments, &light) in moments[inner..count].iter_mut().zip(lights) {
+impl Filling<'_> {
+    /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below `node`, and perhaps more;
+    /// `base` is the place of the first of them in the tree.
+    fn subtree(
+        &self,
+        node: &mut WideNode,
+        below: &mut [WideNode],
+        base: usize,
+        end: usize,
+    ) -> Moments {
+        let first = node.light_base as usize;
+        let lights = &self.order[first..end];
+        if lights.len() <= BATCH {
+            // All at once, for the lights are far from each other in memory, and reading one need not wait for the other.
+            let mut bounds = [LightBounds::EMPTY; BATCH];
+            for (bounds, &light) in bounds.iter_mut().zip(lights) {
+                *bounds = *self.lights.bounds(light);
+            }
+            let mut moments = [Moments::NOTHING; BATCH];
+            for (moments, bounds) in moments.iter_mut().zip(&bounds[..lights.len()]) {
+                *moments = self.lights.moments_of(bounds);
+            }
+            return Batch {
+                moments: &moments,
+                first,
+            }
+            .subtree(node, below, base);
+        }
+        let inner = usize::from(node.inner);
+        let mut brood = [Moments::NOTHING; WIDTH];
+        let own = usize::from(node.count) - inner;
+        for (moments, &light) in brood[inner..].iter_mut().zip(&lights[..own]) {
             *moments = self.lights.moments(light);
         }
         let (children, rest) = below.split_at_mut(inner);
-        self.nodes(children, rest, base + inner, &mut moments[..inner]);
-        *node = WideNode {
-            child_base: node.child_base,
-            light_base: node.light_base,
-            inner: node.inner,
-            parent: node.parent,
-            ..WideNode::encode(&moments[..count])
-        };
-        Moments::join(&moments[..count])
+        self.side_by_side(children, rest, base + inner, end, &mut brood[..inner]);
+        fill(node, &brood)
     }
 
     /// The same for nodes side by side; `below` are the nodes below all of them, in their order.
-    fn nodes(
+    fn side_by_side(
         &self,
         nodes: &mut [WideNode],
         below: &mut [WideNode],
         base: usize,
+        end: usize,
         moments: &mut [Moments],
     ) {
         match nodes {
             [] => {}
-            [node] => moments[0] = self.node(node, below, base),
+            [node] => moments[0] = self.subtree(node, below, base, end),
             _ => {
                 let middle = nodes.len() / 2;
-                let work = LIGHTS_PER_NODE * below.len();
+                let lights = end - nodes[0].light_base as usize;
                 let (nodes, later) = nodes.split_at_mut(middle);
                 // What is below the second half begins at the children of its first node.
                 let border = later[0].child_base as usize;
+                let light_border = later[0].light_base as usize;
                 let (below, below_later) = below.split_at_mut(border - base);
                 let (moments, moments_later) = moments.split_at_mut(middle);
                 join(
-                    work,
-                    || self.nodes(nodes, below, base, moments),
-                    || self.nodes(later, below_later, border, moments_later),
+                    lights,
+                    || self.side_by_side(nodes, below, base, light_border, moments),
+                    || self.side_by_side(later, below_later, border, end, moments_later),
                 );
             }
         }
     }
+}
+
+/// The moments of some lights that follow each other in the order.
+struct Batch<'a> {
+    moments: &'a [Moments],
+    /// The place of the first.
+    first: usize,
+}
+
+impl Batch<'_> {
+    /// As [`Filling::subtree`], of a subtree with all its lights in the batch.
+    fn subtree(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
+        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+        let child_base = node.child_base as usize;
+        let mut brood = [Moments::NOTHING; WIDTH];
+        let own = &self.moments[node.light_base as usize - self.first..][..count - inner];
+        brood[inner..count].copy_from_slice(own);
+        let (children, rest) = below[child_base - base..].split_at_mut(inner);
+        for (moments, child) in brood.iter_mut().zip(children) {
+            *moments = self.subtree(child, rest, child_base + inner);
+        }
+        fill(node, &brood)
+    }
+}
+
+/// Tells `node` what its children are, which are the first ones of `brood`.
+fn fill(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
+    let brood = &brood[..usize::from(node.count)];
+    *node = WideNode {
+        child_base: node.child_base,
+        light_base: node.light_base,
+        inner: node.inner,
+        parent: node.parent,
+        ..WideNode::encode(brood)
+    };
+    Moments::join(brood)
 }

@@ -7,29 +7,19 @@ use light_math::Aabb;
 use super::bins::{Grid, Plane};
 use super::build::{Crowd, Plot};
 use super::group::Group;
-use super::lights::Lights;
-use super::moments::Moments;
-use super::morton::Entry;
+use super::lamp::Lamp;
 use super::node::WIDTH;
 use super::prim::{MIXED_AXES, Prim};
-use super::subtree::Subtree;
+use super::skeleton::Skeleton;
 
 /// Runs of so many lights are split where full nodes come out.
 const SNAP: RangeInclusive<usize> = WIDTH + 1..=16;
-
-/// Where the lights of a tree are kept while it is built.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sources<'a> {
-    pub(super) lights: &'a Lights<'a>,
-    /// Along the curve.
-    pub(super) entries: &'a [Entry],
-}
 
 /// Lights, or clusters of a few, that are split where the halves cost least.
 #[derive(Debug)]
 pub(super) struct Run<'a> {
     prims: &'a mut [Prim],
-    sources: Sources<'a>,
+    lamps: &'a [Lamp],
     /// Of all prims together.
     lights: usize,
     /// Box of the centres.
@@ -38,12 +28,12 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn new(prims: &'a mut [Prim], sources: Sources<'a>) -> Self {
+    pub(super) fn new(prims: &'a mut [Prim], lamps: &'a [Lamp]) -> Self {
         Self {
             bounds: centers(prims),
             lights: prims.iter().map(|p| p.lights as usize).sum(),
             prims,
-            sources,
+            lamps,
             cost: f32::INFINITY,
         }
     }
@@ -59,7 +49,7 @@ impl<'a> Run<'a> {
         };
         let part = |prims, lights, side: usize| Self {
             prims,
-            sources: self.sources,
+            lamps: self.lamps,
             lights,
             bounds: bounds[side],
             cost: costs[side],
@@ -141,44 +131,27 @@ impl Group for Run<'_> {
         self.split_near(axis, middle, costs)
     }
 
-    fn each_light(&self, each: &mut dyn FnMut(u32, Moments)) {
-        for entry in self.prims.iter().flat_map(|p| self.sources.entries_of(p)) {
-            each(entry.light, self.sources.lights.moments(entry.light));
-        }
+    fn each_light(&self, each: impl FnMut(u32)) {
+        let lamps = self.prims.iter().flat_map(|p| of_prim(self.lamps, p));
+        lamps.map(|lamp| lamp.light).for_each(each);
     }
 }
 
 impl Crowd for Run<'_> {
     /// From here on lights are split one by one.
-    fn plant(self, plot: Plot<'_>) -> Subtree {
-        let sources = self.sources;
+    fn plant(self, plot: Plot<'_>) -> Skeleton {
+        let lamps = self.lamps;
         let mut prims = Vec::with_capacity(self.lights);
-        prims.extend(self.prims.iter().flat_map(|p| sources.prims_of(p)));
-        plot.grow(Run::new(&mut prims, sources))
+        for prim in &*self.prims {
+            let lights = (prim.first..).zip(of_prim(lamps, prim));
+            prims.extend(lights.map(|(place, lamp)| Prim::of_lamp(lamp, place)));
+        }
+        plot.grow(Run::new(&mut prims, lamps))
     }
 }
 
-impl<'a> Sources<'a> {
-    fn entries_of(&self, prim: &Prim) -> &'a [Entry] {
-        &self.entries[prim.first as usize..][..prim.lights as usize]
-    }
-
-    /// The lights of a cluster, each for itself.
-    fn prims_of(&self, cluster: &Prim) -> impl Iterator<Item = Prim> + use<'a> {
-        let lights = self.lights;
-        let entries = (cluster.first..).zip(self.entries_of(cluster));
-        entries.map(move |(i, e)| Prim::of_light(lights.bounds(e.light), e.power, i))
-    }
-
-    /// A cluster of lights that follow each other along the curve.
-    pub(super) fn cluster(&self, first: u32, lights: u32) -> Prim {
-        let place = Prim {
-            first,
-            lights,
-            ..Prim::NOTHING
-        };
-        Prim::join(self.prims_of(&place))
-    }
+fn of_prim<'a>(lamps: &'a [Lamp], prim: &Prim) -> &'a [Lamp] {
+    &lamps[prim.first as usize..][..prim.lights as usize]
 }
 
 /// The order of the centres along `axis`; of the places on the curve where they agree.
