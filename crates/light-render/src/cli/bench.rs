@@ -16,7 +16,7 @@ pub(crate) struct BenchArgs {
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
     points: Option<PathBuf>,
-    /// Make a set: uniform, clusters, spots or mixed.
+    /// Make a set: uniform, clusters, spots or mixed; adversarial ones are one-point, line, nested, large-world and magnitudes.
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.

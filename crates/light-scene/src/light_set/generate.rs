@@ -8,7 +8,7 @@ use super::random::Random;
 use super::{LightSetFile, SetLight, SetPoint};
 
 /// Shading points of a generated set.
-const POINTS: usize = 4096;
+pub(super) const POINTS: usize = 4096;
 
 /// How many lights of a mixed set are a thousand times as strong as the rest.
 const STRONG: usize = 8;
@@ -25,11 +25,31 @@ pub enum SetKind {
     /// A quarter each of one-sided triangles, two-sided triangles, points and spots of 5 to 70 degrees, over a floor of 10 by 10;
     /// eight of them a thousand times as strong.
     Mixed,
+    /// Points and spots that all stand at one place.
+    OnePoint,
+    /// Points and spots along one line.
+    Line,
+    /// Clusters of triangles within clusters, each an eighth as wide, over 24 scales.
+    Nested,
+    /// Triangles of 2 cm in towns of a world of 10 km.
+    LargeWorld,
+    /// Points with coordinates from 1e-20 to 1e18.
+    Magnitudes,
 }
 
 impl SetKind {
-    /// All kinds, in the order of the tables.
-    pub const ALL: [Self; 4] = [Self::Uniform, Self::Clusters, Self::Spots, Self::Mixed];
+    /// All kinds, in the order of the tables: four that are like scenes, and five that are adversarial.
+    pub const ALL: [Self; 9] = [
+        Self::Uniform,
+        Self::Clusters,
+        Self::Spots,
+        Self::Mixed,
+        Self::OnePoint,
+        Self::Line,
+        Self::Nested,
+        Self::LargeWorld,
+        Self::Magnitudes,
+    ];
 
     /// The kind's name on the command line.
     #[must_use]
@@ -39,6 +59,11 @@ impl SetKind {
             Self::Clusters => "clusters",
             Self::Spots => "spots",
             Self::Mixed => "mixed",
+            Self::OnePoint => "one-point",
+            Self::Line => "line",
+            Self::Nested => "nested",
+            Self::LargeWorld => "large-world",
+            Self::Magnitudes => "magnitudes",
         }
     }
 }
@@ -50,7 +75,7 @@ impl FromStr for SetKind {
         Self::ALL
             .into_iter()
             .find(|kind| kind.name() == s)
-            .ok_or("expected uniform, clusters, spots or mixed")
+            .ok_or("expected uniform, clusters, spots, mixed, one-point, line, nested, large-world or magnitudes")
     }
 }
 
@@ -104,6 +129,11 @@ impl LightSetFile {
                     }
                 }),
             },
+            SetKind::OnePoint => Self::one_point(r, n),
+            SetKind::Line => Self::line(r, n),
+            SetKind::Nested => Self::nested(r, n),
+            SetKind::LargeWorld => Self::large_world(r, n),
+            SetKind::Magnitudes => Self::magnitudes(r, n),
         }
     }
 }
@@ -195,7 +225,7 @@ fn scaled(light: SetLight, factor: f32) -> SetLight {
     light
 }
 
-fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
+pub(super) fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
     core::iter::repeat_with(make).take(n).collect()
 }
 
@@ -222,6 +252,17 @@ mod tests {
             assert_eq!(set.lights.len(), 100, "as many as asked for");
             assert_eq!(set.points.len(), POINTS, "points");
             assert_eq!(kind.name().parse(), Ok(kind), "name");
+        }
+    }
+
+    #[test]
+    fn all_lights_shine_however_small_they_are() {
+        for kind in SetKind::ALL {
+            let set = LightSetFile::generate(kind, 300, 3);
+            for bounds in set.lights.iter().map(SetLight::bounds) {
+                assert_eq!(bounds.validate(), Ok(()), "{}", kind.name());
+                assert!(bounds.phi > 0.0, "{}: {bounds:?}", kind.name());
+            }
         }
     }
 }

@@ -1,3 +1,5 @@
+use core::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 use lights::bounds::LightBounds;
 use lights::math::{Aabb, float};
@@ -51,6 +53,21 @@ impl SetLight {
         }
     }
 
+    /// The same light elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: Vec3) -> Self {
+        let mut light = *self;
+        match &mut light {
+            Self::Triangle { vertices, .. } => *vertices = vertices.map(|v| v + by),
+            Self::Point { p, .. } => *p += by,
+            Self::Spot { p, target, .. } => {
+                *p += by;
+                *target += by;
+            }
+        }
+        light
+    }
+
     /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at its position.
     #[must_use]
     pub fn contribution(&self, at: &SetPoint) -> f64 {
@@ -93,6 +110,7 @@ impl SetLight {
 
     /// What a light sampler is told about the light.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub fn bounds(&self) -> LightBounds {
         match *self {
             Self::Triangle {
@@ -100,11 +118,13 @@ impl SetLight {
                 radiance,
                 two_sided,
             } => {
-                let cross = (b - a).cross(c - a);
+                // In doubles: squares of tiny lengths vanish in floats.
+                let edge = |to: Vec3| to.as_dvec3() - a.as_dvec3();
+                let cross = edge(b).cross(edge(c));
                 LightBounds {
                     bounds: Aabb::from_points([a, b, c]),
-                    w: cross.normalize_or(Vec3::Z),
-                    phi: core::f32::consts::PI * radiance * 0.5 * cross.length(),
+                    w: cross.normalize_or(DVec3::Z).as_vec3(),
+                    phi: (PI * f64::from(radiance) * 0.5 * cross.length()) as f32,
                     cos_theta_o: 1.0,
                     cos_theta_e: 0.0,
                     two_sided,

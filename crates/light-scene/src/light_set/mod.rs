@@ -3,6 +3,7 @@
 //! A set is generated from a [`SetKind`], a count and a seed ([`LightSetFile::generate`]), or read from two text files, and written
 //! back to them. Lengths and powers have an arbitrary but consistent unit.
 
+mod adversarial;
 mod generate;
 mod light;
 mod random;
