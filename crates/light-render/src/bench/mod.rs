@@ -3,6 +3,7 @@
 //! The estimator is that of one unoccluded shading point: the contribution of the chosen light over its probability. Its variance
 //! is summed over all lights, not sampled, so that a rare large term cannot hide.
 
+mod drift;
 mod laws;
 mod occluders;
 mod question;
@@ -14,6 +15,7 @@ mod timing;
 mod truth;
 mod variance;
 
+pub use drift::{DriftRow, drift};
 pub use laws::Laws;
 pub use receiver::ReceiverKind;
 pub use row::BenchRow;
@@ -47,22 +49,29 @@ pub struct BenchOptions {
     pub occluders: usize,
 }
 
+impl BenchOptions {
+    /// How many points of the set its variance is taken over.
+    fn points_of(&self, set: &LightSetFile) -> usize {
+        let all = set.points.len();
+        let few = if set.lights.len() > 10_000 { 256 } else { all };
+        self.var_points.unwrap_or(few).min(all)
+    }
+}
+
+/// What samplers are told about the lights of a set.
+fn extents(set: &LightSetFile) -> Vec<LightExtent> {
+    set.lights.iter().map(|l| l.bounds().into()).collect()
+}
+
 /// One row for each sampler, all measured in this run and in turns, so that their ratios mean something on a busy machine.
 ///
 /// # Panics
 /// If the system refuses to start the threads.
 #[must_use]
 pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<BenchRow> {
-    let extents: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
+    let extents = extents(set);
     let question = Question::new(set, options);
-    let var_points = options
-        .var_points
-        .unwrap_or(if set.lights.len() > 10_000 {
-            256
-        } else {
-            usize::MAX
-        })
-        .min(set.points.len());
+    let var_points = options.points_of(set);
 
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)

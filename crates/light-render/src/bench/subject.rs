@@ -31,6 +31,18 @@ impl Subject {
         refitted.ok().map(|()| milliseconds)
     }
 
+    /// Follows lights that moved, if the sampler can.
+    pub(super) fn refit(&mut self, extents: &[LightExtent]) {
+        if let AnyLightSampler::Bvh(sampler) = &mut self.sampler {
+            sampler.refit(extents).expect("the same lights, moved");
+        }
+    }
+
+    /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that follow no lights.
+    pub(super) fn looseness(&self) -> Option<f64> {
+        self.sampler.looseness()
+    }
+
     pub(super) const fn kind(&self) -> SamplerKind {
         self.kind
     }

@@ -1,11 +1,16 @@
 use core::error::Error;
+use core::fmt;
 use core::str::FromStr;
 use std::path::PathBuf;
 
 use clap::Args;
 use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, BenchRow, ReceiverKind, Truth, bench};
+use light_render::bench::{BenchOptions, BenchRow, DriftRow, ReceiverKind, Truth, bench, drift};
 use light_scene::light_set::{LightSetFile, SetKind};
+use serde_json::Value;
+
+/// Steps of moving lights: each goes twice as far.
+const MAX_DRIFT: u32 = 20;
 
 /// Measure light samplers side by side on a set of lights.
 #[derive(Args, Debug)]
@@ -49,6 +54,9 @@ pub(crate) struct BenchArgs {
     /// Spheres that block light, a tenth of the set's volume together.
     #[arg(long, value_name = "N", default_value_t = 0)]
     occluders: usize,
+    /// Move the lights in N steps, and compare hierarchies that follow with ones built anew.
+    #[arg(long, value_name = "N", conflicts_with = "k")]
+    drift: Option<u32>,
     /// One JSON object a line instead of a table.
     #[arg(long)]
     json: bool,
@@ -81,18 +89,31 @@ impl BenchArgs {
             receiver: self.receiver,
             occluders: self.occluders,
         };
-        let rows = bench(&name, &set, &options);
+        if let Some(steps) = self.drift {
+            if steps > MAX_DRIFT {
+                return Err("expected --drift of at most 20".into());
+            }
+            let rows = drift(&name, &set, &options, steps);
+            self.print(&DriftRow::header(), &rows, DriftRow::json);
+        } else {
+            let rows = bench(&name, &set, &options);
+            self.print(&BenchRow::header(), &rows, BenchRow::json);
+        }
+        Ok(())
+    }
+
+    /// A table, or one JSON object a row.
+    fn print<R: fmt::Display>(&self, header: &str, rows: &[R], json: impl Fn(&R) -> Value) {
         if !self.json {
-            println!("{}", BenchRow::header());
+            println!("{header}");
         }
         for row in rows {
             if self.json {
-                println!("{}", row.json());
+                println!("{}", json(row));
             } else {
                 println!("{row}");
             }
         }
-        Ok(())
     }
 
     fn set(&self) -> Result<(String, LightSetFile), Box<dyn Error>> {

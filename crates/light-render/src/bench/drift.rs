@@ -1,0 +1,196 @@
+use core::fmt;
+
+use light_scene::light_set::LightSetFile;
+use lights::glam::Vec3;
+use lights::math::Aabb;
+use rand_core::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use serde_json::{Value, json};
+
+use super::question::Question;
+use super::subject::Subject;
+use super::timing::unit;
+use super::variance::{self, Variance};
+use super::{BenchOptions, extents};
+use crate::SamplerKind;
+
+/// How far lights go in the first step, as a share of the mean distance of neighbours; each step ends twice as far.
+const FIRST: f32 = 1.0 / 64.0;
+
+/// What a hierarchy is worth that follows lights, against one built for where they are.
+#[derive(Clone, Debug)]
+pub struct DriftRow {
+    /// Name of the set.
+    pub set: String,
+    /// Lights of the set.
+    pub n_lights: usize,
+    /// The hierarchy.
+    pub sampler: SamplerKind,
+    /// How far each light is from where it was at first, in mean distances of neighbours.
+    pub moved: f32,
+    /// Looseness of the refitted hierarchy, over what it was at first.
+    pub looseness: f64,
+    /// Variance with the refitted hierarchy.
+    pub refitted: Variance,
+    /// Variance with one that is built anew.
+    pub built_anew: Variance,
+}
+
+/// A row for each hierarchy and step: lights fly straight, each in a direction of its own, twice as far in each step; the points stay. Samplers
+/// that do not follow lights have no rows.
+#[must_use]
+pub fn drift(name: &str, set: &LightSetFile, options: &BenchOptions, steps: u32) -> Vec<DriftRow> {
+    let mut rng = Pcg64Mcg::seed_from_u64(0xD21F);
+    let distance = mean_distance(set);
+    let ways: Vec<Vec3> = set
+        .lights
+        .iter()
+        .map(|_| direction(&mut rng) * distance)
+        .collect();
+    let points = options.points_of(set);
+    let mut rows = Vec::new();
+    for &sampler in &options.samplers {
+        let mut following = Subject::new(sampler, &extents(set));
+        let Some(at_first) = following.looseness() else {
+            continue;
+        };
+        for moved in (0..=steps).map(distance_after) {
+            let lights = set.lights.iter().zip(&ways);
+            let set = LightSetFile {
+                lights: lights
+                    .map(|(light, &way)| light.moved(way * moved))
+                    .collect(),
+                points: set.points.clone(),
+            };
+            let question = Question::new(&set, options);
+            let variance = |subject: &Subject| variance::exact(subject, &set, &question, points);
+            following.refit(&extents(&set));
+            rows.push(DriftRow {
+                set: name.to_owned(),
+                n_lights: set.lights.len(),
+                sampler,
+                moved,
+                looseness: following.looseness().map_or(0.0, |now| now / at_first),
+                refitted: variance(&following),
+                built_anew: variance(&Subject::new(sampler, &extents(&set))),
+            });
+        }
+    }
+    rows
+}
+
+/// In mean distances of neighbours; 0 before the first step.
+fn distance_after(step: u32) -> f32 {
+    match step.checked_sub(1) {
+        Some(doublings) => FIRST * (1_u64 << doublings.min(63)) as f32,
+        None => 0.0,
+    }
+}
+
+/// The side of the cube that a light has for itself.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+fn mean_distance(set: &LightSetFile) -> f32 {
+    let boxes = set.lights.iter().map(|light| light.bounds().bounds);
+    let size = boxes.fold(Aabb::EMPTY, Aabb::union).diagonal();
+    let volume = size.as_dvec3().element_product();
+    (volume / set.lights.len().max(1) as f64).cbrt() as f32
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+fn direction(rng: &mut Pcg64Mcg) -> Vec3 {
+    let mut within = || 2.0 * unit(rng) as f32 - 1.0;
+    loop {
+        let v = Vec3::new(within(), within(), within());
+        if (0.01..=1.0).contains(&v.length_squared()) {
+            return v.normalize();
+        }
+    }
+}
+
+impl DriftRow {
+    /// The title line of a table of rows.
+    #[must_use]
+    pub fn header() -> String {
+        format!(
+            "{:<11} {:>8} {:<14} {:>8} {:>9} {:>9} {:>9} {:>11} {:>11}",
+            "set",
+            "lights",
+            "sampler",
+            "moved",
+            "looseness",
+            "V refit",
+            "V 99 %",
+            "V new build",
+            "V 99 %"
+        )
+    }
+
+    /// The row as one JSON object.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        json!({
+            "set": self.set,
+            "n_lights": self.n_lights,
+            "sampler": self.sampler.name(),
+            "moved": self.moved,
+            "looseness_ratio": self.looseness,
+            "v_mean": self.refitted.mean,
+            "v_median": self.refitted.median,
+            "v_p99": self.refitted.p99,
+            "v_mean_built_anew": self.built_anew.mean,
+            "v_median_built_anew": self.built_anew.median,
+            "v_p99_built_anew": self.built_anew.p99,
+            "lost_energy": self.refitted.lost_energy,
+        })
+    }
+}
+
+impl fmt::Display for DriftRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{:<11} {:>8} {:<14} {:>8.4} {:>9.3} {:>9.3} {:>9.2} {:>11.3} {:>11.2}",
+            self.set,
+            self.n_lights,
+            self.sampler.name(),
+            self.moved,
+            self.looseness,
+            self.refitted.mean,
+            self.refitted.p99,
+            self.built_anew.mean,
+            self.built_anew.p99,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{ReceiverKind, Truth};
+    use light_scene::light_set::SetKind;
+
+    #[test]
+    fn a_hierarchy_that_follows_loses_nothing_but_grows_loose() {
+        let set = LightSetFile::generate(SetKind::Uniform, 500, 1);
+        let options = BenchOptions {
+            samplers: vec![SamplerKind::Uniform, SamplerKind::Bvh],
+            k: 1,
+            var_points: Some(16),
+            threads: 1,
+            truth: Truth::Centroid,
+            receiver: ReceiverKind::Diffuse,
+            occluders: 0,
+        };
+        let rows = drift("uniform", &set, &options, 7);
+        assert_eq!(rows.len(), 8, "uniform sampling follows nothing");
+        let (first, last) = (&rows[0], &rows[7]);
+        assert_eq!(first.moved, 0.0, "where they were");
+        assert!((first.looseness - 1.0).abs() < 1e-6, "{}", first.looseness);
+        assert_eq!(last.moved, 1.0, "a whole distance");
+        assert!(last.looseness > 1.1, "{}", last.looseness);
+        assert!(
+            rows.iter().all(|row| row.refitted.lost_energy == 0.0),
+            "no light is lost on the way"
+        );
+    }
+}
