@@ -1,7 +1,8 @@
 //! Floating-point functions that `core` lacks.
 //!
 //! The only place that chooses between the platform's functions (feature `std`) and software ones (feature
-//! `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on every platform.
+//! `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on every platform. Only the square root is everywhere
+//! the same anyway.
 //! Angles are radians.
 
 macro_rules! forward {
@@ -23,8 +24,6 @@ macro_rules! forward {
 }
 
 forward! {
-    /// Square root; NaN below zero.
-    sqrt(x) = sqrt, sqrtf;
     /// Sine.
     sin(x) = sin, sinf;
     /// Cosine.
@@ -55,6 +54,20 @@ forward! {
     ceil(x) = ceil, ceilf;
     /// Nearest integer, ties away from zero.
     round(x) = round, roundf;
+}
+
+/// Square root; NaN below zero. Correctly rounded whoever computes it, so that the platform's is taken wherever there is one.
+#[inline]
+#[must_use]
+pub fn sqrt(x: f32) -> f32 {
+    #[cfg(any(feature = "std", not(feature = "libm")))]
+    {
+        f32::sqrt(x)
+    }
+    #[cfg(all(feature = "libm", not(feature = "std")))]
+    {
+        libm::sqrtf(x)
+    }
 }
 
 /// Sine and cosine of `x`.

@@ -1,10 +1,12 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
-use super::importance::{Receiver, for_receiver};
-use super::lane::Weights;
+use super::importance::Receiver;
 use super::node::{NOWHERE, WIDTH};
-use super::select::{both, pick, share};
+use super::query::{Oneself, Query};
+use super::select::{both, low, pick, share};
 use super::tree::{LightBvhRef, MAX_DEPTH};
+use super::vectors::answer;
+use super::weights::Weights;
 
 /// Nodes that a cut may hold.
 const MAX_NODES: usize = 48;
@@ -46,10 +48,20 @@ impl LightCut {
     /// The cut of `tree` for `ctx`.
     #[must_use]
     pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
-        for_receiver!(ctx, receiver => Self::new(tree, &receiver, detail))
+        answer(ctx, Grow { tree, detail })
     }
 
-    /// [`sample`](Self::sample) of the cut for `ctx`.
+    /// The cut of `tree` for `receiver`.
+    #[must_use]
+    pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {
+        answer(Oneself(receiver), Grow { tree, detail })
+    }
+
+    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None` if no light in the tree can.
+    ///
+    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k` lights, call with `(i + u) / k` for `i` of
+    /// `0..k`.
+    #[inline]
     #[must_use]
     pub fn sample_at(
         &self,
@@ -58,10 +70,12 @@ impl LightCut {
         pmf: f32,
         u: f64,
     ) -> Option<SampledLight> {
-        for_receiver!(ctx, receiver => self.sample(tree, &receiver, pmf, u))
+        let cut = self;
+        answer(ctx, Sample { cut, tree, pmf, u })
     }
 
-    /// [`pmf`](Self::pmf) of the cut for `ctx`.
+    /// Probability of `light` by [`sample_at`](Self::sample_at), to the bit.
+    #[inline]
     #[must_use]
     pub fn pmf_at(
         &self,
@@ -70,13 +84,86 @@ impl LightCut {
         pmf: f32,
         light: LightId,
     ) -> f32 {
-        for_receiver!(ctx, receiver => self.pmf(tree, &receiver, pmf, light))
+        answer(
+            ctx,
+            Probability {
+                cut: self,
+                tree,
+                pmf,
+                light,
+            },
+        )
     }
 
-    /// The cut of `tree` for `receiver`.
+    /// [`sample_at`](Self::sample_at) for the `receiver` of the cut.
+    #[inline]
     #[must_use]
-    pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {
-        let mut cut = Self {
+    pub fn sample<R: Receiver>(
+        &self,
+        tree: &LightBvhRef<'_>,
+        receiver: &R,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        let cut = self;
+        answer(Oneself(receiver), Sample { cut, tree, pmf, u })
+    }
+
+    /// [`pmf_at`](Self::pmf_at) for the `receiver` of the cut.
+    #[inline]
+    #[must_use]
+    pub fn pmf<R: Receiver>(
+        &self,
+        tree: &LightBvhRef<'_>,
+        receiver: &R,
+        pmf: f32,
+        light: LightId,
+    ) -> f32 {
+        answer(
+            Oneself(receiver),
+            Probability {
+                cut: self,
+                tree,
+                pmf,
+                light,
+            },
+        )
+    }
+
+    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
+    #[must_use]
+    pub fn irradiance(&self) -> f64 {
+        let inv_unit = f64::from(self.inv_unit);
+        // Heights and intensities are counted twice each.
+        0.25 * f64::from(self.total()) * inv_unit * inv_unit
+    }
+
+    fn total(&self) -> f32 {
+        self.count
+            .checked_sub(1)
+            .map_or(0.0, |last| self.ends[last])
+    }
+
+    /// Where in the cut the node is.
+    #[inline]
+    fn position(&self, node: u32) -> Option<usize> {
+        self.nodes[..self.count].iter().position(|&n| n == node)
+    }
+}
+
+/// [`LightCut::at`].
+struct Grow<'a, 'b> {
+    tree: &'b LightBvhRef<'a>,
+    detail: CutDetail,
+}
+
+impl Query for Grow<'_, '_> {
+    type Answer = LightCut;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> LightCut {
+        let Self { tree, detail } = self;
+        let mut cut = LightCut {
             nodes: [0; MAX_NODES],
             weights: [[0.0; WIDTH]; MAX_NODES],
             ends: [0.0; MAX_NODES],
@@ -118,54 +205,63 @@ impl LightCut {
         cut.count = index;
         cut
     }
+}
 
-    /// One light that may light `receiver`, which has to be the one of the cut, as has the tree; `None` if no light in the tree can.
-    ///
-    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k` lights, call with `(i + u) / k` for `i` of
-    /// `0..k`.
-    #[inline]
-    #[must_use]
-    pub fn sample<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let total = self.total();
+/// [`LightCut::sample_at`].
+struct Sample<'a, 'b> {
+    cut: &'b LightCut,
+    tree: &'b LightBvhRef<'a>,
+    pmf: f32,
+    u: f64,
+}
+
+impl Query for Sample<'_, '_> {
+    type Answer = Option<SampledLight>;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        let LightCut { nodes, weights, .. } = self.cut;
+        let total = self.cut.total();
         if !(total > 0.0) {
             return None;
         }
-        let target = u * f64::from(total);
-        let ends = &self.ends[..self.count];
+        let target = self.u * f64::from(total);
+        let ends = &self.cut.ends[..self.cut.count];
         // The last node with any weight takes what rounding leaves beyond the sum.
         let last = ends.partition_point(|&end| end < total);
         let index = ends
             .partition_point(|&end| f64::from(end) <= target)
             .min(last);
         let start = index.checked_sub(1).map_or(0.0, |before| ends[before]);
-        let (child, u) = pick(&self.weights[index], target - f64::from(start))?;
-        let pmf = both(pmf, share(self.weights[index][child], total));
-        tree.descend_from(receiver, self.nodes[index], child, pmf, u)
+        let within = target - f64::from(start);
+        let (child, u) = pick(&weights[index], within, low(within))?;
+        let pmf = both(self.pmf, share(weights[index][child], total));
+        self.tree
+            .descend_from(receiver, nodes[index], child, pmf, u)
     }
+}
 
-    /// Probability of `light` by [`sample`](Self::sample), to the bit.
-    #[inline]
-    #[must_use]
-    pub fn pmf<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        light: LightId,
-    ) -> f32 {
+/// [`LightCut::pmf_at`].
+struct Probability<'a, 'b> {
+    cut: &'b LightCut,
+    tree: &'b LightBvhRef<'a>,
+    pmf: f32,
+    light: LightId,
+}
+
+impl Query for Probability<'_, '_> {
+    type Answer = f32;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> f32 {
+        let Self { cut, tree, .. } = self;
         let mut shares = [0.0; MAX_DEPTH];
-        let mut slot = tree.slot(light);
+        let mut slot = tree.slot(self.light);
         let mut levels = 0;
         while slot != NOWHERE {
             let (index, child) = (slot / 8, slot as usize % WIDTH);
-            if let Some(member) = self.position(index) {
-                let pmf = both(pmf, share(self.weights[member][child], self.total()));
+            if let Some(member) = cut.position(index) {
+                let pmf = both(self.pmf, share(cut.weights[member][child], cut.total()));
                 return shares[..levels].iter().rev().fold(pmf, |p, &s| both(p, s));
             }
             let (Some(node), Some(share)) =
@@ -178,26 +274,6 @@ impl LightCut {
             slot = node.parent;
         }
         0.0
-    }
-
-    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
-    #[must_use]
-    pub fn irradiance(&self) -> f64 {
-        let inv_unit = f64::from(self.inv_unit);
-        // Heights and intensities are counted twice each.
-        0.25 * f64::from(self.total()) * inv_unit * inv_unit
-    }
-
-    fn total(&self) -> f32 {
-        self.count
-            .checked_sub(1)
-            .map_or(0.0, |last| self.ends[last])
-    }
-
-    /// Where in the cut the node is.
-    #[inline]
-    fn position(&self, node: u32) -> Option<usize> {
-        self.nodes[..self.count].iter().position(|&n| n == node)
     }
 }
 

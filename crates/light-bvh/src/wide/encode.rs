@@ -18,7 +18,8 @@ impl WideNode {
         };
         node.set_frame(children);
         let units: [f32; WIDTH] = core::array::from_fn(|k| children.get(k).map_or(0.0, unit));
-        let power = |k: usize| children[k].power * units[k];
+        let sides = |k: usize| f32::from(1 + u8::from(children[k].shape == Shape::BothSides));
+        let power = |k: usize| sides(k) * children[k].power * units[k];
         let max_power = (0..children.len())
             .map(power)
             .fold(f32::MIN_POSITIVE, f32::max);
@@ -46,7 +47,7 @@ impl WideNode {
         }
         self.origin = low.to_array();
         // A little more, so that rounding cannot push a code beyond its range.
-        self.scale = scale * (1.0 + 4.0 * f32::EPSILON);
+        self.inv_scale = (1.0 - 4.0 * f32::EPSILON) / scale;
     }
 
     /// Mean position and a box around it, both exact in double precision, so that the box holds what it must.
@@ -56,7 +57,7 @@ impl WideNode {
         reason = "clamped to the range of the code; NaN cannot occur with finite bounds"
     )]
     fn set_box(&mut self, k: usize, child: &Moments) {
-        let scale = f64::from(self.scale);
+        let scale = 1.0 / f64::from(self.inv_scale);
         for axis in 0..3 {
             let origin = f64::from(self.origin[axis]);
             let at = (f64::from(child.mean[axis]) - origin) / scale;

@@ -1,7 +1,7 @@
 use light_bounds::Gloss;
 use light_math::glam::Vec3;
 
-use super::importance::{Receiver, SurfaceReceiver};
+use super::importance::{Receiver, SurfaceReceiver, at_least, at_most};
 use super::lane::Lane;
 
 /// How much of a group's squared extent over its squared distance widens the facets.
@@ -36,7 +36,7 @@ pub struct GlossyReceiver {
 
 impl GlossyReceiver {
     /// The point `p` with the unit normal `n`, seen from its side of `n`. Values outside of their domain are moved into it.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3, gloss: &Gloss) -> Self {
         // Written so that NaN becomes the first bound.
@@ -61,17 +61,12 @@ impl GlossyReceiver {
         } = *self;
         // The squared length of the half vector, and of its part along the normal.
         let half_sq = 2.0 + 2.0 * (vx * wo.x + vy * wo.y + vz * wo.z) / lane.dist;
-        let half_sq = if half_sq > MIN_HALF_SQ {
-            half_sq
-        } else {
-            MIN_HALF_SQ
-        };
+        let half_sq = at_least(MIN_HALF_SQ, half_sq);
         let cos_sum = cos_i + cos_o;
-        let upright = cos_sum * cos_sum;
-        let upright = if upright < half_sq { upright } else { half_sq };
+        let upright = at_most(half_sq, cos_sum * cos_sum);
         let extent_sq = hx * hx + hy * hy + hz * hz;
-        let alpha_sq = alpha * alpha + WIDENING * extent_sq / (lane.dist_sq + extent_sq);
-        let alpha_sq = if alpha_sq < 1.0 { alpha_sq } else { 1.0 };
+        let widening = WIDENING * extent_sq / (lane.dist_sq + extent_sq);
+        let alpha_sq = at_most(1.0, alpha * alpha + widening);
         let spread = half_sq - (1.0 - alpha_sq) * upright;
         let facets = alpha_sq * half_sq * half_sq / (spread * spread);
         let shadowing = 0.5 / ((1.0 - alpha) * 2.0 * cos_i * cos_o + alpha * cos_sum);
@@ -80,7 +75,7 @@ impl GlossyReceiver {
 }
 
 impl Receiver for GlossyReceiver {
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3 {
         self.surface.position()
     }
@@ -88,7 +83,7 @@ impl Receiver for GlossyReceiver {
     #[inline(always)]
     fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32 {
         let cos_i = self.surface.expected_height(lane) / (2.0 * lane.dist);
-        let cos_i = if cos_i < 1.0 { cos_i } else { 1.0 };
+        let cos_i = at_most(1.0, cos_i);
         self.surface.weigh(lane, inv_unit) * self.reflected(lane, cos_i)
     }
 }
@@ -104,10 +99,10 @@ mod tests {
             extent: [0.0; 3],
             dist: v.length(),
             dist_sq: v.length_squared(),
+            slack: 1e-5,
             axis: [0.0; 3],
             offset: -1.0,
-            spread: 0.0,
-            sharp: false,
+            spread: 1.0,
             both_sides: false,
             power: 1.0,
         }

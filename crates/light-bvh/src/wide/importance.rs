@@ -1,26 +1,23 @@
-use light_bounds::{LightSampleContext, ReceiverSides};
 use light_math::float;
 use light_math::glam::Vec3;
 
-use super::glossy::GlossyReceiver;
 use super::lane::Lane;
-use super::segment::SegmentReceiver;
 
 /// Coordinates are clamped to this on either side, so that no difference of two overflows.
 pub(crate) const FAR: f32 = 1e36;
 
-/// Round-off of a child's position, in units of the distance (see [`Lane`]): what a sound test has to leave.
-const SLACK: f32 = 1e-5;
+/// Round-off of axis and offset over the distance, in codes of them.
+const EMISSION_SLACK: f32 = 0.004;
 
-/// The same for emission, whose unit is the 127th part of the largest component of axis and offset.
-const EMISSION_SLACK: f32 = 400.0 * SLACK;
+/// More than any child emits in any frame, per unit of its spread: one whose lights differ is never given up.
+const ANYTHING: f32 = 1e12;
 
-/// How much of the variance of a height over the horizon counts, and how much of the emission ramp's variance by position and by
-/// spread, and of the variance of the distance.
-const HEIGHT: f32 = 0.45;
+/// How much of the squared support of a child counts as variance of its height over the horizon, how much of the variance of its emission
+/// by position and by spread, and how much of its squared extent as variance of its distance. Chosen by V: see the crate's first page.
+const HEIGHT: f32 = 0.225;
 const RAMP_BY_POSITION: f32 = 0.03;
 const RAMP_BY_SPREAD: f32 = 0.35;
-pub(crate) const DISTANCE: f32 = 0.06;
+pub(crate) const DISTANCE: f32 = 0.03;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///
@@ -37,7 +34,8 @@ pub trait Receiver: Copy {
 
     /// About four times the group's irradiance, in units of its power over the squared `1 / inv_unit`.
     ///
-    /// `inv_unit` converts lengths to those of the lane.
+    /// `inv_unit` converts lengths to those of the lane. To be computed for all children together it has to be `#[inline]`, without
+    /// branches.
     fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32;
 }
 
@@ -45,36 +43,39 @@ pub trait Receiver: Copy {
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceReceiver {
     p: Vec3,
-    n: Vec3,
+    horizon: Horizon,
 }
 
 impl SurfaceReceiver {
     /// The point `p` with the unit normal `n`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3) -> Self {
-        Self { p: near(p), n }
+        Self {
+            p: near(p),
+            horizon: Horizon::new(n),
+        }
     }
 
     /// About twice the mean height of the child's lights above the horizon, those below counting as 0.
     #[inline(always)]
     pub(crate) fn expected_height(&self, lane: &Lane) -> f32 {
-        let (height, height_var, _) = lane.height(self.n);
-        height + float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK))
+        let (height, support) = self.horizon.height(lane);
+        at_least(lane.slack, height + blurred(height, support))
     }
 }
 
 impl Receiver for SurfaceReceiver {
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3 {
         self.p
     }
 
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        let (height, _, support) = lane.height(self.n);
-        let lit = (height + support > -SLACK) & lane.shines_here();
-        masked(self.expected_height(lane) * lane.emitted(), lit)
+        let (height, support) = self.horizon.height(lane);
+        let lit = (height + support > -lane.slack) & lane.shines_here();
+        masked(lane.weight(self.expected_height(lane)), lit)
     }
 }
 
@@ -82,29 +83,32 @@ impl Receiver for SurfaceReceiver {
 #[derive(Clone, Copy, Debug)]
 pub struct TwoSidedReceiver {
     p: Vec3,
-    n: Vec3,
+    horizon: Horizon,
 }
 
 impl TwoSidedReceiver {
     /// The point `p` with the unit normal `n`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3) -> Self {
-        Self { p: near(p), n }
+        Self {
+            p: near(p),
+            horizon: Horizon::new(n),
+        }
     }
 }
 
 impl Receiver for TwoSidedReceiver {
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3 {
         self.p
     }
 
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        let (height, height_var, _) = lane.height(self.n);
-        let expected = float::sqrt(height * height + (HEIGHT * height_var + SLACK * SLACK));
-        masked(2.0 * expected * lane.emitted(), lane.shines_here())
+        let (height, support) = self.horizon.height(lane);
+        let expected = at_least(lane.slack, blurred(height, support));
+        masked(lane.weight(2.0 * expected), lane.shines_here())
     }
 }
 
@@ -116,7 +120,7 @@ pub struct MediumReceiver {
 
 impl MediumReceiver {
     /// The point `p`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3) -> Self {
         Self { p: near(p) }
@@ -124,7 +128,7 @@ impl MediumReceiver {
 }
 
 impl Receiver for MediumReceiver {
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3 {
         self.p
     }
@@ -140,7 +144,7 @@ impl Receiver for MediumReceiver {
 pub(crate) struct NoReceiver;
 
 impl Receiver for NoReceiver {
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3 {
         Vec3::ZERO
     }
@@ -151,58 +155,40 @@ impl Receiver for NoReceiver {
     }
 }
 
-/// The receiver that a context stands for: a ray segment, a point in a medium, or a point on a surface by its shading normal.
+/// The plane through a receiver, with its normal up.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum ContextReceiver {
-    Surface(SurfaceReceiver),
-    Glossy(GlossyReceiver),
-    TwoSided(TwoSidedReceiver),
-    Medium(MediumReceiver),
-    Segment(SegmentReceiver),
+struct Horizon {
+    n: Vec3,
+    abs_n: Vec3,
 }
 
-impl From<&LightSampleContext> for ContextReceiver {
-    #[inline]
-    fn from(ctx: &LightSampleContext) -> Self {
-        if ctx.segment != Vec3::ZERO {
-            return Self::Segment(SegmentReceiver::new(ctx.p, ctx.segment));
-        }
-        // Where coordinates had to be clamped, directions to lights mean nothing.
-        if ctx.is_medium() || is_far(ctx.p) {
-            return Self::Medium(MediumReceiver::new(ctx.p));
-        }
-        match (ctx.sides, &ctx.gloss) {
-            (ReceiverSides::Front, None) => Self::Surface(SurfaceReceiver::new(ctx.p, ctx.ns)),
-            (ReceiverSides::Front, Some(gloss)) => {
-                Self::Glossy(GlossyReceiver::new(ctx.p, ctx.ns, gloss))
-            }
-            (ReceiverSides::Both, _) => Self::TwoSided(TwoSidedReceiver::new(ctx.p, ctx.ns)),
-        }
+impl Horizon {
+    #[inline(always)]
+    fn new(n: Vec3) -> Self {
+        Self { n, abs_n: n.abs() }
+    }
+
+    /// Mean height over the plane, and by how much the highest point of the box may exceed it.
+    #[inline(always)]
+    fn height(&self, lane: &Lane) -> (f32, f32) {
+        let Self { n, abs_n } = self;
+        let [vx, vy, vz] = lane.mean;
+        let [hx, hy, hz] = lane.extent;
+        (
+            n.x * vx + n.y * vy + n.z * vz,
+            abs_n.x * hx + abs_n.y * hy + abs_n.z * hz,
+        )
     }
 }
 
-/// The same question for whichever receiver a context stands for.
-macro_rules! for_receiver {
-    ($ctx:expr, $receiver:ident => $answer:expr) => {
-        match $crate::wide::importance::ContextReceiver::from($ctx) {
-            $crate::wide::importance::ContextReceiver::Surface($receiver) => $answer,
-            $crate::wide::importance::ContextReceiver::Glossy($receiver) => $answer,
-            $crate::wide::importance::ContextReceiver::TwoSided($receiver) => $answer,
-            $crate::wide::importance::ContextReceiver::Medium($receiver) => $answer,
-            $crate::wide::importance::ContextReceiver::Segment($receiver) => $answer,
-        }
-    };
-}
-pub(crate) use for_receiver;
-
 /// Whether `p` is beyond ±1e36 on any axis, where it is taken to be nearer and directions from it mean nothing.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn is_far(p: Vec3) -> bool {
     near(p) != p
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn near(p: Vec3) -> Vec3 {
     p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
 }
@@ -214,6 +200,24 @@ fn masked(x: f32, there: bool) -> f32 {
     f32::from_bits(x.to_bits() & mask)
 }
 
+/// The larger of the two; `x` if it is NaN.
+#[inline(always)]
+pub(crate) fn at_least(least: f32, x: f32) -> f32 {
+    if x < least { least } else { x }
+}
+
+/// The smaller of the two; `x` if it is NaN.
+#[inline(always)]
+pub(crate) fn at_most(most: f32, x: f32) -> f32 {
+    if x > most { most } else { x }
+}
+
+/// The root mean square of a height that varies as `support` allows.
+#[inline(always)]
+fn blurred(height: f32, support: f32) -> f32 {
+    float::sqrt(height * height + HEIGHT * (support * support))
+}
+
 impl Lane {
     /// Whether any of the child may emit toward the receiver's position. Sound there only: not for other places of a segment.
     #[inline(always)]
@@ -221,18 +225,16 @@ impl Lane {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
-        let along = -(mx * vx + my * vy + mz * vz + self.offset * self.dist);
-        // From any point of the box the direction differs by less than the box is wide.
-        let reach =
-            mx.abs() * hx + my.abs() * hy + mz.abs() * hz + self.offset.abs() * (hx + hy + hz);
-        (along + reach > -EMISSION_SLACK) | !self.sharp
+        let beyond = mx * vx + my * vy + mz * vz + (self.offset - EMISSION_SLACK) * self.dist;
+        // From any point of the box it differs by less than the largest axis and offset times the widths of the box.
+        beyond < 255.0 * (hx + hy + hz) + ANYTHING * self.spread
     }
 
     /// The same child from a place `offset` away from the receiver's position.
     #[inline(always)]
     pub(crate) fn seen_from(&self, offset: Vec3) -> Self {
         let mean = Vec3::from(self.mean) - offset;
-        let dist_sq = mean.length_squared() + 1e-12;
+        let dist_sq = mean.length_squared() + self.slack * self.slack;
         Self {
             mean: mean.to_array(),
             dist_sq,
@@ -244,40 +246,24 @@ impl Lane {
     /// What the child is worth to a point without a normal.
     #[inline(always)]
     pub(crate) fn fluence(&self) -> f32 {
-        2.0 * self.dist * self.emitted()
+        self.weight(2.0 * self.dist)
     }
 
-    /// Mean height over the plane through the receiver with normal `n`, its variance, and the highest point's excess over the mean.
+    /// What the child is worth to a point over whose horizon it is at half of `height`.
     #[inline(always)]
-    fn height(&self, n: Vec3) -> (f32, f32, f32) {
-        let [hx, hy, hz] = self.extent;
-        let [vx, vy, vz] = self.mean;
-        let (sx, sy, sz) = (n.x.abs() * hx, n.y.abs() * hy, n.z.abs() * hz);
-        (
-            n.x * vx + n.y * vy + n.z * vz,
-            sx * sx + sy * sy + sz * sz,
-            sx + sy + sz,
-        )
-    }
-
-    /// About twice the intensity toward the receiver over the distance to the fifth power and a half: everything but the cosine at
-    /// the receiver.
-    #[inline(always)]
-    fn emitted(&self) -> f32 {
+    fn weight(&self, height: f32) -> f32 {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
-        let (d, o) = (self.dist, self.offset);
-        let toward = -(mx * vx + my * vy + mz * vz + o * d) * d;
-        let gx = (mx * d + o * vx) * hx;
-        let gy = (my * d + o * vy) * hy;
-        let gz = (mz * d + o * vz) * hz;
-        let by_spread = self.spread * self.dist_sq;
-        let variance = RAMP_BY_POSITION * (gx * gx + gy * gy + gz * gz)
-            + RAMP_BY_SPREAD * (by_spread * by_spread);
-        let root = float::sqrt(toward * toward + variance);
-        let ramp = if self.both_sides { root } else { toward } + root;
-        let fuzzy_dist_sq = self.dist_sq + DISTANCE * (hx * hx + hy * hy + hz * hz);
-        self.power * ramp / (d * (fuzzy_dist_sq * fuzzy_dist_sq))
+        let extent = hx + hy + hz;
+        // The squared distance and its root, one over each, as they are on average over the box.
+        let inv_dist_sq = 1.0 / (self.dist_sq + DISTANCE * (extent * extent));
+        let inv_dist = self.dist * inv_dist_sq;
+        let beyond = (mx * vx + my * vy + mz * vz) * inv_dist + self.offset;
+        let (gx, gy, gz) = (mx * hx, my * hy, mz * hz);
+        let variance = (RAMP_BY_POSITION * inv_dist_sq) * (gx * gx + gy * gy + gz * gz)
+            + RAMP_BY_SPREAD * (self.spread * self.spread + 1.0);
+        let ramp = float::sqrt(beyond * beyond + variance) - masked(beyond, !self.both_sides);
+        (self.power * (ramp * inv_dist)) * (height * inv_dist_sq)
     }
 }

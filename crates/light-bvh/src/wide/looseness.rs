@@ -54,7 +54,7 @@ fn group(nodes: &[WideNode], index: usize, steps: &mut Steps) -> Group {
     for (k, group_of) in groups.iter_mut().enumerate().take(usize::from(node.inner)) {
         *group_of = group(nodes, node.child_base as usize + k, steps);
     }
-    // Positions in units of the node's scale, from its origin; emission in the children's common units.
+    // Positions in codes, from the node's origin; emission in the children's common units.
     let [mut mean, mut axis] = [Vec3::ZERO; 2];
     let [mut square, mut offset, mut emission_sq] = [0.0; 3];
     let mut within = 0.0;
@@ -69,7 +69,7 @@ fn group(nodes: &[WideNode], index: usize, steps: &mut Steps) -> Group {
         emission_sq += (w.length_squared() + o * o + spread * spread) * share;
         within += groups[k].variance * f64::from(share);
     }
-    let scale = f64::from(node.scale);
+    let scale = 1.0 / f64::from(node.inv_scale);
     let between = f64::from((square - mean.length_squared()).max(0.0));
     let variance = within + between * scale * scale;
     let common = (axis.length_squared() + offset * offset) / emission_sq.max(f32::MIN_POSITIVE);

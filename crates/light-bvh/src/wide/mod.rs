@@ -31,6 +31,7 @@ mod node;
 mod options;
 #[cfg(feature = "alloc")]
 mod prim;
+mod query;
 #[cfg(feature = "alloc")]
 mod radix;
 #[cfg(feature = "alloc")]
@@ -45,6 +46,7 @@ mod select;
 mod skeleton;
 mod tree;
 mod vectors;
+mod weights;
 
 pub use cut::{CutDetail, LightCut};
 pub use glossy::GlossyReceiver;

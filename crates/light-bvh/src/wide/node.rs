@@ -6,21 +6,21 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// A node of the default tree: up to eight children, each a subtree or one light, described by 8-bit moments.
 ///
-/// Lengths are in units of the node's `scale`. A child's emission toward a unit vector `w` is about
+/// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector `w` is about
 /// `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a unit that is folded into `power`.
 /// The first `inner` children are subtrees, in the nodes `child_base..`; the others are lights, in the order entries
 /// `light_base..`.
 ///
 /// | byte | field | |
 /// | --- | --- | --- |
-/// | 0 | `mean[axis][child]` | mean position: `origin + scale * mean` |
+/// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
 /// | 24 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
 /// | 48 | `axis[axis][child]` | mean emission axis, signed |
 /// | 72 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
 /// | 80 | `spread[child]` | how far axis and offset vary within the child; 0 if no light of it emits toward any `w` of `dot(axis, w) <= offset` |
-/// | 88 | `power[child]` | five bits of exponent, three of mantissa, relative to the node's `gain`; 0 for an empty slot |
+/// | 88 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
 /// | 96 | `origin` | |
-/// | 108 | `scale` | |
+/// | 108 | `inv_scale` | |
 /// | 112 | `child_base` | |
 /// | 116 | `light_base` | |
 /// | 120 | `gain` | upper half of an `f32`: the largest power of a child, as a share of the tree's |
@@ -39,7 +39,7 @@ pub struct WideNode {
     pub spread: [u8; WIDTH],
     pub power: [u8; WIDTH],
     pub origin: [f32; 3],
-    pub scale: f32,
+    pub inv_scale: f32,
     pub child_base: u32,
     pub light_base: u32,
     pub gain: u16,
@@ -63,7 +63,7 @@ impl WideNode {
         spread: [0; WIDTH],
         power: [0; WIDTH],
         origin: [0.0; 3],
-        scale: 1.0,
+        inv_scale: 1.0,
         child_base: 0,
         light_base: 0,
         gain: 0,
@@ -80,14 +80,13 @@ impl WideNode {
     }
 }
 
-/// The power that a code stands for: 0 for 0, otherwise a number of `[2^-31, 2)`.
-#[inline]
+/// What the bits of code 0 would stand for.
+const POWER_OF_CODE_0: f32 = f32::from_bits(96 << 23);
+
+/// The power that a code stands for: 0 for 0, otherwise a number of `[2^-34, 2)`.
+#[inline(always)]
 pub(crate) const fn decode_power(code: u8) -> f32 {
-    if code == 0 {
-        0.0
-    } else {
-        f32::from_bits(((code as u32) << 20) + (96 << 23))
-    }
+    f32::from_bits(((code as u32) << 20) + (96 << 23)) - POWER_OF_CODE_0
 }
 
 /// The code nearest to `power` of `[0, 1]`; never 0, which would make a light unreachable.
@@ -95,7 +94,7 @@ pub(crate) const fn decode_power(code: u8) -> f32 {
 #[expect(clippy::cast_sign_loss, reason = "clamped to 1..=255 before the cast")]
 pub(crate) fn encode_power(power: f32) -> u8 {
     // The code is the float's top bits, so rounding to nearest adds half of the last of them.
-    let bits = i64::from((power.max(0.0)).to_bits()) + (1 << 19);
+    let bits = i64::from((power.max(0.0) + POWER_OF_CODE_0).to_bits()) + (1 << 19);
     ((bits >> 20) - (96 << 3)).clamp(1, 255) as u8
 }
 
@@ -107,8 +106,11 @@ mod tests {
     fn powers_decode_to_within_a_sixteenth() {
         let mut power = 1.0;
         while power > 1e-9 {
-            let ratio = decode_power(encode_power(power)) / power;
-            assert!((ratio - 1.0).abs() <= 1.0 / 16.0, "{power}: {ratio}");
+            let error = (decode_power(encode_power(power)) - power).abs();
+            assert!(
+                error <= (power + POWER_OF_CODE_0) / 16.0,
+                "{power}: {error}"
+            );
             power *= 0.97;
         }
     }

@@ -1,9 +1,11 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
-use super::importance::{NoReceiver, Receiver, for_receiver};
-use super::lane::Weights;
+use super::importance::{NoReceiver, Receiver};
 use super::node::{NOWHERE, WIDTH, WideNode};
+use super::query::{Oneself, Query};
 use super::select::both;
+use super::vectors::{answer, prefetch};
+use super::weights::Weights;
 
 /// Levels of nodes that a tree may have: the builder keeps to it whatever the lights are.
 pub const MAX_DEPTH: usize = 24;
@@ -71,7 +73,7 @@ impl<'a> LightBvhRef<'a> {
     #[inline]
     #[must_use]
     pub fn sample_after(&self, ctx: &LightSampleContext, pmf: f32, u: f64) -> Option<SampledLight> {
-        for_receiver!(ctx, receiver => self.descend(&receiver, 0, pmf, u))
+        answer(ctx, Sample { tree: self, pmf, u })
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
@@ -85,50 +87,56 @@ impl<'a> LightBvhRef<'a> {
     #[inline]
     #[must_use]
     pub fn pmf_after(&self, ctx: &LightSampleContext, pmf: f32, light: LightId) -> f32 {
-        for_receiver!(ctx, receiver => self.ascend(&receiver, pmf, light))
+        answer(
+            ctx,
+            Probability {
+                tree: self,
+                pmf,
+                light,
+            },
+        )
     }
 
     /// One light that may light `receiver`; `None` if no light in the tree can.
     #[inline]
     #[must_use]
     pub fn sample_for<R: Receiver>(&self, receiver: &R, u: f64) -> Option<SampledLight> {
-        self.descend(receiver, 0, 1.0, u)
+        let (tree, pmf) = (self, 1.0);
+        answer(Oneself(receiver), Sample { tree, pmf, u })
     }
 
     /// Probability that [`sample_for`](Self::sample_for) returns `light`, to the bit.
     #[inline]
     #[must_use]
     pub fn pmf_for<R: Receiver>(&self, receiver: &R, light: LightId) -> f32 {
-        self.ascend(receiver, 1.0, light)
+        let (tree, pmf) = (self, 1.0);
+        answer(Oneself(receiver), Probability { tree, pmf, light })
     }
 
     /// One light to emit from, about in proportion to its peak intensity, after another choice of probability `pmf` led to the tree;
     /// `None` if the tree is empty.
     #[must_use]
     pub fn sample_emitter_after(&self, pmf: f32, u: f64) -> Option<SampledLight> {
-        self.descend(&NoReceiver, 0, pmf, u)
+        answer(Oneself(&NoReceiver), Sample { tree: self, pmf, u })
     }
 
     /// Probability that [`sample_emitter_after`](Self::sample_emitter_after) returns `light`, to the bit.
     #[must_use]
     pub fn pmf_emitter_after(&self, pmf: f32, light: LightId) -> f32 {
-        self.ascend(&NoReceiver, pmf, light)
+        let tree = self;
+        answer(Oneself(&NoReceiver), Probability { tree, pmf, light })
     }
 
     /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
     #[must_use]
     pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
-        let Some(root) = self.nodes.first() else {
-            return 0.0;
-        };
-        let weights = for_receiver!(ctx, receiver => Weights::new(root, &receiver));
-        let inv_unit = f64::from(weights.inv_unit);
-        // Heights and intensities are counted twice each.
-        0.25 * f64::from(weights.total()) * f64::from(root.gain()) * inv_unit * inv_unit
+        self.nodes
+            .first()
+            .map_or(0.0, |root| answer(ctx, Irradiance { root }))
     }
 
     /// The probability of `light` after another choice of probability `pmf` led to the tree.
-    #[inline]
+    #[inline(always)]
     fn ascend<R: Receiver>(&self, receiver: &R, pmf: f32, light: LightId) -> f32 {
         let mut shares = [0.0; MAX_DEPTH];
         let mut slot = self.slot(light);
@@ -156,7 +164,7 @@ impl<'a> LightBvhRef<'a> {
     }
 
     /// From `node`, which was reached with probability `pmf`, down to a light.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn descend<R: Receiver>(
         &self,
         receiver: &R,
@@ -167,6 +175,7 @@ impl<'a> LightBvhRef<'a> {
         let (mut index, mut pmf, mut u) = (node, pmf, u);
         for _ in 0..MAX_DEPTH {
             let node = self.nodes.get(index)?;
+            prefetch(self.nodes, node.child_base);
             let choice = Weights::new(node, receiver).choose(u)?;
             pmf = both(pmf, choice.probability);
             u = choice.u;
@@ -179,7 +188,7 @@ impl<'a> LightBvhRef<'a> {
     }
 
     /// From a child of `node`, which was reached with probability `pmf`, down to a light.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn descend_from<R: Receiver>(
         &self,
         receiver: &R,
@@ -194,7 +203,7 @@ impl<'a> LightBvhRef<'a> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn child(&self, node: &WideNode, child: usize) -> Option<Child> {
         let inner = usize::from(node.inner);
         if child < inner {
@@ -204,8 +213,57 @@ impl<'a> LightBvhRef<'a> {
         Some(Child::Light(LightId(*self.order.get(entry)?)))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn slot(&self, light: LightId) -> u32 {
         self.slots.get(light.index()).copied().unwrap_or(NOWHERE)
+    }
+}
+
+/// [`LightBvhRef::sample_after`].
+struct Sample<'a, 'b> {
+    tree: &'b LightBvhRef<'a>,
+    pmf: f32,
+    u: f64,
+}
+
+impl Query for Sample<'_, '_> {
+    type Answer = Option<SampledLight>;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        self.tree.descend(receiver, 0, self.pmf, self.u)
+    }
+}
+
+/// [`LightBvhRef::pmf_after`].
+struct Probability<'a, 'b> {
+    tree: &'b LightBvhRef<'a>,
+    pmf: f32,
+    light: LightId,
+}
+
+impl Query for Probability<'_, '_> {
+    type Answer = f32;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        self.tree.ascend(receiver, self.pmf, self.light)
+    }
+}
+
+/// [`LightBvhRef::irradiance`].
+struct Irradiance<'a> {
+    root: &'a WideNode,
+}
+
+impl Query for Irradiance<'_> {
+    type Answer = f64;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        let weights = Weights::new(self.root, receiver);
+        let inv_unit = f64::from(weights.inv_unit);
+        // Heights and intensities are counted twice each.
+        0.25 * f64::from(weights.total) * f64::from(self.root.gain()) * inv_unit * inv_unit
     }
 }

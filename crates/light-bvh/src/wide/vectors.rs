@@ -6,61 +6,46 @@
     )
 )]
 
-//! Which vectors a node's lanes are computed in: the widest that the machine has, asked at run time where there is an operating system.
+//! Which vectors a query is answered in: the widest that the machine has, asked at run time where there is an operating system.
 //!
 //! The same arithmetic in the same order either way, nothing fused: the same bits.
 
-use super::importance::Receiver;
-use super::lane::Weights;
 use super::node::{WIDTH, WideNode};
+use super::query::{Asker, Query};
 
-impl Weights {
-    /// What the children of `node` are worth to `receiver`.
-    #[inline(always)]
-    pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the machine has AVX2.
-            return unsafe { avx2::weights(node, receiver) };
-        }
-        Self::narrow(node, receiver)
+/// The answer to `query`, as the receiver that `asker` turns into sees the tree.
+///
+/// The whole query is one piece of code for each kind of vector, so that what a receiver knows stays in registers on its way down.
+#[inline(always)]
+pub(crate) fn answer<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has AVX2.
+        return unsafe { answer_by_avx2(asker, query) };
     }
-
-    /// The same, and for each child how rough its estimate is: 0 for a point far away, 1 for a box around the receiver.
-    #[inline(always)]
-    pub(crate) fn with_roughness<R: Receiver>(
-        node: &WideNode,
-        receiver: &R,
-    ) -> (Self, [f32; WIDTH]) {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the machine has AVX2.
-            return unsafe { avx2::weights_with_roughness(node, receiver) };
-        }
-        Self::narrow_with_roughness(node, receiver)
-    }
+    asker.ask(query)
 }
 
+/// # Safety
+/// The machine has to have AVX2.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-mod avx2 {
-    use super::*;
+#[target_feature(enable = "avx2")]
+unsafe fn answer_by_avx2<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
+    asker.ask(query)
+}
 
-    /// # Safety
-    /// The machine has to have AVX2.
-    #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn weights<R: Receiver>(node: &WideNode, receiver: &R) -> Weights {
-        Weights::narrow(node, receiver)
+/// Asks the memory for the eight nodes from `first`, of which one may be visited next.
+#[inline(always)]
+pub(crate) fn prefetch(nodes: &[WideNode], first: u32) {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    for child in 0..WIDTH {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let node = nodes.as_ptr().wrapping_add(first as usize + child);
+        // SAFETY: every machine of this kind has the instruction, and it may be given any address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(node.cast()) };
     }
-
-    /// # Safety
-    /// The machine has to have AVX2.
-    #[target_feature(enable = "avx2")]
-    pub(super) unsafe fn weights_with_roughness<R: Receiver>(
-        node: &WideNode,
-        receiver: &R,
-    ) -> (Weights, [f32; WIDTH]) {
-        Weights::narrow_with_roughness(node, receiver)
-    }
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+    let _ = (nodes, first);
 }
 
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
@@ -69,27 +54,31 @@ mod tests {
 
     use super::*;
     use crate::wide::glossy::GlossyReceiver;
-    use crate::wide::importance::{MediumReceiver, SurfaceReceiver, TwoSidedReceiver};
+    use crate::wide::importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
+    use crate::wide::query::Oneself;
     use crate::wide::segment::SegmentReceiver;
+    use crate::wide::weights::Weights;
 
-    fn bits(weights: &Weights) -> [u32; WIDTH] {
-        weights.lanes.map(f32::to_bits)
+    /// The weights of a node's children and their roughness, as bits.
+    struct Bits<'a>(&'a WideNode);
+
+    impl Query for Bits<'_> {
+        type Answer = [[u32; WIDTH]; 2];
+
+        #[inline(always)]
+        fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+            let (weights, roughness) = Weights::with_roughness(self.0, receiver);
+            [weights.lanes, roughness].map(|lanes| lanes.map(f32::to_bits))
+        }
     }
 
     /// Trivially true where the machine has no wider vectors than the build's target.
     #[test]
     fn wide_vectors_give_the_bits_of_narrow_ones() {
         fn check<R: Receiver>(node: &WideNode, receiver: &R) {
-            let (narrow, wide) = (
-                Weights::narrow(node, receiver),
-                Weights::new(node, receiver),
-            );
-            assert_eq!(bits(&narrow), bits(&wide), "weights of {node:?}");
-            let narrow = Weights::narrow_with_roughness(node, receiver);
-            let wide = Weights::with_roughness(node, receiver);
-            assert_eq!(bits(&narrow.0), bits(&wide.0), "weights of {node:?}");
-            let roughness = |r: [f32; WIDTH]| r.map(f32::to_bits);
-            assert_eq!(roughness(narrow.1), roughness(wide.1), "of {node:?}");
+            let narrow = Bits(node).of(receiver);
+            let wide = answer(Oneself(receiver), Bits(node));
+            assert_eq!(narrow, wide, "weights of {node:?}");
         }
         let mut state = 1u32;
         let mut next = || {
@@ -106,7 +95,7 @@ mod tests {
                 offset: bytes().map(|code| i8::from_ne_bytes([code])),
                 spread: bytes().map(|x| x / 2),
                 power: bytes(),
-                scale: 0.01,
+                inv_scale: 100.0,
                 ..WideNode::EMPTY
             };
             let [x, y, z, ..] = bytes().map(|x| f32::from(x) * 0.01);

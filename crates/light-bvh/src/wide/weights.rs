@@ -1,0 +1,80 @@
+use super::importance::Receiver;
+use super::lane::{Frame, Lane};
+use super::node::{WIDTH, WideNode};
+
+/// The least sum of weights in codes of which each has its full precision: a child's power, height and emission leave it some 10^18 times
+/// smaller at worst, which a float still holds.
+const LEAST_TOTAL: f32 = 1e-16;
+
+/// What the children of a node are worth to a receiver.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights {
+    /// One number a child: 0 only if it cannot contribute.
+    pub(crate) lanes: [f32; WIDTH],
+    /// Their sum, always added up in the same order.
+    pub(crate) total: f32,
+    /// One over the unit of length that the weights are in.
+    pub(crate) inv_unit: f32,
+}
+
+impl Weights {
+    /// What the children of `node` are worth to `receiver`.
+    #[inline(always)]
+    pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        let weights = Self::in_frame(node, receiver, &Frame::in_codes(node, receiver), |_, _| ());
+        if weights.total >= LEAST_TOTAL {
+            weights
+        } else {
+            Self::from_afar(node, receiver)
+        }
+    }
+
+    /// The same, and for each child how rough its estimate is: 0 for a point far away, 1 for a box around the receiver.
+    #[inline(always)]
+    pub(crate) fn with_roughness<R: Receiver>(
+        node: &WideNode,
+        receiver: &R,
+    ) -> (Self, [f32; WIDTH]) {
+        let mut roughness = [0.0; WIDTH];
+        let frame = Frame::in_codes(node, receiver);
+        let weights = Self::in_frame(node, receiver, &frame, |k, lane| {
+            let [hx, hy, hz] = lane.extent;
+            let extent_sq = hx * hx + hy * hy + hz * hz;
+            roughness[k] = extent_sq / (extent_sq + lane.dist_sq);
+        });
+        if weights.total >= LEAST_TOTAL {
+            (weights, roughness)
+        } else {
+            // So far away, all are points.
+            (Self::from_afar(node, receiver), [0.0; WIDTH])
+        }
+    }
+
+    /// The weights of lights so far away, or nodes so large, that they vanish in codes.
+    #[cold]
+    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        Self::in_frame(node, receiver, &Frame::from_afar(node, receiver), |_, _| ())
+    }
+
+    /// Written so that the compiler computes all children together: no branches, and nothing that depends on another child.
+    #[inline(always)]
+    fn in_frame<R: Receiver>(
+        node: &WideNode,
+        receiver: &R,
+        frame: &Frame,
+        mut note: impl FnMut(usize, &Lane),
+    ) -> Self {
+        let mut lanes = [0.0; WIDTH];
+        for (k, weight) in lanes.iter_mut().enumerate() {
+            let lane = frame.lane(node, k);
+            *weight = receiver.weigh(&lane, frame.inv_unit);
+            note(k, &lane);
+        }
+        let w = &lanes;
+        Self {
+            lanes,
+            total: ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7])),
+            inv_unit: frame.inv_unit,
+        }
+    }
+}
