@@ -3,6 +3,8 @@
 use std::fs::read;
 use std::path::{Path, PathBuf};
 
+use lights::sources::TextureMapping;
+
 use crate::glam::{Vec2, Vec3};
 use crate::{Color, EmissionSides, Scene, Surface, read_gltf, read_obj, read_pbrt};
 
@@ -15,7 +17,7 @@ fn path(name: &str) -> PathBuf {
 #[derive(Debug)]
 enum Paint {
     Plain(Vec3),
-    Texels(Vec<Vec3>, Vec3),
+    Texels(Vec<Vec3>, Vec3, TextureMapping),
 }
 
 impl Paint {
@@ -24,7 +26,7 @@ impl Paint {
             Color::Constant(color) => Self::Plain(color),
             Color::Image(texture) => {
                 let image = &scene.images[texture.image.0 as usize];
-                Self::Texels(image.texels().to_vec(), texture.scale)
+                Self::Texels(image.texels().to_vec(), texture.scale, texture.mapping)
             }
         }
     }
@@ -34,7 +36,9 @@ impl Paint {
         let near = |a: Vec3, b: Vec3| a.abs_diff_eq(b, 1e-5 * b.max_element());
         match (self, other) {
             (Self::Plain(a), Self::Plain(b)) => near(*a, *b),
-            (Self::Texels(a, by), Self::Texels(b, with)) => a == b && near(*by, *with),
+            (Self::Texels(a, by, on), Self::Texels(b, with, over)) => {
+                a == b && near(*by, *with) && on == over
+            }
             _ => false,
         }
     }
