@@ -1,8 +1,7 @@
-use light_math::float;
-use light_math::glam::Vec3;
-
-use super::moments::{Moments, Shape};
-use super::node::{BOTH_SIDES, WIDTH, WideNode, encode_power};
+use super::brood::Brood;
+use super::lanewise::{larger, low_byte, nearest, reduce, smaller};
+use super::moments::Moments;
+use super::node::{WIDTH, WideNode, encode_power};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
 const MIN_SCALE: f32 = 1e-30;
@@ -16,137 +15,186 @@ impl WideNode {
             count: u8::try_from(children.len()).unwrap_or(0),
             ..Self::EMPTY
         };
-        node.set_frame(children);
-        let units: [f32; WIDTH] = core::array::from_fn(|k| children.get(k).map_or(0.0, unit));
-        let sides = |k: usize| f32::from(1 + u8::from(children[k].shape == Shape::BothSides));
-        let power = |k: usize| sides(k) * children[k].power * units[k];
-        let max_power = (0..children.len())
-            .map(power)
-            .fold(f32::MIN_POSITIVE, f32::max);
-        node.gain = encode_gain(max_power);
-        // What is off leaves its slot empty.
-        let lit = children.iter().enumerate().filter(|(_, c)| c.power > 0.0);
-        for (k, child) in lit {
-            node.set_box(k, child);
-            node.set_emission(k, child, units[k]);
-            node.power[k] = encode_power(power(k) / max_power);
-        }
+        let Some(brood) = Brood::new(children) else {
+            node.gain = encode_gain(0.0);
+            return node;
+        };
+        node.set_frame(&brood);
+        node.set_boxes(&brood);
+        let units = node.set_emission(&brood);
+        node.set_power(&brood, &units);
+        node.clear_unlit(&brood);
         node
     }
 
-    fn set_frame(&mut self, children: &[Moments]) {
-        let lit = || children.iter().filter(|c| c.power > 0.0);
-        let Some(low) = lit().map(|c| c.mean).reduce(Vec3::min) else {
-            return;
-        };
+    fn set_frame(&mut self, brood: &Brood) {
         let mut scale = MIN_SCALE;
-        for child in lit() {
-            let reach = (child.mean - low).max_element();
-            let half = (child.bounds.max - child.mean).max(child.mean - child.bounds.min);
-            scale = scale.max(reach / 255.0).max(half.max_element() / 253.0);
+        for axis in 0..3 {
+            let (low, mean, high) = (&brood.low[axis], &brood.mean[axis], &brood.high[axis]);
+            let origin = reduce(*mean, smaller);
+            let mut needed = [0.0; WIDTH];
+            for k in 0..WIDTH {
+                let half = larger(high[k] - mean[k], mean[k] - low[k]);
+                needed[k] = larger((mean[k] - origin) * (1.0 / 255.0), half * (1.0 / 253.0));
+            }
+            scale = larger(scale, reduce(needed, larger));
+            self.origin[axis] = origin;
         }
-        self.origin = low.to_array();
         // A little more, so that rounding cannot push a code beyond its range.
         self.inv_scale = (1.0 - 4.0 * f32::EPSILON) / scale;
     }
 
-    /// Mean position and a box around it, both exact in double precision, so that the box holds what it must.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to the range of the code; NaN cannot occur with finite bounds"
-    )]
-    fn set_box(&mut self, k: usize, child: &Moments) {
-        let scale = 1.0 / f64::from(self.inv_scale);
+    /// Mean positions, and boxes around them that hold what they must.
+    ///
+    /// A difference of two floats is off by half an epsilon of itself, however far from zero they are. Twice 255 codes are so known to
+    /// within 1e-4 of a code, which the margin outweighs.
+    fn set_boxes(&mut self, brood: &Brood) {
+        const MARGIN: f32 = 0.001;
+        let inv_scale = self.inv_scale;
         for axis in 0..3 {
-            let origin = f64::from(self.origin[axis]);
-            let at = (f64::from(child.mean[axis]) - origin) / scale;
-            let code = (at + 0.5).clamp(0.0, 255.0) as u8;
-            let decoded = origin + scale * f64::from(code);
-            let above = f64::from(child.bounds.max[axis]) - decoded;
-            let below = decoded - f64::from(child.bounds.min[axis]);
-            let half = above.max(below) / scale;
-            self.mean[axis][k] = code;
-            // Truncation plus one is above, and never 0: a child without extent keeps a floor of uncertainty.
-            self.extent[axis][k] = (half.clamp(0.0, 254.0) as u8).saturating_add(1);
+            let origin = self.origin[axis];
+            for k in 0..WIDTH {
+                let codes = |x: f32| (x - origin) * inv_scale;
+                let mean = nearest(codes(brood.mean[axis][k]));
+                let above = codes(brood.high[axis][k]) - mean;
+                let below = mean - codes(brood.low[axis][k]);
+                self.mean[axis][k] = low_byte(mean);
+                // Rounded up, and never to 0: a child without extent keeps a floor of uncertainty.
+                self.extent[axis][k] = low_byte(nearest(larger(above, below) + (0.5 + MARGIN)));
+            }
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "float to integer casts saturate"
-    )]
-    fn set_emission(&mut self, k: usize, child: &Moments, unit: f32) {
-        let inv_unit = 1.0 / unit;
-        for axis in 0..3 {
-            self.axis[axis][k] = float::round(child.axis[axis] * inv_unit) as i8;
+    fn set_power(&mut self, brood: &Brood, units: &[f32; WIDTH]) {
+        let mut powers = [0.0; WIDTH];
+        for k in 0..WIDTH {
+            let sides = if brood.both_sides[k] { 2.0 } else { 1.0 };
+            powers[k] = sides * brood.power[k] * units[k];
         }
-        self.offset[k] = if child.shape == Shape::BothSides {
-            BOTH_SIDES
-        } else {
-            (float::round(child.offset * inv_unit) as i8).max(-127)
-        };
-        let spread = float::ceil(spread(child) * inv_unit);
-        self.spread[k] = spread.clamp(1.0, 255.0) as u8;
-        if child.spread_sq == 0.0 && child.shape != Shape::BothSides {
-            let decoded = Vec3::from(self.axis.map(|axis| f32::from(axis[k])));
-            if let Some(offset) =
-                offset_below(decoded, child.axis * inv_unit, child.offset * inv_unit)
-            {
-                self.offset[k] = offset;
-                self.spread[k] = 0;
+        let max_power = larger(reduce(powers, larger), f32::MIN_POSITIVE);
+        self.gain = encode_gain(max_power);
+        self.power = powers.map(|power| encode_power(power / max_power));
+    }
+
+    /// What is off leaves its slot empty.
+    fn clear_unlit(&mut self, brood: &Brood) {
+        let lit = brood.power.map(|power| power > 0.0);
+        if lit == [true; WIDTH] {
+            return;
+        }
+        let keep = lit.map(|lit| if lit { 0xff } else { 0 });
+        let codes = self.mean.iter_mut().chain(&mut self.extent);
+        for codes in codes.chain([&mut self.spread, &mut self.power]) {
+            for k in 0..WIDTH {
+                codes[k] &= keep[k];
+            }
+        }
+        for codes in self.axis.iter_mut().chain([&mut self.offset]) {
+            for k in 0..WIDTH {
+                codes[k] &= keep[k] as i8;
             }
         }
     }
 }
 
-/// The code of an offset so that `dot(decoded, w)` is above it wherever `dot(axis, w)` is above `offset`, for all unit vectors `w`;
-/// `None` if there is no such code.
-#[expect(clippy::cast_possible_truncation, reason = "checked to be in range")]
-fn offset_below(decoded: Vec3, axis: Vec3, offset: f32) -> Option<i8> {
-    /// What is left to round-off, in codes.
-    const MARGIN: f32 = 0.01;
-    let length = axis.length();
-    let (along, aside) = if length > 0.0 {
-        let along = decoded.dot(axis) / length;
-        (along, (decoded - axis * (along / length)).length())
-    } else {
-        (0.0, decoded.length())
-    };
-    // The edge of the lit directions, seen from the exact axis, and the decoded axis' least component in it: at the edge on the far side,
-    // or opposite to the decoded axis if that is lit.
-    let cos = if length > 0.0 {
-        (offset / length).clamp(-1.0, 1.0)
-    } else {
-        -1.0
-    };
-    let sin = float::safe_sqrt(1.0 - cos * cos);
-    let least = if along * sin + aside * cos <= 0.0 {
-        -float::sqrt(along * along + aside * aside)
-    } else {
-        along * cos - aside * sin
-    };
-    let code = float::floor(least - MARGIN).min(float::round(offset));
-    (code >= -127.0).then_some(code as i8)
-}
-
-/// The unit of a child's axis, offset and spread: what makes the largest of them fit its code.
-fn unit(child: &Moments) -> f32 {
-    let axis = child.axis.abs().max_element();
-    let widest = axis.max(child.offset.abs()).max(0.5 * spread(child));
-    widest.max(1e-6) / 127.0
-}
-
-/// The spread that a child is given: less than the true one where narrow cones make the axes long, for few of their deviations
-/// matter to one receiver. Measured: half the variance is best.
-fn spread(child: &Moments) -> f32 {
-    let is_narrow = child.axis.length_squared().max(child.offset * child.offset) > 1.1;
-    let counted = if is_narrow { 0.5 } else { 1.0 };
-    float::sqrt(counted * child.spread_sq)
-}
-
 /// The upper half of the float: always finite and above 0.
 fn encode_gain(power: f32) -> u16 {
     ((power.clamp(f32::MIN_POSITIVE, 1e30).to_bits() + 0x8000) >> 16) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_math::Aabb;
+    use light_math::glam::Vec3;
+
+    /// Numbers of `[-1, 1)`.
+    fn numbers() -> impl FnMut() -> f32 {
+        let mut state = 1u32;
+        move || {
+            state = state.wrapping_mul(0x915f_77f5).wrapping_add(1);
+            (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+        }
+    }
+
+    fn vector(next: &mut impl FnMut() -> f32) -> Vec3 {
+        Vec3::new(next(), next(), next())
+    }
+
+    /// Children about `at`, with boxes and axes of any size.
+    fn children(next: &mut impl FnMut() -> f32, at: Vec3, size: f32) -> [Moments; WIDTH] {
+        core::array::from_fn(|_| {
+            let (a, b) = (at + vector(next) * size, at + vector(next) * size);
+            let bounds = Aabb::new(a.min(b), a.max(b));
+            Moments {
+                power: 1.0,
+                bounds,
+                mean: (a + (b - a) * next().abs()).clamp(bounds.min, bounds.max),
+                axis: vector(next) * 4.0 * next(),
+                offset: next(),
+                ..Moments::NOTHING
+            }
+        })
+    }
+
+    #[test]
+    fn boxes_hold_what_they_must() {
+        let mut next = numbers();
+        for (at, size) in [
+            (0.0, 1.0),
+            (1e4, 0.01),
+            (-1e3, 1e3),
+            (0.0, 1e-20),
+            (1e30, 1e36),
+        ] {
+            for _ in 0..200 {
+                let children = children(&mut next, Vec3::splat(at), size);
+                let node = WideNode::encode(&children);
+                for (k, child) in children.iter().enumerate() {
+                    for axis in 0..3 {
+                        let code = |code: u8| f64::from(code) / f64::from(node.inv_scale);
+                        let mean = f64::from(node.origin[axis]) + code(node.mean[axis][k]);
+                        let half = code(node.extent[axis][k]);
+                        let (min, max) = (child.bounds.min[axis], child.bounds.max[axis]);
+                        assert!(mean - half <= f64::from(min), "{k}: {child:?} in {node:?}");
+                        assert!(mean + half >= f64::from(max), "{k}: {child:?} in {node:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_sharp_shines_beyond_its_axis_and_offset() {
+        let mut next = numbers();
+        let (mut sharp, mut lit) = (0, 0);
+        for _ in 0..1000 {
+            let children = children(&mut next, Vec3::ZERO, 1.0);
+            let node = WideNode::encode(&children);
+            let w = vector(&mut next).normalize_or(Vec3::X);
+            for (k, child) in children.iter().enumerate() {
+                let axis = Vec3::from(node.axis.map(|axis| f32::from(axis[k])));
+                sharp += u32::from(node.spread[k] == 0);
+                if node.spread[k] == 0 && child.axis.dot(w) > child.offset {
+                    lit += 1;
+                    let decoded = axis.dot(w) - f32::from(node.offset[k]);
+                    assert!(decoded > 0.0, "{k}: {child:?} in {node:?}");
+                }
+            }
+        }
+        assert!(sharp > 1000 && lit > 1000, "{sharp} sharp, {lit} lit");
+    }
+
+    #[test]
+    fn what_is_off_leaves_its_slot_empty() {
+        let mut children = children(&mut numbers(), Vec3::ZERO, 1.0);
+        children[3] = Moments::NOTHING;
+        let node = WideNode::encode(&children[..7]);
+        assert_eq!(node.count, 7, "with the empty slot");
+        for k in [3, 7] {
+            assert_eq!(node.power[k], 0, "slot {k}");
+            assert_eq!(node.extent.map(|extent| extent[k]), [0; 3], "slot {k}");
+        }
+        assert!(node.power[..3].iter().all(|&power| power > 0), "others");
+    }
 }

@@ -3,10 +3,14 @@
 #[cfg(feature = "alloc")]
 mod bins;
 #[cfg(feature = "alloc")]
+mod brood;
+#[cfg(feature = "alloc")]
 mod build;
 #[cfg(feature = "alloc")]
 mod clusters;
 mod cut;
+#[cfg(feature = "alloc")]
+mod emission;
 #[cfg(feature = "alloc")]
 mod encode;
 mod glossy;
@@ -16,6 +20,8 @@ mod importance;
 #[cfg(feature = "alloc")]
 mod lamp;
 mod lane;
+#[cfg(feature = "alloc")]
+mod lanewise;
 #[cfg(feature = "alloc")]
 mod light_bvh;
 #[cfg(feature = "alloc")]

@@ -91,11 +91,13 @@ pub(crate) const fn decode_power(code: u8) -> f32 {
 
 /// The code nearest to `power` of `[0, 1]`; never 0, which would make a light unreachable.
 #[cfg(feature = "alloc")]
-#[expect(clippy::cast_sign_loss, reason = "clamped to 1..=255 before the cast")]
-pub(crate) fn encode_power(power: f32) -> u8 {
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "of 1, the code is 248")]
+pub(crate) const fn encode_power(power: f32) -> u8 {
     // The code is the float's top bits, so rounding to nearest adds half of the last of them.
-    let bits = i64::from((power.max(0.0) + POWER_OF_CODE_0).to_bits()) + (1 << 19);
-    ((bits >> 20) - (96 << 3)).clamp(1, 255) as u8
+    let bits = (power + POWER_OF_CODE_0).to_bits() + (1 << 19);
+    let code = (bits >> 20) - (96 << 3);
+    if code == 0 { 1 } else { code as u8 }
 }
 
 #[cfg(all(test, feature = "alloc"))]

@@ -1,0 +1,68 @@
+//! Arithmetic of which the compiler makes a few instructions for several lanes at once; numbers are never NaN.
+
+use super::node::WIDTH;
+
+/// The larger one, in one instruction.
+#[inline(always)]
+pub(super) fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller one, in one instruction.
+#[inline(always)]
+pub(super) fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// All lanes joined in pairs.
+#[inline(always)]
+pub(super) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) -> f32 {
+    for half in [4, 2, 1] {
+        for k in 0..half {
+            lanes[k] = join(lanes[k], lanes[k + half]);
+        }
+    }
+    lanes[0]
+}
+
+/// Between the integers of this many bits no fractions fit: adding it rounds to the nearest integer.
+const INTEGERS: f32 = 12_582_912.0;
+
+/// The nearest integer, for numbers below 2^22.
+#[inline(always)]
+pub(super) fn nearest(x: f32) -> f32 {
+    (x + INTEGERS) - INTEGERS
+}
+
+/// The low byte of an integer below 2^22, as two's complement.
+#[inline(always)]
+pub(super) fn low_byte(integer: f32) -> u8 {
+    let [byte, ..] = (integer + INTEGERS).to_bits().to_le_bytes();
+    byte
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_are_joined_once_each() {
+        let lanes = core::array::from_fn(|k| [3.0, 7.0, -1.0, 0.0, 2.0, 9.0, -4.0, 5.0][k]);
+        assert_eq!(reduce(lanes, larger), 9.0, "the largest");
+        assert_eq!(reduce(lanes, smaller), -4.0, "the smallest");
+        assert_eq!(reduce(lanes, |a, b| a + b), 21.0, "the sum");
+    }
+
+    #[test]
+    fn integers_are_nearest() {
+        for (x, integer, byte) in [
+            (0.49, 0.0, 0),
+            (-0.51, -1.0, 0xff),
+            (254.6, 255.0, 0xff),
+            (-127.4, -127.0, 0x81),
+        ] {
+            assert_eq!(nearest(x), integer, "{x}");
+            assert_eq!(low_byte(integer), byte, "{x}");
+        }
+    }
+}
