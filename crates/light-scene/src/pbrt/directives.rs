@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::state::{At, Reader, Typed};
+use super::state::{At, Reader};
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
 use crate::glam::{Mat4, Vec3};
@@ -23,11 +23,14 @@ impl Reader {
                 if depth == DEEPEST {
                     return Err(tokens.diagnostic("expected a file that does not include itself"));
                 }
-                let file = path.with_file_name(name);
+                let file = self.beside(&name);
                 let refuse = |error: Diagnostic| tokens.diagnostic(error.to_string());
                 let bytes = self.files.read(&file).map_err(refuse)?;
                 let plain = gunzipped(&file, &bytes).map_err(refuse)?;
+                // What an imported file does to the state ends with it.
+                let before = (directive == "Import").then(|| self.state.clone());
                 self.file(&file, &text_of(&plain), depth + 1)?;
+                self.state = before.unwrap_or_else(|| core::mem::take(&mut self.state));
             } else {
                 self.directive(path, &mut tokens, directive)?;
             }
@@ -59,6 +62,7 @@ impl Reader {
             "WorldBegin" => {
                 self.in_world = true;
                 self.state.transform = Mat4::IDENTITY;
+                self.coordinates.insert("world".to_owned(), Mat4::IDENTITY);
             }
             "ObjectBegin" => {
                 let name = tokens.quoted("an object's name")?;
@@ -72,9 +76,7 @@ impl Reader {
             "ReverseOrientation" => self.state.reversed ^= true,
             "NamedMaterial" => {
                 let name = tokens.quoted("a material's name")?;
-                let known = self.materials.get(name.as_ref()).copied();
-                let message = || format!("expected a named material, found \"{}\"", shown(&name));
-                self.state.material = Some(known.ok_or_else(|| at.diagnostic(message()))?);
+                self.state.material = Some(self.named_material(at, &name));
             }
             "MediumInterface" => self.medium_interface(at, tokens)?,
             "Option" => {
@@ -154,7 +156,7 @@ impl Reader {
                 return Err(tokens.diagnostic(message));
             }
         }
-        let typed = Typed::read(path, tokens, self.files)?;
+        let typed = self.typed(path, tokens, directive)?;
         let at = typed.at;
         match directive {
             "Camera" => self.set_camera(&typed)?,
@@ -174,10 +176,11 @@ impl Reader {
                     .unwrap_or("diffuse")
                     .to_owned();
                 let material = self.make_material(&kind, &typed)?;
-                self.materials.insert(typed.kind, material);
-                return Ok(());
+                return self.name_material(typed.kind, material);
             }
             "MakeNamedMedium" => self.make_medium(&typed)?,
+            "Attribute" => return self.attribute(typed),
+            "ColorSpace" if typed.kind == "srgb" => {}
             _ => {
                 self.warn(at, &format!("`{directive}`"), "was ignored");
                 return Ok(());

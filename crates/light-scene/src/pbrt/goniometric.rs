@@ -72,7 +72,7 @@ impl Reader {
         place: Affine3A,
         color: Vec3,
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
-        let path = typed.at.path.with_file_name(name);
+        let path = self.beside(name);
         let read = self.files.read(&path);
         let luminaire = read.and_then(|bytes| parse_luminaire(&path, &text_of(&bytes)));
         let luminaire = luminaire.map_err(|error| typed.at.diagnostic(error.to_string()))?;

@@ -6,7 +6,7 @@ use lights::sources::{
     RadianceAmount, SpotLightDesc, TextureMapping, UniformInfiniteLightDesc,
 };
 
-use super::state::{AreaLight, At, Reader, Typed};
+use super::state::{AreaLight, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Quat, Vec3};
 use crate::image::read_image_from;
@@ -139,7 +139,7 @@ impl Reader {
         };
         self.state.area_light = Some(AreaLight {
             radiance,
-            two_sided: parameters.is_true("twosided"),
+            two_sided: parameters.is_true("twosided", false),
             power: parameters.number("power"),
         });
         Ok(())
@@ -159,10 +159,9 @@ impl Reader {
         &mut self,
         typed: &Typed<'_>,
     ) -> Result<lights::sources::Image, Diagnostic> {
-        let At { path, .. } = typed.at;
         let name = typed.parameters.string("filename");
         let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-        let file = read_image_from(&path.with_file_name(name), self.files);
+        let file = read_image_from(&self.beside(name), self.files);
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
         let image = file.image.to_light();

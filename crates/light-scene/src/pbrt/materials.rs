@@ -1,6 +1,5 @@
 use super::state::{Reader, Typed};
 use crate::glam::{Vec2, Vec3};
-use crate::text::shown;
 use crate::{Color, Diagnostic, Material, MaterialId, Surface};
 
 /// Metals by the names of their spectra: index of refraction and absorption for red, green and blue light.
@@ -88,13 +87,9 @@ impl Reader {
             let message = "expected \"string materials\" with two names";
             return Err(typed.at.diagnostic(message));
         };
-        let known = |name: &String| {
-            let known = self.materials.get(name).copied();
-            let message = || format!("expected a named material, found \"{}\"", shown(name));
-            known.ok_or_else(|| typed.at.diagnostic(message()))
-        };
+        let materials = [first, second].map(|name| self.named_material(typed.at, name));
         Ok(Surface::Mix {
-            materials: [known(first)?, known(second)?],
+            materials,
             amount: self.color(typed, "amount", 0.5),
         })
     }
@@ -144,7 +139,7 @@ fn alpha(typed: &Typed<'_>) -> Vec2 {
         parameters.number_or("uroughness", both),
         parameters.number_or("vroughness", both),
     );
-    let remapped = parameters.string("remaproughness") != Some("false");
+    let remapped = parameters.is_true("remaproughness", true);
     let roughness = roughness.max(Vec2::ZERO);
     if remapped {
         roughness.map(f32::sqrt)

@@ -91,13 +91,14 @@ impl Reader {
         if media.inside == media.outside {
             return;
         }
-        let scene = &mut self.scene;
-        let twin = self.interfaces.entry((mesh.material, media));
-        mesh.material = *twin.or_insert_with(|| {
-            let mut material = scene.material(mesh.material).clone();
-            material.media = media;
-            scene.add_material(material)
-        });
+        let bounds = (mesh.material, media);
+        mesh.material = match self.interfaces.get(&bounds) {
+            Some(&twin) => twin,
+            None => {
+                let twin = self.twin(mesh.material, |twin| twin.media = media);
+                *self.interfaces.entry(bounds).or_insert(twin)
+            }
+        };
     }
 
     /// All media, once everything is read.

@@ -1,17 +1,25 @@
 //! pbrt-v4 scene files.
 
+mod attributes;
 mod cloud;
 mod directives;
+#[cfg(test)]
+mod files_tests;
 mod goniometric;
 mod lights;
 mod materials;
+#[cfg(test)]
+mod materials_tests;
 mod media;
 mod medium_grid;
+mod named_materials;
 mod objects;
 #[cfg(test)]
 mod objects_tests;
 mod parameters;
 mod ply;
+#[cfg(test)]
+mod refusals_tests;
 mod shapes;
 mod spectrum;
 mod state;
@@ -49,6 +57,7 @@ pub(crate) fn parse_pbrt(
 ) -> Result<Scene, Diagnostic> {
     let mut reader = Reader::default();
     reader.files = files;
+    path.clone_into(&mut reader.root);
     reader.file(path, text, 0)?;
     reader.finish(path)
 }

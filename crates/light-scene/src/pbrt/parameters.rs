@@ -1,3 +1,4 @@
+use alloc::rc::Rc;
 use core::cell::Cell;
 use std::path::Path;
 
@@ -11,6 +12,8 @@ use crate::{Diagnostic, Files, Place};
 #[derive(Debug)]
 pub(super) struct Parameters {
     list: Vec<Parameter>,
+    /// What `Attribute` directives have said before, the last one first.
+    inherited: Vec<Rc<Self>>,
 }
 
 #[derive(Debug)]
@@ -58,16 +61,27 @@ impl Parameters {
             }
             list.push(parameter);
         }
-        Ok(Self { list })
+        let inherited = Vec::new();
+        Ok(Self { list, inherited })
     }
 
-    /// Reads the files that spectra are in; a word without an ending is the name of a spectrum.
-    pub(super) fn load_spectra(&mut self, path: &Path, files: Files<'_>) -> Result<(), Diagnostic> {
+    /// Takes over what the directive itself does not say.
+    pub(super) fn inherit(&mut self, earlier: impl Iterator<Item = Rc<Self>>) {
+        self.inherited.extend(earlier);
+    }
+
+    /// Reads the files that spectra are in, whose names start from `root`; a word without an ending is the name of a spectrum.
+    pub(super) fn load_spectra(
+        &mut self,
+        path: &Path,
+        root: &Path,
+        files: Files<'_>,
+    ) -> Result<(), Diagnostic> {
         for parameter in self.list.iter_mut().filter(|p| p.kind == "spectrum") {
             let Some(file) = parameter.words.first() else {
                 continue;
             };
-            let file = path.with_file_name(file);
+            let file = root.with_file_name(file);
             if file.extension().is_none() {
                 continue;
             }
@@ -94,16 +108,16 @@ impl Parameters {
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
-        self.list.iter().any(|p| p.name == name)
+        self.find(name).is_some()
     }
 
     /// Marks a parameter as known, though it has no say here.
     pub(super) fn accept(&self, name: &str) {
-        self.find(name);
+        self.value(name, Some);
     }
 
     pub(super) fn number(&self, name: &str) -> Option<f32> {
-        self.find(name)?.numbers.first().map(|&n| single(n))
+        self.value(name, |p| p.numbers.first().map(|&n| single(n)))
     }
 
     pub(super) fn number_or(&self, name: &str, default: f32) -> f32 {
@@ -112,26 +126,34 @@ impl Parameters {
 
     /// All numbers; outside `None` if there is no such parameter, inside if there are not `N`.
     pub(super) fn numbers<const N: usize>(&self, name: &str) -> Option<Option<[f32; N]>> {
-        Some(self.find(name)?.singles().try_into().ok())
+        self.value(name, |p| Some(p.singles().try_into().ok()))
     }
 
     pub(super) fn string(&self, name: &str) -> Option<&str> {
-        self.find(name)?.words.first().map(String::as_str)
+        self.value(name, |p| p.words.first().map(String::as_str))
     }
 
     /// All words.
     pub(super) fn strings(&self, name: &str) -> &[String] {
-        self.find(name).map_or(&[], |parameter| &parameter.words)
+        self.value(name, |p| Some(&p.words[..])).unwrap_or_default()
     }
 
-    pub(super) fn is_true(&self, name: &str) -> bool {
-        self.string(name) == Some("true")
+    /// Whether a parameter says `true` or, where it is not given, whether `default` does.
+    pub(super) fn is_true(&self, name: &str, default: bool) -> bool {
+        self.value(name, |p| match p.words.first()?.as_str() {
+            "true" => Some(true),
+            "false" => Some(false),
+            _ => None,
+        })
+        .unwrap_or(default)
     }
 
     /// The name of the texture that a parameter refers to.
     pub(super) fn texture(&self, name: &str) -> Option<&str> {
-        let parameter = self.find(name).filter(|p| p.kind == "texture")?;
-        parameter.words.first().map(String::as_str)
+        self.value(name, |p| {
+            let word = p.words.first().filter(|_| p.kind == "texture")?;
+            Some(word.as_str())
+        })
     }
 
     /// Whole numbers of at least 0.
@@ -144,37 +166,45 @@ impl Parameters {
         let whole = |&n: &f64| {
             (n >= 0.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0).then_some(n as u32)
         };
-        self.find(name)?.numbers.iter().map(whole).collect()
+        self.value(name, |p| p.numbers.iter().map(whole).collect())
     }
 
     /// All numbers, however many.
     pub(super) fn list(&self, name: &str) -> Option<Vec<f32>> {
-        self.find(name).map(Parameter::singles)
+        self.value(name, |p| Some(p.singles()))
     }
 
     /// A colour that may exceed 1: a coefficient per unit length.
     pub(super) fn unbounded(&self, name: &str) -> Option<Vec3> {
-        let parameter = self.find(name)?;
-        match parameter.kind.as_str() {
-            "rgb" => parameter.rgb(),
-            "spectrum" => spectrum::unbounded(&parameter.singles()),
+        self.value(name, |p| match p.kind.as_str() {
+            "rgb" => p.rgb(),
+            "spectrum" => spectrum::unbounded(&p.singles()),
             _ => None,
-        }
+        })
     }
 
+    /// Points of the plane; none if their coordinates do not come in twos.
     pub(super) fn vec2s(&self, name: &str) -> Option<Vec<Vec2>> {
-        let chunks = self.find(name)?.numbers.chunks_exact(2);
-        Some(
+        self.value(name, |p| {
+            let vec2 = |c: &[f64]| Vec2::new(single(c[0]), single(c[1]));
+            let chunks = p.numbers.chunks_exact(2);
             chunks
-                .map(|c| Vec2::new(single(c[0]), single(c[1])))
-                .collect(),
-        )
+                .remainder()
+                .is_empty()
+                .then(|| chunks.map(vec2).collect())
+        })
     }
 
+    /// Points; none if their coordinates do not come in threes.
     pub(super) fn vec3s(&self, name: &str) -> Option<Vec<Vec3>> {
-        let chunks = self.find(name)?.numbers.chunks_exact(3);
-        let vec3 = |c: &[f64]| Vec3::new(single(c[0]), single(c[1]), single(c[2]));
-        Some(chunks.map(vec3).collect())
+        self.value(name, |p| {
+            let vec3 = |c: &[f64]| Vec3::new(single(c[0]), single(c[1]), single(c[2]));
+            let chunks = p.numbers.chunks_exact(3);
+            chunks
+                .remainder()
+                .is_empty()
+                .then(|| chunks.map(vec3).collect())
+        })
     }
 
     pub(super) fn vec3_or(&self, name: &str, default: Vec3) -> Vec3 {
@@ -184,32 +214,41 @@ impl Parameters {
 
     /// A colour that light is multiplied with.
     pub(super) fn reflectance(&self, name: &str) -> Option<Vec3> {
-        let parameter = self.find(name)?;
-        match parameter.kind.as_str() {
-            "rgb" => parameter.rgb(),
-            "spectrum" => spectrum::reflectance(&parameter.singles()),
-            _ => parameter.numbers.first().map(|&n| Vec3::splat(single(n))),
-        }
+        self.value(name, |p| match p.kind.as_str() {
+            "rgb" => p.rgb(),
+            "spectrum" => spectrum::reflectance(&p.singles()),
+            _ => p.numbers.first().map(|&n| Vec3::splat(single(n))),
+        })
     }
 
     /// The colour of a light, of luminance 1 unless it is given as RGB.
     pub(super) fn emission(&self, name: &str) -> Option<Vec3> {
-        let parameter = self.find(name)?;
-        match parameter.kind.as_str() {
-            "rgb" => parameter.rgb(),
-            "blackbody" => spectrum::blackbody(single(*parameter.numbers.first()?)),
-            "spectrum" => match parameter.words.first() {
-                Some(name) if parameter.numbers.is_empty() => spectrum::named_emission(name),
-                _ => spectrum::emission(&parameter.singles()),
+        self.value(name, |p| match p.kind.as_str() {
+            "rgb" => p.rgb(),
+            "blackbody" => spectrum::blackbody(single(*p.numbers.first()?)),
+            "spectrum" => match p.words.first() {
+                Some(name) if p.numbers.is_empty() => spectrum::named_emission(name),
+                _ => spectrum::emission(&p.singles()),
             },
             _ => None,
-        }
+        })
+    }
+
+    /// What `value` makes of a parameter, which counts as used if that is something.
+    fn value<'a, T>(
+        &'a self,
+        name: &str,
+        value: impl FnOnce(&'a Parameter) -> Option<T>,
+    ) -> Option<T> {
+        let found = self.find(name)?;
+        let value = value(found)?;
+        found.used.set(true);
+        Some(value)
     }
 
     fn find(&self, name: &str) -> Option<&Parameter> {
-        let found = self.list.iter().find(|p| p.name == name)?;
-        found.used.set(true);
-        Some(found)
+        let own = self.list.iter().find(|p| p.name == name);
+        own.or_else(|| self.inherited.iter().find_map(|earlier| earlier.find(name)))
     }
 }
 

@@ -31,7 +31,7 @@ impl Reader {
             "plymesh" => {
                 let name = typed.parameters.string("filename");
                 let name = name.ok_or_else(|| at.diagnostic("expected \"string filename\""))?;
-                read_ply(&at.path.with_file_name(name), self.files)
+                read_ply(&self.beside(name), self.files)
                     .map_err(|error| at.diagnostic(error.to_string()))?
             }
             "sphere" => self.rounded(at, kind, sphere(typed)),
@@ -83,9 +83,7 @@ impl Reader {
                 EmissionSides::Front
             },
         };
-        let mut material = self.scene.material(mesh.material).clone();
-        material.emission = Some(emission);
-        mesh.material = self.scene.add_material(material);
+        mesh.material = self.twin(mesh.material, |twin| twin.emission = Some(emission));
     }
 
     /// Gives the mesh a material of its own with holes, if `alpha` says where.
@@ -97,12 +95,10 @@ impl Reader {
         if share == Color::Constant(Vec3::ONE) {
             return;
         }
-        let mut material = self.scene.material(mesh.material).clone();
-        material.alpha = Some(Alpha {
-            share,
-            cutoff: None,
+        let cutoff = None;
+        mesh.material = self.twin(mesh.material, |twin| {
+            twin.alpha = Some(Alpha { share, cutoff })
         });
-        mesh.material = self.scene.add_material(material);
     }
 }
 

@@ -1,13 +1,15 @@
 use alloc::collections::BTreeSet;
+use alloc::rc::Rc;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use lights::sources::MediumInterface;
 
+use super::attributes::Attributes;
 use super::media::MediumSlot;
+use super::named_materials::NamedMaterials;
 use super::objects::Objects;
 use super::parameters::Parameters;
-use super::tokens::Tokens;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
@@ -16,16 +18,20 @@ use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialI
 #[derive(Debug, Default)]
 pub(super) struct Reader {
     pub(super) files: Files<'static>,
+    /// The first file: names of others start from its folder, whoever names them.
+    pub(super) root: PathBuf,
     pub(super) scene: Scene,
     pub(super) state: State,
     pub(super) saved: Vec<State>,
     pub(super) saved_transforms: Vec<Mat4>,
     pub(super) coordinates: HashMap<String, Mat4>,
-    pub(super) materials: HashMap<String, MaterialId>,
+    pub(super) materials: NamedMaterials,
     pub(super) textures: HashMap<String, Color>,
     /// Each file read once.
     pub(super) images: HashMap<PathBuf, ImageId>,
     pub(super) media: Vec<MediumSlot>,
+    /// All that `Attribute` directives have said, and where.
+    pub(super) attributes: Vec<(PathBuf, Rc<Parameters>)>,
     /// The twins of materials that bound media.
     pub(super) interfaces: HashMap<(MaterialId, MediumInterface), MaterialId>,
     pub(super) objects: Objects,
@@ -44,6 +50,7 @@ pub(super) struct State {
     pub(super) area_light: Option<AreaLight>,
     pub(super) reversed: bool,
     pub(super) media: MediumInterface,
+    pub(super) attributes: Attributes,
 }
 
 /// An `AreaLightSource`.
@@ -103,6 +110,11 @@ impl Reader {
         }
     }
 
+    /// Where a file is that a directive names.
+    pub(super) fn beside(&self, name: &str) -> PathBuf {
+        self.root.with_file_name(name)
+    }
+
     /// The scene, once all files are read.
     pub(super) fn finish(mut self, path: &Path) -> Result<Scene, Diagnostic> {
         if !self.in_world {
@@ -113,6 +125,8 @@ impl Reader {
             crop: self.crop,
             ..camera
         });
+        self.finish_materials()?;
+        self.warn_unused_attributes();
         self.scene.media = self.finished_media()?;
         self.scene.prototypes = self.finished_objects()?;
         Ok(self.scene)
@@ -125,25 +139,4 @@ pub(super) struct Typed<'a> {
     pub(super) at: At<'a>,
     pub(super) kind: String,
     pub(super) parameters: Parameters,
-}
-
-impl<'a> Typed<'a> {
-    pub(super) fn read(
-        path: &'a Path,
-        tokens: &mut Tokens<'_>,
-        files: Files<'_>,
-    ) -> Result<Self, Diagnostic> {
-        let kind = tokens.quoted("a type")?.into_owned();
-        let at = At {
-            path,
-            line: tokens.line(),
-        };
-        let mut parameters = Parameters::read(tokens)?;
-        parameters.load_spectra(path, files)?;
-        Ok(Self {
-            at,
-            kind,
-            parameters,
-        })
-    }
 }

@@ -15,7 +15,7 @@ impl Reader {
     ) -> Result<(), Diagnostic> {
         let name = tokens.quoted("a texture's name")?.into_owned();
         tokens.quoted("a texture's type")?;
-        let typed = Typed::read(path, tokens, self.files)?;
+        let typed = self.typed(path, tokens, "Texture")?;
         let color = match typed.kind.as_str() {
             "constant" => self.color(&typed, "value", 1.0),
             "scale" => {
@@ -84,7 +84,7 @@ impl Reader {
         file: &str,
         scale: Vec3,
     ) -> Result<Color, Diagnostic> {
-        let path = at.path.with_file_name(file);
+        let path = self.beside(file);
         let image = match self.images.get(&path) {
             Some(&known) => known,
             None => {

@@ -116,3 +116,6 @@ impl Body<'_> {
 const fn single(value: f64) -> f32 {
     value as f32
 }
+
+#[cfg(test)]
+mod tests;

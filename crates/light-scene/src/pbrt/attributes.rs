@@ -1,0 +1,99 @@
+use alloc::rc::Rc;
+use std::path::Path;
+
+use super::parameters::Parameters;
+use super::state::{At, Reader, Typed};
+use super::tokens::Tokens;
+use crate::Diagnostic;
+use crate::text::shown;
+
+/// What kind of directive an `Attribute` speaks to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    Shape,
+    Light,
+    Material,
+    Medium,
+    Texture,
+}
+
+/// The `Attribute` directives in force, the last one at the end.
+pub(super) type Attributes = Vec<(Target, Rc<Parameters>)>;
+
+impl Target {
+    fn of_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "shape" => Self::Shape,
+            "light" => Self::Light,
+            "material" => Self::Material,
+            "medium" => Self::Medium,
+            "texture" => Self::Texture,
+            _ => return None,
+        })
+    }
+
+    fn of_directive(directive: &str) -> Option<Self> {
+        Some(match directive {
+            "Shape" => Self::Shape,
+            "LightSource" | "AreaLightSource" => Self::Light,
+            "Material" | "MakeNamedMaterial" => Self::Material,
+            "MakeNamedMedium" => Self::Medium,
+            "Texture" => Self::Texture,
+            _ => return None,
+        })
+    }
+}
+
+impl Reader {
+    /// The type in quotes and the parameters of a directive, with those that attributes add.
+    pub(super) fn typed<'a>(
+        &self,
+        path: &'a Path,
+        tokens: &mut Tokens<'_>,
+        directive: &str,
+    ) -> Result<Typed<'a>, Diagnostic> {
+        let kind = tokens.quoted("a type")?.into_owned();
+        let at = At {
+            path,
+            line: tokens.line(),
+        };
+        let mut parameters = Parameters::read(tokens)?;
+        parameters.load_spectra(path, &self.root, self.files)?;
+        let target = Target::of_directive(directive);
+        let attributes = self.state.attributes.iter().rev();
+        let spoken_to = attributes.filter(|(to, _)| Some(*to) == target);
+        parameters.inherit(spoken_to.map(|(_, said)| Rc::clone(said)));
+        Ok(Typed {
+            at,
+            kind,
+            parameters,
+        })
+    }
+
+    /// `Attribute "target"` and parameters that the directives of that kind take over which do not state them.
+    pub(super) fn attribute(&mut self, typed: Typed<'_>) -> Result<(), Diagnostic> {
+        let target = Target::of_name(&typed.kind).ok_or_else(|| {
+            let found = shown(&typed.kind);
+            let expected = "expected \"shape\", \"light\", \"material\", \"medium\" or \"texture\"";
+            typed
+                .at
+                .diagnostic(format!("{expected}, found \"{found}\""))
+        })?;
+        let said = Rc::new(typed.parameters);
+        self.attributes
+            .push((typed.at.path.to_path_buf(), Rc::clone(&said)));
+        self.state.attributes.push((target, said));
+        Ok(())
+    }
+
+    /// Names the parameters of attributes that no directive asked for.
+    pub(super) fn warn_unused_attributes(&mut self) {
+        for (path, said) in core::mem::take(&mut self.attributes) {
+            let at = At {
+                path: &path,
+                line: 0,
+            };
+            self.warn_unused(at, "Attribute", &said);
+        }
+    }
+}

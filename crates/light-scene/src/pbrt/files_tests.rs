@@ -1,0 +1,135 @@
+use std::path::Path;
+
+use super::parse_pbrt;
+use crate::glam::Vec3;
+use crate::{Alpha, Color, Diagnostic, Files, Scene, Surface};
+
+/// A scene in several files, as exporters write them: the first one lies in `dir`.
+fn read(first: &str) -> Result<Scene, String> {
+    const TRIANGLE: &[u8] = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const GEOMETRY: &[u8] = b"Translate 0 0 3 NamedMaterial \"red\" Shape \"plymesh\" \"string filename\" \"geometry/a.ply\"";
+    const MATERIALS: &[u8] =
+        b"MakeNamedMaterial \"red\" \"string type\" [ \"diffuse\" ] \"rgb reflectance\" [ .9 .1 .1 ]";
+    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        match path.to_str() {
+            Some("dir/geometry/all.pbrt") => Ok(GEOMETRY.into()),
+            Some("dir/geometry/a.ply") => Ok(TRIANGLE.into()),
+            Some("dir/materials.pbrt") => Ok(MATERIALS.into()),
+            _ => Err(Diagnostic::file(path, "cannot be read")),
+        }
+    }
+    let scene = parse_pbrt(Path::new("dir/a.pbrt"), first, Files::new(&beside));
+    scene.map_err(|error| error.to_string())
+}
+
+const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]";
+
+#[test]
+fn names_of_files_start_from_the_folder_of_the_first_one() {
+    let text =
+        format!("WorldBegin Include \"geometry/all.pbrt\" {TRIANGLE} Include \"materials.pbrt\"");
+    let scene = read(&text).expect("a scene");
+    assert_eq!(scene.warnings, [], "all understood");
+    let heights = scene.meshes.iter().map(|mesh| mesh.positions[0].z);
+    assert_eq!(heights.collect::<Vec<_>>(), [3.0; 2], "the state goes on");
+}
+
+#[test]
+fn what_an_imported_file_does_to_the_state_ends_with_it() {
+    let text =
+        format!("WorldBegin Import \"materials.pbrt\" Import \"geometry/all.pbrt\" {TRIANGLE}");
+    let scene = read(&text).expect("a scene");
+    let heights = scene.meshes.iter().map(|mesh| mesh.positions[0].z);
+    assert_eq!(heights.collect::<Vec<_>>(), [3.0, 0.0], "moved, and not");
+    assert_ne!(
+        scene.meshes[0].material, scene.meshes[1].material,
+        "red, and not"
+    );
+}
+
+#[test]
+fn materials_may_be_described_after_their_use() {
+    let light = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 1 1 ]";
+    let text = format!(
+        "WorldBegin NamedMaterial \"red\" {light} {TRIANGLE} Material \"mix\" \"string materials\" [\"red\" \"blue\"] {TRIANGLE}
+        Include \"materials.pbrt\" MakeNamedMaterial \"blue\" \"string type\" \"interface\""
+    );
+    let scene = read(&text).expect("a scene");
+    let lamp = scene.material(scene.meshes[0].material);
+    let reflectance = Color::Constant(Vec3::new(0.9, 0.1, 0.1));
+    assert_eq!(lamp.surface, Surface::Diffuse { reflectance }, "red");
+    assert!(lamp.emission.is_some(), "and shines");
+    let Surface::Mix { materials, .. } = scene.material(scene.meshes[1].material).surface else {
+        panic!("a mixture");
+    };
+    let parts = materials.map(|part| scene.material(part).surface.clone());
+    assert_eq!(
+        parts,
+        [Surface::Diffuse { reflectance }, Surface::Interface],
+        "parts"
+    );
+    let late = "WorldBegin NamedMaterial \"m\"
+        MakeNamedMaterial \"a\" \"string type\" \"diffuse\"
+        MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"a\" \"a\"]";
+    let expected = "dir/a.pbrt:1: expected the mixture \"m\" to be described before its use";
+    assert_eq!(
+        read(late).map(|_| ()),
+        Err(expected.to_owned()),
+        "a mixture"
+    );
+}
+
+#[test]
+fn attributes_speak_to_what_follows_in_their_block() {
+    let text = format!(
+        "WorldBegin
+        AttributeBegin
+        Attribute \"shape\" \"float alpha\" .5 \"float gloss\" 2
+        Attribute \"material\" \"rgb reflectance\" [ .1 .2 .3 ]
+        Material \"diffuse\" {TRIANGLE} {TRIANGLE} \"float alpha\" .25
+        AttributeEnd
+        {TRIANGLE}"
+    );
+    let scene = read(&text).expect("a scene");
+    let shares: Vec<_> = scene
+        .meshes
+        .iter()
+        .map(|mesh| {
+            let alpha = scene.material(mesh.material).alpha;
+            alpha.map(|Alpha { share, .. }| share)
+        })
+        .collect();
+    let share = |share: f32| Some(Color::Constant(Vec3::splat(share)));
+    assert_eq!(
+        shares,
+        [share(0.5), share(0.25), None],
+        "unless the shape says otherwise"
+    );
+    let reflectance = Color::Constant(Vec3::new(0.1, 0.2, 0.3));
+    let surface = &scene.material(scene.meshes[0].material).surface;
+    assert_eq!(
+        surface,
+        &Surface::Diffuse { reflectance },
+        "of the material"
+    );
+    let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
+    let expected = "dir/a.pbrt:3: Attribute: parameter `gloss` was ignored";
+    assert_eq!(warnings, [expected], "nobody asked for it");
+}
+
+#[test]
+fn the_world_and_the_camera_are_coordinate_systems() {
+    let text = format!(
+        "Translate 0 0 -4 Camera \"perspective\" WorldBegin
+        Translate 1 0 0 CoordinateSystem \"here\"
+        CoordSysTransform \"world\" {TRIANGLE} CoordSysTransform \"camera\" {TRIANGLE} CoordSysTransform \"here\" {TRIANGLE}"
+    );
+    let scene = read(&text).expect("a scene");
+    let corners: Vec<_> = scene.meshes.iter().map(|mesh| mesh.positions[0]).collect();
+    assert_eq!(
+        corners,
+        [Vec3::ZERO, Vec3::Z * 4.0, Vec3::X],
+        "where they are"
+    );
+}

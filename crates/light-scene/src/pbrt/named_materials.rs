@@ -1,0 +1,95 @@
+use std::collections::HashMap;
+
+use super::state::{At, Reader};
+use crate::glam::Vec3;
+use crate::text::shown;
+use crate::{Diagnostic, Material, MaterialId, Surface};
+
+/// What `MakeNamedMaterial` describes; files may name a material before they describe it.
+#[derive(Debug, Default)]
+pub(super) struct NamedMaterials {
+    by_name: HashMap<String, MaterialId>,
+    /// Named but not described so far, with what to say if that stays so.
+    awaited: HashMap<String, (MaterialId, Diagnostic)>,
+    /// Materials that have taken their surface from another one, each with the other.
+    twins: Vec<(MaterialId, MaterialId)>,
+}
+
+impl Reader {
+    /// The material with this name, which may still be empty.
+    pub(super) fn named_material(&mut self, at: At<'_>, name: &str) -> MaterialId {
+        let Self {
+            materials, scene, ..
+        } = self;
+        if let Some(&id) = materials.by_name.get(name) {
+            return id;
+        }
+        let (id, _) = materials.awaited.entry(name.to_owned()).or_insert_with(|| {
+            let message = format!("expected a named material, found \"{}\"", shown(name));
+            let empty = Material::diffuse(name, Vec3::ZERO);
+            (scene.add_material(empty), at.diagnostic(message))
+        });
+        *id
+    }
+
+    /// Gives a name to a material that has just been described.
+    pub(super) fn name_material(
+        &mut self,
+        name: String,
+        described: MaterialId,
+    ) -> Result<(), Diagnostic> {
+        let id = match self.materials.awaited.remove(&name) {
+            Some((id, first_use)) => {
+                if let Surface::Mix { materials, .. } = self.scene.material(described).surface
+                    && materials.into_iter().any(|part| part > id)
+                {
+                    let message = format!(
+                        "expected the mixture \"{}\" to be described before its use",
+                        shown(&name)
+                    );
+                    return Err(Diagnostic {
+                        message,
+                        ..first_use
+                    });
+                }
+                self.materials.twins.push((id, described));
+                id
+            }
+            None => described,
+        };
+        self.materials.by_name.insert(name, id);
+        Ok(())
+    }
+
+    /// A material with the surface of another one, changed otherwise.
+    pub(super) fn twin(
+        &mut self,
+        of: MaterialId,
+        change: impl FnOnce(&mut Material),
+    ) -> MaterialId {
+        let mut material = self.scene.material(of).clone();
+        change(&mut material);
+        let twin = self.scene.add_material(material);
+        self.materials.twins.push((twin, of));
+        twin
+    }
+
+    /// Gives those that were named before they were described their surfaces, once everything is read.
+    pub(super) fn finish_materials(&mut self) -> Result<(), Diagnostic> {
+        let awaited = core::mem::take(&mut self.materials.awaited).into_values();
+        if let Some((_, unknown)) = awaited.min_by_key(|(id, _)| *id) {
+            return Err(unknown);
+        }
+        let twins = core::mem::take(&mut self.materials.twins);
+        let surface_of: HashMap<MaterialId, MaterialId> = twins.iter().copied().collect();
+        for (twin, _) in twins {
+            let mut described = twin;
+            while let Some(&of) = surface_of.get(&described) {
+                described = of;
+            }
+            let surface = self.scene.material(described).surface.clone();
+            self.scene.materials[twin.0 as usize].surface = surface;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,94 @@
+use super::tests::read;
+
+#[test]
+fn broken_files_give_one_clear_line() {
+    let cases = [
+        ("", "a.pbrt: expected `WorldBegin`"),
+        ("WorldBegin 3", "a.pbrt:1: expected a directive, found `3`"),
+        (
+            "WorldBegin \"x\"",
+            "a.pbrt:1: expected a directive, found \"x\"",
+        ),
+        ("\nFoo", "a.pbrt:2: expected a directive, found `Foo`"),
+        (
+            "Translate 1 2",
+            "a.pbrt:1: expected a distance, found the end of the file",
+        ),
+        (
+            "Translate 1 2 x",
+            "a.pbrt:1: expected a distance, found `x`",
+        ),
+        (
+            "Scale 0 1 1",
+            "a.pbrt:1: expected a transform that can be inverted",
+        ),
+        (
+            "Rotate 1 0 0 0",
+            "a.pbrt:1: expected an axis other than 0 0 0",
+        ),
+        (
+            "LookAt 0 0 0 0 0 0 0 1 0",
+            "a.pbrt:1: expected two points, and an up vector not along the view",
+        ),
+        ("AttributeEnd", "a.pbrt:1: expected `AttributeBegin` before"),
+        ("TransformEnd", "a.pbrt:1: expected `TransformBegin` before"),
+        ("ObjectEnd", "a.pbrt:1: expected `ObjectBegin` before"),
+        (
+            "Camera",
+            "a.pbrt:1: expected a type in quotes, found the end of the file",
+        ),
+        (
+            "Camera \"perspective\" \"float\" 1",
+            "a.pbrt:1: expected \"TYPE NAME\", found \"float\"",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" ]",
+            "a.pbrt:1: expected a value of `fov`, found `]`",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" [1",
+            "a.pbrt:1: expected a value of `fov`, found the end of the file",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" 200",
+            "a.pbrt:1: expected a fov between 0 and 180 degrees",
+        ),
+        ("Shape \"trianglemesh\"", "a.pbrt:1: expected \"point3 P\""),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0]",
+            "a.pbrt:1: expected \"integer indices\" from 0 on",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" [0 0 7]",
+            "a.pbrt:1: vertex 7 of 1 does not exist",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0] \"integer indices\" [0 0]",
+            "a.pbrt:1: expected three indices a triangle, found 2",
+        ),
+        (
+            "Shape \"plymesh\"",
+            "a.pbrt:1: expected \"string filename\"",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0]",
+            "a.pbrt:1: expected as many normals and texture coordinates as vertices, 3",
+        ),
+        (
+            "WorldBegin NamedMaterial \"a\"",
+            "a.pbrt:1: expected a named material, found \"a\"",
+        ),
+        (
+            "Attribute \"world\" \"float alpha\" 1",
+            "a.pbrt:1: expected \"shape\", \"light\", \"material\", \"medium\" or \"texture\", found \"world\"",
+        ),
+        (
+            "Include \"a.pbrt\"",
+            "a.pbrt:1: expected a file that does not include itself",
+        ),
+    ];
+    for (text, expected) in cases {
+        let error = read("pbrt_broken", text).expect_err(text);
+        assert_eq!(error, expected, "{text}");
+    }
+}
