@@ -1,4 +1,4 @@
-//! The same scenes by a renderer that nobody here wrote: the pictures of `testdata/foreign` are Mitsuba's.
+//! The same scenes by renderers that nobody here wrote: the pictures of `testdata/foreign` are Mitsuba's and Cycles'.
 
 mod support;
 
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use light_render::{Comparison, SamplerKind};
-use light_scene::glam::{DVec3, Vec3};
+use light_scene::glam::{Affine3A, DVec3, Vec3};
 use light_scene::{Scene, read_image, read_pbrt};
 use support::Shot;
 
@@ -90,9 +90,13 @@ fn over_runs(runs: &[Vec<DVec3>]) -> Vec<(DVec3, DVec3)> {
 
 /// Renders the scene and holds it against its reference: the whole, each block, and pixel by pixel.
 fn assert_agrees(name: &str) {
+    assert_looks_like(name, &scene(name));
+}
+
+fn scene(name: &str) -> Scene {
     let scene = read_pbrt(&folder().join(format!("{name}.pbrt"))).expect("a scene");
     assert_eq!(scene.warnings, [], "all of {name} is understood");
-    assert_looks_like(name, &scene);
+    scene
 }
 
 fn assert_looks_like(name: &str, scene: &Scene) {
@@ -208,4 +212,37 @@ fn rougher_metals() {
 #[test]
 fn leaves_that_let_light_through() {
     assert_agrees("leaves");
+}
+
+#[test]
+fn smoke_in_a_ball_under_a_lamp() {
+    assert_agrees("fog");
+}
+
+#[test]
+fn a_screen_with_holes() {
+    assert_agrees("grille");
+}
+
+#[test]
+fn a_picture_of_the_sky() {
+    assert_agrees("clouds");
+}
+
+#[test]
+fn the_same_sky_as_a_lat_long_picture() {
+    let mut scene = scene("clouds");
+    scene.lights.clear();
+    let sky = read_image(&folder().join("clouds-lat-long.exr")).expect("an image");
+    scene
+        .add_sky(&sky.image, Affine3A::IDENTITY)
+        .expect("a sky");
+    assert_looks_like("clouds", &scene);
+}
+
+#[test]
+fn copies_of_a_tree() {
+    let scene = scene("orchard");
+    assert_eq!(scene.placements.len(), 12, "stored once");
+    assert_looks_like("orchard", &scene);
 }

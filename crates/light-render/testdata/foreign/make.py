@@ -34,7 +34,7 @@ class Scene:
     """A scene in both languages."""
 
     def __init__(self, name, eye, target, fov, depth, spp, lens=None):
-        self.name, self.depth, self.spp = name, depth, spp
+        self.name, self.depth, self.spp, self.integrator = name, depth, spp, "path"
         self.scratch = pathlib.Path(tempfile.mkdtemp())
         camera = f'"float fov" {fov}'
         sensor = {
@@ -141,7 +141,7 @@ class Scene:
         self.add({"type": "constant", "radiance": rgb(radiance)})
 
     def make(self):
-        self.mitsuba["integrator"] = {"type": "path", "max_depth": self.depth, "rr_depth": 1000}
+        self.mitsuba["integrator"] = {"type": self.integrator, "max_depth": self.depth, "rr_depth": 1000}
         scene = mi.load_dict(self.mitsuba)
         begin = time.time()
         runs = [np.array(mi.render(scene, spp=self.spp // RUNS, seed=s)) for s in range(RUNS)]

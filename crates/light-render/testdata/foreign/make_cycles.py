@@ -25,8 +25,8 @@ DEPTH = 32  # Cycles counts bounces in other ways: paths so long that it does no
 class Scene:
     """A scene in both languages."""
 
-    def __init__(self, name, eye, target, fov, spp):
-        self.name, self.spp = name, spp
+    def __init__(self, name, eye, target, fov, spp, depth=DEPTH, size=SIZE):
+        self.name, self.spp, self.depth, self.size = name, spp, depth, size
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.scene = bpy.context.scene
         camera = bpy.data.cameras.new("camera")
@@ -39,8 +39,8 @@ class Scene:
         self.scene.collection.objects.link(looking)
         self.scene.camera = looking
         self.pbrt = [
-            f"# Written by make_cycles.py; paths of at most {DEPTH} segments.",
-            f'Film "rgb" "integer xresolution" {SIZE} "integer yresolution" {SIZE}',
+            f"# Written by make_cycles.py; paths of at most {depth} segments.",
+            f'Film "rgb" "integer xresolution" {size} "integer yresolution" {size}',
             "Scale -1 1 1  # to a right-handed view",
             f"LookAt {numbers(eye)}  {numbers(target)}  0 1 0",
             f'Camera "perspective" "float fov" {fov}',
@@ -87,32 +87,33 @@ class Scene:
         sky.inputs["Strength"].default_value = 1
         self.pbrt.append(f'LightSource "infinite" "rgb L" [{numbers(radiance)}]')
 
-    def make(self):
-        scene = self.scene
-        render, cycles = scene.render, scene.cycles
+    def picture(self, samples, seed):
+        """What Cycles makes of it, with nothing on that trades truth for less noise, and what it says about that."""
+        render, cycles = self.scene.render, self.scene.cycles
         render.engine = "CYCLES"
-        render.resolution_x = render.resolution_y = SIZE
+        render.resolution_x = render.resolution_y = self.size
         render.image_settings.file_format = "OPEN_EXR"
         render.image_settings.color_depth = "32"
         render.dither_intensity = 0
-        cycles.samples = self.spp // RUNS
+        cycles.samples, cycles.seed = samples, seed
         cycles.use_adaptive_sampling = cycles.use_denoising = False
         cycles.pixel_filter_type = "BOX"
         cycles.filter_width = 1
-        # All that trades truth for less noise is off.
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
         cycles.light_sampling_threshold = cycles.blur_glossy = 0
         cycles.caustics_reflective = cycles.caustics_refractive = True
-        cycles.max_bounces = DEPTH - 2
-        cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = DEPTH - 2
-        begin = time.time()
-        runs = []
-        for seed in range(RUNS):
-            cycles.seed = seed
-            render.filepath = str(pathlib.Path(tempfile.mkdtemp()) / "run.exr")
+        cycles.max_bounces = self.depth - 2
+        cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = self.depth - 2
+        with tempfile.TemporaryDirectory() as folder:
+            render.filepath = str(pathlib.Path(folder) / "run.exr")
             bpy.ops.render.render(write_still=True)
-            runs.append(np.array(mi.Bitmap(render.filepath))[:, :, :3])
-        finish(self.name, self.pbrt, DEPTH, self.spp, runs, time.time() - begin)
+            file = mi.Bitmap(render.filepath)
+            return np.array(file)[:, :, :3], file.metadata()
+
+    def make(self):
+        begin = time.time()
+        runs = [self.picture(self.spp // RUNS, seed)[0] for seed in range(RUNS)]
+        finish(self.name, self.pbrt, self.depth, self.spp, runs, time.time() - begin)
 
 
 # Materials: what pbrt calls them, and what Cycles does.
@@ -190,5 +191,6 @@ def leaves():
     return s
 
 
-for scene in (brushed, leaves):
-    scene().make()
+if __name__ == "__main__":
+    for scene in (brushed, leaves):
+        scene().make()
