@@ -9,19 +9,31 @@ pub(super) struct Lamp {
     pub(super) center: Vec3,
     /// As a share of the power of all lights.
     pub(super) power: f32,
-    /// Axis of its moments: the narrower a cone, the longer.
-    pub(super) axis: Vec3,
     pub(super) light: u32,
+    w: Vec3,
+    cos_theta_o: f32,
+    cos_theta_e: f32,
+    two_sided: bool,
 }
 
 impl Lamp {
+    /// Copies, and decides nothing, so that a reader of many lights need not wait for one.
     #[inline]
     pub(super) fn new(light: u32, bounds: &LightBounds, power: f32) -> Self {
         Self {
             center: bounds.bounds.center(),
             power,
-            axis: Moments::of_light(bounds, 1.0).axis,
             light,
+            w: bounds.w,
+            cos_theta_o: bounds.cos_theta_o,
+            cos_theta_e: bounds.cos_theta_e,
+            two_sided: bounds.two_sided,
         }
+    }
+
+    /// Axis of its moments: the narrower a cone, the longer.
+    #[inline]
+    pub(super) fn axis(&self) -> Vec3 {
+        self.w * Moments::axis_length(self.cos_theta_o, self.cos_theta_e, self.two_sided)
     }
 }

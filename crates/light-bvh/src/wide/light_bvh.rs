@@ -6,9 +6,11 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use super::build::build;
 use super::node::{NOWHERE, WIDTH, WideNode};
 use super::options::LightBvhOptions;
+use super::refit::fill;
 use super::scan::Scan;
 use super::tree::LightBvhRef;
 use crate::LightBvhError;
+use crate::join::join;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
@@ -43,15 +45,18 @@ impl LightBvh {
     ) -> Result<Self, LightBvhError> {
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
         let (skeleton, order) = build(lights, &scan, options);
-        let (nodes, slots) = skeleton.lay_out(&order, lights.len());
-        let mut tree = Self {
+        let mut nodes = skeleton.nodes();
+        let ((), slots) = join(
+            lights.len(),
+            || fill(&mut nodes, &order, lights, scan.power),
+            || skeleton.slots(&order, lights.len()),
+        );
+        Ok(Self {
             nodes,
             order,
             slots,
             power: scan.power,
-        };
-        tree.fill(lights);
-        Ok(tree)
+        })
     }
 
     /// What queries need, borrowed.

@@ -54,7 +54,7 @@ impl Moments {
     /// The moments of one light; `inv_total` is one over the power of all lights together.
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn of_light(light: &LightBounds, inv_total: f64) -> Self {
-        let lobe = Lobe::new(light);
+        let lobe = Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided);
         let power = (f64::from(light.phi) * inv_total) as f32 * lobe.peak;
         Self {
             power: if light.phi > 0.0 {
@@ -69,6 +69,12 @@ impl Moments {
             spread_sq: lobe.spread_sq,
             shape: lobe.shape,
         }
+    }
+
+    /// The length of the mean axis of one light: 1 for a flat one, more the narrower the cone that it shines into.
+    #[inline]
+    pub(crate) fn axis_length(cos_theta_o: f32, cos_theta_e: f32, two_sided: bool) -> f32 {
+        Lobe::new(cos_theta_o, cos_theta_e, two_sided).axis
     }
 
     /// The moments of several groups together; those that are off do not count.
@@ -160,10 +166,10 @@ struct Lobe {
 }
 
 impl Lobe {
-    fn new(light: &LightBounds) -> Self {
-        let (cos_o, cos_e) = (light.cos_theta_o, light.cos_theta_e);
+    #[inline]
+    fn new(cos_o: f32, cos_e: f32, two_sided: bool) -> Self {
         if cos_e.abs() < DIFFUSE {
-            return Self::diffuse(cos_o, light.two_sided);
+            return Self::diffuse(cos_o, two_sided);
         }
         let sin_o = float::safe_sqrt(1.0 - cos_o * cos_o);
         let sin_e = float::safe_sqrt(1.0 - cos_e * cos_e);
@@ -174,7 +180,7 @@ impl Lobe {
         } else {
             cos_o * cos_e - sin_o * sin_e
         };
-        if cos_total <= -0.5 || light.two_sided {
+        if cos_total <= -0.5 || two_sided {
             return Self::diffuse(-1.0, false);
         }
         // A line in the cosine, from 1 on the axis to 0 at the edge of the cone.

@@ -18,9 +18,6 @@ use crate::join::map;
 /// Bits of a key for each axis.
 const BITS: u32 = 21;
 
-/// Lights that are given keys in one go.
-const CHUNK: usize = 8192;
-
 /// A light and its place on the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Entry {
@@ -79,7 +76,14 @@ const fn spread(x: u32) -> u64 {
 
 /// The highest bit of a key: lights with narrow cones come after all others, for mixed kinds are best parted early.
 fn kind(bounds: &LightBounds) -> u64 {
-    let is_narrow = Moments::of_light(bounds, 1.0).axis.length_squared() > MIXED_AXES;
+    let LightBounds {
+        cos_theta_o,
+        cos_theta_e,
+        two_sided,
+        ..
+    } = *bounds;
+    let length = Moments::axis_length(cos_theta_o, cos_theta_e, two_sided);
+    let is_narrow = length * length > MIXED_AXES;
     u64::from(is_narrow) << 63
 }
 
@@ -91,8 +95,10 @@ pub(super) fn sorted(
     dark: DarkLights,
 ) -> (Vec<Entry>, f32) {
     let grid = Grid::new(centers);
-    let chunks: Vec<(u32, &[LightExtent])> =
-        (0..).step_by(CHUNK).zip(extents.chunks(CHUNK)).collect();
+    let chunks: Vec<(u32, &[LightExtent])> = (0..)
+        .step_by(radix::CHUNK)
+        .zip(extents.chunks(radix::CHUNK))
+        .collect();
     let chunks = map(chunks, |(first, chunk)| {
         let bounded = (first..)
             .zip(chunk)
@@ -103,9 +109,11 @@ pub(super) fn sorted(
             light,
             power: lights.share(bounds),
         };
-        held.map(entry).collect::<Vec<_>>()
+        let mut entries = Vec::with_capacity(chunk.len());
+        entries.extend(held.map(entry));
+        entries
     });
-    (radix::sorted(&chunks), grid.map_or(0.0, |grid| grid.cell))
+    (radix::sorted(chunks), grid.map_or(0.0, |grid| grid.cell))
 }
 
 /// A run of lights along the curve.
@@ -113,7 +121,7 @@ pub(super) fn sorted(
 pub(super) struct Range<'a> {
     entries: &'a mut [Entry],
     lights: &'a Lights<'a>,
-    power: f32,
+    price: f32,
     /// Side of the smallest cells of the keys.
     cell: f32,
 }
@@ -122,17 +130,11 @@ impl<'a> Range<'a> {
     /// The lights of `entries`, which are in the order of their keys.
     pub(super) fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
         Self {
-            power: entries.iter().map(|e| e.power).sum(),
+            price: price(entries, cell),
             entries,
             lights,
             cell,
         }
-    }
-
-    /// The highest bit in which keys differ; `None` if all agree.
-    fn top_bit(&self) -> Option<u32> {
-        let (first, last) = (self.entries.first()?, self.entries.last()?);
-        (first.key ^ last.key).checked_ilog2()
     }
 
     /// Gives lights of one cell new keys in a grid of their own.
@@ -166,19 +168,15 @@ impl Group for Range<'_> {
         self.entries.len() > 1
     }
 
-    /// Power times the side of the smallest cell that holds the lights.
     fn price(&self) -> f32 {
-        const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
-        let bits = self.top_bit().map_or(0, |bit| bit + 1);
-        let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
-        self.power * side * self.cell.max(f32::MIN_POSITIVE)
+        self.price
     }
 
     fn split(mut self) -> (Self, Self) {
-        if self.top_bit().is_none() {
+        if top_bit(self.entries).is_none() {
             self.look_closer();
         }
-        match self.top_bit() {
+        match top_bit(self.entries) {
             Some(bit) => {
                 let middle = self.entries.partition_point(|e| e.key >> bit & 1 == 0);
                 self.split_at(middle)
@@ -195,6 +193,33 @@ impl Group for Range<'_> {
     fn each_light(&self, each: impl FnMut(u32)) {
         self.entries.iter().map(|e| e.light).for_each(each);
     }
+}
+
+/// The highest bit in which keys differ; `None` if all agree.
+fn top_bit(entries: &[Entry]) -> Option<u32> {
+    let (first, last) = (entries.first()?, entries.last()?);
+    (first.key ^ last.key).checked_ilog2()
+}
+
+/// Power times the side of the smallest cell that holds the lights.
+fn price(entries: &[Entry], cell: f32) -> f32 {
+    const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
+    let bits = top_bit(entries).map_or(0, |bit| bit + 1);
+    let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
+    power(entries) * side * cell.max(f32::MIN_POSITIVE)
+}
+
+/// The power of all, in four sums, which do not wait for each other.
+fn power(entries: &[Entry]) -> f32 {
+    let fours = entries.chunks_exact(4);
+    let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();
+    let mut sums = [0.0; 4];
+    for four in fours {
+        for (sum, entry) in sums.iter_mut().zip(four) {
+            *sum += entry.power;
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

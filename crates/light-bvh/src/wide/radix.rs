@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::morton::Entry;
-use crate::join::map;
+use crate::join::{map, table};
 
 /// Bits of a digit.
 const DIGIT: u32 = 11;
@@ -12,73 +12,93 @@ const DIGIT: u32 = 11;
 /// So few entries are sorted by comparing them.
 const FEW: usize = 1024;
 
-/// All entries in the order of their keys, those of one key in the order of the lights, as they come.
-pub(super) fn sorted(chunks: &[Vec<Entry>]) -> Vec<Entry> {
-    let entries = || chunks.iter().flatten();
-    let mut out = vec![Entry::default(); entries().count()];
-    let Some(shift) = top_digit(entries()) else {
-        entries().zip(&mut out).for_each(|(e, to)| *to = *e);
-        return out;
-    };
-    let parts = scatter(entries(), shift, &mut out);
-    map(parts, sort);
-    out
-}
+/// Entries that are put in the order of a digit in one go.
+pub(super) const CHUNK: usize = 1 << 15;
 
 /// Sorts `entries`, whose lights are in ascending order.
 pub(super) fn sort(entries: &mut [Entry]) {
     if entries.len() <= FEW {
         entries.sort_unstable_by_key(|e| (e.key, e.light));
-        return;
-    }
-    if let Some(shift) = top_digit(entries.iter()) {
-        let from = entries.to_vec();
-        map(scatter(from.iter(), shift, entries), sort);
+    } else {
+        let chunks = entries.chunks(CHUNK).map(<[Entry]>::to_vec);
+        entries.copy_from_slice(&sorted(chunks.collect()));
     }
 }
 
+/// All entries in the order of their keys, those of one key in the order of the lights, as they come.
+pub(super) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
+    let Some(shift) = top_digit(&chunks) else {
+        return chunks.concat();
+    };
+    let piles = map(chunks, |chunk| Piles::new(&chunk, shift));
+    let mut out = table(piles.iter().map(|p| p.entries.len()).sum(), |_| {
+        Entry::default()
+    });
+    let mut rest = &mut *out;
+    let mut parts = Vec::new();
+    for digit in 0..1 << DIGIT {
+        let count = piles.iter().map(|p| p.get(digit).len()).sum();
+        let (part, behind) = core::mem::take(&mut rest).split_at_mut(count);
+        rest = behind;
+        if count > 0 {
+            parts.push((digit, part));
+        }
+    }
+    map(parts, |(digit, part): (usize, &mut [Entry])| {
+        let entries = piles.iter().flat_map(|p| p.get(digit));
+        part.iter_mut().zip(entries).for_each(|(to, e)| *to = *e);
+        sort(part);
+    });
+    out
+}
+
 /// How far right a key is shifted to leave the highest digit in which entries differ; `None` if all keys agree.
-fn top_digit<'e>(mut entries: impl Iterator<Item = &'e Entry>) -> Option<u32> {
-    let first = entries.next()?.key;
-    let differing = entries.fold(0, |bits, e| bits | (e.key ^ first));
-    Some((differing.checked_ilog2()? + 1).saturating_sub(DIGIT))
+fn top_digit(chunks: &[Vec<Entry>]) -> Option<u32> {
+    let first = chunks.iter().flatten().next()?.key;
+    let differing = map(chunks.iter().collect(), |chunk: &Vec<Entry>| {
+        chunk.iter().fold(0, |bits, e| bits | (e.key ^ first))
+    });
+    let differing = differing.into_iter().fold(0, |all, bits| all | bits);
+    Some((u64::checked_ilog2(differing)? + 1).saturating_sub(DIGIT))
+}
+
+/// Entries by a digit of their keys.
+struct Piles {
+    /// In the order of the digit, otherwise as they came.
+    entries: Vec<Entry>,
+    /// Where the entries of each digit end.
+    ends: Vec<usize>,
+}
+
+impl Piles {
+    fn new(chunk: &[Entry], shift: u32) -> Self {
+        let mut ends = vec![0; 1 << DIGIT];
+        for entry in chunk {
+            ends[digit(entry.key, shift)] += 1;
+        }
+        let mut end = 0;
+        for next in &mut ends {
+            // The start of each pile, which moves on to its end as the pile grows.
+            (*next, end) = (end, end + *next);
+        }
+        let mut entries = vec![Entry::default(); chunk.len()];
+        for entry in chunk {
+            let next = &mut ends[digit(entry.key, shift)];
+            entries[*next] = *entry;
+            *next += 1;
+        }
+        Self { entries, ends }
+    }
+
+    fn get(&self, digit: usize) -> &[Entry] {
+        let start = digit.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.entries[start..self.ends[digit]]
+    }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "masked to a digit")]
 const fn digit(key: u64, shift: u32) -> usize {
     (key >> shift) as usize & ((1 << DIGIT) - 1)
-}
-
-/// Copies the entries to `out` in the order of a digit, and returns the parts that agree in it and are not single.
-fn scatter<'e, 'o>(
-    entries: impl Iterator<Item = &'e Entry> + Clone,
-    shift: u32,
-    out: &'o mut [Entry],
-) -> Vec<&'o mut [Entry]> {
-    let mut ends = [0; 1 << DIGIT];
-    for entry in entries.clone() {
-        ends[digit(entry.key, shift)] += 1;
-    }
-    let mut end = 0;
-    for next in &mut ends {
-        // The start of each part, which moves on to its end as the part fills.
-        (*next, end) = (end, end + *next);
-    }
-    for entry in entries {
-        let next = &mut ends[digit(entry.key, shift)];
-        out[*next] = *entry;
-        *next += 1;
-    }
-    let (mut rest, mut start) = (out, 0);
-    let mut parts = Vec::new();
-    for end in ends {
-        let (part, behind) = rest.split_at_mut(end - start);
-        (rest, start) = (behind, end);
-        if part.len() > 1 {
-            parts.push(part);
-        }
-    }
-    parts
 }
 
 #[cfg(test)]
@@ -98,7 +118,7 @@ mod tests {
         let mut expected = entries.to_vec();
         expected.sort_by_key(|e| e.key);
         let chunks: Vec<Vec<Entry>> = entries.chunks(777).map(<[Entry]>::to_vec).collect();
-        assert_eq!(sorted(&chunks), expected, "{} entries", entries.len());
+        assert_eq!(sorted(chunks), expected, "{} entries", entries.len());
     }
 
     #[test]

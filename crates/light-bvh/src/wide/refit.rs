@@ -41,19 +41,19 @@ impl LightBvh {
             }
         })?;
         self.power = scan.power;
-        self.fill(lights);
+        fill(&mut self.nodes, &self.order, lights, self.power);
         Ok(())
     }
+}
 
-    /// Tells all nodes, which know their places, what is below them; `lights` are valid and have the tree's power.
-    pub(super) fn fill(&mut self, lights: &[LightExtent]) {
-        let filling = Filling {
-            lights: Lights::new(lights, self.power),
-            order: &self.order,
-        };
-        if let Some((root, below)) = self.nodes.split_first_mut() {
-            filling.subtree(root, below, 1, self.order.len());
-        }
+/// Tells all nodes, which know their places, what is below them; `lights` are valid and have `power` together.
+pub(super) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent], power: f64) {
+    let filling = Filling {
+        lights: Lights::new(lights, power),
+        order,
+    };
+    if let Some((root, below)) = nodes.split_first_mut() {
+        filling.subtree(root, below, 1, order.len());
     }
 }
 
@@ -99,7 +99,7 @@ impl Filling<'_> {
         }
         let (children, rest) = below.split_at_mut(inner);
         self.side_by_side(children, rest, base + inner, end, &mut brood[..inner]);
-        fill(node, &brood)
+        encode(node, &brood)
     }
 
     /// The same for nodes side by side; `below` are the nodes below all of them, in their order.
@@ -152,12 +152,12 @@ impl Batch<'_> {
         for (moments, child) in brood.iter_mut().zip(children) {
             *moments = self.subtree(child, rest, child_base + inner);
         }
-        fill(node, &brood)
+        encode(node, &brood)
     }
 }
 
 /// Tells `node` what its children are, which are the first ones of `brood`.
-fn fill(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
+fn encode(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
     let brood = &brood[..usize::from(node.count)];
     *node = WideNode {
         child_base: node.child_base,

@@ -30,52 +30,74 @@ impl Skeleton {
         Self(all)
     }
 
-    /// Nodes that know their places and those of their lights in `order`; and the slot of each of `lights` lights.
-    pub(super) fn lay_out(&self, order: &[u32], lights: usize) -> (Vec<WideNode>, Vec<u32>) {
-        let mut layout = Layout {
-            fans: &self.0,
-            nodes: table(self.0.len(), |_| WideNode::EMPTY),
-            order,
-            slots: vec![NOWHERE; lights],
-            next_node: 1,
-            next_light: 0,
-        };
-        if !self.0.is_empty() {
-            layout.place(0, NOWHERE);
-        }
-        (layout.nodes, layout.slots)
+    /// Nodes that know their places and those of their lights.
+    pub(super) fn nodes(&self) -> Vec<WideNode> {
+        let mut nodes = table(self.0.len(), |_| WideNode::EMPTY);
+        self.place(|place| {
+            let node = &mut nodes[place.index];
+            (node.inner, node.count) = (place.fan.inner, place.fan.count);
+            node.child_base = low_word(place.child_base);
+            node.light_base = low_word(place.light_base);
+            node.parent = place.parent;
+        });
+        nodes
     }
-}
 
-/// A tree whose nodes get their places, from the root down.
-struct Layout<'a> {
-    fans: &'a [Fan],
-    nodes: Vec<WideNode>,
-    order: &'a [u32],
-    slots: Vec<u32>,
-    /// The first node, and the first place in `order`, that are not taken yet.
-    next_node: usize,
-    next_light: usize,
-}
+    /// The slot of each of `lights` lights, of which the tree holds those in `order`.
+    pub(super) fn slots(&self, order: &[u32], lights: usize) -> Vec<u32> {
+        let mut slots = vec![NOWHERE; lights];
+        self.place(|place| {
+            let children = usize::from(place.fan.inner)..usize::from(place.fan.count);
+            for (child, &light) in children.zip(&order[place.light_base..]) {
+                slots[light as usize] = low_word(place.index * WIDTH + child);
+            }
+        });
+        slots
+    }
 
-impl Layout<'_> {
-    /// Finds places for all that is below the node at `index`. Recursive, as deep as the tree at most.
-    fn place(&mut self, index: usize, parent: u32) {
-        let fan = self.fans[index];
-        let (inner, count) = (usize::from(fan.inner), usize::from(fan.count));
-        let child_base = self.next_node;
-        let node = &mut self.nodes[index];
-        (node.inner, node.count, node.parent) = (fan.inner, fan.count, parent);
-        node.child_base = low_word(child_base);
-        node.light_base = low_word(self.next_light);
-        let lights = &self.order[self.next_light..][..count - inner];
-        for (child, &light) in (inner..).zip(lights) {
-            self.slots[light as usize] = low_word(index * WIDTH + child);
+    /// Calls `each` with every node, parents before their children.
+    fn place(&self, mut each: impl FnMut(&Place)) {
+        if let Some(&fan) = self.0.first() {
+            let root = Place {
+                index: 0,
+                fan,
+                child_base: 1,
+                light_base: 0,
+                parent: NOWHERE,
+            };
+            self.place_below(root, &mut each);
         }
-        self.next_node += inner;
-        self.next_light += lights.len();
+    }
+
+    /// Returns the first node, and the first place for a light, behind all that is below `node`. Recursive, as deep as the tree at most.
+    fn place_below(&self, node: Place, each: &mut impl FnMut(&Place)) -> (usize, usize) {
+        each(&node);
+        let inner = usize::from(node.fan.inner);
+        let mut child_base = node.child_base + inner;
+        let mut light_base = node.light_base + usize::from(node.fan.count) - inner;
         for child in 0..inner {
-            self.place(child_base + child, low_word(index * WIDTH + child));
+            let index = node.child_base + child;
+            let child = Place {
+                index,
+                fan: self.0[index],
+                child_base,
+                light_base,
+                parent: low_word(node.index * WIDTH + child),
+            };
+            (child_base, light_base) = self.place_below(child, each);
         }
+        (child_base, light_base)
     }
+}
+
+/// Where a node and what belongs to it are.
+struct Place {
+    index: usize,
+    fan: Fan,
+    /// The first of its children that are nodes.
+    child_base: usize,
+    /// The first of its lights in the order.
+    light_base: usize,
+    /// Slot of the node.
+    parent: u32,
 }
