@@ -5,7 +5,7 @@ use lights::sources::{TextureMapping, Wrap};
 use super::item::Item;
 use super::reader::Reader;
 use crate::glam::{Affine2, Mat2, Vec2, Vec3};
-use crate::image::EncodedImage;
+use crate::image::{EncodedImage, Encoding};
 use crate::{ColorImage, Diagnostic, Image, ImageId};
 
 /// The images of a document, each decoded and kept once.
@@ -88,7 +88,7 @@ impl<'a> Reader<'a> {
         let (textures, scene) = (&mut self.textures, &mut self.scene);
         let decoded = &textures.decoded[&texture.image];
         let known = textures.colors.entry(texture.image);
-        let image = *known.or_insert_with(|| scene.add_image(decoded.color()));
+        let image = *known.or_insert_with(|| scene.add_image(decoded.color(Encoding::Srgb)));
         texture.shown(image, scale)
     }
 

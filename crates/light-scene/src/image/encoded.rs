@@ -2,11 +2,23 @@ use std::path::Path;
 
 use ::image::{DynamicImage, ImageFormat};
 
+use super::file::ending;
 use super::{Image, display::decode, srgb};
 use crate::Diagnostic;
 use crate::glam::Vec3;
 
-/// An image as screens want it, of a PNG or JPEG file: colours are encoded by sRGB, data stand for themselves.
+/// How numbers of a file stand for amounts of light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Encoding {
+    /// By the curve of sRGB.
+    Srgb,
+    /// In proportion.
+    Linear,
+    /// By a power.
+    Gamma(f32),
+}
+
+/// An image as screens want it, of a PNG, TGA or JPEG file: colours are encoded by sRGB, data stand for themselves.
 #[derive(Clone, Debug)]
 pub(crate) struct EncodedImage(DynamicImage);
 
@@ -15,6 +27,8 @@ impl EncodedImage {
     pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
         let (format, what) = match bytes {
             [0xff, 0xd8, ..] => (ImageFormat::Jpeg, "a JPEG file"),
+            // Files of this kind have no mark of their own.
+            _ if ending(path) == "tga" => (ImageFormat::Tga, "a TGA file"),
             _ => (ImageFormat::Png, "a PNG file"),
         };
         let image = decode(path, bytes, format, what)?;
@@ -28,11 +42,10 @@ impl EncodedImage {
     }
 
     /// The colours, made linear.
-    pub(crate) fn color(&self) -> Image {
+    pub(crate) fn color(&self, encoding: Encoding) -> Image {
         let image = self.0.to_rgb16();
-        let texels = image
-            .pixels()
-            .map(|texel| Vec3::from(texel.0.map(part).map(srgb::decode)));
+        let linear = |channel| encoding.decode(part(channel));
+        let texels = image.pixels().map(|texel| texel.0.map(linear).into());
         self.of_texels(texels.collect())
     }
 
@@ -72,6 +85,16 @@ impl EncodedImage {
     fn of_texels(&self, texels: Vec<Vec3>) -> Image {
         let image = Image::new(self.0.width(), self.0.height(), texels);
         image.expect("as many texels as the image has")
+    }
+}
+
+impl Encoding {
+    fn decode(self, encoded: f32) -> f32 {
+        match self {
+            Self::Srgb => srgb::decode(encoded),
+            Self::Linear => encoded,
+            Self::Gamma(power) => encoded.powf(power),
+        }
     }
 }
 

@@ -2,8 +2,11 @@ use std::path::Path;
 
 use super::display::parse_hdr;
 use super::openexr::parse_exr;
-use super::{EncodedImage, Image, write_exr, write_hdr, write_png};
+use super::{EncodedImage, Encoding, Image, write_exr, write_hdr, write_png};
 use crate::{Diagnostic, Files};
+
+/// The endings of the names of images that are read.
+pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .png, .tga or .jpg";
 
 /// An image as it came from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +17,8 @@ pub struct ImageFile {
     pub warning: Option<Diagnostic>,
 }
 
-/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`, `.jpg`, `.jpeg` (sRGB, made
-/// linear).
+/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`, `.tga`, `.jpg`, `.jpeg`
+/// (sRGB, made linear).
 ///
 /// # Errors
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or an infinity: with the
@@ -26,11 +29,20 @@ pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
 
 /// As [`read_image`], with the bytes from `files`.
 pub(crate) fn read_image_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
+    read_encoded_from(path, files, Encoding::Srgb)
+}
+
+/// As [`read_image_from`], where `encoding` says what the numbers of files mean that are made for screens.
+pub(crate) fn read_encoded_from(
+    path: &Path,
+    files: Files<'_>,
+    encoding: Encoding,
+) -> Result<ImageFile, Diagnostic> {
     if !is_image_name(path) {
-        let message = "expected an image: .exr, .hdr, .png or .jpg";
+        let message = format!("expected an image: {IMAGE_ENDINGS}");
         return Err(Diagnostic::file(path, message));
     }
-    parse_image(path, &files.read(path)?)
+    parse_encoded(path, &files.read(path)?, encoding)
 }
 
 /// As [`read_image`], from the bytes of the file; `path` says by its ending which format they have, and names them in
@@ -39,10 +51,17 @@ pub(crate) fn read_image_from(path: &Path, files: Files<'_>) -> Result<ImageFile
 /// # Errors
 /// As [`read_image`].
 pub fn parse_image(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    parse_encoded(path, bytes, Encoding::Srgb)
+}
+
+fn parse_encoded(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<ImageFile, Diagnostic> {
     match ending(path).as_str() {
         "exr" => parse_exr(path, bytes),
         "hdr" => parse_hdr(path, bytes),
-        _ => parse_display(path, bytes),
+        _ => Ok(ImageFile {
+            image: EncodedImage::parse(path, bytes)?.color(encoding),
+            warning: None,
+        }),
     }
 }
 
@@ -63,17 +82,8 @@ pub(crate) fn read_opacity_from(path: &Path, files: Files<'_>) -> Result<ImageFi
 pub(crate) fn is_image_name(path: &Path) -> bool {
     matches!(
         ending(path).as_str(),
-        "exr" | "hdr" | "png" | "jpg" | "jpeg"
+        "exr" | "hdr" | "png" | "tga" | "jpg" | "jpeg"
     )
-}
-
-/// The image in the bytes of a PNG or JPEG file, made linear.
-fn parse_display(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
-    let image = EncodedImage::parse(path, bytes)?.color();
-    Ok(ImageFile {
-        image,
-        warning: None,
-    })
 }
 
 /// Writes an image by the ending of its name: `.exr` (float32 linear RGB), `.hdr` (RGBE) or `.png` (8-bit sRGB).
@@ -93,7 +103,7 @@ pub fn write_image(path: &Path, image: &Image) -> Result<(), Diagnostic> {
 }
 
 /// The ending of a file's name in lower case; empty without one.
-fn ending(path: &Path) -> String {
+pub(super) fn ending(path: &Path) -> String {
     let ending = path.extension().unwrap_or_default();
     ending.to_string_lossy().to_ascii_lowercase()
 }

@@ -18,9 +18,11 @@ use crate::glam::{DVec3, Vec3};
 pub use channels::ChannelFile;
 use checked::checked;
 pub use display::{write_hdr, write_png};
-pub(crate) use encoded::EncodedImage;
+pub(crate) use encoded::{EncodedImage, Encoding};
+pub(crate) use file::{
+    IMAGE_ENDINGS, is_image_name, read_encoded_from, read_image_from, read_opacity_from,
+};
 pub use file::{ImageFile, parse_image, read_image, write_image};
-pub(crate) use file::{is_image_name, read_image_from, read_opacity_from};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 
 /// A linear RGB image in memory, row 0 on top.

@@ -95,7 +95,7 @@ fn broken_files_give_one_clear_line() {
         (
             "a.gif",
             &b"x"[..],
-            ": expected an image: .exr, .hdr, .png or .jpg",
+            ": expected an image: .exr, .hdr, .png, .tga or .jpg",
         ),
         ("a.exr", &b"no image"[..], ": expected an OpenEXR file: "),
         (

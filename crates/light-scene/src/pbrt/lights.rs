@@ -6,6 +6,7 @@ use lights::sources::{
     RadianceAmount, SpotLightDesc, TextureMapping, UniformInfiniteLightDesc,
 };
 
+use super::image_map::ImageKey;
 use super::state::{AreaLight, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Quat, Vec3};
@@ -134,7 +135,12 @@ impl Reader {
         }
         let scale = Vec3::splat(parameters.number_or("scale", 1.0));
         let radiance = match parameters.string("filename") {
-            Some(file) => clamped(self.image(*at, file, scale)?),
+            // An image that does not repeat.
+            Some(file) => Color::Image(ColorImage {
+                image: self.image(*at, ImageKey::colors(self.beside(file)))?,
+                scale,
+                mapping: TextureMapping::default(),
+            }),
             None => scaled(Color::Constant(self.emission(typed, "L")), scale),
         };
         self.state.area_light = Some(AreaLight {
@@ -166,17 +172,6 @@ impl Reader {
         self.scene.warnings.extend(file.warning);
         let image = file.image.to_light();
         image.map_err(|error| typed.at.diagnostic(error.to_string()))
-    }
-}
-
-/// An image that does not repeat.
-fn clamped(color: Color) -> Color {
-    match color {
-        Color::Image(image) => Color::Image(ColorImage {
-            mapping: TextureMapping::default(),
-            ..image
-        }),
-        Color::Constant(_) => color,
     }
 }
 

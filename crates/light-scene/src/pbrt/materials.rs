@@ -31,16 +31,21 @@ impl Reader {
             "coateddiffuse" => Surface::CoatedDiffuse {
                 reflectance: self.color(typed, "reflectance", 0.5),
                 eta: self.eta(typed),
-                alpha: alpha(typed),
+                alpha: self.facets(typed, ""),
             },
             "dielectric" => Surface::Dielectric {
                 eta: self.eta(typed),
-                alpha: alpha(typed),
+                alpha: self.facets(typed, ""),
             },
             "thindielectric" => Surface::ThinDielectric {
                 eta: self.eta(typed),
             },
-            "conductor" => self.conductor(typed),
+            "conductor" => self.conductor(typed, ""),
+            "coatedconductor" => {
+                let what = "material \"coatedconductor\"";
+                self.warn(typed.at, what, "was taken as its conductor");
+                self.conductor(typed, "conductor.")
+            }
             "interface" | "" => Surface::Interface,
             other => {
                 let what = format!("material \"{other}\"");
@@ -90,29 +95,25 @@ impl Reader {
         let materials = [first, second].map(|name| self.named_material(typed.at, name));
         Ok(Surface::Mix {
             materials,
-            amount: self.color(typed, "amount", 0.5),
+            amount: self.share(typed, "amount", 0.5),
         })
     }
 
-    fn conductor(&mut self, typed: &Typed<'_>) -> Surface {
+    /// A metal; `prefix` stands before the names of its parameters.
+    fn conductor(&mut self, typed: &Typed<'_>, prefix: &str) -> Surface {
         let parameters = &typed.parameters;
-        let alpha = alpha(typed);
+        let alpha = self.facets(typed, prefix);
         if parameters.has("reflectance") {
-            let reflectance = match self.color(typed, "reflectance", 1.0) {
-                Color::Constant(reflectance) => reflectance,
-                Color::Image(_) => {
-                    self.warn(
-                        typed.at,
-                        "a conductor's textured `reflectance`",
-                        "was taken as 0.9",
-                    );
-                    Vec3::splat(0.9)
-                }
-            };
-            return Surface::conductor_of_reflectance(reflectance, alpha);
+            let reflectance = self.color(typed, "reflectance", 1.0);
+            if let Color::Image(_) = reflectance {
+                let what = "a conductor's textured `reflectance`";
+                self.warn(typed.at, what, "was taken as its mean");
+            }
+            return Surface::conductor_of_reflectance(self.scene.mean(&reflectance), alpha);
         }
-        let names = [parameters.string("eta"), parameters.string("k")];
-        let numbers = [parameters.unbounded("eta"), parameters.unbounded("k")];
+        let [eta, k] = ["eta", "k"].map(|name| format!("{prefix}{name}"));
+        let names = [parameters.string(&eta), parameters.string(&k)];
+        let numbers = [parameters.unbounded(&eta), parameters.unbounded(&k)];
         if let [Some(eta), Some(k)] = numbers {
             return Surface::Conductor { eta, k, alpha };
         }
@@ -129,22 +130,18 @@ impl Reader {
             alpha,
         }
     }
-}
 
-/// The widths of the microfacet distribution.
-fn alpha(typed: &Typed<'_>) -> Vec2 {
-    let parameters = &typed.parameters;
-    let both = parameters.number_or("roughness", 0.0);
-    let roughness = Vec2::new(
-        parameters.number_or("uroughness", both),
-        parameters.number_or("vroughness", both),
-    );
-    let remapped = parameters.is_true("remaproughness", true);
-    let roughness = roughness.max(Vec2::ZERO);
-    if remapped {
-        roughness.map(f32::sqrt)
-    } else {
-        roughness
+    /// The widths of the microfacet distribution; `prefix` stands before the names of its parameters.
+    fn facets(&mut self, typed: &Typed<'_>, prefix: &str) -> Vec2 {
+        let mut roughness = |name| self.plain_number(typed, &format!("{prefix}{name}"));
+        let both = roughness("roughness").unwrap_or(0.0);
+        let [u, v] = ["uroughness", "vroughness"].map(|name| roughness(name).unwrap_or(both));
+        let roughness = Vec2::new(u, v).max(Vec2::ZERO);
+        if typed.parameters.is_true("remaproughness", true) {
+            roughness.map(f32::sqrt)
+        } else {
+            roughness
+        }
     }
 }
 

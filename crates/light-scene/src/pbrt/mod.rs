@@ -6,6 +6,7 @@ mod directives;
 #[cfg(test)]
 mod files_tests;
 mod goniometric;
+mod image_map;
 mod lights;
 mod materials;
 #[cfg(test)]
@@ -24,6 +25,8 @@ mod shapes;
 mod spectrum;
 mod state;
 mod textures;
+#[cfg(test)]
+mod textures_tests;
 mod tokens;
 mod view;
 

@@ -91,7 +91,7 @@ impl Reader {
         if !typed.parameters.has("alpha") {
             return;
         }
-        let share = self.color(typed, "alpha", 1.0);
+        let share = self.share(typed, "alpha", 1.0);
         if share == Color::Constant(Vec3::ONE) {
             return;
         }

@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use lights::sources::MediumInterface;
 
 use super::attributes::Attributes;
+use super::image_map::ImageKey;
 use super::media::MediumSlot;
 use super::named_materials::NamedMaterials;
 use super::objects::Objects;
 use super::parameters::Parameters;
+use super::textures::Textures;
 use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
@@ -26,9 +28,9 @@ pub(super) struct Reader {
     pub(super) saved_transforms: Vec<Mat4>,
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: NamedMaterials,
-    pub(super) textures: HashMap<String, Color>,
+    pub(super) textures: Textures,
     /// Each file read once.
-    pub(super) images: HashMap<PathBuf, ImageId>,
+    pub(super) images: HashMap<ImageKey, ImageId>,
     pub(super) media: Vec<MediumSlot>,
     /// All that `Attribute` directives have said, and where.
     pub(super) attributes: Vec<(PathBuf, Rc<Parameters>)>,

@@ -1,10 +1,31 @@
+use std::collections::HashMap;
 use std::path::Path;
 
-use super::state::{At, Reader, Typed};
+use super::state::{Reader, Typed};
 use super::tokens::Tokens;
 use crate::glam::Vec3;
-use crate::image::read_image_from;
-use crate::{Color, ColorImage, Diagnostic};
+use crate::text::shown;
+use crate::{Color, ColorImage, Diagnostic, Image};
+
+/// The textures so far: numbers and colours have names of their own.
+pub(super) type Textures = HashMap<(TextureKind, String), Color>;
+
+/// What a texture gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum TextureKind {
+    /// A number: of a colour the first channel counts.
+    Float,
+    Spectrum,
+}
+
+impl TextureKind {
+    const fn other(self) -> Self {
+        match self {
+            Self::Float => Self::Spectrum,
+            Self::Spectrum => Self::Float,
+        }
+    }
+}
 
 impl Reader {
     /// `Texture "name" "type" "class"` and its parameters.
@@ -14,92 +35,136 @@ impl Reader {
         tokens: &mut Tokens<'_>,
     ) -> Result<(), Diagnostic> {
         let name = tokens.quoted("a texture's name")?.into_owned();
-        tokens.quoted("a texture's type")?;
-        let typed = self.typed(path, tokens, "Texture")?;
-        let color = match typed.kind.as_str() {
-            "constant" => self.color(&typed, "value", 1.0),
-            "scale" => {
-                let color = self.color(&typed, "tex", 1.0);
-                let scale = match self.color(&typed, "scale", 1.0) {
-                    Color::Constant(scale) => scale,
-                    Color::Image(_) => {
-                        self.warn(typed.at, "a `scale` that is an image", "was taken as 1");
-                        Vec3::ONE
-                    }
-                };
-                scaled(color, scale)
-            }
-            "imagemap" => {
-                let file = typed.parameters.string("filename");
-                let file =
-                    file.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-                let scale = Vec3::splat(typed.parameters.number_or("scale", 1.0));
-                self.image(typed.at, file, scale)?
-            }
+        let kind = match &*tokens.quoted("a texture's type")? {
+            "float" => TextureKind::Float,
+            "spectrum" => TextureKind::Spectrum,
             other => {
-                self.warn(
-                    typed.at,
-                    &format!("Texture \"{other}\""),
-                    "was taken as grey",
-                );
+                let other = shown(other);
+                let message = format!("expected \"float\" or \"spectrum\", found \"{other}\"");
+                return Err(tokens.diagnostic(message));
+            }
+        };
+        let typed = self.typed(path, tokens, "Texture")?;
+        let what = format!("Texture \"{}\"", typed.kind);
+        let color = match typed.kind.as_str() {
+            "constant" => self.lookup(&typed, "value", 1.0, kind),
+            "scale" => self.scale_texture(&typed, kind),
+            "mix" => self.mix_texture(&typed, kind),
+            "imagemap" => self.image_map(&typed, kind)?,
+            _ => {
+                self.warn(typed.at, &what, "was taken as grey");
                 Color::Constant(Vec3::splat(0.5))
             }
         };
-        self.warn_unused(
-            typed.at,
-            &format!("Texture \"{}\"", typed.kind),
-            &typed.parameters,
-        );
-        self.textures.insert(name, color);
+        self.warn_unused(typed.at, &what, &typed.parameters);
+        self.textures.insert((kind, name), color);
         Ok(())
     }
 
     /// A parameter that is a colour or the name of a texture.
     pub(super) fn color(&mut self, typed: &Typed<'_>, name: &str, default: f32) -> Color {
+        self.lookup(typed, name, default, TextureKind::Spectrum)
+    }
+
+    /// A parameter that is a number or the name of a texture: of a colour the first channel counts.
+    pub(super) fn share(&mut self, typed: &Typed<'_>, name: &str, default: f32) -> Color {
+        self.lookup(typed, name, default, TextureKind::Float)
+    }
+
+    /// A number where there is no place for a texture.
+    pub(super) fn plain_number(&mut self, typed: &Typed<'_>, name: &str) -> Option<f32> {
+        if typed.parameters.texture(name).is_none() {
+            return typed.parameters.number(name);
+        }
+        let what = format!("the texture of `{name}`");
+        self.warn(typed.at, &what, "was taken as its mean");
+        let color = self.share(typed, name, 0.0);
+        Some(self.scene.mean(&color).x)
+    }
+
+    fn lookup(&mut self, typed: &Typed<'_>, name: &str, default: f32, kind: TextureKind) -> Color {
         if let Some(texture) = typed.parameters.texture(name) {
-            if let Some(color) = self.textures.get(texture) {
+            let known = |kind| self.textures.get(&(kind, texture.to_owned()));
+            if let Some(color) = known(kind).or_else(|| known(kind.other())) {
                 return *color;
             }
-            self.warn(
-                typed.at,
-                &format!("texture \"{texture}\""),
-                "is not defined and was taken as grey",
-            );
+            let what = format!("texture \"{texture}\"");
+            self.warn(typed.at, &what, "is not defined and was taken as grey");
+            return Color::Constant(Vec3::splat(0.5));
         }
         let color = typed.parameters.reflectance(name);
         if color.is_none() && typed.parameters.has(name) {
-            self.warn(
-                typed.at,
-                &format!("the spectrum of `{name}`"),
-                "is not understood; the default was taken",
-            );
+            let what = format!("the spectrum of `{name}`");
+            let message = "is not understood; the default was taken";
+            self.warn(typed.at, &what, message);
         }
         Color::Constant(color.unwrap_or(Vec3::splat(default)))
     }
 
-    /// An image of a file beside the scene.
-    pub(super) fn image(
+    fn scale_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
+        let color = self.lookup(typed, "tex", 1.0, kind);
+        match (color, self.share(typed, "scale", 1.0)) {
+            (color, Color::Constant(scale)) => scaled(color, scale),
+            (Color::Constant(color), image) => scaled(image, color),
+            both => self.baked(typed, [both.0, both.1], |[color, scale]| color * scale),
+        }
+    }
+
+    fn mix_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
+        let first = self.lookup(typed, "tex1", 0.0, kind);
+        let second = self.lookup(typed, "tex2", 1.0, kind);
+        let amount = self.share(typed, "amount", 0.5);
+        self.baked(typed, [first, second, amount], |[first, second, amount]| {
+            first.lerp(second, amount.x)
+        })
+    }
+
+    /// Colours put together place by place, or by their means where their images do not lie alike.
+    fn baked<const N: usize>(
         &mut self,
-        at: At<'_>,
-        file: &str,
-        scale: Vec3,
-    ) -> Result<Color, Diagnostic> {
-        let path = self.beside(file);
-        let image = match self.images.get(&path) {
-            Some(&known) => known,
-            None => {
-                let file =
-                    read_image_from(&path, self.files).map_err(|e| at.diagnostic(e.to_string()))?;
-                self.scene.warnings.extend(file.warning);
-                let image = self.scene.add_image(file.image);
-                self.images.insert(path, image);
-                image
-            }
+        typed: &Typed<'_>,
+        colors: [Color; N],
+        together: impl Fn([Vec3; N]) -> Vec3,
+    ) -> Color {
+        let shown = |color: &Color| match color {
+            Color::Image(shown) => Some(*shown),
+            Color::Constant(_) => None,
         };
-        Ok(Color::Image(ColorImage {
-            scale,
-            ..ColorImage::new(image)
-        }))
+        let images: Vec<ColorImage> = colors.iter().filter_map(shown).collect();
+        let scene = &self.scene;
+        let size = |shown: &ColorImage| {
+            let image = &scene.images[shown.image.0 as usize];
+            [image.width(), image.height()]
+        };
+        let same = |pair: &[ColorImage]| {
+            size(&pair[0]) == size(&pair[1]) && pair[0].mapping == pair[1].mapping
+        };
+        let lie_alike = images.windows(2).all(same);
+        let Some(&first) = images.first().filter(|_| lie_alike) else {
+            let means = colors.map(|color| scene.mean(&color));
+            if !lie_alike {
+                let what = format!("the images of a Texture \"{}\"", typed.kind);
+                self.warn(typed.at, &what, "do not lie alike and count by their means");
+            }
+            return Color::Constant(together(means));
+        };
+        let texel = |index: usize| {
+            let of = |color: Color| match color {
+                Color::Constant(color) => color,
+                Color::Image(shown) => {
+                    shown.scale * scene.images[shown.image.0 as usize].texels()[index]
+                }
+            };
+            together(colors.map(of)).max(Vec3::ZERO)
+        };
+        let [width, height] = size(&first);
+        let texels = (0..width as usize * height as usize).map(texel).collect();
+        let image = Image::new(width, height, texels).expect("as many texels as the image has");
+        Color::Image(ColorImage {
+            image: self.scene.add_image(image),
+            scale: Vec3::ONE,
+            ..first
+        })
     }
 }
 

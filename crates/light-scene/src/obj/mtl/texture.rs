@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use lights::sources::{TextureMapping, Wrap};
 
 use crate::glam::{Affine2, Vec2};
-use crate::image::{is_image_name, read_image_from, read_opacity_from};
+use crate::image::{IMAGE_ENDINGS, is_image_name, read_image_from, read_opacity_from};
 use crate::text::{Line, shown};
 use crate::{ColorImage, Diagnostic, Files, ImageId, Scene};
 
@@ -67,7 +67,7 @@ impl<'a> Textures<'a> {
         let path = line.path().with_file_name(name.replace('\\', "/"));
         if !is_image_name(&path) {
             let name = shown(&name);
-            let message = format!("`{name}` was ignored: expected .exr, .hdr, .png or .jpg");
+            let message = format!("`{name}` was ignored: expected {IMAGE_ENDINGS}");
             texture.warnings.push(line.diagnostic(message));
             return Ok(texture);
         }

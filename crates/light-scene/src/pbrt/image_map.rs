@@ -1,0 +1,156 @@
+use std::path::PathBuf;
+
+use lights::sources::{TextureMapping, Wrap};
+
+use super::state::{At, Reader, Typed};
+use super::textures::TextureKind;
+use crate::glam::{Affine2, Vec2, Vec3};
+use crate::image::{Encoding, IMAGE_ENDINGS, is_image_name, read_encoded_from};
+use crate::text::shown;
+use crate::{Color, ColorImage, Diagnostic, Image, ImageId};
+
+/// A file of texels and what is made of them: as much as tells images apart that are stored once each.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct ImageKey {
+    path: PathBuf,
+    encoding: String,
+    /// Whether all channels are their mean.
+    gray: bool,
+    /// The bits of the factor before texels are taken from 1.
+    inverted: Option<u32>,
+}
+
+impl ImageKey {
+    /// The colours of a file, as those who made it meant them.
+    pub(super) fn colors(path: PathBuf) -> Self {
+        Self {
+            path,
+            encoding: "sRGB".to_owned(),
+            gray: false,
+            inverted: None,
+        }
+    }
+
+    fn encoding(&self) -> Option<Encoding> {
+        match self.encoding.split_whitespace().collect::<Vec<_>>()[..] {
+            ["sRGB"] => Some(Encoding::Srgb),
+            ["linear"] => Some(Encoding::Linear),
+            ["gamma", power] => {
+                let power = power.parse().ok().filter(|power: &f32| *power > 0.0);
+                power.map(Encoding::Gamma)
+            }
+            _ => None,
+        }
+    }
+
+    fn change(&self, image: Image) -> Image {
+        let texel = |texel: Vec3| {
+            let gray = Vec3::splat(texel.element_sum() / 3.0);
+            let texel = if self.gray { gray } else { texel };
+            self.inverted.map_or(texel, |factor| {
+                (1.0 - f32::from_bits(factor) * texel).max(Vec3::ZERO)
+            })
+        };
+        let (width, height) = (image.width(), image.height());
+        let texels = image.into_texels().into_iter().map(texel).collect();
+        Image::new(width, height, texels).expect("as many texels as before")
+    }
+}
+
+impl Reader {
+    /// A texture that shows the image of a file.
+    pub(super) fn image_map(
+        &mut self,
+        typed: &Typed<'_>,
+        kind: TextureKind,
+    ) -> Result<Color, Diagnostic> {
+        let parameters = &typed.parameters;
+        let file = parameters.string("filename");
+        let file = file.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
+        let path = self.beside(file);
+        let scale = parameters.number_or("scale", 1.0);
+        let mapping = self.texture_mapping(typed);
+        self.filter(typed);
+        if !is_image_name(&path) {
+            let what = format!("the image \"{file}\"");
+            let message = format!("was taken as grey: expected {IMAGE_ENDINGS}");
+            self.warn(typed.at, &what, &message);
+            return Ok(Color::Constant(Vec3::splat(0.5)));
+        }
+        let inverted = parameters.is_true("invert", false);
+        let key = ImageKey {
+            encoding: parameters.string("encoding").unwrap_or("sRGB").to_owned(),
+            gray: kind == TextureKind::Float,
+            inverted: inverted.then(|| scale.to_bits()),
+            ..ImageKey::colors(path)
+        };
+        Ok(Color::Image(ColorImage {
+            image: self.image(typed.at, key)?,
+            scale: Vec3::splat(if inverted { 1.0 } else { scale }),
+            mapping,
+        }))
+    }
+
+    /// An image of a file beside the scene.
+    pub(super) fn image(&mut self, at: At<'_>, key: ImageKey) -> Result<ImageId, Diagnostic> {
+        if let Some(&known) = self.images.get(&key) {
+            return Ok(known);
+        }
+        let encoding = key.encoding().ok_or_else(|| {
+            let found = shown(&key.encoding);
+            let message = format!("expected an `encoding` of \"sRGB\", \"linear\" or \"gamma\" and a number, found \"{found}\"");
+            at.diagnostic(message)
+        })?;
+        let file = read_encoded_from(&key.path, self.files, encoding);
+        let file = file.map_err(|error| at.diagnostic(error.to_string()))?;
+        self.scene.warnings.extend(file.warning);
+        let image = self.scene.add_image(key.change(file.image));
+        self.images.insert(key, image);
+        Ok(image)
+    }
+
+    /// How an image lies on surfaces, by their own coordinates.
+    fn texture_mapping(&mut self, typed: &Typed<'_>) -> TextureMapping {
+        let parameters = &typed.parameters;
+        let mapping = parameters.string("mapping").unwrap_or("uv");
+        let pair = |u, v, default| {
+            let [u, v] = [u, v].map(|name| parameters.number_or(name, default));
+            Vec2::new(u, v)
+        };
+        let scale = pair("uscale", "vscale", 1.0);
+        let offset = pair("udelta", "vdelta", 0.0);
+        let mut transform = Affine2::from_scale_angle_translation(scale, 0.0, offset);
+        if mapping != "uv" {
+            transform = Affine2::IDENTITY;
+            for name in ["v1", "v2"] {
+                parameters.accept(name);
+            }
+            let what = format!("the mapping \"{mapping}\"");
+            self.warn(typed.at, &what, "was taken as \"uv\"");
+        }
+        let wrap = match parameters.string("wrap").unwrap_or("repeat") {
+            "repeat" => Wrap::Repeat,
+            "clamp" => Wrap::Clamp,
+            "black" => Wrap::Black,
+            other => {
+                let what = format!("the wrap mode \"{other}\"");
+                self.warn(typed.at, &what, "was taken as \"repeat\"");
+                Wrap::Repeat
+            }
+        };
+        TextureMapping {
+            transform,
+            wrap: [wrap; 2],
+        }
+    }
+
+    /// Images are smooth between texels; what blurs those that are far away is the renderer's samples.
+    fn filter(&mut self, typed: &Typed<'_>) {
+        typed.parameters.accept("maxanisotropy");
+        let filter = typed.parameters.string("filter").unwrap_or("bilinear");
+        if !matches!(filter, "bilinear" | "trilinear" | "ewa" | "EWA") {
+            let what = format!("the filter \"{filter}\"");
+            self.warn(typed.at, &what, "was taken as \"bilinear\"");
+        }
+    }
+}
