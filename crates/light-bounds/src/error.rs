@@ -12,6 +12,8 @@ pub enum LightBoundsError {
     Power,
     /// A cosine lies outside of `[-1, 1]`.
     Cosine,
+    /// A moment of the [lobe](crate::EmissionLobe) is negative or not finite, or the mean direction longer than one.
+    Lobe,
 }
 
 impl fmt::Display for LightBoundsError {
@@ -21,6 +23,7 @@ impl fmt::Display for LightBoundsError {
             Self::Axis => "the axis of a light is no unit vector",
             Self::Power => "the power of a light is negative or not finite",
             Self::Cosine => "a cosine of a light's bounds is outside of [-1, 1]",
+            Self::Lobe => "a moment of a light's emission is no moment",
         })
     }
 }

@@ -1,7 +1,7 @@
 use crate::glam::Vec3;
 use light_math::DirectionCone;
 
-use crate::{InfiniteBoundsError, LightBounds};
+use crate::{EmissionLobe, InfiniteBoundsError, LightBounds};
 
 /// What a sampler knows of a light: bounds at a place, or a part of the sky.
 ///
@@ -12,6 +12,9 @@ use crate::{InfiniteBoundsError, LightBounds};
 pub enum LightExtent {
     /// The light is somewhere.
     Bounded(LightBounds),
+    /// The light is in one point, and the moments of its emission are known, of which bounds say too little. Samplers that do not know
+    /// lobes look at the bounds alone.
+    Lobe(LightBounds, EmissionLobe),
     /// The light is infinitely far away: an environment, or a distant light.
     Infinite(InfiniteBounds),
 }
@@ -22,7 +25,7 @@ impl LightExtent {
     #[must_use]
     pub const fn bounded(&self) -> Option<&LightBounds> {
         match self {
-            Self::Bounded(bounds) => Some(bounds),
+            Self::Bounded(bounds) | Self::Lobe(bounds, _) => Some(bounds),
             Self::Infinite(_) => None,
         }
     }
@@ -32,7 +35,7 @@ impl LightExtent {
     #[must_use]
     pub const fn infinite(&self) -> Option<&InfiniteBounds> {
         match self {
-            Self::Bounded(_) => None,
+            Self::Bounded(_) | Self::Lobe(..) => None,
             Self::Infinite(bounds) => Some(bounds),
         }
     }
@@ -161,7 +164,8 @@ mod tests {
     fn sizes() {
         assert_eq!(size_of::<LightBounds>(), 52, "bounds");
         assert_eq!(size_of::<InfiniteBounds>(), 32, "at infinity");
-        assert_eq!(size_of::<LightExtent>(), 52, "either");
+        assert_eq!(size_of::<EmissionLobe>(), 20, "lobe");
+        assert_eq!(size_of::<LightExtent>(), 72, "any of them");
         assert_eq!(size_of::<LightSampleContext>(), 88, "who asks");
         assert_eq!(size_of::<SampledLight>(), 16, "a choice");
     }

@@ -9,6 +9,7 @@ pub use light_math::glam;
 mod angle;
 mod compact;
 mod context;
+mod emission_lobe;
 mod error;
 mod extent;
 mod importance;
@@ -18,6 +19,7 @@ mod sampled_light;
 
 pub use compact::CompactLightBounds;
 pub use context::{Gloss, LightSampleContext, ReceiverSides};
+pub use emission_lobe::{EmissionLine, EmissionLobe};
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
 pub use light_bounds::LightBounds;

@@ -1,4 +1,4 @@
-use light_bounds::{LightExtent, LightId};
+use light_bounds::{LightBoundsError, LightExtent, LightId};
 
 use crate::LightBvhError;
 
@@ -17,6 +17,15 @@ pub(crate) fn validate_light(light: LightId, extent: &LightExtent) -> Result<(),
         LightExtent::Bounded(bounds) => bounds
             .validate()
             .map_err(|reason| LightBvhError::BadBounds { light, reason }),
+        LightExtent::Lobe(bounds, lobe) => {
+            let lobe = if lobe.is_valid() {
+                Ok(())
+            } else {
+                Err(LightBoundsError::Lobe)
+            };
+            let valid = bounds.validate().and(lobe);
+            valid.map_err(|reason| LightBvhError::BadBounds { light, reason })
+        }
         LightExtent::Infinite(bounds) => bounds
             .validate()
             .map_err(|reason| LightBvhError::BadInfiniteBounds { light, reason }),

@@ -159,7 +159,7 @@ impl AnyLightSampler {
 /// The power that bounds tell of.
 fn power(extent: &LightExtent) -> f32 {
     match extent {
-        LightExtent::Bounded(bounds) => bounds.phi,
+        LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) => bounds.phi,
         LightExtent::Infinite(bounds) => bounds.fluence,
     }
 }

@@ -92,7 +92,7 @@ fn exchanged(set: &LightSet) -> Vec<LightExtent> {
     let extents = set.extents();
     let mut bounded = extents.iter().rev().filter(|e| e.bounded().is_some());
     let other = |e: &LightExtent| match e {
-        LightExtent::Bounded(_) => *bounded.next().expect("as many"),
+        LightExtent::Bounded(_) | LightExtent::Lobe(..) => *bounded.next().expect("as many"),
         LightExtent::Infinite(_) => *e,
     };
     extents.iter().map(other).collect()

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
+use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::{Channels, Image};
 use crate::media::MediumInterface;
@@ -11,9 +12,9 @@ use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::sphere_table::{SphereSample, SphereTable};
-use light_bounds::LightBounds;
+use light_bounds::{EmissionLobe, LightBounds};
 use light_math::Aabb;
-use light_math::equal_area::sphere_to_square;
+use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
 /// A [`GoniometricLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -39,6 +40,7 @@ pub struct GoniometricLight<C: ColorModel> {
     transform: RigidTransform,
     image: Image,
     mean: f32,
+    lobe: EmissionLobe,
     table: SphereTable,
     intensity: ScaledEmission<C>,
     media: MediumInterface,
@@ -81,9 +83,21 @@ impl<C: ColorModel> GoniometricLight<C> {
         if !(brightest * intensity.maximum()).is_finite() {
             return Err(EmissionError::Amount.into());
         }
+        let solid_angle = 4.0 * PI / (width as f32 * height as f32);
+        let lobe = emission_lobe(|| {
+            (0..).zip(image.texels()).map(|(i, texel)| {
+                let place = Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
+                Emitted {
+                    w: transform.vector(square_to_sphere(place / width as f32)),
+                    intensity: texel.x * intensity.maximum(),
+                    solid_angle,
+                }
+            })
+        });
         Ok(Self {
             transform,
             mean,
+            lobe,
             table: SphereTable::new(&image.averages(), width),
             image,
             intensity,
@@ -144,6 +158,10 @@ impl<C: ColorModel> PointSource for GoniometricLight<C> {
             cos_theta_e: 0.0,
             two_sided: false,
         }
+    }
+
+    fn lobe(&self) -> Option<EmissionLobe> {
+        Some(self.lobe)
     }
 
     fn surroundings(&self) -> MediumInterface {

@@ -49,10 +49,7 @@ pub trait Light<C: ColorModel> {
 
     /// Bounds of the light in space, direction and power; `None` for lights at infinity.
     fn bounds(&self) -> Option<LightBounds> {
-        match self.extent() {
-            LightExtent::Bounded(bounds) => Some(bounds),
-            LightExtent::Infinite(_) => None,
-        }
+        self.extent().bounded().copied()
     }
 
     /// The media that the light is in; vacuum for lights at infinity.

@@ -324,7 +324,8 @@ mod tests {
         assert_eq!(extents.len(), 3, "one each");
         assert!(
             extents.iter().all(|extent| match extent {
-                LightExtent::Bounded(bounds) => bounds.validate().is_ok(),
+                LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) =>
+                    bounds.validate().is_ok(),
                 LightExtent::Infinite(bounds) => bounds.validate().is_ok(),
             }),
             "valid"

@@ -5,7 +5,7 @@ use crate::kind::LightType;
 use crate::light::Light;
 use crate::media::MediumInterface;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
-use light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
 /// A light that stands in one point: its kinds differ in nothing but the intensity by direction. Whatever is a
 /// `PointSource` is a [`Light`].
@@ -38,6 +38,11 @@ pub trait PointSource {
 
     /// Bounds in space, direction and power.
     fn point_bounds(&self) -> LightBounds;
+
+    /// The moments of the intensity, if they say more than the bounds do.
+    fn lobe(&self) -> Option<EmissionLobe> {
+        None
+    }
 
     /// The medium around it, `outside`.
     fn surroundings(&self) -> MediumInterface;
@@ -102,7 +107,11 @@ impl<S: PointSource> Light<S::Color> for S {
     }
 
     fn extent(&self) -> LightExtent {
-        LightExtent::Bounded(self.point_bounds())
+        let bounds = self.point_bounds();
+        match self.lobe() {
+            Some(lobe) => LightExtent::Lobe(bounds, lobe),
+            None => LightExtent::Bounded(bounds),
+        }
     }
 
     fn media(&self) -> MediumInterface {

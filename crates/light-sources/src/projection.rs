@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 
 use crate::amount::IntensityAmount;
 use crate::color::{ColorModel, Radiance};
+use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
 use crate::media::MediumInterface;
@@ -13,7 +14,7 @@ use crate::point_source::{DirectionSample, PointSource};
 use crate::rgb_sum::RgbSum;
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scaled_emission::EmissionError;
-use light_bounds::LightBounds;
+use light_bounds::{EmissionLobe, LightBounds};
 use light_math::Aabb;
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::float::{sqrt, tan};
@@ -48,6 +49,7 @@ pub struct ProjectionLight<C> {
     /// Sum over the texels of colour times solid angle, in W/sr times sr for a scale of 1.
     power: Vec3,
     extent: LightBounds,
+    lobe: EmissionLobe,
     /// Over the rectangle on the plane; none when the picture is black.
     table: Option<PiecewiseConstant2D<Vec<f32>>>,
     media: MediumInterface,
@@ -85,9 +87,12 @@ impl<C: ColorModel> ProjectionLight<C> {
         let texel_area = area / (width * height);
         let (mut power, mut maxima) = (RgbSum::default(), RgbSum::default());
         let mut weights = image.averages();
-        for (i, (texel, weight)) in (0..).zip(image.texels().zip(&mut weights)) {
+        let on_plane = |i: u32| {
             let place = Vec2::new((i % image.size()[0]) as f32, (i / image.size()[0]) as f32);
-            let on_plane = (2.0 * (place + 0.5) / Vec2::new(width, height) - 1.0) * half;
+            (2.0 * (place + 0.5) / Vec2::new(width, height) - 1.0) * half
+        };
+        for (i, (texel, weight)) in (0..).zip(image.texels().zip(&mut weights)) {
+            let on_plane = on_plane(i);
             let cos_cubed = solid_angle_per_area(on_plane);
             *weight *= cos_cubed;
             power.add(texel, f64::from(cos_cubed * texel_area));
@@ -100,6 +105,16 @@ impl<C: ColorModel> ProjectionLight<C> {
         if !(scale >= 0.0 && (power * scale).is_finite() && (mean_maximum * scale).is_finite()) {
             return Err(EmissionError::Amount.into());
         }
+        let lobe = emission_lobe(|| {
+            (0..).zip(image.texels()).map(|(i, texel)| {
+                let p = on_plane(i);
+                Emitted {
+                    w: transform.vector(p.extend(1.0).normalize()),
+                    intensity: texel.max_element() * scale,
+                    solid_angle: solid_angle_per_area(p) * texel_area,
+                }
+            })
+        });
         let table =
             PiecewiseConstant2D::new(&weights, image.size()[0] as usize, image.size()[1] as usize);
         let table = table.and_then(|table| table.over(-half, half));
@@ -112,6 +127,7 @@ impl<C: ColorModel> ProjectionLight<C> {
                 cos_theta_e: 1.0 / sqrt(1.0 + half.length_squared()),
                 two_sided: false,
             },
+            lobe,
             transform,
             image,
             scale,
@@ -186,6 +202,10 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
 
     fn point_bounds(&self) -> LightBounds {
         self.extent
+    }
+
+    fn lobe(&self) -> Option<EmissionLobe> {
+        Some(self.lobe)
     }
 
     fn surroundings(&self) -> MediumInterface {

@@ -22,6 +22,7 @@ impl LightSet {
             Self::none_with_power(n),
             Self::one_huge(n),
             Self::back_to_back(n),
+            Self::lanterns(n),
             Self::only_infinite(),
         ]
     }
@@ -176,6 +177,21 @@ impl LightSet {
         };
         let emitters = (0..n.div_ceil(2)).flat_map(pair).collect();
         Self::new("back to back", emitters, CONTEXTS, 12)
+    }
+
+    /// Beams of all widths, and what little shines beside and behind them.
+    #[must_use]
+    pub fn lanterns(n: usize) -> Self {
+        let mut rng = Rng::new(14);
+        let light = |i: usize| Emitter::Lantern {
+            position: rng.vec3(),
+            axis: rng.direction(),
+            beam: rng.log_range(0.1, 10.0),
+            stray: rng.log_range(1e-6, 1e-2),
+            cos_beam: [0.9999, 0.9, 0.0, -0.9][i % 4],
+        };
+        let emitters = (0..n).map(light).collect();
+        Self::new("lanterns", emitters, CONTEXTS, 14)
     }
 
     /// A sky and two suns.

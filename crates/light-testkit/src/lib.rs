@@ -16,6 +16,8 @@ pub use light_sources;
 mod adversarial_sets;
 mod cap;
 mod chi_squared;
+#[cfg(feature = "samplers")]
+mod contribution;
 mod density;
 #[cfg(feature = "samplers")]
 mod emitter;

@@ -1,3 +1,5 @@
+use core::f32::consts::PI;
+
 use light_bounds::{LightBounds, LightExtent};
 
 use super::moments::Moments;
@@ -27,19 +29,36 @@ impl<'a> Lights<'a> {
     }
 
     #[inline]
-    pub(super) fn moments(&self, light: u32) -> Moments {
-        self.moments_of(self.bounds(light))
+    pub(super) const fn extent(&self, light: u32) -> &'a LightExtent {
+        &self.extents[light as usize]
     }
 
     #[inline]
-    pub(super) fn moments_of(&self, bounds: &LightBounds) -> Moments {
-        Moments::of_light(bounds, self.inv_power)
+    pub(super) fn moments(&self, light: u32) -> Moments {
+        self.moments_of(self.extent(light))
+    }
+
+    #[inline]
+    pub(super) fn moments_of(&self, extent: &LightExtent) -> Moments {
+        Moments::of_light(extent, self.inv_power)
     }
 
     /// Power of a light as a share of that of all lights; above 0, so that lights that are off split somehow.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    pub(super) fn share(&self, bounds: &LightBounds) -> f32 {
-        ((f64::from(bounds.phi) * self.inv_power) as f32).max(f32::MIN_POSITIVE)
+    pub(super) fn share(&self, extent: &LightExtent) -> f32 {
+        ((f64::from(phi(extent)) * self.inv_power) as f32).max(f32::MIN_POSITIVE)
+    }
+}
+
+/// How strong a light is: its power, and that of a beam as if it shone in all directions. 0 of lights that are off or infinitely far away.
+#[inline]
+pub(super) fn phi(extent: &LightExtent) -> f32 {
+    match extent {
+        LightExtent::Bounded(bounds) => bounds.phi,
+        LightExtent::Lobe(bounds, lobe) => {
+            (4.0 * PI * lobe.line().peak).clamp(bounds.phi, f32::MAX)
+        }
+        LightExtent::Infinite(_) => 0.0,
     }
 }

@@ -1,11 +1,17 @@
 use core::f32::consts::PI;
 
-use light_bounds::LightBounds;
+use light_bounds::{EmissionLobe, LightBounds, LightExtent};
 use light_math::glam::Vec3;
 use light_math::{Aabb, float};
 
 /// Cosine of `theta_e` below which an emitter counts as diffuse.
 const DIFFUSE: f32 = 1e-3;
+
+/// Offset of the widest lobe that counts as a spot: one that ends at a cosine of -1/2, as for bounds.
+const WIDEST_SPOT: f32 = -1.0 / 3.0;
+
+/// Where the spread of a lobe is cut off, squared: beyond this it says nothing of where the light shines.
+const MAX_SPREAD_SQ: f32 = 1.0;
 
 /// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak intensity.
 ///
@@ -52,8 +58,41 @@ impl Moments {
     };
 
     /// The moments of one light; `inv_total` is one over the power of all lights together.
+    pub(crate) fn of_light(light: &LightExtent, inv_total: f64) -> Self {
+        match light {
+            LightExtent::Bounded(bounds) => Self::of_bounds(bounds, inv_total),
+            LightExtent::Lobe(bounds, lobe) => Self::of_lobe(bounds, lobe, inv_total),
+            LightExtent::Infinite(_) => Self::NOTHING,
+        }
+    }
+
+    /// As a light in one point with a lobe emits. However small the spread, it keeps what is emitted beyond the line alive.
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    pub(crate) fn of_light(light: &LightBounds, inv_total: f64) -> Self {
+    fn of_lobe(light: &LightBounds, lobe: &EmissionLobe, inv_total: f64) -> Self {
+        let line = lobe.line();
+        let power = (f64::from(line.peak) * inv_total) as f32;
+        Self {
+            power: if light.phi > 0.0 || line.peak > 0.0 {
+                power.max(f32::MIN_POSITIVE)
+            } else {
+                0.0
+            },
+            bounds: light.bounds,
+            mean: light.bounds.center(),
+            axis: line.axis,
+            offset: line.offset,
+            spread_sq: (lobe.spread * lobe.spread).clamp(f32::MIN_POSITIVE, MAX_SPREAD_SQ),
+            shape: if line.offset > WIDEST_SPOT {
+                Shape::Spots
+            } else {
+                Shape::Mixed
+            },
+        }
+    }
+
+    /// As a light within the given bounds may emit.
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+    fn of_bounds(light: &LightBounds, inv_total: f64) -> Self {
         let lobe = Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided);
         let power = (f64::from(light.phi) * inv_total) as f32 * lobe.peak;
         Self {

@@ -7,7 +7,7 @@ use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use super::group::Group;
-use super::lights::Lights;
+use super::lights::{Lights, phi};
 use super::moments::Moments;
 use super::options::DarkLights;
 use super::prim::MIXED_AXES;
@@ -102,12 +102,12 @@ pub(super) fn sorted(
     let chunks = map(chunks, |(first, chunk)| {
         let bounded = (first..)
             .zip(chunk)
-            .filter_map(|(i, e)| Some((i, e.bounded()?)));
-        let held = bounded.filter(|(_, bounds)| is_held(bounds.phi, dark));
-        let entry = |(light, bounds): (u32, &LightBounds)| Entry {
+            .filter_map(|(i, e)| Some((i, e, e.bounded()?)));
+        let held = bounded.filter(|(_, extent, _)| is_held(phi(extent), dark));
+        let entry = |(light, extent, bounds): (u32, &LightExtent, &LightBounds)| Entry {
             key: kind(bounds) | grid.map_or(0, |grid| grid.key(bounds.bounds.center())),
             light,
-            power: lights.share(bounds),
+            power: lights.share(extent),
         };
         let mut entries = Vec::with_capacity(chunk.len());
         entries.extend(held.map(entry));

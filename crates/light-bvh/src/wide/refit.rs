@@ -1,7 +1,7 @@
 use light_bounds::{LightBounds, LightExtent};
 
 use super::LightBvh;
-use super::lights::Lights;
+use super::lights::{Lights, phi};
 use super::moments::Moments;
 use super::node::{NOWHERE, WIDTH, WideNode};
 use super::options::DarkLights;
@@ -31,7 +31,7 @@ impl LightBvh {
         let scan = Scan::new(lights, 0, DarkLights::Kept, &|light, extent| {
             let is_in_tree = self.view().slot(light) != NOWHERE;
             let fits = match extent {
-                LightExtent::Bounded(bounds) => is_in_tree || bounds.phi == 0.0,
+                LightExtent::Bounded(_) | LightExtent::Lobe(..) => is_in_tree || phi(extent) == 0.0,
                 LightExtent::Infinite(_) => !is_in_tree,
             };
             if fits {
@@ -77,13 +77,13 @@ impl Filling<'_> {
         let lights = &self.order[first..end];
         if lights.len() <= BATCH {
             // All at once, for the lights are far from each other in memory, and reading one need not wait for the other.
-            let mut bounds = [LightBounds::EMPTY; BATCH];
-            for (bounds, &light) in bounds.iter_mut().zip(lights) {
-                *bounds = *self.lights.bounds(light);
+            let mut extents = [LightExtent::Bounded(LightBounds::EMPTY); BATCH];
+            for (extent, &light) in extents.iter_mut().zip(lights) {
+                *extent = *self.lights.extent(light);
             }
             let mut moments = [Moments::NOTHING; BATCH];
-            for (moments, bounds) in moments.iter_mut().zip(&bounds[..lights.len()]) {
-                *moments = self.lights.moments_of(bounds);
+            for (moments, extent) in moments.iter_mut().zip(&extents[..lights.len()]) {
+                *moments = self.lights.moments_of(extent);
             }
             return Batch {
                 moments: &moments,

@@ -2,6 +2,7 @@ use light_bounds::{LightExtent, LightId};
 use light_math::Aabb;
 
 use super::importance::FAR;
+use super::lights::phi;
 use super::options::DarkLights;
 use crate::LightBvhError;
 use crate::join::join;
@@ -73,8 +74,9 @@ impl Scan {
             if is_far(&bounds.bounds) {
                 return Err(LightBvhError::TooFar { light });
             }
-            if is_held(bounds.phi, dark) {
-                scan.power += f64::from(bounds.phi);
+            let phi = phi(extent);
+            if is_held(phi, dark) {
+                scan.power += f64::from(phi);
                 scan.count += 1;
                 scan.centers = scan.centers.extend(bounds.bounds.center());
             }

@@ -1,5 +1,5 @@
 use arbitrary::Unstructured;
-use light_bounds::{InfiniteBounds, LightBounds, LightExtent, LightSampleContext};
+use light_bounds::{EmissionLobe, InfiniteBounds, LightBounds, LightExtent, LightSampleContext};
 use light_math::glam::Vec3;
 use light_math::{Aabb, DirectionCone};
 
@@ -94,6 +94,14 @@ impl<'a> Input<'a> {
                 cos_theta_e: self.f32(),
                 ..self.bounds()
             }),
+            4 => LightExtent::Lobe(
+                self.bounds(),
+                EmissionLobe {
+                    power: self.finite().abs(),
+                    mean: self.direction() * self.cosine(),
+                    spread: self.f32(),
+                },
+            ),
             _ => LightExtent::Bounded(self.bounds()),
         }
     }

@@ -44,6 +44,7 @@ pub fn light_trees(data: &[u8]) {
 fn is_valid(light: &LightExtent) -> bool {
     match light {
         LightExtent::Bounded(bounds) => bounds.validate().is_ok(),
+        LightExtent::Lobe(bounds, lobe) => bounds.validate().is_ok() && lobe.is_valid(),
         LightExtent::Infinite(bounds) => bounds.validate().is_ok(),
     }
 }
