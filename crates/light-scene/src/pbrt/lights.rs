@@ -1,15 +1,18 @@
 use core::f32::consts::{FRAC_1_PI, PI};
 
+use lights::math::equal_area::square_to_sphere;
+use lights::math::spectrum::photometric::{K_M, Lumen};
 use lights::sources::{
-    DistantLightDesc, EnvironmentMap, ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount,
-    LightDesc, MediumInterface, PointLightDesc, PortalInfiniteLightDesc, ProjectionLightDesc,
-    RadianceAmount, SpotLightDesc, TextureMapping, UniformInfiniteLightDesc,
+    Channels, DistantLightDesc, EnvironmentMap, Image, ImageError, ImageInfiniteLightDesc,
+    IntensityAmount, IrradianceAmount, LightDesc, MediumInterface, PointLightDesc,
+    PortalInfiniteLightDesc, ProjectionLightDesc, RadianceAmount, SpotLightDesc, TextureMapping,
+    UniformInfiniteLightDesc,
 };
 
 use super::image_map::ImageKey;
 use super::state::{AreaLight, Reader, Typed};
 use super::textures::scaled;
-use crate::glam::{Affine3A, Quat, Vec3};
+use crate::glam::{Affine3A, Quat, Vec2, Vec3};
 use crate::image::read_image_from;
 use crate::{Color, ColorImage, Diagnostic};
 
@@ -61,7 +64,10 @@ impl Reader {
                 transform: place,
                 image: self.light_image(typed)?,
                 fov: parameters.number_or("fov", 90.0).to_radians(),
-                amount: IntensityAmount::Radiometric(scale),
+                amount: match parameters.number("power") {
+                    Some(watts) => IntensityAmount::LuminousPower(Lumen(scale * watts * K_M)),
+                    None => IntensityAmount::Radiometric(scale),
+                },
                 media,
             }),
             "goniometric" => self.goniometric(typed, place, scale)?,
@@ -91,20 +97,28 @@ impl Reader {
         scale: f32,
     ) -> Result<LightDesc<lights::sources::Rgb>, Diagnostic> {
         let parameters = &typed.parameters;
-        if !parameters.has("filename") {
+        let portal = parameters.vec3s("portal");
+        if !parameters.has("filename") && portal.is_none() {
             return Ok(LightDesc::UniformInfinite(UniformInfiniteLightDesc {
                 emission: self.emission(typed, "L") * with_illuminance(typed, scale, PI),
                 amount: RadianceAmount::default(),
             }));
         }
-        let image = self.light_image(typed)?;
+        let image = if parameters.has("filename") {
+            self.light_image(typed)?
+        } else {
+            one_color(self.emission(typed, "L"))
+                .map_err(|error| typed.at.diagnostic(error.to_string()))?
+        };
         if image.size()[0] != image.size()[1] {
             let message = "expected a square, equal-area image for an infinite light";
             return Err(typed.at.diagnostic(message));
         }
+        let asked = parameters.number("illuminance");
+        let of_one = asked.map(|asked| asked / upward_illuminance(&image));
         let map = EnvironmentMap::EqualArea(image);
-        let amount = RadianceAmount::Radiometric(scale);
-        let Some(portal) = parameters.vec3s("portal") else {
+        let amount = RadianceAmount::Radiometric(scale * of_one.unwrap_or(1.0));
+        let Some(portal) = portal else {
             return Ok(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
                 transform,
                 map,
@@ -161,10 +175,7 @@ impl Reader {
         emission.unwrap_or(Vec3::ONE)
     }
 
-    pub(super) fn light_image(
-        &mut self,
-        typed: &Typed<'_>,
-    ) -> Result<lights::sources::Image, Diagnostic> {
+    pub(super) fn light_image(&mut self, typed: &Typed<'_>) -> Result<Image, Diagnostic> {
         let name = typed.parameters.string("filename");
         let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
         let file = read_image_from(&self.beside(name), self.files);
@@ -173,6 +184,28 @@ impl Reader {
         let image = file.image.to_light();
         image.map_err(|error| typed.at.diagnostic(error.to_string()))
     }
+}
+
+/// A sky of one colour, in as many texels as a portal's sums need.
+fn one_color(color: Vec3) -> Result<Image, ImageError> {
+    const SIDE: u32 = 32;
+    let texels = (0..SIDE * SIDE).flat_map(|_| color.to_array());
+    Image::from_f32([SIDE, SIDE], Channels::Rgb, texels.collect::<Vec<_>>())
+}
+
+/// What an equal-area map gives a surface that looks to its +z: the sum of luminance, cosine and solid angle.
+fn upward_illuminance(map: &Image) -> f32 {
+    let [n, _] = map.size();
+    let seen = |(index, texel): (u32, Vec3)| {
+        let place = Vec2::new((index % n) as f32, (index / n) as f32) + 0.5;
+        let up = square_to_sphere(place / n as f32).z.max(0.0);
+        f64::from(luminance_of(texel) * up)
+    };
+    let sum: f64 = (0..).zip(map.texels()).map(seen).sum();
+    let solid_angle = 4.0 * core::f64::consts::PI / (f64::from(n) * f64::from(n));
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+    let illuminance = (sum * solid_angle) as f32;
+    illuminance
 }
 
 /// The factor of the emission that gives the stated power over this effective solid angle, or `scale`.
@@ -192,14 +225,16 @@ fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
 }
 
 pub(super) fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
-    let rgb = typed.parameters.emission(name).unwrap_or(Vec3::ONE);
+    luminance_of(typed.parameters.emission(name).unwrap_or(Vec3::ONE))
+}
+
+fn luminance_of(rgb: Vec3) -> f32 {
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// The scale of an emitting surface that gives its stated power.
 pub(super) fn area_scale(light: &AreaLight, mean: Vec3, area: f32) -> f32 {
     let sides = if light.two_sided { 2.0 } else { 1.0 };
-    let luminance = mean.dot(Vec3::new(0.2126, 0.7152, 0.0722));
-    let factor = |power: f32| power * FRAC_1_PI / (area * sides * luminance);
+    let factor = |power: f32| power * FRAC_1_PI / (area * sides * luminance_of(mean));
     light.power.map_or(1.0, factor)
 }

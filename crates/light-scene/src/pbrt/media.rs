@@ -47,13 +47,11 @@ impl Reader {
             "uniformgrid" => self.uniform_grid(typed)?,
             "rgbgrid" => self.rgb_grid(typed)?,
             "cloud" => self.cloud(typed)?,
+            "" => return Err(refused(typed, "expected \"string type\"")),
             other => {
-                let kinds = "homogeneous, uniformgrid, rgbgrid or cloud";
-                let message = format!(
-                    "expected a \"string type\" of {kinds}, found \"{}\"",
-                    shown(other)
-                );
-                return Err(refused(typed, message));
+                let what = format!("the medium type \"{}\"", shown(other));
+                self.warn(typed.at, &what, "is not understood and was taken as vacuum");
+                vacuum(typed)?
             }
         };
         let id = self.medium_id(typed.at, &typed.kind);
@@ -138,12 +136,7 @@ impl Reader {
         };
         let le = self.glow(typed) * typed.parameters.number_or("Lescale", 1.0);
         let scale = typed.parameters.number_or("scale", 1.0);
-        Ok(Homogeneous {
-            substance: substance(typed, [sigma_a, sigma_s], scale, le)?,
-            phase: phase(typed)?,
-            region: Region::UNBOUNDED,
-        }
-        .into())
+        everywhere(typed, [sigma_a, sigma_s], scale, le)
     }
 
     /// Scattering and absorption of the preset that the file names: it counts before the file's own coefficients.
@@ -180,6 +173,26 @@ impl Reader {
     pub(super) fn medium_to_scene(&self) -> Affine3A {
         Affine3A::from_mat4(self.state.transform)
     }
+}
+
+/// The same medium in all places.
+fn everywhere(
+    typed: &Typed<'_>,
+    coefficients: [Vec3; 2],
+    scale: f32,
+    le: Vec3,
+) -> Result<AnyMedium<Rgb>, Diagnostic> {
+    Ok(Homogeneous {
+        substance: substance(typed, coefficients, scale, le)?,
+        phase: phase(typed)?,
+        region: Region::UNBOUNDED,
+    }
+    .into())
+}
+
+/// A medium that does nothing.
+fn vacuum(typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
+    everywhere(typed, [Vec3::ZERO; 2], 1.0, Vec3::ZERO)
 }
 
 /// What a medium is made of, from its absorption and scattering.

@@ -8,6 +8,8 @@ mod files_tests;
 mod goniometric;
 mod image_map;
 mod lights;
+#[cfg(test)]
+mod lights_tests;
 mod materials;
 #[cfg(test)]
 mod materials_tests;
@@ -19,6 +21,7 @@ mod objects;
 mod objects_tests;
 mod parameters;
 mod ply;
+mod quadrics;
 #[cfg(test)]
 mod refusals_tests;
 mod shapes;

@@ -1,14 +1,10 @@
-use core::f32::consts::{PI, TAU};
-
 use super::lights::area_scale;
 use super::ply::read_ply;
+use super::quadrics::{cylinder, disk, sphere};
 use super::state::{At, Reader, Typed};
 use super::textures::scaled;
-use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::glam::{Affine3A, Vec3};
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Mesh};
-
-/// Of a tessellated sphere: columns around; it has half as many rows.
-const AROUND: u16 = 64;
 
 impl Reader {
     pub(super) fn shape(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -17,6 +13,9 @@ impl Reader {
         let mut mesh = match kind.as_str() {
             "trianglemesh" => triangle_mesh(typed)?,
             "loopsubdiv" => {
+                ["levels", "scheme"]
+                    .into_iter()
+                    .for_each(|name| typed.parameters.accept(name));
                 self.warn(at, "Shape \"loopsubdiv\"", "was taken as its control mesh");
                 triangle_mesh(typed)?
             }
@@ -177,65 +176,4 @@ fn check(at: At<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
         return Err(at.diagnostic(message));
     }
     Ok(())
-}
-
-/// A grid of vertices over the unit square of (u, v); `point` gives position and normal, u runs counter-clockwise
-/// around v seen from the front.
-fn grid(columns: u16, rows: u16, point: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Mesh {
-    let mut mesh = Mesh::new("", crate::MaterialId(0));
-    let (mut normals, mut uvs) = (Vec::new(), Vec::new());
-    for row in 0..=rows {
-        for column in 0..=columns {
-            let uv = Vec2::new(
-                f32::from(column) / f32::from(columns),
-                f32::from(row) / f32::from(rows),
-            );
-            let (position, normal) = point(uv.x, uv.y);
-            mesh.positions.push(position);
-            normals.push(normal);
-            uvs.push(uv);
-        }
-    }
-    let (across, up) = (u32::from(columns), u32::from(rows));
-    for row in 0..up {
-        for column in 0..across {
-            let a = row * (across + 1) + column;
-            let b = a + across + 1;
-            mesh.indices.push([a, a + 1, b + 1]);
-            mesh.indices.push([a, b + 1, b]);
-        }
-    }
-    (mesh.normals, mesh.uvs) = (Some(normals), Some(uvs));
-    mesh
-}
-
-fn sphere(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
-    grid(AROUND, AROUND / 2, |u, v| {
-        let ((sin_phi, cos_phi), (sin, cos)) = ((u * TAU).sin_cos(), (v * PI).sin_cos());
-        let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
-        (normal * radius, normal)
-    })
-}
-
-fn disk(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
-    let height = typed.parameters.number_or("height", 0.0);
-    let inner = typed.parameters.number_or("innerradius", 0.0);
-    grid(AROUND, 1, |u, v| {
-        let (sin, cos) = (u * TAU).sin_cos();
-        let r = radius + (inner - radius) * v;
-        (Vec3::new(r * cos, r * sin, height), Vec3::Z)
-    })
-}
-
-fn cylinder(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
-    let low = typed.parameters.number_or("zmin", -1.0);
-    let high = typed.parameters.number_or("zmax", 1.0);
-    grid(AROUND, 1, |u, v| {
-        let (sin, cos) = (u * TAU).sin_cos();
-        let normal = Vec3::new(cos, sin, 0.0);
-        (normal * radius + Vec3::Z * (low + (high - low) * v), normal)
-    })
 }

@@ -1,0 +1,95 @@
+use core::f32::consts::PI;
+use std::path::Path;
+
+use lights::sources::{EnvironmentMap, IntensityAmount, LightDesc, RadianceAmount, Rgb};
+
+use super::parse_pbrt;
+use crate::glam::Vec3;
+use crate::image::tests::png;
+use crate::{Diagnostic, Files};
+
+/// The light of a file beside a white image.
+fn light(text: &str) -> LightDesc<Rgb> {
+    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        assert_eq!(path, Path::new("white.png"), "the image");
+        Ok(png(image::GrayImage::from_pixel(
+            64,
+            64,
+            image::Luma([255]),
+        )))
+    }
+    let text = format!("WorldBegin LightSource {text}");
+    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&beside)).expect("a scene");
+    assert_eq!(scene.warnings, [], "{text}");
+    scene.lights[0].clone()
+}
+
+fn scale(amount: RadianceAmount) -> f32 {
+    match amount {
+        RadianceAmount::Radiometric(scale) => scale,
+        other => panic!("a scale, not {other:?}"),
+    }
+}
+
+#[test]
+fn skies_give_the_illuminance_that_is_asked_for() {
+    let LightDesc::UniformInfinite(sky) =
+        light("\"infinite\" \"rgb L\" [2 2 2] \"float illuminance\" 10")
+    else {
+        panic!("a sky of one colour");
+    };
+    let of_uniform = PI * sky.emission;
+    assert!(
+        of_uniform.abs_diff_eq(Vec3::splat(10.0), 1e-4),
+        "{of_uniform}"
+    );
+    let LightDesc::ImageInfinite(sky) = light(
+        "\"infinite\" \"string filename\" \"white.png\" \"float illuminance\" 10 \"float scale\" 3",
+    ) else {
+        panic!("an image");
+    };
+    let found = scale(sky.amount) * PI;
+    assert!(
+        (found / 30.0 - 1.0).abs() < 1e-3,
+        "as the sky of one colour: {found}"
+    );
+}
+
+#[test]
+fn a_sky_of_one_color_may_have_a_portal() {
+    let portal = "\"point3 portal\" [0 0 0  1 0 0  1 1 0  0 1 0]";
+    let sky = light(&format!(
+        "\"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2 {portal}"
+    ));
+    let LightDesc::PortalInfinite(sky) = sky else {
+        panic!("a portal");
+    };
+    assert_eq!(scale(sky.amount), 2.0, "scaled");
+    let EnvironmentMap::EqualArea(map) = sky.map else {
+        panic!("an equal-area map");
+    };
+    assert!(
+        map.texels().all(|texel| texel == Vec3::new(1.0, 2.0, 3.0)),
+        "one colour"
+    );
+}
+
+#[test]
+fn projections_have_the_power_that_is_asked_for() {
+    let watts = |power: &str| {
+        let text =
+            format!("\"projection\" \"string filename\" \"white.png\" \"float scale\" 2 {power}");
+        match light(&text) {
+            LightDesc::Projection(light) => light.amount,
+            other => panic!("a projection, not {other:?}"),
+        }
+    };
+    assert_eq!(watts(""), IntensityAmount::Radiometric(2.0), "a scale");
+    let IntensityAmount::LuminousPower(power) = watts("\"float power\" 3") else {
+        panic!("a power");
+    };
+    assert!(
+        (power.0 / 683.0 - 6.0).abs() < 1e-3,
+        "{power:?}: six watts of green light"
+    );
+}
