@@ -11,6 +11,8 @@ pub(super) const BINS: usize = 12;
 pub(super) struct Grid {
     low: Vec3,
     scale: Vec3,
+    /// Along which axes a split may pay: those at least half as long as the longest.
+    is_long: [bool; 3],
 }
 
 impl Grid {
@@ -22,7 +24,15 @@ impl Grid {
         Self {
             low: bounds.min,
             scale: Vec3::select(extent.cmpgt(Vec3::splat(FLAT)), scale, Vec3::ZERO),
+            is_long: extent.cmpge(0.5 * Vec3::splat(extent.max_element())).into(),
         }
+    }
+
+    /// The axes along which lights are divided, at least one.
+    #[inline]
+    pub(super) fn axes(&self) -> impl Iterator<Item = usize> {
+        let is_long = self.is_long;
+        (0..3).filter(move |&axis| is_long[axis])
     }
 
     /// The bins by position.
@@ -43,13 +53,15 @@ impl Grid {
         bin(2.0 * float::ln(1.0 + prim.axis_sq))
     }
 
-    /// The sums of `prims` in bins by position.
+    /// The sums of `prims` in bins by position along each of the [axes](Self::axes).
     pub(super) fn sums_by_position(&self, prims: &[Prim]) -> [Bins; 3] {
         let mut bins = [Bins::EMPTY; 3];
         for prim in prims {
             let sums = Sums::of(prim, prim.center - self.low);
-            for (bins, bin) in bins.iter_mut().zip(self.position(prim)) {
-                bins.0[bin] = bins.0[bin].plus(&sums);
+            let position = self.position(prim);
+            for axis in self.axes() {
+                let bin = &mut bins[axis].0[position[axis]];
+                *bin = bin.plus(&sums);
             }
         }
         bins

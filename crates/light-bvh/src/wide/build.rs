@@ -15,16 +15,18 @@ use super::skeleton::{Fan, Skeleton};
 use super::tree::MAX_DEPTH;
 use crate::join::{map, table};
 
-/// Lights below which a subtree is made in one go.
-const PLOT: usize = 2048;
-
 /// A group that may be so large that its parts are built side by side.
 pub(super) trait Crowd: Group {
+    /// A group of no more lights is built in one go.
+    const PLOT: usize;
+
     /// Builds the whole subtree in one go.
     fn plant(self, plot: Plot<'_>) -> Skeleton;
 }
 
 impl Crowd for Range<'_> {
+    const PLOT: usize = 2048;
+
     fn plant(self, plot: Plot<'_>) -> Skeleton {
         plot.grow(self)
     }
@@ -73,7 +75,7 @@ impl<'o> Plot<'o> {
     /// The subtree over a group of any size.
     fn build<C: Crowd>(self, crowd: C) -> Skeleton {
         let levels = MAX_DEPTH - self.depth;
-        if crowd.lights() <= PLOT || is_tight(crowd.lights(), levels) {
+        if crowd.lights() <= C::PLOT || is_tight(crowd.lights(), levels) {
             return crowd.plant(self);
         }
         let children = Children::new(crowd, levels);

@@ -3,17 +3,18 @@ use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 
 use light_math::Aabb;
+use light_math::glam::Vec3;
 
 use super::bins::{Grid, Plane};
 use super::build::{Crowd, Plot};
 use super::group::Group;
 use super::lamp::Lamp;
 use super::node::WIDTH;
-use super::prim::{MIXED_AXES, Prim};
+use super::prim::{MIXED_AXES, Prim, Sums};
 use super::skeleton::Skeleton;
 
-/// Runs of so many lights are split where full nodes come out.
-const SNAP: RangeInclusive<usize> = WIDTH + 1..=16;
+/// Runs of so many are split across their widest axis, the first part of eight, so that the lowest nodes come out full.
+const SNAP: RangeInclusive<usize> = WIDTH + 1..=2 * WIDTH;
 
 /// Lights, or clusters of a few, that are split where the halves cost least.
 #[derive(Debug)]
@@ -60,12 +61,13 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Two halves along an axis where `middle` prims are in the first.
-    fn split_near(self, axis: usize, middle: usize, costs: [f32; 2]) -> (Self, Self) {
+    /// Two parts across an axis, the first of `middle` prims.
+    fn split_near(self, axis: usize, middle: usize) -> (Self, Self) {
         self.prims
             .select_nth_unstable_by(middle, |a, b| along(a, b, axis));
         let (left, right) = self.prims.split_at(middle);
         let bounds = [centers(left), centers(right)];
+        let costs = [cost(left, bounds[0].min), cost(right, bounds[1].min)];
         self.split_at(middle, bounds, costs)
     }
 
@@ -73,14 +75,15 @@ impl<'a> Run<'a> {
     fn best_by_position(&self, grid: &Grid) -> (Option<(usize, Plane)>, f32) {
         let bins = grid.sums_by_position(self.prims);
         let mut best: Option<(usize, Plane)> = None;
-        for (axis, bins) in bins.iter().enumerate() {
-            if let Some(plane) = bins.best_plane() {
+        for axis in grid.axes() {
+            if let Some(plane) = bins[axis].best_plane() {
                 if best.is_none_or(|(_, best)| plane.cost() < best.cost()) {
                     best = Some((axis, plane));
                 }
             }
         }
-        (best, bins[0].total().axis_variance())
+        let total = grid.axes().next().map(|axis| bins[axis].total());
+        (best, total.map_or(0.0, |sums| sums.axis_variance()))
     }
 }
 
@@ -98,6 +101,10 @@ impl Group for Run<'_> {
     }
 
     fn split(self) -> (Self, Self) {
+        if SNAP.contains(&self.prims.len()) {
+            let axis = self.bounds.diagonal().max_position();
+            return self.split_near(axis, WIDTH);
+        }
         let grid = Grid::new(&self.bounds);
         let (best, axis_variance) = self.best_by_position(&grid);
         if axis_variance > MIXED_AXES {
@@ -116,19 +123,13 @@ impl Group for Run<'_> {
             return self.split_at(middle, bounds, costs);
         };
         let (middle, bounds) = partition(self.prims, |p| grid.along(p, axis) <= plane.bin);
-        if SNAP.contains(&self.prims.len()) {
-            // To the nearest multiple of eight lights, so that the lowest nodes come out full.
-            let middle = ((middle + WIDTH / 2) / WIDTH * WIDTH)
-                .clamp(WIDTH, (self.prims.len() - 1) / WIDTH * WIDTH);
-            return self.split_near(axis, middle, plane.costs);
-        }
         self.split_at(middle, bounds, plane.costs)
     }
 
     fn halve(self) -> (Self, Self) {
         let axis = self.bounds.diagonal().max_position();
-        let (middle, costs) = (self.prims.len() / 2, [self.cost / 2.0; 2]);
-        self.split_near(axis, middle, costs)
+        let middle = self.prims.len() / 2;
+        self.split_near(axis, middle)
     }
 
     fn each_light(&self, each: impl FnMut(u32)) {
@@ -138,6 +139,8 @@ impl Group for Run<'_> {
 }
 
 impl Crowd for Run<'_> {
+    const PLOT: usize = 256;
+
     /// From here on lights are split one by one.
     fn plant(self, plot: Plot<'_>) -> Skeleton {
         let lamps = self.lamps;
@@ -159,6 +162,12 @@ fn along(a: &Prim, b: &Prim, axis: usize) -> Ordering {
     a.center[axis]
         .total_cmp(&b.center[axis])
         .then(a.first.cmp(&b.first))
+}
+
+/// The cost of a group; `near` is a point near it.
+fn cost(prims: &[Prim], near: Vec3) -> f32 {
+    let sums = prims.iter().map(|p| Sums::of(p, p.center - near));
+    sums.fold(Sums::default(), |all, s| all.plus(&s)).cost()
 }
 
 /// The box of the centres.
