@@ -22,7 +22,7 @@ pub mod float;
 mod frame;
 pub mod lat_long;
 pub mod mis;
-mod octahedral;
+pub mod octahedral;
 pub mod quantize;
 mod resample;
 pub mod solid_angle;

@@ -1,4 +1,6 @@
-use glam::Vec3;
+//! Unit vectors on the octahedron `|x| + |y| + |z| = 1`, unfolded to a square.
+
+use glam::{Vec2, Vec3};
 
 use crate::float::sqrt;
 
@@ -34,12 +36,7 @@ impl OctahedralVector {
     #[inline]
     #[must_use]
     pub fn encode(v: Vec3) -> Self {
-        let v = v / (v.x.abs() + v.y.abs() + v.z.abs());
-        let (x, y) = if v.z >= 0.0 {
-            (v.x, v.y)
-        } else {
-            fold(v.x, v.y)
-        };
+        let Vec2 { x, y } = to_square(v);
         Self(quantize(x) | quantize(y) << 16)
     }
 
@@ -49,10 +46,7 @@ impl OctahedralVector {
     pub fn decode(self) -> Vec3 {
         let x = dequantize(self.0 & 0xFFFF);
         let y = dequantize(self.0 >> 16);
-        let z = 1.0 - (x.abs() + y.abs());
-        let (x, y) = if z >= 0.0 { (x, y) } else { fold(x, y) };
-        let v = Vec3::new(x, y, z);
-        v / sqrt(v.length_squared())
+        from_square(Vec2::new(x, y))
     }
 
     /// The code of the given coordinates on the square.
@@ -83,6 +77,32 @@ impl OctahedralVector {
     pub const fn to_bits(self) -> u32 {
         self.0
     }
+}
+
+/// The place of the direction of `v`, which need not have unit length, on the square `[-1, 1]^2`: the octahedron unfolded.
+///
+/// # Source
+/// `[Cigolle2014]`, section 3.
+#[inline]
+#[must_use]
+pub fn to_square(v: Vec3) -> Vec2 {
+    let v = v / (v.x.abs() + v.y.abs() + v.z.abs());
+    let (x, y) = if v.z >= 0.0 {
+        (v.x, v.y)
+    } else {
+        fold(v.x, v.y)
+    };
+    Vec2::new(x, y)
+}
+
+/// The unit vector of a place on the square `[-1, 1]^2`: undoes [`to_square`] but for rounding, which turns it by less than 5e-7.
+#[inline]
+#[must_use]
+pub fn from_square(Vec2 { x, y }: Vec2) -> Vec3 {
+    let z = 1.0 - (x.abs() + y.abs());
+    let (x, y) = if z >= 0.0 { (x, y) } else { fold(x, y) };
+    let v = Vec3::new(x, y, z);
+    v / sqrt(v.length_squared())
 }
 
 /// Exchanges the inside of the diamond `|x| + |y| < 1` with the outside.
@@ -121,6 +141,16 @@ mod tests {
         let ((a, la), (b, lb)) = (precise(a), precise(b));
         let chord_sq: f64 = (0..3).map(|i| (a[i] / la - b[i] / lb).powi(2)).sum();
         2.0 * (0.5 * chord_sq.sqrt()).asin()
+    }
+
+    proptest! {
+        #[test]
+        fn directions_come_back_from_the_square(x in -1.0f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
+            let v = Vec3::new(x, y, z);
+            prop_assume!(v.length() > 0.1);
+            let d = from_square(to_square(v));
+            prop_assert!(angle(v, d) < 5e-7, "{v} became {d}");
+        }
     }
 
     fn assert_unit(code: OctahedralVector) {

@@ -33,7 +33,7 @@ struct Rays {
 
 /// Who traces rays.
 enum Tracer {
-    Renderer(Accel),
+    Renderer(Box<Accel>),
     Binary(Bvh2, Vec<RtTriangle>),
     Wide(CwBvh, Vec<RtTriangle>),
 }
@@ -63,7 +63,10 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
             .map(|&i| (&plain[i as usize]).into())
             .collect()
     };
-    let mut tracers = vec![("renderer", Tracer::Renderer(Accel::new(&triangles)))];
+    let mut tracers = vec![(
+        "renderer",
+        Tracer::Renderer(Box::new(Accel::new(&triangles))),
+    )];
     for (names, params) in [
         (
             ["obvhs bvh2 medium", "obvhs cwbvh medium"],

@@ -6,19 +6,19 @@ use lights::sources::{Light, PdfCoverage};
 use crate::World;
 
 /// How well `sampler` chooses among the lights of `world`: the exact relative variance of one choice, the median over points
-/// spread over the scene's triangles. Every light counts by the light of its middle, with nothing in the way; 0 would be a
+/// spread over the scene's triangles and spheres. Every light counts by the light of its middle, with nothing in the way; 0 would be a
 /// choice in proportion to it. `None` where no point is lit.
 #[must_use]
 pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
     /// Lights are looked at this often in all, so that the answer takes about a second.
     const LOOKS: usize = 2_000_000;
     const POINTS: usize = 64;
-    let triangles = world.triangle_count();
+    let primitives = world.triangle_count() + world.sphere_count();
     let points = (LOOKS / world.lights().len().max(1)).clamp(1, POINTS);
-    let mut variances: Vec<f64> = (0..points.min(triangles))
+    let mut variances: Vec<f64> = (0..points.min(primitives))
         .filter_map(|i| {
-            let triangle = world.triangle((2 * i + 1) * triangles / (2 * points))?;
-            let surface = world.surface(triangle, Vec2::splat(1.0 / 3.0));
+            let primitive = world.primitive((2 * i + 1) * primitives / (2 * points))?;
+            let surface = world.surface(primitive, Vec2::splat(1.0 / 3.0));
             let ctx = world.light_context(&surface, &world.scattering(&surface), surface.n);
             variance_at(world, sampler, &ctx)
         })

@@ -2,17 +2,17 @@ use core::error::Error;
 use core::fmt;
 use std::collections::HashMap;
 
-use light_scene::{Color, EmissionSides, ImageId, Material};
+use light_scene::{Color, EmissionSides, ImageId, Material, SphereFront};
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, DiffuseEmissionDesc, Image, Light, LightDesc, LightDescError, LightSet,
-    LightSetBuilder, LightType, MeshLightDesc, RadianceAmount, Rgb, SceneSphere, SceneSphereError,
-    Sides, SurfaceColor, Texture, TextureMapping,
+    self as sources, AreaLightDesc, DiffuseEmissionDesc, Image, Light, LightDesc, LightDescError,
+    LightSet, LightSetBuilder, LightType, MediumInterface, MeshLightDesc, RadianceAmount, Rgb,
+    SceneSphere, SceneSphereError, Sides, SurfaceColor, Texture, TextureMapping,
 };
 
-use crate::world::WorldMesh;
+use crate::world::{WorldMesh, WorldSphere};
 
 /// The lights of a scene.
 #[derive(Debug)]
@@ -45,9 +45,10 @@ pub enum SceneLightsError {
 }
 
 impl SceneLights {
-    /// Builds all lights, and tells each shining mesh the id of its first triangle.
+    /// Builds all lights, and tells each shining mesh the id of its first triangle, each shining sphere its own.
     pub(crate) fn new(
         meshes: &mut [WorldMesh],
+        spheres: &mut [WorldSphere],
         materials: &[Material],
         images: &[Image],
         scene_lights: Vec<LightDesc<Rgb>>,
@@ -73,6 +74,14 @@ impl SceneLights {
                 shining.push((index, source));
             }
         }
+        let mut shining_spheres = Vec::new();
+        for (index, sphere) in spheres.iter().enumerate() {
+            let material = &materials[sphere.material];
+            if let Some(desc) = textures.sphere_light(sphere, material) {
+                let source = add(&mut builder, &material.name, desc)?;
+                shining_spheres.push((index, source));
+            }
+        }
         for (number, light) in scene_lights.into_iter().enumerate() {
             let name = format!("light {number}");
             add(&mut builder, &name, light)?;
@@ -80,6 +89,9 @@ impl SceneLights {
         let lights = builder.build();
         for (index, source) in shining {
             meshes[index].first_light = lights.first_id(source);
+        }
+        for (index, source) in shining_spheres {
+            spheres[index].light = lights.first_id(source);
         }
         let found_by_rays = |id: &LightId| {
             lights
@@ -131,6 +143,37 @@ impl Textures<'_> {
 
     /// The light that a mesh is, if its material shines.
     fn mesh_light(&mut self, mesh: &WorldMesh, material: &Material) -> Option<LightDesc<Rgb>> {
+        Some(LightDesc::Mesh(MeshLightDesc {
+            positions: mesh.positions.clone(),
+            indices: mesh.indices.clone(),
+            uvs: mesh.uvs.clone(),
+            emission: self.emission(material)?,
+        }))
+    }
+
+    /// The light that a sphere is, if its material shines; the front of the light is the outside.
+    fn sphere_light(
+        &mut self,
+        sphere: &WorldSphere,
+        material: &Material,
+    ) -> Option<LightDesc<Rgb>> {
+        let mut emission = self.emission(material)?;
+        if sphere.front == SphereFront::Inside {
+            if emission.sides == Sides::Front {
+                emission.sides = Sides::Back;
+            }
+            let MediumInterface { inside, outside } = emission.media;
+            emission.media = MediumInterface {
+                inside: outside,
+                outside: inside,
+            };
+        }
+        let shape = sphere.shape.into();
+        Some(LightDesc::Area(AreaLightDesc { shape, emission }))
+    }
+
+    /// How a material shines, if it does.
+    fn emission(&mut self, material: &Material) -> Option<DiffuseEmissionDesc<Rgb>> {
         let emission = material.emission.as_ref()?;
         let (color, mapping) = match &emission.radiance {
             Color::Constant(radiance) => {
@@ -146,17 +189,12 @@ impl Textures<'_> {
             EmissionSides::Front => Sides::Front,
             EmissionSides::Both => Sides::Both,
         };
-        Some(LightDesc::Mesh(MeshLightDesc {
-            positions: mesh.positions.clone(),
-            indices: mesh.indices.clone(),
-            uvs: mesh.uvs.clone(),
-            emission: DiffuseEmissionDesc {
-                sides,
-                mapping,
-                media: material.media,
-                ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
-            },
-        }))
+        Some(DiffuseEmissionDesc {
+            sides,
+            mapping,
+            media: material.media,
+            ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
+        })
     }
 }
 

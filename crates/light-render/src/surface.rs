@@ -1,5 +1,7 @@
 use lights::bounds::LightSampleContext;
 use lights::glam::{Vec2, Vec3};
+use lights::sources::SurfacePoint;
+use lights::sources::shape::Sphere;
 
 use crate::{PrimitiveId, Ray};
 
@@ -20,6 +22,9 @@ pub struct Surface {
     pub primitive: PrimitiveId,
 }
 
+/// A generous multiple of the rounding error of a sum of two or three products.
+const ERROR: f32 = 8.0 * f32::EPSILON;
+
 impl Surface {
     /// The point with the given weights of the second and third of `corners`; flat, without texture coordinates.
     ///
@@ -28,7 +33,6 @@ impl Surface {
     #[inline]
     #[must_use]
     pub fn on_triangle(triangle: PrimitiveId, corners: [Vec3; 3], barycentric: Vec2) -> Self {
-        const ERROR: f32 = 8.0 * f32::EPSILON;
         let [a, b, c] = corners;
         let weights = [
             1.0 - barycentric.x - barycentric.y,
@@ -44,6 +48,20 @@ impl Surface {
             ns: n,
             uv: barycentric,
             primitive: triangle,
+        }
+    }
+
+    /// The point `at` of a sphere, with its normal; the error bound is that of a triangle.
+    #[must_use]
+    pub(crate) fn on_sphere(id: PrimitiveId, sphere: &Sphere, at: &SurfacePoint) -> Self {
+        let &SurfacePoint { p, n, uv } = at;
+        Self {
+            p,
+            p_error: (sphere.center().abs() + n.abs() * sphere.radius()) * ERROR,
+            n,
+            ns: n,
+            uv,
+            primitive: id,
         }
     }
 

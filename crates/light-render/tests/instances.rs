@@ -106,9 +106,17 @@ fn flattened(scene: &Scene) -> Scene {
     let mut flat = scene.clone();
     flat.prototypes.clear();
     for Placement { prototype, place } in core::mem::take(&mut flat.placements) {
-        let meshes = &scene.prototype(prototype).meshes;
+        let Prototype {
+            meshes, spheres, ..
+        } = scene.prototype(prototype);
         flat.meshes
             .extend(meshes.iter().map(|mesh| mesh.transformed(&place)));
+        for sphere in spheres {
+            match sphere.transformed(&place) {
+                Some(sphere) => flat.spheres.push(sphere),
+                None => flat.meshes.push(sphere.mesh(512).transformed(&place)),
+            }
+        }
     }
     flat
 }
@@ -355,9 +363,9 @@ fn a_forest_takes_the_memory_of_a_tree() {
     assert_eq!(forest.placement_count(), 10_004, "all are there");
     let count = forest.triangle_count();
     assert!(count > 2_000_000, "{count} triangles to be seen");
-    let last = forest.triangle(count - 1).expect("there");
+    let last = forest.primitive(count - 1).expect("there");
     assert!(last.placement().is_some(), "the last one is placed");
-    assert_eq!(forest.triangle(count), None, "no more");
+    assert_eq!(forest.primitive(count), None, "no more");
 }
 
 #[test]
@@ -386,7 +394,7 @@ fn no_ray_meets_the_plane_that_it_starts_on() {
     let places = world.placement_count();
     assert_eq!(places, 5, "none is copied");
     for n in 0..world.triangle_count() {
-        let triangle = world.triangle(n).expect("there");
+        let triangle = world.primitive(n).expect("there");
         let surface = world.surface(triangle, Vec2::new(0.3, 0.4));
         for k in 0..32u8 {
             let turn = f32::from(k) * 2.4;

@@ -1,19 +1,21 @@
 use lights::math::Aabb;
 
-use crate::Mesh;
 use crate::glam::{Affine3A, Vec3};
+use crate::{Mesh, Sphere};
 
 /// Position of a prototype in [`Scene::prototypes`](crate::Scene::prototypes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PrototypeId(pub u32);
 
-/// Meshes that stand in several places, stored once: a tree of a forest. In itself it stands nowhere.
+/// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it stands nowhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prototype {
     /// The name in the file; may be empty.
     pub name: String,
     /// What it consists of, in coordinates of its own.
     pub meshes: Vec<Mesh>,
+    /// The spheres in it; a place may stretch them.
+    pub spheres: Vec<Sphere>,
 }
 
 /// A place where a prototype stands.
@@ -29,8 +31,11 @@ impl Prototype {
     /// These meshes under a name.
     #[must_use]
     pub fn new(name: impl Into<String>, meshes: Vec<Mesh>) -> Self {
-        let name = name.into();
-        Self { name, meshes }
+        Self {
+            name: name.into(),
+            meshes,
+            spheres: Vec::new(),
+        }
     }
 
     /// The number of its triangles, each stored once.
@@ -39,9 +44,12 @@ impl Prototype {
         self.meshes.iter().map(|mesh| mesh.indices.len()).sum()
     }
 
-    /// The boxes around its meshes.
+    /// The boxes around its meshes and spheres.
     pub(crate) fn boxes(&self) -> Vec<Aabb> {
-        self.meshes.iter().map(Mesh::bounds).collect()
+        let meshes = self.meshes.iter().map(Mesh::bounds);
+        meshes
+            .chain(self.spheres.iter().map(Sphere::bounds))
+            .collect()
     }
 }
 

@@ -6,7 +6,9 @@ use lights::sources::{
 };
 
 use crate::glam::{Affine3A, Vec3};
-use crate::{Camera, Color, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId};
+use crate::{
+    Camera, Color, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId, Sphere,
+};
 
 /// Position of a material in [`Scene::materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -33,11 +35,13 @@ pub struct NamedMedium {
 pub struct Scene {
     /// Triangles that stand where they are, one mesh per group and material of the file.
     pub meshes: Vec<Mesh>,
+    /// Spheres that stand where they are.
+    pub spheres: Vec<Sphere>,
     /// Objects that stand in several places; a placement names its prototype by position.
     pub prototypes: Vec<Prototype>,
     /// Where they stand.
     pub placements: Vec<Placement>,
-    /// Materials; a mesh names its material by position. A mesh shines when its material does.
+    /// Materials; a mesh names its material by position. What is made of one that emits light shines.
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
@@ -54,17 +58,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A box around all that is there, empty when there is nothing. Around meshes it is the smallest; a placement counts by the
-    /// corners of the boxes of its meshes.
+    /// A box around all that is there, empty when there is nothing. Around meshes and spheres it is the smallest; a placement counts
+    /// by the corners of the boxes around what it holds.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
-        let boxes = self.meshes.iter().map(Mesh::bounds);
-        let meshes = boxes.fold(Aabb::EMPTY, Aabb::union);
+        let meshes = self.meshes.iter().map(Mesh::bounds);
+        let own = meshes.chain(self.spheres.iter().map(Sphere::bounds));
+        let own = own.fold(Aabb::EMPTY, Aabb::union);
         let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
         let placed = self.placements.iter();
         let placed =
             placed.map(|placement| placement.bounds(&boxes[placement.prototype.0 as usize]));
-        placed.fold(meshes, Aabb::union)
+        placed.fold(own, Aabb::union)
     }
 
     /// The material with this id.
@@ -103,16 +108,27 @@ impl Scene {
         self.count(|_| true)
     }
 
+    /// The number of spheres to be seen: those of prototypes in each of their places.
+    #[must_use]
+    pub fn sphere_count(&self) -> usize {
+        let placed = self.placements.iter();
+        let placed = placed.map(|p| self.prototype(p.prototype).spheres.len());
+        self.spheres.len() + placed.sum::<usize>()
+    }
+
     /// The number of triangles to be seen whose material emits light.
     #[must_use]
     pub fn emissive_triangle_count(&self) -> usize {
-        self.count(|mesh| self.shines(mesh))
+        self.count(|mesh| self.shines(mesh.material))
     }
 
-    /// Whether the mesh is made of what emits light.
+    /// Whether what is made of the material emits light.
+    ///
+    /// # Panics
+    /// Panics if the scene has no such material; readers never make such an id.
     #[must_use]
-    pub fn shines(&self, mesh: &Mesh) -> bool {
-        self.material(mesh.material).emission.is_some()
+    pub fn shines(&self, material: MaterialId) -> bool {
+        self.material(material).emission.is_some()
     }
 
     /// The triangles of the meshes that `counts`, as often as they are to be seen.

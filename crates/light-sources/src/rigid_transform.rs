@@ -104,6 +104,12 @@ impl Default for RigidTransform {
     }
 }
 
+impl From<RigidTransform> for Affine3A {
+    fn from(rigid: RigidTransform) -> Self {
+        Self::from_mat3_translation(rigid.linear, rigid.translation)
+    }
+}
+
 impl fmt::Display for RigidTransformError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -1,5 +1,8 @@
+mod bvh_hit;
 mod place;
 mod placements;
+mod solids;
+mod sphere_bvh;
 #[cfg(test)]
 mod tests;
 mod triangle_bvh;
@@ -8,12 +11,15 @@ use core::fmt;
 use core::ops::Range;
 
 use lights::glam::{Vec2, Vec3};
+use lights::math::Aabb;
+use lights::sources::shape::Sphere;
+use obvhs::aabb::Aabb as ObvhsAabb;
 
 use crate::{PrimitiveId, Ray};
 pub use place::Place;
 use placements::Placements;
 pub use placements::Prototype;
-use triangle_bvh::TriangleBvh;
+use solids::{Numbers, Solids};
 
 /// Where a ray meets the scene first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +28,17 @@ pub struct Hit {
     pub primitive: PrimitiveId,
     /// Distance along the ray, in scene units.
     pub t: f32,
-    /// Weights of the triangle's second and third corner; the first has the rest.
-    pub barycentric: Vec2,
+    /// Where on it: of a triangle the weights of its second and third corner, the first has the rest; of a sphere the place of its
+    /// outward normal, before it was placed, on the [octahedral square](lights::math::octahedral::to_square).
+    pub place: Vec2,
 }
 
-/// Answers where rays meet triangles: those that stand where they are stored, and those that stand in several places.
+/// Answers where rays meet triangles and spheres: those that stand where they are stored, and those that stand in several places.
+///
+/// All triangles have numbers before all spheres; among each, those that stand where they are stored come first.
 #[derive(Default)]
 pub struct Accel {
-    world: TriangleBvh,
+    world: Solids,
     placements: Placements,
 }
 
@@ -40,20 +49,27 @@ impl Accel {
     /// Panics at 2^32 triangles.
     #[must_use]
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
-        Self::with_prototypes(triangles, [])
+        Self::with_spheres_and_prototypes(triangles, &[], Vec::new())
     }
 
-    /// As [`new`](Self::new), with prototypes in their places; their triangles are numbered on, one prototype after the other.
+    /// As [`new`](Self::new), with spheres, and with prototypes in their places.
     ///
     /// # Panics
-    /// Panics at 2^32 triangles.
+    /// Panics at 2^32 primitives.
     #[must_use]
-    pub fn with_prototypes(
+    pub fn with_spheres_and_prototypes(
         triangles: &[[Vec3; 3]],
-        prototypes: impl IntoIterator<Item = Prototype>,
+        spheres: &[Sphere],
+        prototypes: Vec<Prototype>,
     ) -> Self {
-        let world = TriangleBvh::new(triangles);
-        let placements = Placements::new(prototypes, world.triangle_count());
+        let placed = prototypes.iter().map(|prototype| prototype.triangles.len());
+        let count = triangles.len() + placed.sum::<usize>();
+        let mut next = Numbers {
+            triangle: 0,
+            sphere: u32::try_from(count).expect("fewer than 2^32 triangles"),
+        };
+        let world = Solids::new(triangles, spheres, &mut next);
+        let placements = Placements::new(prototypes, next);
         Self { world, placements }
     }
 
@@ -64,7 +80,7 @@ impl Accel {
         self.closest_where(ray, from, |_, _| true)
     }
 
-    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by primitive and barycentric coordinates.
+    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by primitive and place.
     #[inline]
     #[must_use]
     pub fn closest_where(
@@ -80,7 +96,7 @@ impl Accel {
         let hit = hit.map(|hit| Hit {
             primitive: PrimitiveId::new(hit.number),
             t: hit.t,
-            barycentric: hit.barycentric,
+            place: hit.place,
         });
         if self.placements.is_empty() {
             return hit;
@@ -96,7 +112,7 @@ impl Accel {
         self.occluded_where(ray, t_max, from, |_, _| true)
     }
 
-    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by primitive and barycentric coordinates.
+    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by primitive and place.
     #[inline]
     #[must_use]
     pub fn occluded_where(
@@ -122,10 +138,16 @@ impl Accel {
         self.placements.place(placement)
     }
 
-    /// The numbers of the triangles in every placement.
+    /// The numbers of the triangles and of the spheres that stand where they are stored.
     #[must_use]
-    pub fn placements(&self) -> impl ExactSizeIterator<Item = Range<u32>> {
-        self.placements.numbers()
+    pub fn world(&self) -> [Range<u32>; 2] {
+        self.world.numbers()
+    }
+
+    /// The numbers of the triangles and of the spheres in every placement.
+    #[must_use]
+    pub fn placements(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
+        self.placements.solids().map(Solids::numbers)
     }
 
     /// How many prototypes there are.
@@ -133,12 +155,10 @@ impl Accel {
     pub fn prototype_count(&self) -> usize {
         self.placements.prototype_count()
     }
+}
 
-    /// How many triangles stand where they are stored.
-    #[must_use]
-    pub const fn world_triangle_count(&self) -> u32 {
-        self.world.triangle_count()
-    }
+fn boxed(bounds: &Aabb) -> ObvhsAabb {
+    ObvhsAabb::new(bounds.min.into(), bounds.max.into())
 }
 
 /// The number of what a ray starts on, if that stands where it is stored.
@@ -151,8 +171,8 @@ fn in_the_world(from: Option<PrimitiveId>) -> Option<u32> {
 impl fmt::Debug for Accel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Accel")
-            .field("triangles", &self.world.triangle_count())
-            .field("placements", &self.placements.numbers().len())
+            .field("world", &self.world.count())
+            .field("placements", &self.placements.solids().len())
             .finish_non_exhaustive()
     }
 }

@@ -1,7 +1,7 @@
 use lights::glam::{Affine3A, Mat3A, Vec3, Vec3A};
 use lights::math::Aabb;
 
-use crate::Ray;
+use crate::{Ray, Surface};
 
 /// Where a prototype stands: an affine map that can be undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +74,21 @@ impl Place {
         let from_here = (Vec3A::from(p) - self.to_world.translation).abs();
         let there = self.to_object.abs() * from_here;
         (self.to_world.matrix3.abs() * there * ERROR).into()
+    }
+
+    /// A point of a prototype in the world, with its error.
+    #[must_use]
+    pub(crate) fn surface(&self, there: &Surface) -> Surface {
+        let p = self.point(there.p);
+        let n = self.normal(there.n).normalize_or_zero();
+        let spread = self.to_world.matrix3.abs() * Vec3A::from(there.p_error);
+        Surface {
+            p,
+            p_error: Vec3::from(spread) + self.error(p) + p.abs() * ERROR,
+            n,
+            ns: n,
+            ..*there
+        }
     }
 
     /// A box around what `bounds` contains, in the world, rounding errors included.

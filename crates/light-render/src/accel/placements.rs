@@ -1,24 +1,26 @@
-use core::ops::Range;
 use core::time::Duration;
 
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
+use lights::sources::shape::{Shape, Sphere};
 use obvhs::BvhBuildParams;
-use obvhs::aabb::Aabb as ObvhsAabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 
 use super::Hit;
+use super::boxed;
 use super::place::Place;
-use super::triangle_bvh::TriangleBvh;
+use super::solids::{Numbers, Solids};
 use crate::{PrimitiveId, Ray};
 
-/// Triangles that stand in several places.
+/// Triangles and spheres that stand in several places.
 #[derive(Clone, Debug)]
 pub struct Prototype {
     /// The corners of its triangles.
     pub triangles: Vec<[Vec3; 3]>,
+    /// Its spheres.
+    pub spheres: Vec<Sphere>,
     /// Where it stands.
     pub places: Vec<Place>,
 }
@@ -29,7 +31,7 @@ pub(super) struct Placements {
     top: Bvh2,
     /// In the order of the leaves of `top`.
     placements: Vec<Placement>,
-    prototypes: Vec<Stored>,
+    prototypes: Vec<Solids>,
 }
 
 /// One place of a prototype.
@@ -39,35 +41,34 @@ struct Placement {
     prototype: u32,
 }
 
-/// The triangles of a prototype, and the number of the first one.
-struct Stored {
-    bvh: TriangleBvh,
-    first: u32,
-}
-
 /// A ray in the coordinates of one of the places.
 struct Visit<'a> {
-    stored: &'a Stored,
+    solids: &'a Solids,
     placement: u32,
     ray: Ray,
     /// The length there of a scene unit along the ray.
     stretch: f32,
-    /// The triangle that it starts on, if that stands in this place.
+    /// The number of what it starts on, if that stands in this place.
     from: Option<u32>,
 }
 
 impl Placements {
-    /// `prototypes` in all their places; `next` is the number of their first triangle.
-    pub(super) fn new(prototypes: impl IntoIterator<Item = Prototype>, mut next: u32) -> Self {
+    /// `prototypes` in all their places, numbered from `next` on.
+    pub(super) fn new(prototypes: Vec<Prototype>, mut next: Numbers) -> Self {
         let mut this = Self::default();
         let (mut placements, mut boxes) = (Vec::new(), Vec::new());
-        for (prototype, Prototype { triangles, places }) in (0u32..).zip(prototypes) {
-            let bvh = TriangleBvh::new(&triangles);
-            let count = bvh.triangle_count();
-            this.prototypes.push(Stored { bvh, first: next });
-            next += count;
-            if count > 0 {
-                let bounds = Aabb::from_points(triangles.as_flattened().iter().copied());
+        for (prototype, stored) in (0u32..).zip(prototypes) {
+            let Prototype {
+                triangles,
+                spheres,
+                places,
+            } = stored;
+            let solids = Solids::new(&triangles, &spheres, &mut next);
+            this.prototypes.push(solids);
+            let bounds = Aabb::from_points(triangles.as_flattened().iter().copied());
+            let spheres = spheres.iter().map(Shape::bounds);
+            let bounds = spheres.fold(bounds, Aabb::union);
+            if !bounds.is_empty() {
                 boxes.extend(places.iter().map(|place| boxed(&place.bounds(&bounds))));
                 let placed = |place| Placement { place, prototype };
                 placements.extend(places.into_iter().map(placed));
@@ -101,12 +102,10 @@ impl Placements {
         &self.placements[placement as usize].place
     }
 
-    /// The numbers of the triangles in every place, place by place.
-    pub(super) fn numbers(&self) -> impl ExactSizeIterator<Item = Range<u32>> {
-        self.placements.iter().map(|placement| {
-            let Stored { bvh, first } = &self.prototypes[placement.prototype as usize];
-            *first..first + bvh.triangle_count()
-        })
+    /// What stands in every place, place by place.
+    pub(super) fn solids(&self) -> impl ExactSizeIterator<Item = &Solids> {
+        let placements = self.placements.iter();
+        placements.map(|placement| &self.prototypes[placement.prototype as usize])
     }
 
     /// The first hit of `ray` that is nearer than `t_max` and of which `is_there` says that it counts.
@@ -125,7 +124,7 @@ impl Placements {
             let there = |number, place| is_there(visit.id(number), place);
             let t_max_there = t_max * visit.stretch;
             let hit = visit
-                .bvh()
+                .solids
                 .closest(&visit.ray, t_max_there, visit.from, there)?;
             let t = hit.t / visit.stretch;
             // Rounding may have made it longer on the way back.
@@ -133,7 +132,7 @@ impl Placements {
                 closest = Some(Hit {
                     primitive: visit.id(hit.number),
                     t,
-                    barycentric: hit.barycentric,
+                    place: hit.place,
                 });
                 t
             })
@@ -160,7 +159,7 @@ impl Placements {
                 let there = |number, place| is_there(visit.id(number), place);
                 let t_max_there = t_max * visit.stretch;
                 visit
-                    .bvh()
+                    .solids
                     .occluded(&visit.ray, t_max_there, visit.from, there)
             })
         };
@@ -177,30 +176,22 @@ impl Placements {
     #[inline]
     fn visit(&self, ray: &Ray, slot: usize, from: Option<PrimitiveId>) -> Option<Visit<'_>> {
         let Placement { place, prototype } = &self.placements[slot];
-        let stored = &self.prototypes[*prototype as usize];
+        let solids = &self.prototypes[*prototype as usize];
         let placement = u32::try_from(slot).ok()?;
         let (ray, stretch) = place.to_object(ray);
         let from = from.filter(|from| from.placement() == Some(placement));
         ray.origin.is_finite().then(|| Visit {
-            stored,
+            solids,
             placement,
             ray,
             stretch,
-            from: from.map(|from| from.number() - stored.first),
+            from: from.map(PrimitiveId::number),
         })
     }
 }
 
 impl Visit<'_> {
-    fn bvh(&self) -> &TriangleBvh {
-        &self.stored.bvh
-    }
-
     fn id(&self, number: u32) -> PrimitiveId {
-        PrimitiveId::placed(self.stored.first + number, self.placement)
+        PrimitiveId::placed(number, self.placement)
     }
-}
-
-fn boxed(bounds: &Aabb) -> ObvhsAabb {
-    ObvhsAabb::new(bounds.min.into(), bounds.max.into())
 }

@@ -8,18 +8,8 @@ use obvhs::ray::{Ray as ObvhsRay, RayHit};
 use obvhs::rt_triangle::RtTriangle;
 use obvhs::triangle::Triangle;
 
+use super::bvh_hit::BvhHit;
 use crate::Ray;
-
-/// Where a ray meets the triangles first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TriangleHit {
-    /// Which triangle, in the order in which they were given to [`TriangleBvh::new`].
-    pub(super) number: u32,
-    /// Distance along the ray.
-    pub(super) t: f32,
-    /// Weights of the triangle's second and third corner; the first has the rest.
-    pub(super) barycentric: Vec2,
-}
 
 /// A binary hierarchy of boxes over triangles that are stored leaf by leaf.
 #[derive(Default)]
@@ -27,15 +17,10 @@ pub(super) struct TriangleBvh {
     bvh: Bvh2,
     /// Triangles in leaf order; one that was split stands in several leaves.
     leaves: Vec<RtTriangle>,
-    /// How many triangles there are.
-    count: u32,
 }
 
 impl TriangleBvh {
     /// A hierarchy over the corners of `triangles`, whose numbers are the positions in the slice.
-    ///
-    /// # Panics
-    /// Panics at 2^32 triangles.
     pub(super) fn new(triangles: &[[Vec3; 3]]) -> Self {
         let triangles: Vec<Triangle> = triangles
             .iter()
@@ -61,13 +46,7 @@ impl TriangleBvh {
             .iter()
             .map(|&i| (&triangles[i as usize]).into())
             .collect();
-        let count = u32::try_from(triangles.len()).expect("fewer than 2^32 triangles");
-        Self { bvh, leaves, count }
-    }
-
-    /// How many triangles there are.
-    pub(super) const fn triangle_count(&self) -> u32 {
-        self.count
+        Self { bvh, leaves }
     }
 
     /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by triangle and
@@ -79,17 +58,17 @@ impl TriangleBvh {
         t_max: f32,
         from: Option<u32>,
         is_there: impl Fn(u32, Vec2) -> bool,
-    ) -> Option<TriangleHit> {
+    ) -> Option<BvhHit> {
         let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         let mut hit = RayHit::none();
         self.bvh.ray_traverse(ray, &mut hit, |ray, slot| {
             self.distance(ray, slot, from, &is_there)
         });
         let leaf = self.leaves.get(hit.primitive_id as usize)?;
-        Some(TriangleHit {
+        Some(BvhHit {
             number: self.bvh.primitive_indices[hit.primitive_id as usize],
             t: hit.t,
-            barycentric: leaf.compute_barycentric(&ray),
+            place: leaf.compute_barycentric(&ray),
         })
     }
 
@@ -131,7 +110,7 @@ impl TriangleBvh {
 }
 
 /// Enlarges each box by its rounding error, so that a ray along an edge of a box cannot slip past what is inside.
-fn pad(bvh: &mut Bvh2) {
+pub(super) fn pad(bvh: &mut Bvh2) {
     for node in &mut bvh.nodes {
         let mut aabb = *node.aabb();
         let margin = aabb.min.abs().max(aabb.max.abs()) * Vec3A::splat(2.0 * f32::EPSILON);

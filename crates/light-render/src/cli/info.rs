@@ -76,6 +76,8 @@ impl InfoArgs {
             "scene": self.input.scene.display().to_string(),
             "triangles": world.triangle_count(),
             "stored_triangles": world.stored_triangle_count(),
+            "spheres": world.sphere_count(),
+            "stored_spheres": world.stored_sphere_count(),
             "prototypes": world.prototype_count(),
             "placements": world.placement_count(),
             "bounds": [bounds.min.to_array(), bounds.max.to_array()],
@@ -104,12 +106,16 @@ impl InfoArgs {
         let bounds = world.bounds();
         println!("{}", self.input.scene.display());
         println!("  triangles  {}", world.triangle_count());
+        if world.sphere_count() > 0 {
+            println!("  spheres    {}", world.sphere_count());
+        }
         if world.placement_count() > 0 {
             println!(
-                "  objects    {} stored once, in {} places: {} triangles stored",
+                "  objects    {} stored once, in {} places: {} triangles, {} spheres stored",
                 world.prototype_count(),
                 world.placement_count(),
-                world.stored_triangle_count()
+                world.stored_triangle_count(),
+                world.stored_sphere_count()
             );
         }
         println!("  bounds     {} to {}", bounds.min, bounds.max);

@@ -9,6 +9,11 @@ use crate::SceneLightsError;
 pub enum WorldError {
     /// A light makes no sense.
     Lights(SceneLightsError),
+    /// A sphere has no radius, or its place does not keep angles.
+    Sphere {
+        /// Its name.
+        name: String,
+    },
     /// A placement makes an object flat, or as good as.
     Place {
         /// The object's name.
@@ -33,6 +38,10 @@ impl fmt::Display for WorldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Lights(error) => error.fmt(f),
+            Self::Sphere { name } => write!(
+                f,
+                "sphere {name}: expected a place that turns, moves, and scales all axes alike"
+            ),
             Self::Place { name } => {
                 write!(f, "object {name}: expected places that do not make it flat")
             }

@@ -17,8 +17,7 @@ impl World {
     /// `[PBRT4]`, section 10.5.1.
     #[inline]
     pub(crate) fn finish(&self, surface: &Surface) -> &Finish {
-        let (mesh, _) = self.mesh(surface.primitive);
-        let mut id = mesh.material;
+        let (mut id, _) = self.material(surface.primitive);
         while let Finish::Mix { materials, amount } = &self.materials[id].surface {
             let amount = self.color(amount, surface.uv).x;
             let second = chance(surface.p, id) < amount;

@@ -1,34 +1,42 @@
 use light_scene::glam::Affine3A;
-use light_scene::{Mesh, Placement, Prototype, Scene};
+use light_scene::{Mesh, Placement, Prototype, Scene, Sphere};
 
 use super::WorldError;
 use crate::Place;
 
-/// Objects of no more triangles are copied: those take no more memory than a placement does, and rays find them sooner.
+/// Objects of no more triangles and spheres are copied: those take no more memory than a placement does, and rays find them sooner.
 const FEW: usize = 2;
 
-/// Triangles of shining objects that may be copied, about 8 GB of them.
+/// Triangles and spheres of shining objects that may be copied, about 8 GB of triangles.
 const MOST_COPIES: usize = 1 << 25;
 
-/// A scene's objects, sorted into what has to be copied and what need not be.
+/// Columns around a sphere that shines and that a place stretches, which no light is.
+const COLUMNS: u16 = 64;
+
+/// A scene's objects that need not be copied.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
-    /// What stands where it is stored.
-    pub(super) copies: Vec<Mesh>,
-    /// What stands in several places.
     pub(super) placed: Vec<PlacedObject>,
 }
 
-/// Meshes of an object that are stored once, and where it stands.
+/// What an object consists of and is stored once, and where it stands.
 #[derive(Debug)]
 pub(super) struct PlacedObject {
     pub(super) meshes: Vec<Mesh>,
+    pub(super) spheres: Vec<Sphere>,
     pub(super) places: Vec<Place>,
 }
 
+/// A part of an object.
+#[derive(Debug, Default)]
+struct Part {
+    meshes: Vec<Mesh>,
+    spheres: Vec<Sphere>,
+}
+
 impl Objects {
-    /// Takes the objects out of `scene`. Each triangle that shines is a light of its own, so that shining meshes are copied; so is what
-    /// stands in one place only, or is small.
+    /// Takes the objects out of `scene`. What shines is a light of its own in every place, so that it is copied there; so is what stands
+    /// in one place only, or is small.
     pub(super) fn take(scene: &mut Scene) -> Result<Self, WorldError> {
         let mut places: Vec<Vec<Affine3A>> = vec![Vec::new(); scene.prototypes.len()];
         for Placement { prototype, place } in core::mem::take(&mut scene.placements) {
@@ -37,28 +45,30 @@ impl Objects {
         let prototypes = core::mem::take(&mut scene.prototypes);
         let mut objects = Self::default();
         let mut left = MOST_COPIES;
-        for (Prototype { name, meshes }, places) in prototypes.into_iter().zip(places) {
-            let (mut copied, mut placed): (Vec<Mesh>, Vec<Mesh>) =
-                meshes.into_iter().partition(|mesh| scene.shines(mesh));
-            let shining = places.len().saturating_mul(triangle_count(&copied));
+        for (prototype, places) in prototypes.into_iter().zip(places) {
+            let name = prototype.name.clone();
+            let (mut copied, mut placed) = Part::shining_and_dark(prototype, scene);
+            let shining = places.iter().map(|place| copied.count_at(place)).sum();
             left = left
                 .checked_sub(shining)
                 .ok_or_else(|| WorldError::Copies {
                     name: name.clone(),
                     most: MOST_COPIES,
                 })?;
-            if places.len() < 2 || triangle_count(&placed) <= FEW {
-                copied.append(&mut placed);
+            let is_small = places.len() < 2 || placed.count() <= FEW;
+            if is_small && placed.stays_round(&places) {
+                copied.meshes.append(&mut placed.meshes);
+                copied.spheres.append(&mut placed.spheres);
             }
-            let copies = places
-                .iter()
-                .flat_map(|place| copied.iter().map(|mesh| mesh.transformed(place)));
-            objects.copies.extend(copies);
-            if !placed.is_empty() {
+            for place in &places {
+                copied.copy_to(scene, place);
+            }
+            if placed.count() > 0 {
                 let places: Option<_> = places.into_iter().map(Place::new).collect();
                 let places = places.ok_or(WorldError::Place { name })?;
                 objects.placed.push(PlacedObject {
-                    meshes: placed,
+                    meshes: placed.meshes,
+                    spheres: placed.spheres,
                     places,
                 });
             }
@@ -67,6 +77,51 @@ impl Objects {
     }
 }
 
-fn triangle_count(meshes: &[Mesh]) -> usize {
-    meshes.iter().map(|mesh| mesh.indices.len()).sum()
+impl Part {
+    fn shining_and_dark(prototype: Prototype, scene: &Scene) -> (Self, Self) {
+        let Prototype {
+            meshes, spheres, ..
+        } = prototype;
+        let meshes = meshes
+            .into_iter()
+            .partition(|mesh| scene.shines(mesh.material));
+        let spheres = spheres
+            .into_iter()
+            .partition(|sphere| scene.shines(sphere.material));
+        let part = |meshes, spheres| Self { meshes, spheres };
+        (part(meshes.0, spheres.0), part(meshes.1, spheres.1))
+    }
+
+    /// How many triangles and spheres there are.
+    fn count(&self) -> usize {
+        let triangles = self.meshes.iter().map(|mesh| mesh.indices.len());
+        triangles.sum::<usize>() + self.spheres.len()
+    }
+
+    /// How many there are in a place that may stretch spheres.
+    fn count_at(&self, place: &Affine3A) -> usize {
+        let stretched = self
+            .spheres
+            .iter()
+            .filter(|s| s.transformed(place).is_none());
+        self.count() + stretched.count() * usize::from(COLUMNS).pow(2)
+    }
+
+    /// Whether all spheres are spheres in all places.
+    fn stays_round(&self, places: &[Affine3A]) -> bool {
+        let mut spheres = self.spheres.iter();
+        spheres.all(|s| places.iter().all(|place| s.transformed(place).is_some()))
+    }
+
+    /// Adds a copy of it to what stands in `scene` where it is stored.
+    fn copy_to(&self, scene: &mut Scene, place: &Affine3A) {
+        let meshes = self.meshes.iter().map(|mesh| mesh.transformed(place));
+        scene.meshes.extend(meshes);
+        for sphere in &self.spheres {
+            match sphere.transformed(place) {
+                Some(moved) => scene.spheres.push(moved),
+                None => scene.meshes.push(sphere.mesh(COLUMNS).transformed(place)),
+            }
+        }
+    }
 }

@@ -9,19 +9,19 @@ impl World {
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Surface> {
         let hit = if self.has_holes {
-            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            let is_there = |primitive, place| self.is_there(ray, primitive, place);
             self.accel.closest_where(ray, from, is_there)?
         } else {
             self.accel.closest(ray, from)?
         };
-        Some(self.surface(hit.primitive, hit.barycentric))
+        Some(self.surface(hit.primitive, hit.place))
     }
 
     /// Whether anything but the primitive `from` lies within `distance` along `ray`.
     #[inline]
     pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<PrimitiveId>) -> bool {
         if self.has_holes {
-            let is_there = |triangle, place| self.is_there(ray, triangle, place);
+            let is_there = |primitive, place| self.is_there(ray, primitive, place);
             self.accel.occluded_where(ray, distance, from, is_there)
         } else {
             self.accel.occluded(ray, distance, from)

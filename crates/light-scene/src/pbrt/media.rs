@@ -9,7 +9,7 @@ use super::state::{At, Reader, Typed};
 use super::tokens::{Token, Tokens};
 use crate::glam::Vec3;
 use crate::text::shown;
-use crate::{Diagnostic, Mesh, NamedMedium, Place};
+use crate::{Diagnostic, MaterialId, NamedMedium, Place};
 
 /// A medium by its name: files may name it before they describe it.
 #[derive(Debug)]
@@ -83,20 +83,20 @@ impl Reader {
         Ok(())
     }
 
-    /// Gives the mesh the twin of its material that bounds the media in force.
-    pub(super) fn attach_media(&mut self, mesh: &mut Mesh) {
+    /// The twin of a material that bounds the media in force.
+    pub(super) fn with_media(&mut self, material: MaterialId) -> MaterialId {
         let media = self.state.media;
         if media.inside == media.outside {
-            return;
+            return material;
         }
-        let bounds = (mesh.material, media);
-        mesh.material = match self.interfaces.get(&bounds) {
+        let bounds = (material, media);
+        match self.interfaces.get(&bounds) {
             Some(&twin) => twin,
             None => {
-                let twin = self.twin(mesh.material, |twin| twin.media = media);
+                let twin = self.twin(material, |twin| twin.media = media);
                 *self.interfaces.entry(bounds).or_insert(twin)
             }
-        };
+        }
     }
 
     /// All media, once everything is read.

@@ -15,6 +15,13 @@ pub(super) struct NamedMaterials {
     twins: Vec<(MaterialId, MaterialId)>,
 }
 
+impl NamedMaterials {
+    /// Whether the material was named and will be described later.
+    pub(super) fn awaits(&self, material: MaterialId) -> bool {
+        self.awaited.values().any(|(id, _)| *id == material)
+    }
+}
+
 impl Reader {
     /// The material with this name, which may still be empty.
     pub(super) fn named_material(&mut self, at: At<'_>, name: &str) -> MaterialId {

@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use super::state::{At, Reader, State};
 use crate::glam::Affine3A;
 use crate::text::shown;
-use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId};
+use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId, Sphere};
 
 /// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they describe it.
 #[derive(Debug, Default)]
@@ -16,17 +16,16 @@ pub(super) struct Objects {
 
 #[derive(Debug)]
 struct ObjectSlot {
-    name: String,
     /// What to say if nobody describes it.
     unknown: Diagnostic,
-    meshes: Option<Vec<Mesh>>,
+    prototype: Option<Prototype>,
 }
 
 /// An object between `ObjectBegin` and `ObjectEnd`.
 #[derive(Debug)]
 struct OpenObject {
     id: PrototypeId,
-    meshes: Vec<Mesh>,
+    prototype: Prototype,
     /// How many states are saved, its own included.
     depth: usize,
     /// What to say if nobody ends it.
@@ -42,9 +41,8 @@ impl Objects {
         self.by_name.insert(name.to_owned(), PrototypeId(id));
         let message = format!("expected an object's name, found \"{}\"", shown(name));
         self.slots.push(ObjectSlot {
-            name: name.to_owned(),
             unknown: at.diagnostic(message),
-            meshes: None,
+            prototype: None,
         });
         PrototypeId(id)
     }
@@ -57,14 +55,14 @@ impl Reader {
             return Err(at.diagnostic("expected `ObjectEnd` before another `ObjectBegin`"));
         }
         let id = self.objects.id(at, name);
-        if self.objects.slots[id.0 as usize].meshes.is_some() {
+        if self.objects.slots[id.0 as usize].prototype.is_some() {
             let message = format!("expected one object \"{}\", found another", shown(name));
             return Err(at.diagnostic(message));
         }
         self.saved.push(self.state.clone());
         self.objects.open = Some(OpenObject {
             id,
-            meshes: Vec::new(),
+            prototype: Prototype::new(name, Vec::new()),
             depth: self.saved.len(),
             unclosed: at.diagnostic("expected `ObjectEnd` after `ObjectBegin`"),
         });
@@ -77,7 +75,7 @@ impl Reader {
         if self.saved.len() > open.depth {
             return Err(at.unmatched("AttributeEnd"));
         }
-        self.objects.slots[open.id.0 as usize].meshes = Some(open.meshes);
+        self.objects.slots[open.id.0 as usize].prototype = Some(open.prototype);
         self.state = self
             .saved
             .pop()
@@ -106,8 +104,16 @@ impl Reader {
     /// A mesh of the world, or of the object that is being described.
     pub(super) fn add_mesh(&mut self, mesh: Mesh) {
         match &mut self.objects.open {
-            Some(open) => open.meshes.push(mesh),
+            Some(open) => open.prototype.meshes.push(mesh),
             None => self.scene.meshes.push(mesh),
+        }
+    }
+
+    /// A sphere of the world, or of the object that is being described.
+    pub(super) fn add_sphere(&mut self, sphere: Sphere) {
+        match &mut self.objects.open {
+            Some(open) => open.prototype.spheres.push(sphere),
+            None => self.scene.spheres.push(sphere),
         }
     }
 
@@ -117,10 +123,7 @@ impl Reader {
         if let Some(open) = open {
             return Err(open.unclosed);
         }
-        let prototype = |slot: ObjectSlot| {
-            let meshes = slot.meshes.ok_or(slot.unknown)?;
-            Ok(Prototype::new(slot.name, meshes))
-        };
-        slots.into_iter().map(prototype).collect()
+        let described = |slot: ObjectSlot| slot.prototype.ok_or(slot.unknown);
+        slots.into_iter().map(described).collect()
     }
 }

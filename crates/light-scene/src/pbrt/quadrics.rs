@@ -1,58 +1,93 @@
-//! Round shapes made of triangles.
+use core::f32::consts::{PI, TAU};
 
-use super::state::Typed;
-use crate::Mesh;
-use crate::glam::{Vec2, Vec3};
+use super::state::{Reader, Typed};
+use crate::glam::{Affine3A, Vec3};
+use crate::{Color, Diagnostic, Mesh, Sphere, SphereFront, Surface};
 
-/// Of a sphere: columns around; it has half as many rows.
+/// Of tessellated shapes: columns around; a sphere has half as many rows.
 const AROUND: u16 = 64;
 
-/// A grid of vertices over the unit square of (u, v); `point` gives position and normal, u runs counter-clockwise
-/// around v seen from the front.
-fn grid(columns: u16, rows: u16, point: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Mesh {
-    let mut mesh = Mesh::new("", crate::MaterialId(0));
-    let (mut normals, mut uvs) = (Vec::new(), Vec::new());
-    for row in 0..=rows {
-        for column in 0..=columns {
-            let uv = Vec2::new(
-                f32::from(column) / f32::from(columns),
-                f32::from(row) / f32::from(rows),
-            );
-            let (position, normal) = point(uv.x, uv.y);
-            mesh.positions.push(position);
-            normals.push(normal);
-            uvs.push(uv);
+impl Reader {
+    /// A whole sphere that stays round and is asked for light as one; `None` for those that are better made of triangles.
+    pub(super) fn whole_sphere(&mut self, typed: &Typed<'_>) -> Result<Option<Sphere>, Diagnostic> {
+        let Parts { radius, z, turn } = Parts::of(typed);
+        if !(radius > 0.0) {
+            let message = format!("expected a positive radius, found {radius}");
+            return Err(typed.at.diagnostic(message));
         }
-    }
-    let (across, up) = (u32::from(columns), u32::from(rows));
-    for row in 0..up {
-        for column in 0..across {
-            let a = row * (across + 1) + column;
-            let b = a + across + 1;
-            mesh.indices.push([a, a + 1, b + 1]);
-            mesh.indices.push([a, b + 1, b]);
+        let is_whole = z == [-radius, radius] && turn == 1.0;
+        let front = if self.turns_quadrics_over() {
+            SphereFront::Inside
+        } else {
+            SphereFront::Outside
+        };
+        if !(is_whole && self.is_one_light(typed, front)) {
+            return Ok(None);
         }
+        let material = self.material();
+        let unit = Sphere::new("sphere", material, Affine3A::IDENTITY);
+        let place = Affine3A::from_mat4(self.state.transform);
+        let place = place * Affine3A::from_scale(Vec3::splat(radius));
+        let sphere = unit.transformed(&place);
+        Ok(sphere.map(|sphere| Sphere { front, ..sphere }))
     }
-    (mesh.normals, mesh.uvs) = (Some(normals), Some(uvs));
-    mesh
+
+    /// Whether a sphere, if it shines, does so evenly and as far as the nearer side shows.
+    fn is_one_light(&mut self, typed: &Typed<'_>, front: SphereFront) -> bool {
+        let Some(light) = self.state.area_light else {
+            return true;
+        };
+        let material = self.material();
+        let surface = &self.scene.material(material).surface;
+        let lets_light_pass = matches!(surface, Surface::Interface | Surface::Mix { .. })
+            || self.materials.awaits(material);
+        let is_outside = !light.two_sided && front == SphereFront::Outside;
+        let is_even = matches!(light.radiance, Color::Constant(_));
+        is_even && (is_outside || !(lets_light_pass || typed.parameters.has("alpha")))
+    }
+
+    /// In pbrt a mirroring transform turns quadrics over, but no meshes.
+    pub(super) fn turns_quadrics_over(&self) -> bool {
+        self.state.reversed ^ self.mirrors()
+    }
 }
 
-/// How far a quadric goes around the z axis, in radians.
+/// The part of a sphere that there is.
+struct Parts {
+    radius: f32,
+    /// Its lowest and its highest place.
+    z: [f32; 2],
+    /// The part of a full turn.
+    turn: f32,
+}
+
+impl Parts {
+    fn of(typed: &Typed<'_>) -> Self {
+        let parameters = &typed.parameters;
+        let radius = parameters.number_or("radius", 1.0);
+        let z = [("zmin", -radius), ("zmax", radius)].map(|(name, all)| {
+            let z = parameters.number_or(name, all);
+            z.max(-radius).min(radius)
+        });
+        let turn = turn(typed);
+        Self { radius, z, turn }
+    }
+}
+
+/// The part of a full turn that `phimax` says.
 fn turn(typed: &Typed<'_>) -> f32 {
-    let degrees = typed.parameters.number_or("phimax", 360.0);
-    degrees.clamp(0.0, 360.0).to_radians()
+    let phi_max = typed.parameters.number_or("phimax", 360.0);
+    phi_max.clamp(0.0, 360.0) / 360.0
 }
 
+/// A sphere, or a part of one.
 pub(super) fn sphere(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
-    let [low, high] = [("zmin", -radius), ("zmax", radius)].map(|(name, all)| {
-        let z = typed.parameters.number_or(name, all);
-        (-z / radius).clamp(-1.0, 1.0).acos()
-    });
-    let turn = turn(typed);
-    grid(AROUND, AROUND / 2, |u, v| {
-        let ((sin_phi, cos_phi), (sin, cos)) =
-            ((u * turn).sin_cos(), (low + (high - low) * v).sin_cos());
+    let Parts { radius, z, turn } = Parts::of(typed);
+    // From the lower pole on.
+    let [low, high] = z.map(|z| PI - (z / radius).clamp(-1.0, 1.0).acos());
+    Mesh::grid([AROUND, AROUND / 2], |u, v| {
+        let angle = low + (high - low) * v;
+        let ((sin_phi, cos_phi), (sin, cos)) = ((u * turn * TAU).sin_cos(), angle.sin_cos());
         let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
         (normal * radius, normal)
     })
@@ -63,8 +98,8 @@ pub(super) fn disk(typed: &Typed<'_>) -> Mesh {
     let height = typed.parameters.number_or("height", 0.0);
     let inner = typed.parameters.number_or("innerradius", 0.0);
     let turn = turn(typed);
-    grid(AROUND, 1, |u, v| {
-        let (sin, cos) = (u * turn).sin_cos();
+    Mesh::grid([AROUND, 1], |u, v| {
+        let (sin, cos) = (u * turn * TAU).sin_cos();
         let r = radius + (inner - radius) * v;
         (Vec3::new(r * cos, r * sin, height), Vec3::Z)
     })
@@ -75,8 +110,8 @@ pub(super) fn cylinder(typed: &Typed<'_>) -> Mesh {
     let low = typed.parameters.number_or("zmin", -1.0);
     let high = typed.parameters.number_or("zmax", 1.0);
     let turn = turn(typed);
-    grid(AROUND, 1, |u, v| {
-        let (sin, cos) = (u * turn).sin_cos();
+    Mesh::grid([AROUND, 1], |u, v| {
+        let (sin, cos) = (u * turn * TAU).sin_cos();
         let normal = Vec3::new(cos, sin, 0.0);
         (normal * radius + Vec3::Z * (low + (high - low) * v), normal)
     })
@@ -114,8 +149,6 @@ mod tests {
 
     #[test]
     fn parts_of_quadrics_have_their_areas() {
-        use core::f32::consts::PI;
-        has_area("\"sphere\" \"float radius\" 2", 16.0 * PI);
         has_area(
             "\"sphere\" \"float radius\" 2 \"float phimax\" 90",
             4.0 * PI,

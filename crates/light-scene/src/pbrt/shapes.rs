@@ -4,12 +4,19 @@ use super::quadrics::{cylinder, disk, sphere};
 use super::state::{At, Reader, Typed};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Vec3};
-use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Mesh};
+use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId, Mesh};
 
 impl Reader {
     pub(super) fn shape(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
         let Typed { at, kind, .. } = typed;
         let at = *at;
+        if kind == "sphere" {
+            if let Some(mut sphere) = self.whole_sphere(typed)? {
+                sphere.material = self.shape_material(typed, || sphere.area());
+                self.add_sphere(sphere);
+                return Ok(());
+            }
+        }
         let mut mesh = match kind.as_str() {
             "trianglemesh" => triangle_mesh(typed)?,
             "loopsubdiv" => {
@@ -48,17 +55,26 @@ impl Reader {
         mesh.drop_empty_triangles();
         // Given normals say where the front is, whatever the order of the vertices.
         mesh.align_with_normals();
-        // In pbrt a mirroring transform turns quadrics over, but no meshes.
         let is_quadric = matches!(kind.as_str(), "sphere" | "disk" | "cylinder");
-        if self.state.reversed ^ (is_quadric && self.mirrors()) {
+        let turns_over = if is_quadric {
+            self.turns_quadrics_over()
+        } else {
+            self.state.reversed
+        };
+        if turns_over {
             mesh.turn_over();
         }
-        mesh.material = self.material();
-        self.attach_media(&mut mesh);
-        self.attach_light(&mut mesh);
-        self.attach_alpha(typed, &mut mesh);
+        mesh.material = self.shape_material(typed, || mesh.area());
         self.add_mesh(mesh);
         Ok(())
+    }
+
+    /// The material of a shape of this area: the one in force, with the media, the light and the holes of the shape.
+    fn shape_material(&mut self, typed: &Typed<'_>, area: impl FnOnce() -> f32) -> MaterialId {
+        let material = self.material();
+        let material = self.with_media(material);
+        let material = self.with_light(material, area);
+        self.with_alpha(material, typed)
     }
 
     fn rounded(&mut self, at: At<'_>, kind: &str, mesh: Mesh) -> Mesh {
@@ -67,13 +83,13 @@ impl Reader {
         mesh
     }
 
-    /// Gives the mesh a material of its own that shines, if an area light is in force.
-    fn attach_light(&mut self, mesh: &mut Mesh) {
+    /// A material of its own that shines, if an area light is in force.
+    fn with_light(&mut self, material: MaterialId, area: impl FnOnce() -> f32) -> MaterialId {
         let Some(light) = self.state.area_light else {
-            return;
+            return material;
         };
         let mean = self.scene.mean(&light.radiance);
-        let scale = area_scale(&light, mean, mesh.area());
+        let scale = area_scale(&light, mean, area());
         let emission = Emission {
             radiance: scaled(light.radiance, Vec3::splat(scale)),
             sides: if light.two_sided {
@@ -82,22 +98,20 @@ impl Reader {
                 EmissionSides::Front
             },
         };
-        mesh.material = self.twin(mesh.material, |twin| twin.emission = Some(emission));
+        self.twin(material, |twin| twin.emission = Some(emission))
     }
 
-    /// Gives the mesh a material of its own with holes, if `alpha` says where.
-    fn attach_alpha(&mut self, typed: &Typed<'_>, mesh: &mut Mesh) {
+    /// A material of its own with holes, if `alpha` says where.
+    fn with_alpha(&mut self, material: MaterialId, typed: &Typed<'_>) -> MaterialId {
         if !typed.parameters.has("alpha") {
-            return;
+            return material;
         }
         let share = self.share(typed, "alpha", 1.0);
         if share == Color::Constant(Vec3::ONE) {
-            return;
+            return material;
         }
         let cutoff = None;
-        mesh.material = self.twin(mesh.material, |twin| {
-            twin.alpha = Some(Alpha { share, cutoff })
-        });
+        self.twin(material, |twin| twin.alpha = Some(Alpha { share, cutoff }))
     }
 }
 
@@ -148,7 +162,7 @@ fn bilinear_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
 
 fn vertices(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
     let parameters = &typed.parameters;
-    let mut mesh = Mesh::new("", crate::MaterialId(0));
+    let mut mesh = Mesh::new("", MaterialId(0));
     let positions = parameters.vec3s("P");
     mesh.positions = positions.ok_or_else(|| typed.at.diagnostic("expected \"point3 P\""))?;
     mesh.normals = parameters.vec3s("N");

@@ -60,11 +60,11 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     let radiance = Color::Constant(Vec3::new(2.0, 4.0, 6.0));
     assert_eq!(emission.radiance, radiance, "scaled");
     assert_eq!(emission.sides, crate::EmissionSides::Both, "two-sided");
-    let [Prototype { name, meshes }] = &scene.prototypes[..] else {
+    let [Prototype { name, spheres, .. }] = &scene.prototypes[..] else {
         panic!("one object, not {}", scene.prototypes.len());
     };
-    assert_eq!((name.as_str(), meshes.len()), ("ball", 1), "a sphere");
-    let ball = &meshes[0];
+    assert_eq!((name.as_str(), spheres.len()), ("ball", 1), "a sphere");
+    let ball = &spheres[0];
     let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
     let moved = [Vec3::X * 3.0, Vec3::ZERO].map(Affine3A::from_translation);
     assert_eq!(places, moved, "placed twice");
@@ -89,13 +89,10 @@ fn reads_camera_materials_shapes_instances_and_lights() {
         "four lights"
     );
     let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
-    let expected = [
-        "Shape \"sphere\" was made of triangles",
-        "LightSource \"point\": parameter `fog` was ignored",
-    ];
+    let expected = ["LightSource \"point\": parameter `fog` was ignored"];
     assert_eq!(warnings, expected, "named once");
     assert_eq!(
-        scene.warnings[1].place,
+        scene.warnings[0].place,
         crate::Place::Line(18),
         "with its line"
     );

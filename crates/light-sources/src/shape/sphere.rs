@@ -2,7 +2,7 @@ use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle, azimuth};
+use super::{DirectionSample, Shape, ShapeDesc, ShapeSample, area_to_solid_angle, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -13,8 +13,8 @@ use light_math::{Aabb, DirectionCone, Frame};
 
 /// A sphere; its front is outside.
 ///
-/// Seen from outside, directions are chosen uniformly in the cone that the sphere fills; seen from inside, points are
-/// chosen by area.
+/// Seen from outside, directions are chosen uniformly in the cone that the sphere fills; seen from inside or from the sphere itself,
+/// points are chosen by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     transform: RigidTransform,
@@ -53,8 +53,15 @@ impl Sphere {
         self.transform.origin()
     }
 
+    /// The radius in scene units.
+    #[must_use]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
     /// The point of the surface with unit normal `n`.
-    fn at(&self, n: Vec3) -> SurfacePoint {
+    #[must_use]
+    pub fn at(&self, n: Vec3) -> SurfacePoint {
         let local = self.transform.inverse_vector(n);
         let u = azimuth(local);
         SurfacePoint {
@@ -67,22 +74,62 @@ impl Sphere {
         }
     }
 
-    /// The cone in which the sphere is seen from `p`; `None` from inside.
-    fn cone(&self, p: Vec3) -> Option<Cone> {
-        let to_center = self.center() - p;
-        let dist_sq = to_center.length_squared();
-        if !(dist_sq > self.radius * self.radius) {
+    /// The cone in which the sphere is seen from outside; `None` from inside, and from where rounding may have put a point of the
+    /// surface.
+    fn cone(&self, ctx: &LightSampleContext) -> Option<Cone> {
+        let to_center = self.center() - ctx.p;
+        let distance = to_center.length();
+        let axis = to_center / distance;
+        let nearest = distance - axis.abs().dot(ctx.p_error);
+        if !(nearest > self.radius) {
             return None;
         }
-        // Twice squared would lose small spheres far away.
-        let distance = to_center.length();
         let sin_max = self.radius / distance;
         let sin_sq_max = sin_max * sin_max;
         Some(Cone {
-            axis: to_center / distance,
+            axis,
             sin_max,
             one_minus_cos_max: sin_sq_max / (1.0 + safe_sqrt(1.0 - sin_sq_max)),
         })
+    }
+
+    /// The point seen from the side of its normal or the other, moved to that side by more than it is rounded: the sphere must not be
+    /// in the way of its own light.
+    fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
+        let error = 4.0 * f32::EPSILON * (self.center().abs().max_element() + self.radius);
+        let p = at.p + at.n * (side * error);
+        SurfacePoint { p, ..at }
+    }
+
+    /// Where the line through `origin` enters the sphere and where it leaves it: distances along the unit direction, and normals.
+    fn crossings(&self, origin: Vec3, direction: Vec3) -> Option<[(f32, Vec3); 2]> {
+        let to_center = self.center() - origin;
+        let nearest = to_center.dot(direction);
+        let offset = direction * nearest - to_center;
+        let half_chord_sq = self.radius * self.radius - offset.length_squared();
+        if !(half_chord_sq >= 0.0) {
+            return None;
+        }
+        let half_chord = safe_sqrt(half_chord_sq);
+        let crossing = |side: f32| {
+            let n = (offset + direction * side).try_normalize()?;
+            Some((nearest + side, n))
+        };
+        Some([crossing(-half_chord)?, crossing(half_chord)?])
+    }
+
+    /// Density per solid angle of directions toward points chosen by area, where the way out of the sphere counts.
+    fn pdf_from_inside(&self, p: Vec3, wi: Vec3) -> Option<f32> {
+        let [_, (t, n)] = self.crossings(p, wi)?;
+        let (_, pdf) = area_to_solid_angle(1.0 / self.area(), wi * t, n)?;
+        (t > 0.0).then_some(pdf)
+    }
+}
+
+impl From<Sphere> for ShapeDesc {
+    fn from(Sphere { transform, radius }: Sphere) -> Self {
+        let transform = transform.into();
+        Self::Sphere { transform, radius }
     }
 }
 
@@ -122,9 +169,10 @@ impl Shape for Sphere {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
-        let Some(cone) = self.cone(ctx.p) else {
+        let Some(cone) = self.cone(ctx) else {
             let ShapeSample { at, pdf } = self.sample(u)?;
             let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            let at = self.before(at, -1.0);
             return Some(DirectionSample { at, wi, pdf });
         };
         let pdf = uniform_cone::pdf(cone.one_minus_cos_max);
@@ -151,19 +199,15 @@ impl Shape for Sphere {
             .normalize();
         let wi = frame.from_local(Vec3::Z * cos - around * sin);
         Some(DirectionSample {
-            at: self.at(n),
+            at: self.before(self.at(n), 1.0),
             wi: wi.normalize(),
             pdf,
         })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let Some(cone) = self.cone(ctx.p) else {
-            let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
-            return self
-                .hit(ctx.p, wi)
-                .and_then(pdf)
-                .map_or(0.0, |(_, pdf)| pdf);
+        let Some(cone) = self.cone(ctx) else {
+            return self.pdf_from_inside(ctx.p, wi).unwrap_or(0.0);
         };
         let sin = cone.axis.cross(wi).length();
         if cone.axis.dot(wi) > 0.0 && sin <= cone.sin_max + DIRECTION_ERROR {
@@ -174,21 +218,10 @@ impl Shape for Sphere {
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        let [enters, leaves] = self.crossings(origin, direction)?;
         let to_center = self.center() - origin;
-        let nearest = to_center.dot(direction);
-        let offset = direction * nearest - to_center;
-        let half_chord_sq = self.radius * self.radius - offset.length_squared();
-        if !(half_chord_sq >= 0.0) {
-            return None;
-        }
-        let half_chord = safe_sqrt(half_chord_sq);
         let outside = to_center.length_squared() > self.radius * self.radius;
-        let (t, side) = if outside {
-            (nearest - half_chord, -half_chord)
-        } else {
-            (nearest + half_chord, half_chord)
-        };
-        let n = (offset + direction * side).try_normalize()?;
+        let (t, n) = if outside { enters } else { leaves };
         (t > 0.0).then(|| self.at(n))
     }
 }

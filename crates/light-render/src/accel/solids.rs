@@ -1,0 +1,120 @@
+use core::ops::Range;
+
+use lights::glam::{Vec2, Vec3};
+use lights::sources::shape::Sphere;
+
+use super::bvh_hit::BvhHit;
+use super::sphere_bvh::SphereBvh;
+use super::triangle_bvh::TriangleBvh;
+use crate::Ray;
+
+/// Triangles and spheres in the same coordinates, under the numbers of their primitives.
+#[derive(Default)]
+pub(super) struct Solids {
+    triangles: TriangleBvh,
+    spheres: SphereBvh,
+    first: Numbers,
+    count: Numbers,
+}
+
+/// A number of a triangle and a number of a sphere.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Numbers {
+    pub(super) triangle: u32,
+    pub(super) sphere: u32,
+}
+
+impl Solids {
+    /// Hierarchies over the corners of `triangles` and over `spheres`, numbered from `next` on, which counts them.
+    ///
+    /// # Panics
+    /// Panics at 2^32 primitives.
+    pub(super) fn new(triangles: &[[Vec3; 3]], spheres: &[Sphere], next: &mut Numbers) -> Self {
+        let count = |n| u32::try_from(n).expect("fewer than 2^32 primitives");
+        let count = Numbers {
+            triangle: count(triangles.len()),
+            sphere: count(spheres.len()),
+        };
+        let first = *next;
+        next.triangle += count.triangle;
+        next.sphere = next
+            .sphere
+            .checked_add(count.sphere)
+            .expect("fewer than 2^32 primitives");
+        Self {
+            triangles: TriangleBvh::new(triangles),
+            spheres: SphereBvh::new(spheres),
+            first,
+            count,
+        }
+    }
+
+    /// How many triangles and spheres there are.
+    pub(super) const fn count(&self) -> Numbers {
+        self.count
+    }
+
+    /// The numbers of all primitives.
+    pub(super) fn numbers(&self) -> [Range<u32>; 2] {
+        let Self { first, count, .. } = self;
+        [
+            first.triangle..first.triangle + count.triangle,
+            first.sphere..first.sphere + count.sphere,
+        ]
+    }
+
+    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by number and place.
+    /// The triangle `from` does not count, nor does the near side of the sphere `from`.
+    #[inline]
+    pub(super) fn closest(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        from: Option<u32>,
+        is_there: impl Fn(u32, Vec2) -> bool,
+    ) -> Option<BvhHit> {
+        let Numbers { triangle, sphere } = self.first;
+        let start = from.map(|from| from.wrapping_sub(triangle));
+        let there = |number, place| is_there(triangle + number, place);
+        let hit = self.triangles.closest(ray, t_max, start, there);
+        let hit = hit.map(|hit| BvhHit {
+            number: triangle + hit.number,
+            ..hit
+        });
+        if self.spheres.is_empty() {
+            return hit;
+        }
+        let t_max = hit.map_or(t_max, |hit| hit.t);
+        let start = from.map(|from| from.wrapping_sub(sphere));
+        let there = |number, place| is_there(sphere + number, place);
+        let nearer = self.spheres.closest(ray, t_max, start, there);
+        let nearer = nearer.map(|hit| BvhHit {
+            number: sphere + hit.number,
+            ..hit
+        });
+        nearer.or(hit)
+    }
+
+    /// Whether anything that counts is nearer than `t_max`.
+    #[inline]
+    pub(super) fn occluded(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        from: Option<u32>,
+        is_there: impl Fn(u32, Vec2) -> bool,
+    ) -> bool {
+        let Numbers { triangle, sphere } = self.first;
+        let start = from.map(|from| from.wrapping_sub(triangle));
+        let there = |number, place| is_there(triangle + number, place);
+        if self.triangles.occluded(ray, t_max, start, there) {
+            return true;
+        }
+        if self.spheres.is_empty() {
+            return false;
+        }
+        let start = from.map(|from| from.wrapping_sub(sphere));
+        let there = |number, place| is_there(sphere + number, place);
+        self.spheres.occluded(ray, t_max, start, there)
+    }
+}

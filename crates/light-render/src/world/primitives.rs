@@ -1,0 +1,143 @@
+use light_scene::Material;
+use lights::bounds::LightId;
+use lights::glam::{Vec2, Vec3};
+use lights::sources::SurfacePoint;
+
+use super::{MeshTriangle, World, WorldMesh, WorldSphere};
+use crate::{PrimitiveId, Surface};
+
+/// What is stored under the number of a primitive.
+#[derive(Clone, Copy, Debug)]
+enum Stored<'a> {
+    /// A triangle of a mesh.
+    Triangle { mesh: &'a WorldMesh, index: u32 },
+    /// A sphere.
+    Sphere(&'a WorldSphere),
+}
+
+impl World {
+    /// The point of a primitive at the given place, as [`Hit::place`](crate::Hit::place) has it.
+    ///
+    /// # Panics
+    /// Panics if there is no such primitive.
+    #[inline]
+    #[must_use]
+    pub fn surface(&self, primitive: PrimitiveId, place: Vec2) -> Surface {
+        match self.stored(primitive) {
+            Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, place),
+            Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, place),
+        }
+    }
+
+    fn on_triangle(
+        &self,
+        triangle: PrimitiveId,
+        mesh: &WorldMesh,
+        index: u32,
+        barycentric: Vec2,
+    ) -> Surface {
+        let (indices, weights) = self.spot(triangle, mesh.indices[index as usize], barycentric);
+        let (mut corners, mut normals) = (mesh.corners(indices), mesh.normals(indices));
+        let place = triangle.placement().map(|p| self.accel.place(p));
+        if let Some(place) = place {
+            // As a copy would look: corners and normals are moved before they are mixed.
+            corners = corners.map(|corner| place.point(corner));
+            normals = normals.map(|all| all.map(|n| place.normal(n).normalize_or_zero()));
+        }
+        let surface = Surface::on_triangle(triangle, corners, weights);
+        let error = place.map_or(Vec3::ZERO, |place| place.error(surface.p));
+        Surface {
+            uv: mesh.uv(indices, weights),
+            p_error: surface.p_error + error,
+            ..surface.with_normals(normals, weights)
+        }
+    }
+
+    // Kept out of the code that scenes without spheres run.
+    #[inline(never)]
+    fn on_sphere(&self, id: PrimitiveId, sphere: &WorldSphere, place: Vec2) -> Surface {
+        let at = sphere.at(place);
+        let n = sphere.front_normal(at.n);
+        let surface = Surface::on_sphere(id, &sphere.shape, &SurfacePoint { n, ..at });
+        match id.placement().map(|p| self.accel.place(p)) {
+            Some(place) => place.surface(&surface),
+            None => surface,
+        }
+    }
+
+    /// What the primitive is made of.
+    #[inline]
+    pub(super) fn material(&self, primitive: PrimitiveId) -> (usize, &Material) {
+        let id = match self.stored(primitive) {
+            Stored::Triangle { mesh, .. } => mesh.material,
+            Stored::Sphere(sphere) => sphere.material,
+        };
+        (id, &self.materials[id])
+    }
+
+    /// The texture coordinates at a place of a primitive.
+    pub(super) fn uv(&self, primitive: PrimitiveId, place: Vec2) -> Vec2 {
+        match self.stored(primitive) {
+            Stored::Triangle { mesh, index } => {
+                let (indices, weights) = self.spot(primitive, mesh.indices[index as usize], place);
+                mesh.uv(indices, weights)
+            }
+            Stored::Sphere(sphere) => sphere.at(place).uv,
+        }
+    }
+
+    /// Whether the primitive is a sphere.
+    pub(super) fn is_sphere(&self, primitive: PrimitiveId) -> bool {
+        matches!(self.stored(primitive), Stored::Sphere(_))
+    }
+
+    /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where it sends none.
+    #[inline]
+    #[must_use]
+    pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
+        let (id, n) = match self.stored(surface.primitive) {
+            Stored::Triangle { mesh, index } => {
+                let LightId(first) = mesh.first_light?;
+                (LightId(first + index), surface.n)
+            }
+            // The normals of both lie on the same side or on opposite ones.
+            Stored::Sphere(sphere) => (sphere.light?, sphere.front_normal(surface.n)),
+        };
+        let at = SurfacePoint {
+            p: surface.p,
+            n,
+            uv: surface.uv,
+        };
+        let l = self.lights.get(id)?.l(&at, wo, &());
+        (l != Vec3::ZERO).then_some((id, l))
+    }
+
+    #[inline]
+    fn stored(&self, primitive: PrimitiveId) -> Stored<'_> {
+        let number = primitive.number() as usize;
+        match self.triangles.get(number) {
+            Some(&MeshTriangle { mesh, index }) => Stored::Triangle {
+                mesh: &self.meshes[mesh as usize],
+                index,
+            },
+            None => Stored::Sphere(&self.spheres[number - self.triangles.len()]),
+        }
+    }
+
+    /// The corners of a triangle in the order in which they run counter-clockwise on its front, and the weights of the second and the
+    /// third: where a placement mirrors, these change places.
+    #[inline]
+    fn spot(
+        &self,
+        triangle: PrimitiveId,
+        [a, b, c]: [u32; 3],
+        barycentric: Vec2,
+    ) -> ([u32; 3], Vec2) {
+        match triangle.placement() {
+            Some(placement) if self.accel.place(placement).mirrors() => {
+                ([a, c, b], Vec2::new(barycentric.y, barycentric.x))
+            }
+            _ => ([a, b, c], barycentric),
+        }
+    }
+}

@@ -1,0 +1,51 @@
+use light_scene::SphereFront;
+use lights::bounds::LightId;
+use lights::glam::{Vec2, Vec3};
+use lights::math::octahedral;
+use lights::sources::SurfacePoint;
+use lights::sources::shape::{AnyShape, Sphere};
+
+use super::WorldError;
+
+/// A sphere of one material.
+#[derive(Debug)]
+pub(crate) struct WorldSphere {
+    pub(crate) shape: Sphere,
+    pub(crate) front: SphereFront,
+    pub(crate) material: usize,
+    /// Its id as a light, if it shines.
+    pub(crate) light: Option<LightId>,
+}
+
+impl WorldSphere {
+    /// The point at a place on the octahedral square, with the normal of the outside.
+    #[inline]
+    pub(super) fn at(&self, place: Vec2) -> SurfacePoint {
+        self.shape.at(octahedral::from_square(place))
+    }
+
+    /// The normal of the front, where that of the outside is `n`.
+    #[inline]
+    pub(super) fn front_normal(&self, n: Vec3) -> Vec3 {
+        match self.front {
+            SphereFront::Outside => n,
+            SphereFront::Inside => -n,
+        }
+    }
+}
+
+impl TryFrom<light_scene::Sphere> for WorldSphere {
+    type Error = WorldError;
+
+    fn try_from(sphere: light_scene::Sphere) -> Result<Self, WorldError> {
+        match sphere.shape().build() {
+            Ok(AnyShape::Sphere(shape)) => Ok(Self {
+                shape,
+                front: sphere.front,
+                material: sphere.material.0 as usize,
+                light: None,
+            }),
+            _ => Err(WorldError::Sphere { name: sphere.name }),
+        }
+    }
+}

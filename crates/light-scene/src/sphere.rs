@@ -1,0 +1,184 @@
+use core::f32::consts::{PI, TAU};
+
+use lights::math::Aabb;
+use lights::sources::shape::ShapeDesc;
+
+use crate::glam::{Affine3A, Mat3A, Vec3};
+use crate::{MaterialId, Mesh};
+
+/// A whole sphere of one material: round, not made of triangles.
+///
+/// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the axis +z of `place`, v from the
+/// lower pole to the upper.
+///
+/// One that shines is one light, which is found best where no light passes its surface: what a sphere with holes or of
+/// [`Surface::Interface`](crate::Surface::Interface) gives off at its inside is asked for at the nearer side alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    /// The name in the file; may be empty.
+    pub name: String,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// From the unit sphere around the origin to the scene: a turn, mirrored or not, with one scale in all directions.
+    pub place: Affine3A,
+    /// Which side is the front, on which a one-sided emitter shines.
+    pub front: SphereFront,
+}
+
+/// The front of a sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SphereFront {
+    /// Its outside.
+    #[default]
+    Outside,
+    /// Its inside.
+    Inside,
+}
+
+impl Sphere {
+    /// The unit sphere as `place` moves it, seen from outside.
+    #[must_use]
+    pub fn new(name: impl Into<String>, material: MaterialId, place: Affine3A) -> Self {
+        Self {
+            name: name.into(),
+            material,
+            place,
+            front: SphereFront::Outside,
+        }
+    }
+
+    /// The centre.
+    #[must_use]
+    pub fn center(&self) -> Vec3 {
+        self.place.translation.into()
+    }
+
+    /// The radius, in scene units.
+    #[must_use]
+    pub fn radius(&self) -> f32 {
+        self.place.matrix3.z_axis.length()
+    }
+
+    /// The area, in scene units squared.
+    #[must_use]
+    pub fn area(&self) -> f32 {
+        4.0 * PI * self.radius() * self.radius()
+    }
+
+    /// The box around it.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        Aabb {
+            min: self.center() - self.radius(),
+            max: self.center() + self.radius(),
+        }
+    }
+
+    /// The shape of a light with this surface; it makes no sense where `place` does not keep angles.
+    #[must_use]
+    pub fn shape(&self) -> ShapeDesc {
+        let Affine3A {
+            matrix3:
+                Mat3A {
+                    x_axis,
+                    y_axis,
+                    z_axis,
+                },
+            translation,
+        } = self.place;
+        let radius = self.radius();
+        let axes = [x_axis, y_axis, z_axis].map(|axis| axis / radius);
+        ShapeDesc::Sphere {
+            transform: Affine3A {
+                matrix3: Mat3A::from_cols(axes[0], axes[1], axes[2]),
+                translation,
+            },
+            radius,
+        }
+    }
+
+    /// The sphere moved by `place`, its front as it was; `None` where it would be none.
+    #[must_use]
+    pub fn transformed(&self, place: &Affine3A) -> Option<Self> {
+        let moved = Self {
+            place: *place * self.place,
+            ..self.clone()
+        };
+        moved.shape().build().is_ok().then_some(moved)
+    }
+
+    /// Triangles in its place: `columns` around, and half as many rows.
+    #[must_use]
+    pub fn mesh(&self, columns: u16) -> Mesh {
+        let unit = Mesh::grid([columns, columns / 2], |u, v| {
+            let ((sin_phi, cos_phi), (sin, cos)) = ((u * TAU).sin_cos(), (v * PI).sin_cos());
+            let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
+            (normal, normal)
+        });
+        let mut mesh = unit.transformed(&self.place);
+        mesh.drop_empty_triangles();
+        if self.front == SphereFront::Inside {
+            mesh.turn_over();
+        }
+        mesh.name.clone_from(&self.name);
+        mesh.material = self.material;
+        mesh
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sphere() -> Sphere {
+        let turn = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 2.0) / 3.0, 0.8);
+        let scale = Affine3A::from_scale(Vec3::splat(2.0));
+        let place = Affine3A::from_translation(Vec3::new(5.0, 0.0, -1.0)) * turn * scale;
+        Sphere::new("ball", MaterialId(0), place)
+    }
+
+    #[test]
+    fn it_is_where_its_triangles_are() {
+        let sphere = sphere();
+        assert!((sphere.radius() - 2.0).abs() < 1e-6, "scaled");
+        let mesh = sphere.mesh(128);
+        for p in &mesh.positions {
+            let distance = p.distance(sphere.center());
+            assert!((distance - 2.0).abs() < 1e-5, "{p} lies on it");
+        }
+        assert!((mesh.area() / sphere.area() - 1.0).abs() < 2e-3, "area");
+        let bounds = mesh.bounds();
+        let off =
+            (bounds.min - sphere.bounds().min).abs() + (bounds.max - sphere.bounds().max).abs();
+        assert!(off.max_element() < 2e-2, "box");
+    }
+
+    #[test]
+    fn it_stays_a_sphere_only_in_places_that_keep_angles() {
+        let sphere = sphere();
+        let mirrored = Affine3A::from_scale(Vec3::new(3.0, 3.0, -3.0));
+        let moved = sphere.transformed(&mirrored).expect("a sphere");
+        assert!((moved.radius() - 6.0).abs() < 1e-5, "three times as large");
+        assert_eq!(moved.center(), Vec3::new(15.0, 0.0, 3.0), "mirrored");
+        let squeezed = Affine3A::from_scale(Vec3::new(1.0, 1.01, 1.0));
+        let flat = Affine3A::from_scale(Vec3::ZERO);
+        let nowhere = Affine3A::from_translation(Vec3::NAN);
+        for bad in [squeezed, flat, nowhere] {
+            assert_eq!(sphere.transformed(&bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn its_triangles_have_its_front() {
+        for (front, sign) in [(SphereFront::Outside, 1.0), (SphereFront::Inside, -1.0)] {
+            let mesh = Sphere { front, ..sphere() }.mesh(16);
+            let volumes = (0..mesh.indices.len()).map(|index| {
+                let [a, b, c] = mesh.triangle(index);
+                (b - a).cross(c - a).dot(a - sphere().center()) / 6.0
+            });
+            let volume = sign * volumes.sum::<f32>();
+            let exact = 4.0 / 3.0 * PI * 8.0;
+            assert!((volume / exact - 1.0).abs() < 0.1, "{front:?}: {volume}");
+        }
+    }
+}
