@@ -3,8 +3,9 @@
 #![cfg(all(feature = "libm", feature = "alloc"))]
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
-use light_bvh::light_bounds::{LightBounds, LightExtent, LightSampleContext};
+use light_bvh::light_bounds::{Gloss, LightBounds, LightExtent, LightSampleContext, ReceiverSides};
 use light_bvh::reference::ReferenceLightBvh;
+use light_bvh::{CutDetail, LightBvh, LightCut};
 
 /// Spots and boxes on a spiral, made of operations that every platform rounds alike.
 fn lights() -> Vec<LightExtent> {
@@ -45,4 +46,55 @@ fn reference_tree() {
     });
     let pinned = [(35, 0x3c8d_c8dd), (61, 0x3cf4_2f43)];
     assert_eq!(emitted, pinned, "without a context");
+}
+
+#[test]
+fn default_tree() {
+    let tree = LightBvh::build(&lights()).expect("valid lights");
+    let p = Vec3::new(3.0, 2.0, -1.0);
+    let surface = LightSampleContext::surface(p, Vec3::Z, Vec3::Z);
+    let glossy = LightSampleContext {
+        gloss: Some(Gloss {
+            wo: Vec3::new(0.6, 0.0, 0.8),
+            alpha: 0.25,
+            diffuse: 0.5,
+        }),
+        ..surface
+    };
+    let receivers = [
+        surface,
+        glossy,
+        LightSampleContext {
+            sides: ReceiverSides::Both,
+            ..surface
+        },
+        LightSampleContext::medium(p),
+        LightSampleContext::segment(p, Vec3::new(8.0, -1.0, 4.0)),
+    ];
+    let chosen = receivers.map(|ctx| {
+        [0.125, 0.75].map(|u| {
+            let sample = tree.sample(&ctx, u).expect("lit");
+            (sample.light.0, sample.pmf.to_bits())
+        })
+    });
+    let pinned = [
+        [(4, 0x3e17_4517), (24, 0x3bb3_1971)],
+        [(4, 0x3e6e_b69c), (14, 0x3ce0_2c6f)],
+        [(4, 0x3e19_5d69), (20, 0x3d5d_7026)],
+        [(4, 0x3de6_be0c), (31, 0x3c15_a617)],
+        [(22, 0x3c60_d6b8), (38, 0x3db2_0293)],
+    ];
+    assert_eq!(
+        chosen, pinned,
+        "surface, glossy, two-sided, medium, segment"
+    );
+
+    let view = tree.view();
+    let cut = LightCut::at(&view, &surface, CutDetail::default());
+    let chosen = [0.125, 0.75].map(|u| {
+        let sample = cut.sample_at(&view, &surface, 1.0, u).expect("lit");
+        (sample.light.0, sample.pmf.to_bits())
+    });
+    let pinned = [(8, 0x3ded_1400), (16, 0x3dd2_699c)];
+    assert_eq!(chosen, pinned, "from a cut");
 }

@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use super::lane::Lane;
+use super::lane::{Lane, dist_sq};
 
 /// Coordinates are clamped to this on either side, so that no difference of two overflows.
 pub(crate) const FAR: f32 = 1e36;
@@ -15,7 +15,7 @@ const ANYTHING: f32 = 1e12;
 /// How much of the squared support of a child counts as variance of its height over the horizon, how much of the variance of its emission
 /// by position and by spread, and how much of its squared extent as variance of its distance. Chosen by V: see the crate's first page.
 const HEIGHT: f32 = 0.225;
-const RAMP_BY_POSITION: f32 = 0.03;
+const RAMP_BY_POSITION: f32 = 0.015;
 const RAMP_BY_SPREAD: f32 = 0.35;
 pub(crate) const DISTANCE: f32 = 0.03;
 
@@ -226,17 +226,18 @@ impl Lane {
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
         let beyond = mx * vx + my * vy + mz * vz + (self.offset - EMISSION_SLACK) * self.dist;
-        // From any point of the box it differs by less than the largest axis and offset times the widths of the box.
-        beyond < 255.0 * (hx + hy + hz) + ANYTHING * self.spread
+        // From any point of the box it differs by less than the largest axis and offset, 127 each, times the widths of the box; and the mean
+        // distance by a fifth of these.
+        beyond < 280.0 * (hx + hy + hz) + ANYTHING * self.spread
     }
 
     /// The same child from a place `offset` away from the receiver's position.
     #[inline(always)]
     pub(crate) fn seen_from(&self, offset: Vec3) -> Self {
-        let mean = Vec3::from(self.mean) - offset;
-        let dist_sq = mean.length_squared() + self.slack * self.slack;
+        let mean = (Vec3::from(self.mean) - offset).to_array();
+        let dist_sq = dist_sq(mean, self.extent, self.slack * self.slack);
         Self {
-            mean: mean.to_array(),
+            mean,
             dist_sq,
             dist: float::sqrt(dist_sq),
             ..*self
@@ -255,15 +256,13 @@ impl Lane {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
-        let extent = hx + hy + hz;
-        // The squared distance and its root, one over each, as they are on average over the box.
-        let inv_dist_sq = 1.0 / (self.dist_sq + DISTANCE * (extent * extent));
-        let inv_dist = self.dist * inv_dist_sq;
-        let beyond = (mx * vx + my * vy + mz * vz) * inv_dist + self.offset;
+        // All of the emission times the distance, which is not divided by before the end.
+        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist;
         let (gx, gy, gz) = (mx * hx, my * hy, mz * hz);
-        let variance = (RAMP_BY_POSITION * inv_dist_sq) * (gx * gx + gy * gy + gz * gz)
-            + RAMP_BY_SPREAD * (self.spread * self.spread + 1.0);
+        let variance = RAMP_BY_POSITION * (gx * gx + gy * gy + gz * gz)
+            + RAMP_BY_SPREAD * (self.spread * self.spread + 1.0) * self.dist_sq;
         let ramp = float::sqrt(beyond * beyond + variance) - masked(beyond, !self.both_sides);
-        (self.power * (ramp * inv_dist)) * (height * inv_dist_sq)
+        let inv_dist_sq = 1.0 / self.dist_sq;
+        ((self.power * inv_dist_sq) * (height * inv_dist_sq)) * ramp
     }
 }

@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use super::importance::Receiver;
+use super::importance::{DISTANCE, Receiver};
 use super::node::{BOTH_SIDES, WideNode, decode_power};
 
 /// Round-off of a position, as a share of its distance and of the width of a node.
@@ -16,11 +16,11 @@ pub struct Lane {
     pub mean: [f32; 3],
     /// Half extents of a box about that position that holds all emitting points.
     pub extent: [f32; 3],
-    /// Length of `mean`, kept above 0.
+    /// About the root mean square distance of the emitting points, above 0 and not below the length of `mean`.
     pub dist: f32,
     /// Its square.
     pub dist_sq: f32,
-    /// Round-off that `mean` and `dist` may have: what a sound test has to leave.
+    /// Round-off that `mean` may have: what a sound test has to leave.
     pub slack: f32,
     /// Mean emission axis, no component of which is above 127.
     pub axis: [f32; 3],
@@ -76,18 +76,17 @@ impl Frame {
             origin.y + code * f32::from(node.mean[1][k]),
             origin.z + code * f32::from(node.mean[2][k]),
         ];
-        // A light at the point itself is taken to be a hundredth of a code away.
-        let least_sq = 1e-4 * code * code;
-        let dist_sq = mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2] + least_sq;
+        let extent = [
+            code * f32::from(node.extent[0][k]),
+            code * f32::from(node.extent[1][k]),
+            code * f32::from(node.extent[2][k]),
+        ];
+        let dist_sq = dist_sq(mean, extent, 1e-4 * code * code);
         let dist = float::sqrt(dist_sq);
         let both_sides = node.offset[k] == BOTH_SIDES;
         Lane {
             mean,
-            extent: [
-                code * f32::from(node.extent[0][k]),
-                code * f32::from(node.extent[1][k]),
-                code * f32::from(node.extent[2][k]),
-            ],
+            extent,
             dist,
             dist_sq,
             slack: ROUND_OFF * dist + ROUND_OFF * 256.0 * code,
@@ -106,6 +105,14 @@ impl Frame {
             power: decode_power(node.power[k]),
         }
     }
+}
+
+/// The mean squared distance of a box about `mean`, and a little more.
+#[inline(always)]
+pub(super) fn dist_sq(mean: [f32; 3], extent: [f32; 3], more: f32) -> f32 {
+    let [x, y, z] = mean;
+    let width = extent[0] + extent[1] + extent[2];
+    (x * x + y * y) + (z * z + (DISTANCE * (width * width) + more))
 }
 
 /// One over the largest power of two that is not above `x`, which is below 2^127.

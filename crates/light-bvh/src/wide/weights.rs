@@ -2,9 +2,9 @@ use super::importance::Receiver;
 use super::lane::{Frame, Lane};
 use super::node::{WIDTH, WideNode};
 
-/// The least sum of weights in codes of which each has its full precision: a child's power, height and emission leave it some 10^18 times
-/// smaller at worst, which a float still holds.
-const LEAST_TOTAL: f32 = 1e-16;
+/// The least sum of weights in codes that is trusted. A child's weight may be 10^18 times smaller than the largest, and what it is the
+/// product of 10^27 times, which a float still holds.
+const LEAST_TOTAL: f32 = 1e-10;
 
 /// What the children of a node are worth to a receiver.
 #[derive(Clone, Copy, Debug)]
