@@ -26,6 +26,7 @@ mod pbrt;
 mod placement;
 mod scene;
 mod scene_file;
+mod shining_copies;
 mod sphere;
 #[cfg(test)]
 mod test_folder;
@@ -50,5 +51,6 @@ pub use pbrt::{parse_ply, read_pbrt};
 pub use placement::{Placement, Prototype, PrototypeId};
 pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
+pub use shining_copies::MOST_SHINING_COPIES;
 pub use sphere::{Sphere, SphereFront};
 pub use write_whole::write_whole;

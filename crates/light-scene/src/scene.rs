@@ -131,6 +131,16 @@ impl Scene {
         self.material(material).emission.is_some()
     }
 
+    /// How many triangles and spheres of an object emit light.
+    pub(crate) fn shining_count(&self, prototype: &Prototype) -> usize {
+        let Prototype {
+            meshes, spheres, ..
+        } = prototype;
+        let meshes = meshes.iter().filter(|mesh| self.shines(mesh.material));
+        let spheres = spheres.iter().filter(|s| self.shines(s.material));
+        meshes.map(|mesh| mesh.indices.len()).sum::<usize>() + spheres.count()
+    }
+
     /// The triangles of the meshes that `counts`, as often as they are to be seen.
     fn count(&self, counts: impl Fn(&Mesh) -> bool) -> usize {
         let of = |meshes: &[Mesh]| -> usize {

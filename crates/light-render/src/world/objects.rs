@@ -1,14 +1,11 @@
 use light_scene::glam::Affine3A;
-use light_scene::{Mesh, Placement, Prototype, Scene, Sphere};
+use light_scene::{MOST_SHINING_COPIES, Mesh, Placement, Prototype, Scene, Sphere};
 
 use super::WorldError;
 use crate::Place;
 
 /// Objects of no more triangles and spheres are copied: those take no more memory than a placement does, and rays find them sooner.
 const FEW: usize = 2;
-
-/// Triangles and spheres of shining objects that may be copied, about 8 GB of triangles.
-const MOST_COPIES: usize = 1 << 25;
 
 /// Columns around a sphere that shines and that a place stretches, which no light is.
 const COLUMNS: u16 = 64;
@@ -44,7 +41,7 @@ impl Objects {
         }
         let prototypes = core::mem::take(&mut scene.prototypes);
         let mut objects = Self::default();
-        let mut left = MOST_COPIES;
+        let mut left = MOST_SHINING_COPIES;
         for (prototype, places) in prototypes.into_iter().zip(places) {
             let name = prototype.name.clone();
             let (mut copied, mut placed) = Part::shining_and_dark(prototype, scene);
@@ -53,7 +50,7 @@ impl Objects {
                 .checked_sub(shining)
                 .ok_or_else(|| WorldError::Copies {
                     name: name.clone(),
-                    most: MOST_COPIES,
+                    most: MOST_SHINING_COPIES,
                 })?;
             let is_small = places.len() < 2 || placed.count() <= FEW;
             if is_small && placed.stays_round(&places) {

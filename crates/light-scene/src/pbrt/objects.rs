@@ -2,6 +2,7 @@ use std::collections::HashMap;
 
 use super::state::{At, Reader, State};
 use crate::glam::Affine3A;
+use crate::shining_copies::ShiningCopies;
 use crate::text::shown;
 use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId, Sphere};
 
@@ -10,6 +11,7 @@ use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId, Sphere};
 pub(super) struct Objects {
     by_name: HashMap<String, PrototypeId>,
     slots: Vec<ObjectSlot>,
+    copies: ShiningCopies,
     /// The one that is being described.
     open: Option<OpenObject>,
 }
@@ -19,6 +21,10 @@ struct ObjectSlot {
     /// What to say if nobody describes it.
     unknown: Diagnostic,
     prototype: Option<Prototype>,
+    /// How many triangles and spheres of it shine, once it is described.
+    shining: usize,
+    /// How often it was placed before that.
+    places: usize,
 }
 
 /// An object between `ObjectBegin` and `ObjectEnd`.
@@ -43,6 +49,8 @@ impl Objects {
         self.slots.push(ObjectSlot {
             unknown: at.diagnostic(message),
             prototype: None,
+            shining: 0,
+            places: 0,
         });
         PrototypeId(id)
     }
@@ -75,7 +83,12 @@ impl Reader {
         if self.saved.len() > open.depth {
             return Err(at.unmatched("AttributeEnd"));
         }
-        self.objects.slots[open.id.0 as usize].prototype = Some(open.prototype);
+        let slot = &mut self.objects.slots[open.id.0 as usize];
+        slot.shining = self.scene.shining_count(&open.prototype);
+        slot.prototype = Some(open.prototype);
+        let (shining, places) = (slot.shining, slot.places);
+        let copies = self.objects.copies.add(shining, places);
+        copies.map_err(|message| at.diagnostic(message))?;
         self.state = self
             .saved
             .pop()
@@ -89,6 +102,11 @@ impl Reader {
             return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));
         }
         let prototype = self.objects.id(at, name);
+        let slot = &mut self.objects.slots[prototype.0 as usize];
+        slot.places += 1;
+        let shining = slot.shining;
+        let copies = self.objects.copies.add(shining, 1);
+        copies.map_err(|message| at.diagnostic(message))?;
         let place = Affine3A::from_mat4(self.state.transform);
         self.scene.placements.push(Placement { prototype, place });
         Ok(())

@@ -1,4 +1,5 @@
 use super::tests::read;
+use crate::MOST_SHINING_COPIES;
 use crate::glam::{Affine3A, Vec3};
 
 const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]";
@@ -81,4 +82,32 @@ fn misplaced_objects_give_one_clear_line() {
         let error = read("pbrt_objects", text).expect_err(text);
         assert_eq!(error, expected, "{text}");
     }
+}
+
+#[test]
+fn too_many_copies_of_what_shines_are_refused_where_they_are_placed() {
+    let object = "WorldBegin ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]
+        Shape \"sphere\" \"float zmax\" .5 ObjectEnd\n";
+    let place = "ObjectInstance \"lamp\"\n";
+    let one = read("pbrt_lamp", &format!("{object}{place}")).expect("a scene");
+    let most = MOST_SHINING_COPIES / one.emissive_triangle_count();
+    let scene = read("pbrt_lamps", &format!("{object}{}", place.repeat(most)));
+    assert_eq!(
+        scene.expect("a scene").placements.len(),
+        most,
+        "as many as may be"
+    );
+
+    let error = read("pbrt_lamps", &format!("{object}{}", place.repeat(most + 9)));
+    let error = error.expect_err("too many").to_string();
+    let line = format!("a.pbrt:{}: expected at most 33554432 triangles", most + 3);
+    assert!(error.contains(&line), "{error}");
+    // Described after it was placed.
+    let error = read(
+        "pbrt_lamps",
+        &format!("WorldBegin {}{}", place.repeat(most + 1), &object[10..]),
+    );
+    let error = error.expect_err("too many").to_string();
+    let line = format!("a.pbrt:{}: expected at most", most + 3);
+    assert!(error.contains(&line), "{error}");
 }
