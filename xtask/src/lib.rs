@@ -29,7 +29,8 @@ usage: cargo xtask [COMMAND]
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
-  bench --table [N...]        measure light hierarchies for the first page of light-bvh (sets of N lights only: print those)
+  bench --table [TABLE...]    measure light hierarchies for the first page of light-bvh: hierarchies, receivers, adversarial, drift
+                              (numbers instead: print the first of sets of so many lights)
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for the first page of light-media
@@ -49,8 +50,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
     match (command.as_str(), rest) {
         ("ci", []) => all(ci::add_steps),
         ("no-std", []) => all(no_std::add_steps),
-        ("bench", [flag, sizes @ ..]) if flag == "--table" => {
-            one("bench --table", || bench_table::bench_table(sizes))
+        ("bench", [flag, names @ ..]) if flag == "--table" => {
+            one("bench --table", || bench_table::bench_table(names))
         }
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
