@@ -20,11 +20,22 @@ struct Part {
     max: Vec2,
 }
 
-/// Rows and columns of the points at which a shape looks at its texture.
+/// Most rows and columns of the points at which a shape looks at its texture.
 const POINTS: u16 = 8;
 
 /// As many where all of them see the same few texels.
 const FEW_POINTS: u16 = 3;
+
+/// Rows and columns of points that are less than a texel apart on a part so many texels wide, if there are enough of them.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to what there is"
+)]
+fn points_for(texels: f32) -> u16 {
+    // NaN, of a mapping to nowhere, becomes the least.
+    (texels + 2.0).clamp(f32::from(FEW_POINTS), f32::from(POINTS)) as u16
+}
 
 impl TextureMeans {
     pub(crate) fn new(image: Image) -> Self {
@@ -57,8 +68,7 @@ impl TextureMeans {
     /// The shape's surface parameters at points spread over its area say how much of the texture it covers, and so which
     /// texels are as large as the points are apart.
     pub(crate) fn over(&self, shape: &impl Shape, mapping: &TextureMapping) -> Vec3 {
-        let fits_in_texel = Part::of(shape, mapping).fits_in_texel(self.image());
-        let points = if fits_in_texel { FEW_POINTS } else { POINTS };
+        let points = points_for(Part::of(shape, mapping).texels(self.image()));
         let mut places = [(Vec2::ZERO, 0.0); (POINTS * POINTS) as usize];
         let (mut min, mut max) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
         for (i, place) in (0..points * points).zip(&mut places) {
@@ -73,7 +83,7 @@ impl TextureMeans {
         // From the first to the last point it is one step less than there are points.
         let level = self.level_of((max - min) / f32::from(points - 1));
         let (mut sum, mut total) = (Vec3::ZERO, 0.0);
-        for (at, weight) in places {
+        for (at, weight) in places.into_iter().take((points * points).into()) {
             if weight > 0.0 {
                 sum += level.bilinear_wrapped(at, mapping.wrap) * weight;
                 total += weight;
@@ -138,8 +148,12 @@ impl Part {
 
     /// Whether a texel of the image is as wide and as high.
     fn fits_in_texel(&self, image: &Image) -> bool {
-        let texels = (self.max - self.min) * image.extent();
-        texels.max_element() <= 1.0
+        self.texels(image) <= 1.0
+    }
+
+    /// How many texels of the image it is wide or high, whichever is more.
+    fn texels(&self, image: &Image) -> f32 {
+        ((self.max - self.min) * image.extent()).max_element()
     }
 }
 
