@@ -1,0 +1,108 @@
+use super::*;
+use crate::amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
+use crate::desc::LightDesc;
+use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+use crate::distant::DistantLightDesc;
+use crate::glam::Vec3;
+use crate::kind::LightType;
+use crate::light_set_builder::LightSetBuilder;
+use crate::media::MediumInterface;
+use crate::mesh::MeshLightDesc;
+use crate::point::PointLightDesc;
+use crate::rgb::Rgb;
+use crate::scene_sphere::SceneSphere;
+
+fn point(intensity: f32) -> LightDesc<Rgb> {
+    LightDesc::Point(PointLightDesc {
+        position: Vec3::ZERO,
+        emission: Vec3::ONE,
+        amount: IntensityAmount::Radiometric(intensity),
+        media: MediumInterface::default(),
+    })
+}
+
+fn sun() -> LightDesc<Rgb> {
+    LightDesc::Distant(DistantLightDesc {
+        direction: Vec3::Z,
+        emission: Vec3::ONE,
+        amount: IrradianceAmount::Radiometric(1.0),
+    })
+}
+
+/// `triangles` right-angled triangles of area 0.5 that lie in the plane z = 1.
+fn mesh(triangles: usize, radiance: f32) -> LightDesc<Rgb> {
+    LightDesc::Mesh(MeshLightDesc {
+        positions: [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y].into(),
+        indices: alloc::vec![[0, 1, 2]; triangles].into(),
+        uvs: None,
+        emission: DiffuseEmissionDesc::new(
+            SurfaceColor::Uniform(Vec3::ONE),
+            RadianceAmount::Radiometric(radiance),
+        ),
+    })
+}
+
+fn set(descs: &[LightDesc<Rgb>]) -> (LightSet<Rgb>, Vec<SourceId>) {
+    let Ok(scene) = SceneSphere::new(Vec3::ZERO, 2.0) else {
+        unreachable!("a sphere")
+    };
+    let mut builder = LightSetBuilder::new(scene);
+    let sources = descs
+        .iter()
+        .filter_map(|desc| builder.add(desc.clone()).ok());
+    let sources = sources.collect();
+    (builder.build(), sources)
+}
+
+#[test]
+fn ids_run_by_kind_and_sources_know_theirs() {
+    let (set, sources) = set(&[
+        sun(),
+        mesh(2, 1.0),
+        point(1.0),
+        mesh(0, 1.0),
+        mesh(3, 2.0),
+        point(2.0),
+    ]);
+    let firsts: Vec<_> = sources.iter().filter_map(|&s| set.first_id(s)).collect();
+    assert_eq!(
+        firsts,
+        [7, 2, 0, 4, 4, 1].map(LightId),
+        "points, triangles, infinite"
+    );
+    assert_eq!(set.len(), 8, "all");
+    assert!(set.infinite_ids().eq([LightId(7)]), "the sun");
+    let types: Vec<_> = set.iter().map(|(_, light)| light.light_type()).collect();
+    let area = LightType::Area;
+    let (position, direction) = (LightType::DeltaPosition, LightType::DeltaDirection);
+    assert_eq!(
+        types,
+        [position, position, area, area, area, area, area, direction],
+        "kinds"
+    );
+    assert!(set.get(LightId(8)).is_none(), "unknown");
+    assert!(set.first_id(SourceId(6)).is_none(), "unknown");
+}
+
+#[test]
+fn powers_and_extents_are_those_of_the_lights() {
+    let (set, _) = set(&[point(1.0), mesh(1, 3.0), sun()]);
+    let powers = set.powers();
+    let expected = [4.0, 1.5, 4.0].map(|x| x * core::f32::consts::PI);
+    for (power, expected) in powers.iter().zip(expected) {
+        assert!(
+            (power - expected).abs() < 1e-5,
+            "{power}, expected {expected}"
+        );
+    }
+    let extents = set.extents();
+    assert_eq!(extents.len(), 3, "one each");
+    assert!(
+        extents.iter().all(|extent| match extent {
+            LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) =>
+                bounds.validate().is_ok(),
+            LightExtent::Infinite(bounds) => bounds.validate().is_ok(),
+        }),
+        "valid"
+    );
+}
