@@ -19,7 +19,7 @@ const SPP: u32 = 8;
 const REFERENCE_SPP: u32 = 32;
 
 /// What is compared: first the ones that the default is measured against.
-const ROWS: [(SamplerKind, u32); 9] = [
+const ROWS: [(SamplerKind, u32); 10] = [
     (SamplerKind::Uniform, 4),
     (SamplerKind::Power, 4),
     (SamplerKind::BvhReference, 1),
@@ -27,6 +27,7 @@ const ROWS: [(SamplerKind, u32); 9] = [
     (SamplerKind::BvhReference, 8),
     (SamplerKind::BvhReference, 16),
     (SamplerKind::Bvh, 1),
+    (SamplerKind::Bvh, 2),
     (SamplerKind::Bvh, 4),
     (SamplerKind::Bvh, 16),
 ];

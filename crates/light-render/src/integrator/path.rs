@@ -26,7 +26,7 @@ impl PathSettings {
     /// How many lights are chosen at the first diffuse vertex, unless told otherwise.
     ///
     /// More would cost more than they gain: what is left of the noise is shadows.
-    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
+    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(2).unwrap();
 
     /// How many lights the first vertex chooses in `world`: more choices than lights repeat themselves.
     pub(super) fn first_choices(&self, world: &World) -> u32 {

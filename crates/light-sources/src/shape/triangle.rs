@@ -82,7 +82,21 @@ impl Triangle {
 
     /// The triangle on the sphere of directions around `p`; `None` where it is so small that area does.
     fn seen_from(&self, p: Vec3) -> Option<SphericalTriangle> {
+        if self.is_far_from(p) {
+            return None;
+        }
         SphericalTriangle::new(self.p, p).filter(|seen| seen.solid_angle() > SMALL)
+    }
+
+    /// Whether [`SMALL`] is more than the triangle can cover, by little arithmetic: most lamps are, from most points.
+    ///
+    /// With two edges of at most `e` and a corner between them at distance `d`, it covers at most `e^2 / 2` over `(d - e)^2`.
+    fn is_far_from(&self, p: Vec3) -> bool {
+        /// The square of `d / e`, of which `1 / (2 SMALL)` is that of `d / e - 1`, and a hundredth for rounding.
+        const FAR: f32 = 1770.0;
+        let [a, b, c] = self.p;
+        let edge_sq = (b - a).length_squared().max((c - a).length_squared());
+        (p - a).length_squared() > FAR * edge_sq
     }
 
     /// The square of a [`SphericalTriangle`] has the second vertex all along its lower side.
@@ -188,3 +202,31 @@ impl fmt::Display for TriangleError {
 }
 
 impl Error for TriangleError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_math::solid_angle;
+
+    #[test]
+    fn what_is_far_looks_small_from_every_side() {
+        let uv = Triangle::DEFAULT_UV;
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        for corners in [corners, [corners[1], corners[0], corners[2]]] {
+            let triangle = Triangle::new(corners, uv).expect("a triangle");
+            let mut far = 0;
+            for i in 0..64u8 {
+                let (turn, tilt) = (f32::from(i % 8), f32::from(i / 8));
+                let (sin, cos) = (0.8 * turn).sin_cos();
+                let toward = Vec3::new(cos, sin, 0.3 * tilt).normalize();
+                let distances = (20..80u8).map(|d| toward * f32::from(d));
+                for p in distances.filter(|&p| triangle.is_far_from(p)) {
+                    far += 1;
+                    let omega = solid_angle::triangle(corners, p);
+                    assert!(omega <= SMALL, "{omega} from {p}");
+                }
+            }
+            assert!(far > 1000, "most of the farther half: {far}");
+        }
+    }
+}
