@@ -210,8 +210,8 @@ impl LightSampler for AnyLightSampler {
     }
 
     #[inline]
-    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        for_each_kind!(self, sampler => sampler.pmf_many(ctx, light))
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
+        for_each_kind!(self, sampler => sampler.pmf_many(ctx, light, count))
     }
 }
 

@@ -3,7 +3,11 @@ use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::LightSampler;
 use crate::bvh_cut::BvhLightCut;
+use crate::light_sampler::stratum;
 use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
+
+/// Choices of one call from which on it pays to look at all lights more closely first.
+const FEWEST_OF_CUT: u32 = 2;
 
 /// The default: chooses about in proportion to the irradiance that each light would give without occlusion.
 ///
@@ -105,12 +109,21 @@ impl LightSampler for BvhLightSampler {
         count: u32,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        self.cut(ctx, CutDetail::default())
-            .sample_many(u, count, each);
+        if count < FEWEST_OF_CUT {
+            let choices = (0..count).filter_map(|i| self.sample(ctx, stratum(i, count, u)));
+            choices.for_each(each);
+        } else {
+            self.cut(ctx, CutDetail::default())
+                .sample_many(u, count, each);
+        }
     }
 
-    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.cut(ctx, CutDetail::default()).pmf(light)
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
+        if count < FEWEST_OF_CUT {
+            self.pmf(ctx, light)
+        } else {
+            self.cut(ctx, CutDetail::default()).pmf(light)
+        }
     }
 }
 

@@ -26,7 +26,7 @@ pub trait LightSampler {
     /// within its part.
     ///
     /// A sampler may look at the lights more closely for several choices than for one. Their probabilities are those of
-    /// [`pmf_many`](Self::pmf_many) then.
+    /// [`pmf_many`](Self::pmf_many) for the same `count` then.
     fn sample_many(
         &self,
         ctx: &LightSampleContext,
@@ -41,8 +41,9 @@ pub trait LightSampler {
         }
     }
 
-    /// Probability that one of the choices of [`sample_many`](Self::sample_many) at `ctx` is `light`.
-    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+    /// Probability that one of the `count` choices of [`sample_many`](Self::sample_many) at `ctx` is `light`, on average over them.
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
+        let _ = count;
         self.pmf(ctx, light)
     }
 }
@@ -85,7 +86,7 @@ impl<S: LightSampler + ?Sized> LightSampler for &S {
     }
 
     #[inline]
-    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        (**self).pmf_many(ctx, light)
+    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
+        (**self).pmf_many(ctx, light, count)
     }
 }

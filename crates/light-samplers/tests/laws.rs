@@ -1,6 +1,6 @@
 //! Every sampler of this crate keeps the laws of light samplers.
 
-use light_bvh::LightBvhOptions;
+use light_bvh::{CutDetail, LightBvhOptions};
 use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
@@ -83,7 +83,7 @@ light_testkit::sampler_laws! {
 
     /// The default hierarchy as it chooses several lights at once.
     mod bvh_cut {
-        |set| OfMany(BvhLightSampler::new(&set.extents()).expect("valid bounds"))
+        |set| OfCut(BvhLightSampler::new(&set.extents()).expect("valid bounds"))
     }
 }
 
@@ -98,18 +98,16 @@ fn exchanged(set: &LightSet) -> Vec<LightExtent> {
     extents.iter().map(other).collect()
 }
 
-/// One of several choices.
-struct OfMany<S>(S);
+/// Choices from a closer look.
+struct OfCut(BvhLightSampler);
 
-impl<S: LightSampler> LightSampler for OfMany<S> {
+impl LightSampler for OfCut {
     fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        let mut sample = None;
-        self.0.sample_many(ctx, u, 1, &mut |s| sample = Some(s));
-        sample
+        self.0.cut(ctx, CutDetail::default()).sample(u)
     }
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.0.pmf_many(ctx, light)
+        self.0.cut(ctx, CutDetail::default()).pmf(light)
     }
 
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {

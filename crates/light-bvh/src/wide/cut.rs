@@ -5,7 +5,7 @@ use super::node::{NOWHERE, WIDTH};
 use super::query::{Oneself, Query};
 use super::select::{both, low, pick, share};
 use super::tree::{LightBvhRef, MAX_DEPTH};
-use super::vectors::answer;
+use super::vectors::{answer, prefetch};
 use super::weights::Weights;
 
 /// Nodes that a cut may hold.
@@ -24,7 +24,7 @@ pub struct CutDetail {
 
 impl Default for CutDetail {
     fn default() -> Self {
-        Self { threshold: 0.01 }
+        Self { threshold: 0.02 }
     }
 }
 
@@ -34,8 +34,8 @@ impl Default for CutDetail {
 /// for the same receiver, each by a part of one stratified `u`. At most 48 nodes, about 1.8 KB.
 #[derive(Clone, Copy, Debug)]
 pub struct LightCut {
-    /// The nodes that are in the cut, each with the weights of those children that are not.
-    nodes: [u32; MAX_NODES],
+    /// The nodes that are in the cut, each with the weights of those children that are not; and one place more than they may fill.
+    nodes: [u32; MAX_NODES + 1],
     weights: [[f32; WIDTH]; MAX_NODES],
     /// Sums of the weights of all nodes up to each.
     ends: [f32; MAX_NODES],
@@ -164,7 +164,7 @@ impl Query for Grow<'_, '_> {
     fn of<R: Receiver>(self, receiver: &R) -> LightCut {
         let Self { tree, detail } = self;
         let mut cut = LightCut {
-            nodes: [0; MAX_NODES],
+            nodes: [0; MAX_NODES + 1],
             weights: [[0.0; WIDTH]; MAX_NODES],
             ends: [0.0; MAX_NODES],
             count: usize::from(!tree.is_empty()),
@@ -182,6 +182,7 @@ impl Query for Grow<'_, '_> {
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }
+            prefetch(tree.nodes(), node.child_base);
             let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
             let scale = node.gain() * zoom * zoom;
             let mut lanes = weights.lanes.map(|w| both(w, scale));
@@ -189,14 +190,20 @@ impl Query for Grow<'_, '_> {
                 limit = detail.threshold * lanes.iter().sum::<f32>();
                 limit *= limit;
             }
-            for child in 0..usize::from(node.inner).min(WIDTH) {
-                let weight = lanes[child];
-                if cut.count < MAX_NODES && weight * weight * roughness[child] > limit {
-                    cut.nodes[cut.count] = node.child_base.saturating_add(low_word(child));
-                    cut.count += 1;
-                    lanes[child] = 0.0;
-                }
+            let room = MAX_NODES - cut.count;
+            let inner = usize::from(node.inner).min(WIDTH);
+            let opens: [bool; WIDTH] = core::array::from_fn(|k| {
+                (lanes[k] * lanes[k] * roughness[k] > limit) & (k < inner)
+            });
+            // Without branches, for they could not be foretold; so each child is noted, and the next one over it unless it is to be opened.
+            let mut opened = 0;
+            for k in 0..WIDTH {
+                let open = opens[k] & (opened < room);
+                cut.nodes[cut.count + opened] = node.child_base.wrapping_add(low_word(k));
+                opened += usize::from(open);
+                lanes[k] = if open { 0.0 } else { lanes[k] };
             }
+            cut.count += opened;
             end += lanes.iter().sum::<f32>();
             cut.weights[index] = lanes;
             cut.ends[index] = end;
@@ -227,11 +234,11 @@ impl Query for Sample<'_, '_> {
         }
         let target = self.u * f64::from(total);
         let ends = &self.cut.ends[..self.cut.count];
-        // The last node with any weight takes what rounding leaves beyond the sum.
-        let last = ends.partition_point(|&end| end < total);
-        let index = ends
-            .partition_point(|&end| f64::from(end) <= target)
-            .min(last);
+        let mut index = ends.partition_point(|&end| f64::from(end) <= target);
+        if index == ends.len() {
+            // The last node with any weight takes what rounding leaves beyond the sum.
+            index = ends.partition_point(|&end| end < total);
+        }
         let start = index.checked_sub(1).map_or(0.0, |before| ends[before]);
         let within = target - f64::from(start);
         let (child, u) = pick(&weights[index], within, low(within))?;

@@ -72,7 +72,7 @@ pub(super) fn queries(
             let pmf = |(ctx, light): &(LightSampleContext, LightId)| {
                 black_box(match k {
                     1 => subject.sampler().pmf(ctx, *light),
-                    _ => subject.sampler().pmf_many(ctx, *light),
+                    _ => subject.sampler().pmf_many(ctx, *light, k),
                 });
             };
             time.pmf.pass(&plan.picked, pmf);

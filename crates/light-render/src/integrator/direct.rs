@@ -107,12 +107,7 @@ impl<S: LightSampler> DirectLight<'_, S> {
                 candidates.add(candidate, candidate.radiance.element_sum());
             }
         };
-        if *count == 1 {
-            // A single choice does not pay for a closer look at all lights.
-            self.sampler.sample(ctx, u).map(&mut each);
-        } else {
-            self.sampler.sample_many(ctx, u, *count, &mut each);
-        }
+        self.sampler.sample_many(ctx, u, *count, &mut each);
         let Some(chosen) = candidates.sample() else {
             return Traced::default();
         };
@@ -172,11 +167,7 @@ impl<S: LightSampler> DirectLight<'_, S> {
         let Some(source) = self.world.lights().get(light) else {
             return 0.0;
         };
-        let pmf = if *count == 1 {
-            self.sampler.pmf(ctx, light)
-        } else {
-            *count as f32 * self.sampler.pmf_many(ctx, light)
-        };
+        let pmf = *count as f32 * self.sampler.pmf_many(ctx, light, *count);
         if pmf > 0.0 {
             pmf * source.pdf_li(ctx, wi, self.estimator.coverage())
         } else {
