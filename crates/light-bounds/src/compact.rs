@@ -49,7 +49,7 @@ impl CompactLightBounds {
     }
 
     /// The bounds that this stands for, given the same box `all` as in [`encode`](Self::encode).
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn decode(&self, all: &Aabb) -> LightBounds {
         LightBounds {
@@ -63,7 +63,7 @@ impl CompactLightBounds {
     }
 
     /// [Importance](LightBounds::importance) of the decoded bounds at `ctx`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn importance(&self, all: &Aabb, ctx: &LightSampleContext) -> f32 {
         self.decode(all).importance(ctx)

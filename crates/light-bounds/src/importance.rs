@@ -32,7 +32,7 @@ impl LightBounds {
     /// with a length; it is kept, because this is the baseline. The differences: sines come from
     /// cross products, round-off is always on the side of a larger importance, and the light at the edge of its
     /// emission (`theta' = theta_e`) counts, so that a spot without falloff is found.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn importance(&self, ctx: &LightSampleContext) -> f32 {
         if self.phi == 0.0 {
@@ -79,7 +79,7 @@ impl LightBounds {
     }
 
     /// Cosine of the least angle between `from_light` and a normal in the cone, seen from any point of the box.
-    #[inline]
+    #[inline(always)]
     fn cos_emission(&self, from_light: Vec3, subtended: Angle) -> f32 {
         let cos_w = self.w.dot(from_light);
         let to_axis = Angle {
@@ -92,7 +92,7 @@ impl LightBounds {
 }
 
 /// Cosine of the least angle between the normal's line and a direction to the box; 1 in a medium.
-#[inline]
+#[inline(always)]
 fn cos_incidence(ctx: &LightSampleContext, from_light: Vec3, subtended: Angle) -> f32 {
     if ctx.is_medium() {
         return 1.0;
