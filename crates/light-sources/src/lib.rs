@@ -24,6 +24,7 @@ mod desc;
 #[cfg(feature = "alloc")]
 mod diffuse_emission;
 mod distant;
+#[cfg(feature = "alloc")]
 mod emission_lobe;
 mod flux;
 #[cfg(feature = "alloc")]

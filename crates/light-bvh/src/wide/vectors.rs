@@ -10,7 +10,7 @@
 //!
 //! The same arithmetic in the same order either way, nothing fused: the same bits.
 
-use super::node::{WIDTH, WideNode};
+use super::node::WideNode;
 use super::query::{Asker, Query};
 
 /// The answer to `query`, as the receiver that `asker` turns into sees the tree.
@@ -38,7 +38,7 @@ unsafe fn answer_by_avx2<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
 #[inline(always)]
 pub(crate) fn prefetch(nodes: &[WideNode], first: u32) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    for child in 0..WIDTH {
+    for child in 0..super::node::WIDTH {
         use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         let node = nodes.as_ptr().wrapping_add(first as usize + child);
         // SAFETY: every machine of this kind has the instruction, and it may be given any address.
@@ -55,6 +55,7 @@ mod tests {
     use super::*;
     use crate::wide::glossy::GlossyReceiver;
     use crate::wide::importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
+    use crate::wide::node::WIDTH;
     use crate::wide::query::Oneself;
     use crate::wide::segment::SegmentReceiver;
     use crate::wide::weights::Weights;
