@@ -65,6 +65,19 @@ impl Toolchain {
         &self.folder
     }
 
+    /// Where libraries of packages are: some are in the one, some in the other folder.
+    fn libraries(&self) -> String {
+        ["usr/lib", "lib"]
+            .map(|folder| {
+                self.folder
+                    .join(folder)
+                    .join(multiarch())
+                    .display()
+                    .to_string()
+            })
+            .join(":")
+    }
+
     /// A build for `target` that makes the standard libraries it needs first: without alloc where none is promised.
     pub(super) fn cargo_build(&self, target: &str, needs: Needs) -> Command {
         let programs = self.folder.join("usr/bin");
@@ -79,10 +92,7 @@ impl Toolchain {
                 "-Zbuild-std=core,alloc"
             })
             .env("PATH", format!("{}:{path}", programs.display()))
-            .env(
-                "LD_LIBRARY_PATH",
-                self.folder.join("usr/lib").join(multiarch()),
-            )
+            .env("LD_LIBRARY_PATH", self.libraries())
             .env("RUSTC", programs.join("rustc"))
             .env("RUSTDOC", programs.join("rustdoc"))
             // The library sources may only be built by a compiler that accepts unstable features.
