@@ -42,6 +42,8 @@ pub(super) fn build(
     if scan.count == 0 {
         return (Skeleton(Vec::new()), order);
     }
+    /// So many lights are on their way from memory while one is read.
+    const AHEAD: usize = 24;
     let lights = Lights::new(extents, scan.power);
     let (mut entries, cell) = morton::sorted(extents, &lights, &scan.centers, options.dark);
     let whole = Range::new(&mut entries, &lights, cell);
@@ -55,6 +57,9 @@ pub(super) fn build(
             let ends = ends(whole, 0);
             let lamps = table(entries.len(), |i| {
                 let entry = &entries[i];
+                if let Some(later) = entries.get(i + AHEAD) {
+                    lights.prefetch(&[later.light]);
+                }
                 Lamp::new(entry.light, lights.bounds(entry.light), entry.power)
             });
             plot.build(Run::new(&mut clusters(&ends, &lamps), &lamps))

@@ -6,6 +6,7 @@ use super::node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {
     /// Axes, offsets and spreads; returns their units.
+    #[inline(always)]
     pub(super) fn set_emission(&mut self, brood: &Brood) -> [f32; WIDTH] {
         let (mut units, mut spreads) = ([0.0; WIDTH], [0.0; WIDTH]);
         for k in 0..WIDTH {
@@ -61,6 +62,7 @@ impl WideNode {
     }
 }
 
+#[inline(always)]
 fn lengths([x, y, z]: &[[f32; WIDTH]; 3]) -> [f32; WIDTH] {
     core::array::from_fn(|k| float::sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]))
 }

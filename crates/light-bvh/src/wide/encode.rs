@@ -2,6 +2,7 @@ use super::brood::Brood;
 use super::lanewise::{larger, low_byte, nearest, reduce, smaller};
 use super::moments::Moments;
 use super::node::{WIDTH, WideNode, encode_power};
+use super::vectors::{Work, widely};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
 const MIN_SCALE: f32 = 1e-30;
@@ -10,6 +11,11 @@ impl WideNode {
     /// A node whose children have the given moments, at most eight; `child_base`, `light_base`, `inner` and `parent` are left to
     /// the caller.
     pub(crate) fn encode(children: &[Moments]) -> Self {
+        widely(Encoding(children))
+    }
+
+    #[inline(always)]
+    fn of(children: &[Moments]) -> Self {
         debug_assert!(children.len() <= WIDTH, "at most eight children");
         let mut node = Self {
             count: u8::try_from(children.len()).unwrap_or(0),
@@ -27,6 +33,7 @@ impl WideNode {
         node
     }
 
+    #[inline(always)]
     fn set_frame(&mut self, brood: &Brood) {
         let mut scale = MIN_SCALE;
         for axis in 0..3 {
@@ -48,6 +55,7 @@ impl WideNode {
     ///
     /// A difference of two floats is off by half an epsilon of itself, however far from zero they are. Twice 255 codes are so known to
     /// within 1e-4 of a code, which the margin outweighs.
+    #[inline(always)]
     fn set_boxes(&mut self, brood: &Brood) {
         const MARGIN: f32 = 0.001;
         let inv_scale = self.inv_scale;
@@ -65,6 +73,7 @@ impl WideNode {
         }
     }
 
+    #[inline(always)]
     fn set_power(&mut self, brood: &Brood, units: &[f32; WIDTH]) {
         let mut powers = [0.0; WIDTH];
         for k in 0..WIDTH {
@@ -77,6 +86,7 @@ impl WideNode {
     }
 
     /// What is off leaves its slot empty.
+    #[inline(always)]
     fn clear_unlit(&mut self, brood: &Brood) {
         let lit = brood.power.map(|power| power > 0.0);
         if lit == [true; WIDTH] {
@@ -94,6 +104,18 @@ impl WideNode {
                 codes[k] &= keep[k] as i8;
             }
         }
+    }
+}
+
+/// Children that become a node.
+struct Encoding<'a>(&'a [Moments]);
+
+impl Work for Encoding<'_> {
+    type Output = WideNode;
+
+    #[inline(always)]
+    fn run(self) -> WideNode {
+        WideNode::of(self.0)
     }
 }
 
@@ -183,6 +205,20 @@ mod tests {
             }
         }
         assert!(sharp > 1000 && lit > 1000, "{sharp} sharp, {lit} lit");
+    }
+
+    #[test]
+    fn wide_vectors_encode_as_narrow_ones_do() {
+        let mut next = numbers();
+        for _ in 0..300 {
+            let mut children = children(&mut next, Vec3::splat(3.0), 2.0);
+            for child in &mut children {
+                child.power = next().max(0.0);
+                child.spread_sq = next().max(0.0);
+            }
+            let narrow = WideNode::of(&children);
+            assert_eq!(WideNode::encode(&children), narrow, "{children:?}");
+        }
     }
 
     #[test]

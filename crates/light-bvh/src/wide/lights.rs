@@ -3,6 +3,7 @@ use core::f32::consts::PI;
 use light_bounds::{LightBounds, LightExtent};
 
 use super::moments::Moments;
+use super::vectors::prefetch_one;
 
 /// The lights of a tree in the making.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +32,14 @@ impl<'a> Lights<'a> {
     #[inline]
     pub(super) const fn extent(&self, light: u32) -> &'a LightExtent {
         &self.extents[light as usize]
+    }
+
+    /// Asks the memory for lights that are read soon.
+    #[inline]
+    pub(super) fn prefetch(&self, lights: &[u32]) {
+        for &light in lights {
+            prefetch_one(self.extents, light);
+        }
     }
 
     #[inline]

@@ -1,4 +1,4 @@
-use light_bounds::{LightBounds, LightExtent};
+use light_bounds::LightExtent;
 
 use super::LightBvh;
 use super::lights::{Lights, phi};
@@ -76,14 +76,14 @@ impl Filling<'_> {
         let first = node.light_base as usize;
         let lights = &self.order[first..end];
         if lights.len() <= BATCH {
-            // All at once, for the lights are far from each other in memory, and reading one need not wait for the other.
-            let mut extents = [LightExtent::Bounded(LightBounds::EMPTY); BATCH];
-            for (extent, &light) in extents.iter_mut().zip(lights) {
-                *extent = *self.lights.extent(light);
-            }
+            // Lights are far from each other in memory: those of the next batches are on their way while these are worked at.
+            let places = self.order.len();
+            let (from, to) = (first + BATCH, end + BATCH);
+            self.lights
+                .prefetch(&self.order[from.min(places)..to.min(places)]);
             let mut moments = [Moments::NOTHING; BATCH];
-            for (moments, extent) in moments.iter_mut().zip(&extents[..lights.len()]) {
-                *moments = self.lights.moments_of(extent);
+            for (moments, &light) in moments.iter_mut().zip(lights) {
+                *moments = self.lights.moments(light);
             }
             return Batch {
                 moments: &moments,

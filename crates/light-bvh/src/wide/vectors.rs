@@ -6,7 +6,7 @@
     )
 )]
 
-//! Which vectors a query is answered in: the widest that the machine has, asked at run time where there is an operating system.
+//! Which vectors a query is answered in, or a node made in: the widest that the machine has, asked at run time where there is an operating system.
 //!
 //! The same arithmetic in the same order either way, nothing fused: the same bits.
 
@@ -32,6 +32,54 @@ pub(crate) fn answer<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
 #[target_feature(enable = "avx2")]
 unsafe fn answer_by_avx2<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
     asker.ask(query)
+}
+
+/// Arithmetic to be done in the widest vectors.
+#[cfg(feature = "alloc")]
+pub(super) trait Work {
+    type Output;
+
+    /// Does it. To be inlined where it is called: there the vectors are chosen.
+    fn run(self) -> Self::Output;
+}
+
+/// What `work` makes, in the widest vectors that the machine has.
+#[cfg(feature = "alloc")]
+#[inline(always)]
+pub(super) fn widely<W: Work>(work: W) -> W::Output {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has AVX2.
+        return unsafe { run_by_avx2(work) };
+    }
+    work.run()
+}
+
+/// # Safety
+/// The machine has to have AVX2.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx2")]
+unsafe fn run_by_avx2<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+/// Asks the memory for one of `items`, of up to two cache lines, that is read soon.
+#[cfg(feature = "alloc")]
+#[inline(always)]
+pub(super) fn prefetch_one<T>(items: &[T], index: u32) {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let item: *const i8 = items.as_ptr().wrapping_add(index as usize).cast();
+        let last = item.wrapping_add(size_of::<T>() - 1);
+        // SAFETY: every machine of this kind has the instruction, and it may be given any address.
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(item);
+            _mm_prefetch::<_MM_HINT_T0>(last);
+        }
+    }
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+    let _ = (items, index);
 }
 
 /// Asks the memory for the eight nodes from `first`, of which one may be visited next.
