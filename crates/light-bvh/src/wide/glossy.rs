@@ -1,11 +1,14 @@
 use light_bounds::Gloss;
+use light_math::float;
 use light_math::glam::Vec3;
 
 use super::importance::{Receiver, SurfaceReceiver, at_least, at_most};
-use super::lane::Lane;
+use super::lane::{Lane, dist_sq};
 
-/// How much of a group's squared extent over its squared distance widens the facets.
+/// How much of a group's squared extent over its squared distance widens the facets, and how much of its squared width is variance of that
+/// distance: less than elsewhere, for lights on the far side of the receiver lie in other directions.
 const WIDENING: f32 = 0.375;
+const DISTANCE: f32 = 0.03;
 
 /// Keeps the weights of the smoothest mirrors within what products of them can hold.
 const MIN_ALPHA: f32 = 0.01;
@@ -53,19 +56,22 @@ impl GlossyReceiver {
 
     /// The reflection of the child's light toward the viewer over that of a matt surface; above 0.
     #[inline(always)]
-    fn reflected(&self, lane: &Lane, cos_i: f32) -> f32 {
+    fn reflected(&self, lane: &Lane, height: f32) -> f32 {
         let [hx, hy, hz] = lane.extent;
         let [vx, vy, vz] = lane.mean;
         let Self {
             wo, cos_o, alpha, ..
         } = *self;
+        let dist_sq = dist_sq(lane.mean, lane.extent, DISTANCE, lane.slack * lane.slack);
+        let inv_dist = 1.0 / float::sqrt(dist_sq);
+        let cos_i = at_most(1.0, height * inv_dist);
         // The squared length of the half vector, and of its part along the normal.
-        let half_sq = 2.0 + 2.0 * (vx * wo.x + vy * wo.y + vz * wo.z) / lane.dist;
+        let half_sq = 2.0 + 2.0 * (vx * wo.x + vy * wo.y + vz * wo.z) * inv_dist;
         let half_sq = at_least(MIN_HALF_SQ, half_sq);
         let cos_sum = cos_i + cos_o;
         let upright = at_most(half_sq, cos_sum * cos_sum);
         let extent_sq = hx * hx + hy * hy + hz * hz;
-        let widening = WIDENING * extent_sq / (lane.dist_sq + extent_sq);
+        let widening = WIDENING * extent_sq / (dist_sq + extent_sq);
         let alpha_sq = at_most(1.0, alpha * alpha + widening);
         let spread = half_sq - (1.0 - alpha_sq) * upright;
         let facets = alpha_sq * half_sq * half_sq / (spread * spread);
@@ -82,9 +88,8 @@ impl Receiver for GlossyReceiver {
 
     #[inline(always)]
     fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32 {
-        let cos_i = self.surface.expected_height(lane) / (2.0 * lane.dist);
-        let cos_i = at_most(1.0, cos_i);
-        self.surface.weigh(lane, inv_unit) * self.reflected(lane, cos_i)
+        let height = 0.5 * self.surface.expected_height(lane);
+        self.surface.weigh(lane, inv_unit) * self.reflected(lane, height)
     }
 }
 

@@ -12,12 +12,14 @@ const EMISSION_SLACK: f32 = 0.004;
 /// More than any child emits in any frame, per unit of its spread: one whose lights differ is never given up.
 const ANYTHING: f32 = 1e12;
 
-/// How much of the squared support of a child counts as variance of its height over the horizon, how much of the variance of its emission
-/// by position and by spread, and how much of its squared extent as variance of its distance. Chosen by V: see the crate's first page.
-const HEIGHT: f32 = 0.225;
-const RAMP_BY_POSITION: f32 = 0.015;
-const RAMP_BY_SPREAD: f32 = 0.35;
-pub(crate) const DISTANCE: f32 = 0.03;
+/// How much of the squared support of a child counts as variance of its height over the horizon, how much of its squared width, and of its
+/// squared spread and distance, as variance of its emission, in codes of the axis, how much of its squared width as variance of its distance,
+/// and how much more it is worth where its width is that distance. Chosen by V: see the crate's first page.
+const HEIGHT: f32 = 0.165;
+const RAMP_BY_POSITION: f32 = 11.0;
+const RAMP_BY_SPREAD: f32 = 0.3;
+pub(crate) const DISTANCE: f32 = 0.09;
+const NEARNESS: f32 = 0.28;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///
@@ -227,15 +229,15 @@ impl Lane {
         let [mx, my, mz] = self.axis;
         let beyond = mx * vx + my * vy + mz * vz + (self.offset - EMISSION_SLACK) * self.dist;
         // From any point of the box it differs by less than the largest axis and offset, 127 each, times the widths of the box; and the mean
-        // distance by a fifth of these.
-        beyond < 280.0 * (hx + hy + hz) + ANYTHING * self.spread
+        // distance by less than a third of these.
+        beyond < 297.0 * (hx + hy + hz) + ANYTHING * self.spread
     }
 
     /// The same child from a place `offset` away from the receiver's position.
     #[inline(always)]
     pub(crate) fn seen_from(&self, offset: Vec3) -> Self {
         let mean = (Vec3::from(self.mean) - offset).to_array();
-        let dist_sq = dist_sq(mean, self.extent, self.slack * self.slack);
+        let dist_sq = dist_sq(mean, self.extent, DISTANCE, self.slack * self.slack);
         Self {
             mean,
             dist_sq,
@@ -258,11 +260,13 @@ impl Lane {
         let [mx, my, mz] = self.axis;
         // All of the emission times the distance, which is not divided by before the end.
         let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist;
-        let (gx, gy, gz) = (mx * hx, my * hy, mz * hz);
-        let variance = RAMP_BY_POSITION * (gx * gx + gy * gy + gz * gz)
+        let width = hx + hy + hz;
+        let variance = RAMP_BY_POSITION * (width * width)
             + RAMP_BY_SPREAD * (self.spread * self.spread + 1.0) * self.dist_sq;
         let ramp = float::sqrt(beyond * beyond + variance) - masked(beyond, !self.both_sides);
         let inv_dist_sq = 1.0 / self.dist_sq;
-        ((self.power * inv_dist_sq) * (height * inv_dist_sq)) * ramp
+        // One near light may outshine all others of its group.
+        let near = 1.0 + NEARNESS * (width * width * inv_dist_sq);
+        ((self.power * inv_dist_sq) * (height * inv_dist_sq)) * (ramp * near)
     }
 }

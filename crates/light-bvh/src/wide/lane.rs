@@ -81,7 +81,7 @@ impl Frame {
             code * f32::from(node.extent[1][k]),
             code * f32::from(node.extent[2][k]),
         ];
-        let dist_sq = dist_sq(mean, extent, 1e-4 * code * code);
+        let dist_sq = dist_sq(mean, extent, DISTANCE, 1e-4 * code * code);
         let dist = float::sqrt(dist_sq);
         let both_sides = node.offset[k] == BOTH_SIDES;
         Lane {
@@ -107,12 +107,12 @@ impl Frame {
     }
 }
 
-/// The mean squared distance of a box about `mean`, and a little more.
+/// The mean squared distance of a box about `mean` of which `variance` is the share of its squared width that counts, and a little more.
 #[inline(always)]
-pub(super) fn dist_sq(mean: [f32; 3], extent: [f32; 3], more: f32) -> f32 {
+pub(super) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32, more: f32) -> f32 {
     let [x, y, z] = mean;
     let width = extent[0] + extent[1] + extent[2];
-    (x * x + y * y) + (z * z + (DISTANCE * (width * width) + more))
+    (x * x + y * y) + (z * z + (variance * (width * width) + more))
 }
 
 /// One over the largest power of two that is not above `x`, which is below 2^127.
