@@ -18,10 +18,54 @@ pub(super) const CHUNK: usize = 1 << 15;
 /// Sorts `entries`, whose lights are in ascending order.
 pub(super) fn sort(entries: &mut [Entry]) {
     if entries.len() <= FEW {
-        entries.sort_unstable_by_key(|e| (e.key, e.light));
+        sort_few(entries);
     } else {
         let chunks = entries.chunks(CHUNK).map(<[Entry]>::to_vec);
         entries.copy_from_slice(&sorted(chunks.collect()));
+    }
+}
+
+/// The same for at most [`FEW`]: by a short digit first, which leaves little to be compared.
+fn sort_few(entries: &mut [Entry]) {
+    /// Fewer are compared at once.
+    const VERY_FEW: usize = 32;
+    const SHORT: u32 = 8;
+    if entries.len() <= VERY_FEW {
+        return sort_by_comparing(entries);
+    }
+    let first = entries[0].key;
+    let differing = entries.iter().fold(0, |bits, e| bits | (e.key ^ first));
+    let Some(top) = u64::checked_ilog2(differing) else {
+        return;
+    };
+    let mut piles = [Entry::default(); FEW];
+    let piles = &mut piles[..entries.len()];
+    let mut ends = [0; 1 << SHORT];
+    pile(entries, (top + 1).saturating_sub(SHORT), piles, &mut ends);
+    entries.copy_from_slice(piles);
+    let mut start = 0;
+    for end in ends {
+        sort_by_comparing(&mut entries[start..end]);
+        start = end;
+    }
+}
+
+/// The same for a few, mostly a handful.
+#[inline]
+fn sort_by_comparing(entries: &mut [Entry]) {
+    /// Fewer are put in order one by one.
+    const HANDFUL: usize = 12;
+    if entries.len() > HANDFUL {
+        return entries.sort_unstable_by_key(|e| (e.key, e.light));
+    }
+    for end in 1..entries.len() {
+        let entry = entries[end];
+        let mut place = end;
+        while place > 0 && entries[place - 1].key > entry.key {
+            entries[place] = entries[place - 1];
+            place -= 1;
+        }
+        entries[place] = entry;
     }
 }
 
@@ -73,20 +117,8 @@ struct Piles {
 impl Piles {
     fn new(chunk: &[Entry], shift: u32) -> Self {
         let mut ends = vec![0; 1 << DIGIT];
-        for entry in chunk {
-            ends[digit(entry.key, shift)] += 1;
-        }
-        let mut end = 0;
-        for next in &mut ends {
-            // The start of each pile, which moves on to its end as the pile grows.
-            (*next, end) = (end, end + *next);
-        }
         let mut entries = vec![Entry::default(); chunk.len()];
-        for entry in chunk {
-            let next = &mut ends[digit(entry.key, shift)];
-            entries[*next] = *entry;
-            *next += 1;
-        }
+        pile(chunk, shift, &mut entries, &mut ends);
         Self { entries, ends }
     }
 
@@ -96,9 +128,26 @@ impl Piles {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "masked to a digit")]
-const fn digit(key: u64, shift: u32) -> usize {
-    (key >> shift) as usize & ((1 << DIGIT) - 1)
+/// Puts `entries` into the order of the digit that `shift` leaves at the right, and tells where those of each digit end; of `ends`,
+/// all 0, there are as many as digits, a power of two.
+#[inline]
+fn pile(entries: &[Entry], shift: u32, piles: &mut [Entry], ends: &mut [usize]) {
+    let mask = ends.len() - 1;
+    #[expect(clippy::cast_possible_truncation, reason = "masked to a digit")]
+    let digit = |entry: &Entry| (entry.key >> shift) as usize & mask;
+    for entry in entries {
+        ends[digit(entry)] += 1;
+    }
+    let mut end = 0;
+    for next in &mut *ends {
+        // The start of each pile, which moves on to its end as the pile grows.
+        (*next, end) = (end, end + *next);
+    }
+    for entry in entries {
+        let next = &mut ends[digit(entry)];
+        piles[*next] = *entry;
+        *next += 1;
+    }
 }
 
 #[cfg(test)]
@@ -124,7 +173,7 @@ mod tests {
     #[test]
     fn any_keys_are_sorted_and_equal_ones_keep_their_order() {
         let scramble = |i: u64| i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 1;
-        for n in [0, 1, 2, 1000, 20_000] {
+        for n in [0, 1, 2, 20, 100, 1000, 20_000] {
             check(&entries(n, scramble));
             check(&entries(n, |i| scramble(i) >> 50));
             check(&entries(n, |i| scramble(i) & 7 | 1 << 62));
