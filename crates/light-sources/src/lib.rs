@@ -52,6 +52,8 @@ mod media;
 mod median_cut;
 #[cfg(feature = "alloc")]
 mod mesh;
+#[cfg(feature = "alloc")]
+mod mesh_indices;
 mod point;
 mod point_source;
 #[cfg(feature = "alloc")]
@@ -128,6 +130,8 @@ pub use median_cut::{
 };
 #[cfg(feature = "alloc")]
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
+#[cfg(feature = "alloc")]
+pub use mesh_indices::MeshIndices;
 pub use point::{PointLight, PointLightDesc, PointLightError};
 pub use point_source::{DirectionSample, PointSource};
 #[cfg(feature = "alloc")]

@@ -4,6 +4,7 @@ use crate::color::ColorModel;
 use crate::diffuse_emission::DiffuseEmission;
 use crate::image::Image;
 use crate::light_set::LightSet;
+use crate::mesh_indices::MeshIndices;
 use crate::texture_means::TextureMeans;
 
 /// What a [`LightSet`] holds in memory, in bytes; what several lights share counts once.
@@ -36,7 +37,9 @@ impl<C: ColorModel> LightSet<C> {
         for mesh in &self.meshes {
             let (positions, indices, uvs) = mesh.vertices();
             count.vertices(positions);
-            count.vertices(indices);
+            if let MeshIndices::List(list) = indices {
+                count.vertices(list);
+            }
             uvs.into_iter().for_each(|uvs| count.vertices(uvs));
             count.emission(mesh.emission());
         }

@@ -6,6 +6,7 @@ use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
 use crate::glam::{Vec2, Vec3};
+use crate::mesh_indices::MeshIndices;
 use crate::shape::Triangle;
 
 /// A [`MeshLight`] as a user describes it.
@@ -13,8 +14,8 @@ use crate::shape::Triangle;
 pub struct MeshLightDesc<C: ColorModel> {
     /// Vertices in scene space, shared with whoever else needs them.
     pub positions: Arc<[Vec3]>,
-    /// Three vertices a triangle, counter-clockwise on the front.
-    pub indices: Arc<[[u32; 3]]>,
+    /// The vertices of each triangle, counter-clockwise on the front.
+    pub indices: MeshIndices,
     /// Surface parameters, one a vertex; without them those of [`Triangle::DEFAULT_UV`].
     pub uvs: Option<Arc<[Vec2]>>,
     /// How all triangles shine.
@@ -28,7 +29,7 @@ pub struct MeshLightDesc<C: ColorModel> {
 #[derive(Clone, Debug)]
 pub struct MeshLight<C: ColorModel> {
     positions: Arc<[Vec3]>,
-    indices: Arc<[[u32; 3]]>,
+    indices: MeshIndices,
     uvs: Option<Arc<[Vec2]>>,
     emission: DiffuseEmission<C>,
 }
@@ -68,9 +69,10 @@ impl<C: ColorModel> MeshLight<C> {
         if let Some(vertex) = desc.positions.iter().position(|p| !p.is_finite()) {
             return Err(MeshLightError::Position { vertex });
         }
-        let is_outside = |t: &[u32; 3]| t.iter().any(|&vertex| vertex as usize >= count);
-        if let Some(triangle) = desc.indices.iter().position(is_outside) {
-            return Err(MeshLightError::Index { triangle });
+        let is_inside = |t: [u32; 3]| t.iter().all(|&vertex| (vertex as usize) < count);
+        let known = desc.indices.iter().take_while(|&t| is_inside(t)).count();
+        if known < desc.indices.len() {
+            return Err(MeshLightError::Index { triangle: known });
         }
         if let Some(uvs) = &desc.uvs {
             if uvs.len() != count {
@@ -82,7 +84,7 @@ impl<C: ColorModel> MeshLight<C> {
         }
         let uvs = desc.uvs.as_deref();
         let triangles = desc.indices.iter();
-        let triangles = triangles.map(|&vertices| triangle(&desc.positions, uvs, vertices));
+        let triangles = triangles.map(|vertices| triangle(&desc.positions, uvs, vertices));
         let emission = DiffuseEmission::new(desc.emission, triangles);
         let emission = emission.map_err(MeshLightError::Emission)?;
         Ok(Self {
@@ -111,7 +113,7 @@ impl<C: ColorModel> MeshLight<C> {
         &self.emission
     }
 
-    pub(crate) fn vertices(&self) -> (&[Vec3], &[[u32; 3]], Option<&[Vec2]>) {
+    pub(crate) fn vertices(&self) -> (&[Vec3], &MeshIndices, Option<&[Vec2]>) {
         (&self.positions, &self.indices, self.uvs.as_deref())
     }
 
@@ -119,7 +121,7 @@ impl<C: ColorModel> MeshLight<C> {
     #[inline]
     #[must_use]
     pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
-        let vertices = *self.indices.get(index)?;
+        let vertices = self.indices.get(index)?;
         let triangle = triangle(&self.positions, self.uvs.as_deref(), vertices);
         Some(DiffuseAreaLight::new(triangle, &self.emission))
     }
@@ -211,6 +213,15 @@ mod tests {
             error(desc),
             Some(MeshLightError::Index { triangle: 1 }),
             "index"
+        );
+        let desc = MeshLightDesc {
+            indices: MeshIndices::Consecutive(2),
+            ..square()
+        };
+        assert_eq!(
+            error(desc),
+            Some(MeshLightError::Index { triangle: 1 }),
+            "six vertices"
         );
         let desc = MeshLightDesc {
             uvs: Some([Vec2::ZERO].into()),

@@ -3,6 +3,7 @@ use alloc::sync::Arc;
 use light_scene::Mesh;
 use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
+use lights::sources::MeshIndices;
 use lights::sources::shape::Triangle;
 
 /// The triangles of one material, with vertices that the lights share.
@@ -11,7 +12,7 @@ pub(crate) struct WorldMesh {
     pub(crate) positions: Arc<[Vec3]>,
     pub(crate) normals: Option<Vec<Vec3>>,
     pub(crate) uvs: Option<Arc<[Vec2]>>,
-    pub(crate) indices: Arc<[[u32; 3]]>,
+    pub(crate) indices: MeshIndices,
     pub(crate) material: usize,
     /// The id of the first triangle as a light, if the mesh shines.
     pub(crate) first_light: Option<LightId>,
@@ -29,6 +30,13 @@ impl WorldMesh {
         a * (1.0 - x - y) + b * x + c * y
     }
 
+    /// Which vertices triangle `index` has.
+    #[inline]
+    pub(super) fn vertices(&self, index: u32) -> [u32; 3] {
+        let vertices = self.indices.get(index as usize);
+        vertices.expect("only triangles that the mesh has are asked for")
+    }
+
     #[inline]
     pub(super) fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         triangle.map(|i| self.positions[i as usize])
@@ -42,19 +50,68 @@ impl WorldMesh {
 
     /// The corners of all triangles.
     pub(super) fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> {
-        self.indices.iter().map(|&triangle| self.corners(triangle))
+        self.indices.iter().map(|triangle| self.corners(triangle))
     }
 }
 
 impl From<Mesh> for WorldMesh {
+    /// Vertices that triangles hardly share are stored once a triangle, so that nobody has to look up which they are.
     fn from(mesh: Mesh) -> Self {
-        Self {
-            positions: mesh.positions.into(),
-            normals: mesh.normals,
-            uvs: mesh.uvs.map(Arc::from),
-            indices: mesh.indices.into(),
-            material: mesh.material.0 as usize,
-            first_light: None,
+        let list = mesh.indices;
+        let lies_apart = |vertex_bytes: usize, vertices: usize| {
+            vertex_bytes * 3 * list.len() <= vertex_bytes * vertices + size_of_val(&*list)
+        };
+        let normal_bytes = mesh.normals.as_ref().map_or(0, |_| size_of::<Vec3>());
+        let uv_bytes = mesh.uvs.as_ref().map_or(0, |_| size_of::<Vec2>());
+        let vertex_bytes = size_of::<Vec3>() + normal_bytes + uv_bytes;
+        let count = u32::try_from(list.len()).ok();
+        let count = count.filter(|_| lies_apart(vertex_bytes, mesh.positions.len()));
+        let material = mesh.material.0 as usize;
+        match count {
+            Some(count) => Self {
+                positions: of_triangles(&mesh.positions, &list),
+                normals: mesh.normals.map(|normals| of_triangles(&normals, &list)),
+                uvs: mesh.uvs.map(|uvs| of_triangles(&uvs, &list)),
+                indices: MeshIndices::Consecutive(count),
+                material,
+                first_light: None,
+            },
+            None => Self {
+                positions: mesh.positions.into(),
+                normals: mesh.normals,
+                uvs: mesh.uvs.map(Arc::from),
+                indices: list.into(),
+                material,
+                first_light: None,
+            },
+        }
+    }
+}
+
+/// What the vertices have, three for each triangle.
+fn of_triangles<T: Copy, L: FromIterator<T>>(vertices: &[T], triangles: &[[u32; 3]]) -> L {
+    let corners = triangles.as_flattened().iter();
+    corners.map(|&vertex| vertices[vertex as usize]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_scene::MaterialId;
+
+    #[test]
+    fn quads_are_stored_by_triangle_and_grids_by_vertex() {
+        let quad = Mesh::quad("", MaterialId(0), [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]);
+        let mut fan = quad.clone();
+        fan.positions.push(Vec3::Z);
+        fan.indices.extend([[0, 3, 4], [0, 4, 1], [1, 2, 4]]);
+        for mesh in [quad, fan] {
+            let triangles: Vec<_> = (0..mesh.indices.len()).map(|k| mesh.triangle(k)).collect();
+            let is_quad = triangles.len() == 2;
+            let made = WorldMesh::from(mesh);
+            let consecutive = matches!(made.indices, MeshIndices::Consecutive(_));
+            assert_eq!(consecutive, is_quad, "{} triangles", triangles.len());
+            assert!(made.triangles().eq(triangles), "the same triangles");
         }
     }
 }

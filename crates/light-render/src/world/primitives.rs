@@ -36,7 +36,7 @@ impl World {
         index: u32,
         barycentric: Vec2,
     ) -> Surface {
-        let (indices, weights) = self.spot(triangle, mesh.indices[index as usize], barycentric);
+        let (indices, weights) = self.spot(triangle, mesh.vertices(index), barycentric);
         let (mut corners, mut normals) = (mesh.corners(indices), mesh.normals(indices));
         let place = triangle.placement().map(|p| self.accel.place(p));
         if let Some(place) = place {
@@ -79,7 +79,7 @@ impl World {
     pub(super) fn uv(&self, primitive: PrimitiveId, place: Vec2) -> Vec2 {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => {
-                let (indices, weights) = self.spot(primitive, mesh.indices[index as usize], place);
+                let (indices, weights) = self.spot(primitive, mesh.vertices(index), place);
                 mesh.uv(indices, weights)
             }
             Stored::Sphere(sphere) => sphere.at(place).uv,
