@@ -12,7 +12,7 @@ const FEWEST_OF_CUT: u32 = 2;
 /// The default: chooses about in proportion to the irradiance that each light would give without occlusion.
 ///
 /// Reads `ctx.ns`. Lights at infinity take part with their own estimated irradiance beside that of the tree, so that a strong sun and
-/// ten thousand lamps share sensibly by day and by night. About 32 bytes a light; a query takes a node of eight children a level,
+/// ten thousand lamps share sensibly by day and by night. About 27 bytes a light; a query takes a node of sixteen children a level,
 /// and looks at every light at infinity.
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {

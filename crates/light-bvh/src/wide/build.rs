@@ -146,7 +146,10 @@ pub(super) const fn low_word(x: usize) -> u32 {
     x as u32
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "at most eight children")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "at most as many children as a node has slots"
+)]
 const fn low_byte(x: usize) -> u8 {
     x as u8
 }

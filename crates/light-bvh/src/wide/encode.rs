@@ -8,7 +8,7 @@ use super::vectors::{Work, widely};
 const MIN_SCALE: f32 = 1e-30;
 
 impl WideNode {
-    /// A node whose children have the given moments, at most eight; `child_base`, `light_base`, `inner` and `parent` are left to
+    /// A node whose children have the given moments, at most [`WIDTH`]; `child_base`, `light_base`, `inner` and `parent` are left to
     /// the caller.
     pub(crate) fn encode(children: &[Moments]) -> Self {
         widely(Encoding(children))
@@ -16,7 +16,10 @@ impl WideNode {
 
     #[inline(always)]
     fn of(children: &[Moments]) -> Self {
-        debug_assert!(children.len() <= WIDTH, "at most eight children");
+        debug_assert!(
+            children.len() <= WIDTH,
+            "no more children than a node has slots"
+        );
         let mut node = Self {
             count: u8::try_from(children.len()).unwrap_or(0),
             ..Self::EMPTY

@@ -27,16 +27,17 @@ pub(super) struct Children<G> {
     groups: [Option<G>; WIDTH],
     count: usize,
     /// Bit `k`: the lights of group `k` become children themselves.
-    singles: u8,
+    singles: u16,
 }
 
 /// Whether a node has so many lights below it that only halves of the same size are sure to fit below so few levels.
 pub(super) const fn is_tight(lights: usize, levels: usize) -> bool {
-    levels <= 11 && lights > 1 << (3 * (levels - 1))
+    const BITS: usize = WIDTH.ilog2() as usize;
+    levels <= 28 / BITS && lights > 1 << (BITS * (levels - 1))
 }
 
 impl<G: Group> Children<G> {
-    /// Divides `whole` among at most eight children, so that each fits below `levels - 1` more levels.
+    /// Divides `whole` among at most [`WIDTH`] children, so that each fits below `levels - 1` more levels.
     pub(super) fn new(whole: G, levels: usize) -> Self {
         let tight = is_tight(whole.lights(), levels);
         let mut children = Self {
@@ -79,7 +80,7 @@ impl<G: Group> Children<G> {
     fn dissolve(&mut self) {
         let mut free = WIDTH - self.count;
         for (k, group) in self.groups.iter().enumerate() {
-            self.singles |= u8::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
+            self.singles |= u16::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
         }
         while let Some(k) = self.best(|k, group| {
             let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;

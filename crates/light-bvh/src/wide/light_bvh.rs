@@ -14,7 +14,7 @@ use crate::join::join;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
-/// Eight children a node, each described by moments of its lights: expected irradiance instead of a bound of it, and zero only where
+/// Sixteen children a node, each described by moments of its lights: expected irradiance instead of a bound of it, and zero only where
 /// no light can contribute. About 32 bytes a light.
 #[derive(Clone, Debug, Default)]
 pub struct LightBvh {

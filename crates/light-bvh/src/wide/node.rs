@@ -1,10 +1,10 @@
 /// Children of a node.
-pub(crate) const WIDTH: usize = 8;
+pub(crate) const WIDTH: usize = 16;
 
 /// `slots` entry of a light that is not in the tree, and `parent` of the root.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
-/// A node of the default tree: up to eight children, each a subtree or one light, described by 8-bit moments.
+/// A node of the default tree: up to sixteen children, each a subtree or one light, described by 8-bit moments.
 ///
 /// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector `w` is about
 /// `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a unit that is folded into `power`.
@@ -14,19 +14,19 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | byte | field | |
 /// | --- | --- | --- |
 /// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
-/// | 24 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
-/// | 48 | `axis[axis][child]` | mean emission axis, signed |
-/// | 72 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
-/// | 80 | `spread[child]` | how far axis and offset vary within the child; 0 if no light of it emits toward any `w` of `dot(axis, w) <= offset` |
-/// | 88 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
-/// | 96 | `origin` | |
-/// | 108 | `inv_scale` | |
-/// | 112 | `child_base` | |
-/// | 116 | `light_base` | |
-/// | 120 | `gain` | upper half of an `f32`: the largest power of a child, as a share of the tree's |
-/// | 122 | `inner` | |
-/// | 123 | `count` | children in all |
-/// | 124 | `parent` | `8 * node + child`; all ones at the root |
+/// | 48 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
+/// | 96 | `axis[axis][child]` | mean emission axis, signed |
+/// | 144 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
+/// | 160 | `spread[child]` | how far axis and offset vary within the child; 0 if no light of it emits toward any `w` of `dot(axis, w) <= offset` |
+/// | 176 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
+/// | 192 | `origin` | |
+/// | 204 | `inv_scale` | |
+/// | 208 | `child_base` | |
+/// | 212 | `light_base` | |
+/// | 216 | `gain` | upper half of an `f32`: the largest power of a child, as a share of the tree's |
+/// | 218 | `inner` | |
+/// | 219 | `count` | children in all |
+/// | 220 | `parent` | `16 * node + child`; all ones at the root |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -48,7 +48,14 @@ pub struct WideNode {
     pub parent: u32,
 }
 
-const _: () = assert!(size_of::<WideNode>() == 128, "two cache lines");
+const _: () = {
+    use core::mem::offset_of;
+    assert!(size_of::<WideNode>() == 224, "no padding");
+    assert!(offset_of!(WideNode, axis) == 96, "as documented");
+    assert!(offset_of!(WideNode, power) == 176, "as documented");
+    assert!(offset_of!(WideNode, child_base) == 208, "as documented");
+    assert!(offset_of!(WideNode, parent) == 220, "as documented");
+};
 
 /// The offset that marks a child that emits alike to both sides.
 pub(crate) const BOTH_SIDES: i8 = i8::MIN;

@@ -13,7 +13,7 @@ use super::node::WIDTH;
 use super::prim::{MIXED_AXES, Prim, Sums};
 use super::skeleton::Skeleton;
 
-/// Runs of so many are split across their widest axis, the first part of eight, so that the lowest nodes come out full.
+/// Runs of so many are split across their widest axis, the first part as large as a node, so that the lowest nodes come out full.
 const SNAP: RangeInclusive<usize> = WIDTH + 1..=2 * WIDTH;
 
 /// Lights, or clusters of a few, that are split where the halves cost least.

@@ -37,7 +37,7 @@ impl Weights {
 
 /// The child that `target`, from 0 to the sum of the weights, falls on, and how far into it as a part of 1.
 ///
-/// In double precision: 24 bits cannot address the lights below eight children that differ much. Sums in single precision guess the child,
+/// In double precision: 24 bits cannot address the lights below children that differ much. Sums in single precision guess the child,
 /// which is looked for only if they are wrong.
 #[inline(always)]
 pub(crate) fn pick(lanes: &[f32; WIDTH], target: f64, about: f32) -> Option<(usize, f64)> {
@@ -54,6 +54,8 @@ pub(crate) fn pick(lanes: &[f32; WIDTH], target: f64, about: f32) -> Option<(usi
 }
 
 /// Where each child begins, and the end of the last.
+///
+/// Added up by fours, which do not wait for each other; so the end of a four is the beginning of the next to the bit.
 #[inline(always)]
 fn starts(lanes: &[f32; WIDTH]) -> [f64; WIDTH + 1] {
     let mut starts = [0.0; WIDTH + 1];
@@ -66,16 +68,17 @@ fn starts(lanes: &[f32; WIDTH]) -> [f64; WIDTH + 1] {
 /// How many children end before `about`, in single precision.
 #[inline(always)]
 fn guess(lanes: &[f32; WIDTH], about: f32) -> usize {
-    let [a, b, c, d, e, f, g, h] = *lanes;
-    let running = |x: Vec4| {
-        let pairs = x + Vec4::new(0.0, x.x, x.y, x.z);
-        pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)
-    };
-    let low = running(Vec4::new(a, b, c, d));
-    let high = running(Vec4::new(e, f, g, h)) + low.wwww();
     let about = Vec4::splat(about);
-    let ended = low.cmple(about).bitmask() | high.cmple(about).bitmask() << 4;
-    ended.trailing_ones().min(7) as usize
+    let mut before = Vec4::ZERO;
+    let mut ended = 0;
+    for first in (0..WIDTH).step_by(4) {
+        let x = Vec4::from_slice(&lanes[first..]);
+        let pairs = x + Vec4::new(0.0, x.x, x.y, x.z);
+        let ends = before + (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y));
+        ended |= ends.cmple(about).bitmask() << first;
+        before = ends.wwww();
+    }
+    (ended.trailing_ones() as usize).min(WIDTH - 1)
 }
 
 /// `x` with less precision.
@@ -116,9 +119,16 @@ pub(crate) fn both(a: f32, b: f32) -> f32 {
 mod tests {
     use super::*;
 
+    /// Children of the given weights, and empty slots.
+    fn lanes(weights: &[f32]) -> [f32; WIDTH] {
+        core::array::from_fn(|k| weights.get(k).copied().unwrap_or(0.0))
+    }
+
     #[test]
     fn guesses_change_nothing() {
-        let lanes = [0.0, 1e-7, 3.0, 0.0, 1e-9, 1e9, 1e-3, 0.0];
+        let lanes = lanes(&[
+            0.0, 1e-7, 3.0, 0.0, 1e-9, 1e9, 1e-3, 0.0, 0.0, 7.0, 0.0, 1e3,
+        ]);
         let total: f64 = lanes.iter().map(|&w| f64::from(w)).sum();
         for i in 0..=1000 {
             for near in [0.0, 3.0, 3.001, 1e9, total] {
@@ -134,7 +144,7 @@ mod tests {
 
     #[test]
     fn what_is_left_of_u_is_how_far_into_the_child_it_falls() {
-        let lanes = [1.0, 0.0, 2.0, 4.0, 0.0, 0.0, 1.0, 0.0];
+        let lanes = lanes(&[1.0, 0.0, 2.0, 4.0, 0.0, 0.0, 1.0]);
         assert_eq!(pick(&lanes, 0.0, low(0.0)), Some((0, 0.0)), "the first");
         assert_eq!(
             pick(&lanes, 1.0, low(1.0)),

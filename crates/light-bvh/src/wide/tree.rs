@@ -50,7 +50,7 @@ impl<'a> LightBvhRef<'a> {
         self.order
     }
 
-    /// The place of each light: `8 * node + child`, all ones for a light that is not in the tree.
+    /// The place of each light: `16 * node + child`, all ones for a light that is not in the tree.
     #[must_use]
     pub const fn slots(&self) -> &'a [u32] {
         self.slots

@@ -82,7 +82,7 @@ pub(super) fn prefetch_one<T>(items: &[T], index: u32) {
     let _ = (items, index);
 }
 
-/// Asks the memory for the eight nodes from `first`, of which one may be visited next.
+/// Asks the memory for the nodes from `first`, of which one may be visited next.
 #[inline(always)]
 pub(crate) fn prefetch(nodes: &[WideNode], first: u32) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]

@@ -70,11 +70,17 @@ impl Weights {
             *weight = receiver.weigh(&lane, frame.inv_unit);
             note(k, &lane);
         }
-        let w = &lanes;
         Self {
             lanes,
-            total: ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7])),
+            total: total(lanes),
             inv_unit: frame.inv_unit,
         }
     }
+}
+
+/// The sum of all lanes, in pairs.
+#[inline(always)]
+fn total(lanes: [f32; WIDTH]) -> f32 {
+    let w: [f32; WIDTH / 2] = core::array::from_fn(|k| lanes[k] + lanes[k + WIDTH / 2]);
+    ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7]))
 }
