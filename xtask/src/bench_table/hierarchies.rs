@@ -8,8 +8,8 @@ const SETS: [&str; 4] = ["uniform", "clusters", "spots", "mixed"];
 
 /// Lights of a set, how the table writes that, and how many points its variance is taken over.
 const SIZES: [(&str, &str, &str); 3] = [
-    ("100", "100", "2048"),
-    ("10000", "10 k", "512"),
+    ("100", "100", "4096"),
+    ("10000", "10 k", "4096"),
     ("1000000", "1 M", "16"),
 ];
 

@@ -54,8 +54,6 @@ pub(crate) fn pick(lanes: &[f32; WIDTH], target: f64, about: f32) -> Option<(usi
 }
 
 /// Where each child begins, and the end of the last.
-///
-/// Added up by fours, which do not wait for each other; so the end of a four is the beginning of the next to the bit.
 #[inline(always)]
 fn starts(lanes: &[f32; WIDTH]) -> [f64; WIDTH + 1] {
     let mut starts = [0.0; WIDTH + 1];
