@@ -5,7 +5,7 @@ use core::str::FromStr;
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
     PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
@@ -212,6 +212,29 @@ impl LightSampler for AnyLightSampler {
     #[inline]
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
         for_each_kind!(self, sampler => sampler.pmf_many(ctx, light, count))
+    }
+
+    #[inline]
+    fn sample_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        look: &mut LightLook,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        for_each_kind!(self, sampler => sampler.sample_many_looking(ctx, u, count, look, each));
+    }
+
+    #[inline]
+    fn pmf_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        light: LightId,
+        count: u32,
+        look: &LightLook,
+    ) -> f32 {
+        for_each_kind!(self, sampler => sampler.pmf_many_looking(ctx, light, count, look))
     }
 }
 

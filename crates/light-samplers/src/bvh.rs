@@ -1,10 +1,10 @@
 use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
+use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions, LightCut};
 
-use crate::LightSampler;
-use crate::bvh_cut::BvhLightCut;
+use crate::bvh_cut::{BvhLightCut, SeenLights};
 use crate::light_sampler::stratum;
 use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
+use crate::{LightLook, LightSampler};
 
 /// Choices of one call from which on it pays to look at all lights more closely first.
 const FEWEST_OF_CUT: u32 = 2;
@@ -109,20 +109,45 @@ impl LightSampler for BvhLightSampler {
         count: u32,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        if count < FEWEST_OF_CUT {
-            let choices = (0..count).filter_map(|i| self.sample(ctx, stratum(i, count, u)));
-            choices.for_each(each);
-        } else {
-            self.cut(ctx, CutDetail::default())
-                .sample_many(u, count, each);
-        }
+        self.sample_many_looking(ctx, u, count, &mut LightLook::default(), each);
     }
 
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
+        self.pmf_many_looking(ctx, light, count, &LightLook::default())
+    }
+
+    fn sample_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        look: &mut LightLook,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
         if count < FEWEST_OF_CUT {
-            self.pmf(ctx, light)
+            look.0 = None;
+            let choices = (0..count).filter_map(|i| self.sample(ctx, stratum(i, count, u)));
+            choices.for_each(each);
         } else {
-            self.cut(ctx, CutDetail::default()).pmf(light)
+            let cut = LightCut::at(&self.tree.view(), ctx, CutDetail::default());
+            let cut = look.0.insert(cut);
+            SeenLights::new(&self.tree, &self.sky, ctx, cut).sample_many(u, count, each);
+        }
+    }
+
+    fn pmf_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        light: LightId,
+        count: u32,
+        look: &LightLook,
+    ) -> f32 {
+        if count < FEWEST_OF_CUT {
+            return self.pmf(ctx, light);
+        }
+        match &look.0 {
+            Some(cut) => SeenLights::new(&self.tree, &self.sky, ctx, cut).pmf(light),
+            None => self.cut(ctx, CutDetail::default()).pmf(light),
         }
     }
 }

@@ -14,6 +14,15 @@ pub struct BvhLightCut<'a> {
     sky: &'a Sky,
     ctx: LightSampleContext,
     cut: LightCut,
+}
+
+/// The lights of a sampler as a cut that is kept elsewhere tells of them.
+#[derive(Clone, Copy)]
+pub(crate) struct SeenLights<'a> {
+    tree: &'a LightBvh,
+    sky: &'a Sky,
+    ctx: &'a LightSampleContext,
+    cut: &'a LightCut,
     /// About the irradiance by the tree's lights.
     in_tree: f64,
 }
@@ -25,20 +34,55 @@ impl<'a> BvhLightCut<'a> {
         ctx: &LightSampleContext,
         detail: CutDetail,
     ) -> Self {
-        let cut = LightCut::at(&tree.view(), ctx, detail);
         Self {
             tree,
             sky,
             ctx: *ctx,
-            in_tree: cut.irradiance() * tree.power(),
-            cut,
+            cut: LightCut::at(&tree.view(), ctx, detail),
         }
+    }
+
+    fn seen(&self) -> SeenLights<'_> {
+        SeenLights::new(self.tree, self.sky, &self.ctx, &self.cut)
     }
 
     /// One light that may light the point; `None` if none can.
     #[must_use]
     pub fn sample(&self, u: f64) -> Option<SampledLight> {
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+        self.seen().sample(u)
+    }
+
+    /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
+    #[must_use]
+    pub fn pmf(&self, light: LightId) -> f32 {
+        self.seen().pmf(light)
+    }
+
+    /// `count` lights, one for each of the equal parts of `[0, 1)`, all at the place that `u` has within its part.
+    pub fn sample_many(&self, u: f64, count: u32, each: &mut dyn FnMut(SampledLight)) {
+        self.seen().sample_many(u, count, each);
+    }
+}
+
+impl<'a> SeenLights<'a> {
+    /// The lights of `tree` and `sky` by the cut that was made for `ctx`.
+    pub(crate) fn new(
+        tree: &'a LightBvh,
+        sky: &'a Sky,
+        ctx: &'a LightSampleContext,
+        cut: &'a LightCut,
+    ) -> Self {
+        Self {
+            tree,
+            sky,
+            ctx,
+            cut,
+            in_tree: cut.irradiance() * tree.power(),
+        }
+    }
+
+    fn sample(&self, u: f64) -> Option<SampledLight> {
+        let worth = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
         if self.sky.is_empty() {
             return self.sample_tree(1.0, u);
         }
@@ -48,10 +92,9 @@ impl<'a> BvhLightCut<'a> {
         }
     }
 
-    /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
-    #[must_use]
-    pub fn pmf(&self, light: LightId) -> f32 {
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+    /// The probability of `light` by [`BvhLightCut::sample`].
+    pub(crate) fn pmf(&self, light: LightId) -> f32 {
+        let worth = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
         if self.sky.is_empty() {
             return self.pmf_tree(1.0, light);
         }
@@ -61,20 +104,17 @@ impl<'a> BvhLightCut<'a> {
         }
     }
 
-    /// `count` lights, one for each of the equal parts of `[0, 1)`, all at the place that `u` has within its part.
-    pub fn sample_many(&self, u: f64, count: u32, each: &mut dyn FnMut(SampledLight)) {
-        for i in 0..count {
-            if let Some(sample) = self.sample(stratum(i, count, u)) {
-                each(sample);
-            }
-        }
+    /// [`BvhLightCut::sample_many`].
+    pub(crate) fn sample_many(&self, u: f64, count: u32, mut each: impl FnMut(SampledLight)) {
+        let choices = (0..count).filter_map(|i| self.sample(stratum(i, count, u)));
+        choices.for_each(&mut each);
     }
 
     fn sample_tree(&self, pmf: f32, u: f64) -> Option<SampledLight> {
-        self.cut.sample_at(&self.tree.view(), &self.ctx, pmf, u)
+        self.cut.sample_at(&self.tree.view(), self.ctx, pmf, u)
     }
 
     fn pmf_tree(&self, pmf: f32, light: LightId) -> f32 {
-        self.cut.pmf_at(&self.tree.view(), &self.ctx, pmf, light)
+        self.cut.pmf_at(&self.tree.view(), self.ctx, pmf, light)
     }
 }

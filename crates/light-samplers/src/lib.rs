@@ -17,6 +17,7 @@ mod bvh_cut;
 mod exhaustive;
 #[cfg(feature = "alloc")]
 mod infinite;
+mod light_look;
 mod light_sampler;
 #[cfg(feature = "alloc")]
 mod power;
@@ -32,6 +33,7 @@ pub use bvh::BvhLightSampler;
 pub use bvh_cut::BvhLightCut;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
+pub use light_look::LightLook;
 pub use light_sampler::LightSampler;
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};

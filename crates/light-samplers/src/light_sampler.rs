@@ -1,3 +1,4 @@
+use crate::LightLook;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 /// A way to choose one light of a set at random, with a probability that can be asked for.
@@ -46,6 +47,32 @@ pub trait LightSampler {
         let _ = count;
         self.pmf(ctx, light)
     }
+
+    /// [`sample_many`](Self::sample_many), which keeps in `look` what [`pmf_many_looking`](Self::pmf_many_looking) may need.
+    fn sample_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        look: &mut LightLook,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        look.0 = None;
+        self.sample_many(ctx, u, count, each);
+    }
+
+    /// [`pmf_many`](Self::pmf_many), to the bit, where `look` is that of [`sample_many_looking`](Self::sample_many_looking) by the same sampler
+    /// at the same `ctx` with the same `count`, or an empty one.
+    fn pmf_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        light: LightId,
+        count: u32,
+        look: &LightLook,
+    ) -> f32 {
+        let _ = look;
+        self.pmf_many(ctx, light, count)
+    }
 }
 
 /// The number in the `i`th of `count` equal parts of `[0, 1)` at the place that `u` has in the whole.
@@ -88,5 +115,28 @@ impl<S: LightSampler + ?Sized> LightSampler for &S {
     #[inline]
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
         (**self).pmf_many(ctx, light, count)
+    }
+
+    #[inline]
+    fn sample_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        u: f64,
+        count: u32,
+        look: &mut LightLook,
+        each: &mut dyn FnMut(SampledLight),
+    ) {
+        (**self).sample_many_looking(ctx, u, count, look, each);
+    }
+
+    #[inline]
+    fn pmf_many_looking(
+        &self,
+        ctx: &LightSampleContext,
+        light: LightId,
+        count: u32,
+        look: &LightLook,
+    ) -> f32 {
+        (**self).pmf_many_looking(ctx, light, count, look)
     }
 }

@@ -1,7 +1,7 @@
 use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
-use lights::samplers::LightSampler;
+use lights::samplers::{LightLook, LightSampler};
 use lights::sources::{Light, LightType, PdfCoverage};
 
 use super::{Estimator, Traced};
@@ -23,6 +23,8 @@ pub(super) struct DirectLight<'a, S> {
     pub(super) world: &'a World,
     pub(super) sampler: &'a S,
     pub(super) estimator: Estimator,
+    /// What the sampler found out where it chose last.
+    look: LightLook,
 }
 
 /// What scatters light at a point: a surface, or a surface or a medium.
@@ -81,14 +83,24 @@ impl Arrived {
     }
 }
 
-impl<S: LightSampler> DirectLight<'_, S> {
+impl<'a, S: LightSampler> DirectLight<'a, S> {
+    /// Light of `world` by the lights that `sampler` chooses.
+    pub(super) fn new(world: &'a World, sampler: &'a S, estimator: Estimator) -> Self {
+        Self {
+            world,
+            sampler,
+            estimator,
+            look: LightLook::default(),
+        }
+    }
+
     /// The light that as many light samples as `question` says send over `vertex` toward its viewer, with one shadow ray for all of
     /// them: an unbiased estimate that costs little more than that of a single light.
     ///
     /// `arrived` says what is left of the light of the one whose shadow counts for all.
     #[inline]
     pub(super) fn sample<V: Scatters>(
-        &self,
+        &mut self,
         question: &LightQuestion,
         vertex: &Vertex<'_, V>,
         numbers: &VertexNumbers,
@@ -97,17 +109,19 @@ impl<S: LightSampler> DirectLight<'_, S> {
     ) -> Traced {
         let LightQuestion { ctx, count } = question;
         let (u, u_shadow) = (numbers.light, numbers.shadow);
+        let (world, estimator) = (self.world, self.estimator);
         // The more a candidate would give, the more likely it is the one whose shadow is looked at.
         let mut candidates = WeightedReservoir::new(u_shadow.into());
         let mut number = 0;
         let mut each = |choice| {
             let point = stream.light_point(vertex.number, number, *count);
             number += 1;
-            if let Some(candidate) = self.unshadowed(question, vertex, choice, point) {
+            if let Some(candidate) = unshadowed(world, estimator, question, vertex, choice, point) {
                 candidates.add(candidate, candidate.radiance.element_sum());
             }
         };
-        self.sampler.sample_many(ctx, u, *count, &mut each);
+        self.sampler
+            .sample_many_looking(ctx, u, *count, &mut self.look, &mut each);
         let Some(chosen) = candidates.sample() else {
             return Traced::default();
         };
@@ -118,62 +132,66 @@ impl<S: LightSampler> DirectLight<'_, S> {
         }
     }
 
-    /// The share that one chosen light has in [`sample`](Self::sample) if nothing is in the way; `None` if it has none.
-    #[inline]
-    fn unshadowed<V: Scatters>(
-        &self,
-        question: &LightQuestion,
-        vertex: &Vertex<'_, V>,
-        choice: SampledLight,
-        u_point: Vec2,
-    ) -> Option<Unshadowed> {
-        let Vertex { scattering, wo, .. } = *vertex;
-        let light = self.world.lights().get(choice.light)?;
-        // Rays find no more of a light with holes than is there, but it gives light as if it had none.
-        let has_holes = self.world.has_holes(choice.light);
-        let coverage = if has_holes {
-            PdfCoverage::Complete
-        } else {
-            self.estimator.coverage()
-        };
-        let sample = light.sample_li(&question.ctx, u_point, &(), coverage)?;
-        if is_in_the_surface(&question.ctx, sample.p_light) {
-            return None;
-        }
-        let scattered = scattering.eval(wo, sample.wi) * sample.l;
-        if scattered == Vec3::ZERO {
-            return None;
-        }
-        let density = question.count as f32 * choice.pmf * sample.pdf;
-        let kind = light.light_type();
-        let weight = if kind.is_delta() || has_holes {
-            1.0
-        } else {
-            self.estimator
-                .light_weight(density, scattering.pdf(wo, sample.wi))
-        };
-        Some(Unshadowed {
-            radiance: scattered * (weight / density),
-            wi: sample.wi,
-            p_light: sample.p_light,
-            kind,
-        })
-    }
-
-    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction `wi` toward `light`.
+    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction `wi` toward `light`; `question` is the one
+    /// that it was asked last.
     #[inline]
     pub(super) fn density(&self, question: &LightQuestion, light: LightId, wi: Vec3) -> f32 {
         let LightQuestion { ctx, count } = question;
         let Some(source) = self.world.lights().get(light) else {
             return 0.0;
         };
-        let pmf = *count as f32 * self.sampler.pmf_many(ctx, light, *count);
+        let pmf = self
+            .sampler
+            .pmf_many_looking(ctx, light, *count, &self.look);
+        let pmf = *count as f32 * pmf;
         if pmf > 0.0 {
             pmf * source.pdf_li(ctx, wi, self.estimator.coverage())
         } else {
             0.0
         }
     }
+}
+
+/// The share that one chosen light has in [`DirectLight::sample`] if nothing is in the way; `None` if it has none.
+#[inline]
+fn unshadowed<V: Scatters>(
+    world: &World,
+    estimator: Estimator,
+    question: &LightQuestion,
+    vertex: &Vertex<'_, V>,
+    choice: SampledLight,
+    u_point: Vec2,
+) -> Option<Unshadowed> {
+    let Vertex { scattering, wo, .. } = *vertex;
+    let light = world.lights().get(choice.light)?;
+    // Rays find no more of a light with holes than is there, but it gives light as if it had none.
+    let has_holes = world.has_holes(choice.light);
+    let coverage = if has_holes {
+        PdfCoverage::Complete
+    } else {
+        estimator.coverage()
+    };
+    let sample = light.sample_li(&question.ctx, u_point, &(), coverage)?;
+    if is_in_the_surface(&question.ctx, sample.p_light) {
+        return None;
+    }
+    let scattered = scattering.eval(wo, sample.wi) * sample.l;
+    if scattered == Vec3::ZERO {
+        return None;
+    }
+    let density = question.count as f32 * choice.pmf * sample.pdf;
+    let kind = light.light_type();
+    let weight = if kind.is_delta() || has_holes {
+        1.0
+    } else {
+        estimator.light_weight(density, scattering.pdf(wo, sample.wi))
+    };
+    Some(Unshadowed {
+        radiance: scattered * (weight / density),
+        wi: sample.wi,
+        p_light: sample.p_light,
+        kind,
+    })
 }
 
 /// Whether a point of a light is no farther from the surface that asks than rounding could have put it: a lamp does not light its own

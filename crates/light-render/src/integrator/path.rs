@@ -94,11 +94,7 @@ pub fn trace<S: LightSampler>(
         estimator,
         ..
     } = *settings;
-    let direct = DirectLight {
-        world,
-        sampler,
-        estimator,
-    };
+    let mut direct = DirectLight::new(world, sampler, estimator);
     let mut traced = Traced::default();
     let mut throughput = Vec3::ONE;
     let mut origin = Origin::Dirac;

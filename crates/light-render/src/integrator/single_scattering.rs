@@ -35,12 +35,8 @@ pub fn trace_single_scattering<S: LightSampler>(
     ray: Ray,
     stream: &SampleStream,
 ) -> Traced {
-    let direct = DirectLight {
-        world,
-        sampler,
-        // No ray goes on from the surface, so light samples have to find everything.
-        estimator: Estimator::Light,
-    };
+    // No ray goes on from the surface, so light samples have to find everything.
+    let mut direct = DirectLight::new(world, sampler, Estimator::Light);
     let mut flight = stream.flight(0);
     let medium = world.media().camera;
     let surface = world.closest(&ray, None);

@@ -28,13 +28,8 @@ pub fn trace_volume<S: LightSampler>(
 ) -> Traced {
     /// Paths of fewer vertices are never ended at random.
     const SURE_VERTICES: u32 = 4;
-    let direct = DirectLight {
-        world,
-        sampler,
-        estimator: settings.estimator,
-    };
     let mut path = VolumePath {
-        direct: &direct,
+        direct: DirectLight::new(world, sampler, settings.estimator),
         traced: Traced::default(),
         throughput: Vec3::ONE,
         origin: Origin::Dirac,
@@ -66,12 +61,15 @@ pub fn trace_volume<S: LightSampler>(
                     wo,
                     number,
                 };
-                let lit = direct.sample(&question, &vertex, &numbers, stream, |light| {
-                    let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
-                    let target = is_near.then_some(light.p_light);
-                    let from = met.vertex.spawn(world, light.wi);
-                    transmittance(world, from, target, &mut || flight.next_u())
-                });
+                let lit = path
+                    .direct
+                    .sample(&question, &vertex, &numbers, stream, |light| {
+                        let is_near =
+                            matches!(light.kind, LightType::DeltaPosition | LightType::Area);
+                        let target = is_near.then_some(light.p_light);
+                        let from = met.vertex.spawn(world, light.wi);
+                        transmittance(world, from, target, &mut || flight.next_u())
+                    });
                 path.traced.radiance += path.throughput * lit.radiance;
                 path.traced.rays += lit.rays;
             }
@@ -99,7 +97,7 @@ pub fn trace_volume<S: LightSampler>(
 
 /// A path on its way.
 struct VolumePath<'a, S> {
-    direct: &'a DirectLight<'a, S>,
+    direct: DirectLight<'a, S>,
     traced: Traced,
     throughput: Vec3,
     /// How the current segment was chosen.
@@ -139,12 +137,12 @@ impl<S: LightSampler> VolumePath<'_, S> {
                 }
             }
             let Some(surface) = surface else {
-                let sky = sky(self.direct, &ray, self.origin);
+                let sky = sky(&self.direct, &ray, self.origin);
                 self.traced.radiance += self.throughput * sky;
                 return None;
             };
             if let Some((light, l)) = world.emitted(&surface, -direction) {
-                let weight = self.origin.weight(self.direct, light, direction);
+                let weight = self.origin.weight(&self.direct, light, direction);
                 self.traced.radiance += self.throughput * l * weight;
             }
             if !world.is_interface(&surface) {
