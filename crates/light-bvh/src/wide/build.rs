@@ -58,7 +58,7 @@ pub(super) fn build(
             let lamps = table(entries.len(), |i| {
                 let entry = &entries[i];
                 if let Some(later) = entries.get(i + AHEAD) {
-                    lights.prefetch(&[later.light]);
+                    lights.prefetch(later.light);
                 }
                 Lamp::new(entry.light, lights.bounds(entry.light), entry.power)
             });

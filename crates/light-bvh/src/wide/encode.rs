@@ -8,32 +8,48 @@ use super::vectors::{Work, widely};
 const MIN_SCALE: f32 = 1e-30;
 
 impl WideNode {
-    /// A node whose children have the given moments, at most [`WIDTH`]; `child_base`, `light_base`, `inner` and `parent` are left to
-    /// the caller.
+    /// A node whose children have the given moments, no more than it has slots; `child_base`, `light_base`, `inner` and `parent` are
+    /// left to the caller.
+    #[cfg(test)]
     pub(crate) fn encode(children: &[Moments]) -> Self {
-        widely(Encoding(children))
+        let mut node = Self::EMPTY;
+        node.tell(children);
+        node
+    }
+
+    /// Makes what the node knows of its children what these moments say, of no more children than it has slots; where they are, and
+    /// how many are nodes, stays as it is.
+    pub(super) fn tell(&mut self, children: &[Moments]) {
+        widely(Encoding {
+            node: self,
+            children,
+        });
     }
 
     #[inline(always)]
-    fn of(children: &[Moments]) -> Self {
+    fn set(&mut self, children: &[Moments]) {
         debug_assert!(
             children.len() <= WIDTH,
             "no more children than a node has slots"
         );
-        let mut node = Self {
-            count: u8::try_from(children.len()).unwrap_or(0),
-            ..Self::EMPTY
-        };
+        self.count = u8::try_from(children.len()).unwrap_or(0);
         let Some(brood) = Brood::new(children) else {
-            node.gain = encode_gain(0.0);
-            return node;
+            *self = Self {
+                count: self.count,
+                child_base: self.child_base,
+                light_base: self.light_base,
+                inner: self.inner,
+                parent: self.parent,
+                gain: encode_gain(0.0),
+                ..Self::EMPTY
+            };
+            return;
         };
-        node.set_frame(&brood);
-        node.set_boxes(&brood);
-        let units = node.set_emission(&brood);
-        node.set_power(&brood, &units);
-        node.clear_unlit(&brood);
-        node
+        self.set_frame(&brood);
+        self.set_boxes(&brood);
+        let units = self.set_emission(&brood);
+        self.set_power(&brood, &units);
+        self.clear_unlit(&brood);
     }
 
     #[inline(always)]
@@ -110,15 +126,18 @@ impl WideNode {
     }
 }
 
-/// Children that become a node.
-struct Encoding<'a>(&'a [Moments]);
+/// A node that is told its children.
+struct Encoding<'a> {
+    node: &'a mut WideNode,
+    children: &'a [Moments],
+}
 
 impl Work for Encoding<'_> {
-    type Output = WideNode;
+    type Output = ();
 
     #[inline(always)]
-    fn run(self) -> WideNode {
-        WideNode::of(self.0)
+    fn run(self) {
+        self.node.set(self.children);
     }
 }
 
@@ -219,7 +238,8 @@ mod tests {
                 child.power = next().max(0.0);
                 child.spread_sq = next().max(0.0);
             }
-            let narrow = WideNode::of(&children);
+            let mut narrow = WideNode::EMPTY;
+            narrow.set(&children);
             assert_eq!(WideNode::encode(&children), narrow, "{children:?}");
         }
     }

@@ -25,6 +25,8 @@ pub(super) trait Group: Sized + Send {
 pub(super) struct Children<G> {
     /// In the order of space.
     groups: [Option<G>; WIDTH],
+    /// What splitting each of them may gain; below 0 if it is not to be split.
+    gains: [f32; WIDTH],
     count: usize,
     /// Bit `k`: the lights of group `k` become children themselves.
     singles: u16,
@@ -42,16 +44,21 @@ impl<G: Group> Children<G> {
         let tight = is_tight(whole.lights(), levels);
         let mut children = Self {
             groups: [const { None }; WIDTH],
+            gains: [0.0; WIDTH],
             count: 1,
             singles: 0,
         };
+        children.gains[0] = gain(&whole, tight);
         children.groups[0] = Some(whole);
-        while let Some(index) = children.costliest(tight) {
+        while let Some(index) = children.costliest() {
             let Some(group) = children.groups[index].take() else {
                 break;
             };
             let (left, right) = if tight { group.halve() } else { group.split() };
             children.groups[index + 1..=children.count].rotate_right(1);
+            children.gains[index + 1..=children.count].rotate_right(1);
+            children.gains[index] = gain(&left, tight);
+            children.gains[index + 1] = gain(&right, tight);
             children.groups[index] = Some(left);
             children.groups[index + 1] = Some(right);
             children.count += 1;
@@ -60,20 +67,18 @@ impl<G: Group> Children<G> {
         children
     }
 
-    /// Which group to split next, of those that need a node of their own anyway.
-    fn costliest(&self, tight: bool) -> Option<usize> {
+    /// Which group to split next; the last of those with the highest gain.
+    fn costliest(&self) -> Option<usize> {
         if self.count == WIDTH {
             return None;
         }
-        self.best(|_, group| {
-            (group.lights() > WIDTH && group.is_divisible()).then(|| {
-                if tight {
-                    group.lights() as f32
-                } else {
-                    group.price()
-                }
-            })
-        })
+        let (mut best, mut most) = (None, 0.0);
+        for (k, &gain) in self.gains[..self.count].iter().enumerate() {
+            if gain >= most {
+                (best, most) = (Some(k), gain);
+            }
+        }
+        best
     }
 
     /// Puts the lights of small groups into the places that are left.
@@ -138,5 +143,16 @@ impl<G: Group> Children<G> {
         let singles = self.singles;
         let groups = self.groups[..self.count].iter().flatten().enumerate();
         groups.map(move |(k, group)| (group, singles >> k & 1 == 1))
+    }
+}
+
+/// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if it is not to be split.
+fn gain<G: Group>(group: &G, tight: bool) -> f32 {
+    if group.lights() <= WIDTH || !group.is_divisible() {
+        -1.0
+    } else if tight {
+        group.lights() as f32
+    } else {
+        group.price().max(0.0)
     }
 }

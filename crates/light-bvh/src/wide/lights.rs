@@ -34,20 +34,18 @@ impl<'a> Lights<'a> {
         &self.extents[light as usize]
     }
 
-    /// Asks the memory for lights that are read soon.
+    /// Asks the memory for a light that is read soon.
     #[inline]
-    pub(super) fn prefetch(&self, lights: &[u32]) {
-        for &light in lights {
-            prefetch_one(self.extents, light);
-        }
+    pub(super) fn prefetch(&self, light: u32) {
+        prefetch_one(self.extents, light);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn moments(&self, light: u32) -> Moments {
         self.moments_of(self.extent(light))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn moments_of(&self, extent: &LightExtent) -> Moments {
         Moments::of_light(extent, self.inv_power)
     }

@@ -58,6 +58,7 @@ impl Moments {
     };
 
     /// The moments of one light; `inv_total` is one over the power of all lights together.
+    #[inline(always)]
     pub(crate) fn of_light(light: &LightExtent, inv_total: f64) -> Self {
         match light {
             LightExtent::Bounded(bounds) => Self::of_bounds(bounds, inv_total),
@@ -91,6 +92,7 @@ impl Moments {
     }
 
     /// As a light within the given bounds may emit.
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     fn of_bounds(light: &LightBounds, inv_total: f64) -> Self {
         let lobe = Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided);

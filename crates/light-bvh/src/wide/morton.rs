@@ -121,16 +121,14 @@ pub(super) fn sorted(
 pub(super) struct Range<'a> {
     entries: &'a mut [Entry],
     lights: &'a Lights<'a>,
-    price: f32,
     /// Side of the smallest cells of the keys.
     cell: f32,
 }
 
 impl<'a> Range<'a> {
     /// The lights of `entries`, which are in the order of their keys.
-    pub(super) fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
+    pub(super) const fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
         Self {
-            price: price(entries, cell),
             entries,
             lights,
             cell,
@@ -168,8 +166,12 @@ impl Group for Range<'_> {
         self.entries.len() > 1
     }
 
+    /// Power times the side of the smallest cell that holds the lights.
     fn price(&self) -> f32 {
-        self.price
+        const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
+        let bits = top_bit(self.entries).map_or(0, |bit| bit + 1);
+        let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
+        power(self.entries) * side * self.cell.max(f32::MIN_POSITIVE)
     }
 
     fn split(mut self) -> (Self, Self) {
@@ -201,16 +203,20 @@ fn top_bit(entries: &[Entry]) -> Option<u32> {
     (first.key ^ last.key).checked_ilog2()
 }
 
-/// Power times the side of the smallest cell that holds the lights.
-fn price(entries: &[Entry], cell: f32) -> f32 {
-    const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
-    let bits = top_bit(entries).map_or(0, |bit| bit + 1);
-    let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
-    power(entries) * side * cell.max(f32::MIN_POSITIVE)
+/// The power of all; where they are many, in parts side by side.
+fn power(entries: &[Entry]) -> f32 {
+    /// Entries that are summed up in one go.
+    const CHUNK: usize = 1 << 14;
+    if entries.len() <= CHUNK {
+        return power_of_few(entries);
+    }
+    map(entries.chunks(CHUNK).collect(), power_of_few)
+        .iter()
+        .sum()
 }
 
-/// The power of all, in four sums, which do not wait for each other.
-fn power(entries: &[Entry]) -> f32 {
+/// The same in four sums, which do not wait for each other.
+fn power_of_few(entries: &[Entry]) -> f32 {
     let fours = entries.chunks_exact(4);
     let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();
     let mut sums = [0.0; 4];

@@ -8,7 +8,10 @@ use super::lamp::Lamp;
 pub(super) const MIXED_AXES: f32 = 100.0;
 
 /// A light, or a few neighbours, as the builder sorts them.
+///
+/// Three vectors of four, so that moving one waits for nothing.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
 pub(super) struct Prim {
     /// Mean position.
     pub(super) center: Vec3,

@@ -76,13 +76,14 @@ impl Filling<'_> {
         let first = node.light_base as usize;
         let lights = &self.order[first..end];
         if lights.len() <= BATCH {
-            // Lights are far from each other in memory: those of the next batches are on their way while these are worked at.
-            let places = self.order.len();
-            let (from, to) = (first + BATCH, end + BATCH);
-            self.lights
-                .prefetch(&self.order[from.min(places)..to.min(places)]);
+            // Lights are far from each other in memory: those of the next batches are on their way while these are looked at.
+            let later = self.order.get(first + BATCH..).unwrap_or_default();
+            let mut later = later.iter();
             let mut moments = [Moments::NOTHING; BATCH];
             for (moments, &light) in moments.iter_mut().zip(lights) {
+                if let Some(&light) = later.next() {
+                    self.lights.prefetch(light);
+                }
                 *moments = self.lights.moments(light);
             }
             return Batch {
@@ -159,12 +160,6 @@ impl Batch<'_> {
 /// Tells `node` what its children are, which are the first ones of `brood`.
 fn encode(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
     let brood = &brood[..usize::from(node.count)];
-    *node = WideNode {
-        child_base: node.child_base,
-        light_base: node.light_base,
-        inner: node.inner,
-        parent: node.parent,
-        ..WideNode::encode(brood)
-    };
+    node.tell(brood);
     Moments::join(brood)
 }
