@@ -3,7 +3,7 @@
 use light_bvh::{CutDetail, LightBvhOptions};
 use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
-    BvhLightLook, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 use light_testkit::LightSet;
