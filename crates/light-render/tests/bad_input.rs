@@ -90,3 +90,155 @@ fn broken_files_of_every_format_end_with_status_2() {
         assert!(refused >= 4, "{refused} of 12 variants of {file}");
     }
 }
+
+/// What the smaller rooms leave out of the pbrt format.
+const PBRT: &str = r#"LookAt 0 1 5  0 1 0  0 1 0
+Camera "perspective" "float fov" 50
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+WorldBegin
+Attribute "shape" "float alpha" 1
+Attribute "light" "float scale" 2
+Texture "tiles" "spectrum" "imagemap" "string filename" "a.png" "string wrap" "clamp"
+    "float uscale" 2 "float vscale" 3 "float udelta" .1 "float vdelta" .2 "bool invert" true
+    "string encoding" "linear" "float scale" .5
+Texture "more" "spectrum" "scale" "texture tex" "tiles" "float scale" .5
+Texture "both" "spectrum" "mix" "texture tex1" "tiles" "texture tex2" "more" "float amount" .25
+MakeNamedMaterial "red" "string type" "diffuse" "rgb reflectance" [ .8 .1 .1 ]
+MakeNamedMaterial "tiled" "string type" "diffuse" "texture reflectance" "both"
+Material "mix" "string materials" [ "red" "tiled" ] "float amount" .5
+ObjectBegin "thing"
+  Shape "sphere" "float radius" .5 "float phimax" 180
+  Shape "disk" "float radius" 2 "float innerradius" 1 "float height" .5
+  Shape "cylinder" "float zmin" 0 "float zmax" 1
+ObjectEnd
+AttributeBegin
+  Translate 1 0 0
+  ObjectInstance "thing"
+  Rotate 30 0 1 0
+  ObjectInstance "thing"
+AttributeEnd
+AreaLightSource "diffuse" "float power" 10 "bool twosided" true
+Shape "sphere" "float radius" .25
+"#;
+
+/// What the smaller rooms leave out of the OBJ format.
+const OBJ: &str = "mtllib keys.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vn 0 0 1
+o square
+g one two
+usemtl cloth
+f 1/1/1 2/2/1 3/3/1
+usemtl glass
+f -4//1 -2//1 -1//1
+";
+
+/// What the smaller rooms leave out of the MTL format.
+const MTL: &str = "newmtl cloth
+Kd .5 .5 .5
+map_Kd -s 2 3 1 -o .5 .25 0 -clamp on a.png
+Ke 1 1 1
+map_Ke -clamp off -s 4 4 a.png
+map_d -o .1 .1 a.png
+d .75
+Pr .3
+newmtl glass
+Ni 1.5
+illum 7
+Tr .5
+newmtl metal
+Kd .9 .7 .4
+Pm 1
+Ks .5 .5 .5
+illum 3
+";
+
+/// What the smaller rooms leave out of glTF.
+const GLTF: &str = r#"{
+ "asset": { "version": "2.0" },
+ "extensionsUsed": [ "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength" ],
+ "extensions": { "KHR_lights_punctual": { "lights": [
+  { "type": "spot", "intensity": 20, "color": [ 1, 0.5, 0.25 ],
+    "spot": { "innerConeAngle": 0.2, "outerConeAngle": 0.5 } },
+  { "type": "directional", "intensity": 3 },
+  { "type": "point", "intensity": 7, "range": 10 } ] } },
+ "scene": 0,
+ "scenes": [ { "nodes": [ 0, 1, 2, 3 ] } ],
+ "nodes": [
+  { "mesh": 0, "scale": [ 1, 2, 1 ], "rotation": [ 0, 0, 0, 1 ] },
+  { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [ 0, 3, 0 ] },
+  { "extensions": { "KHR_lights_punctual": { "light": 1 } } },
+  { "extensions": { "KHR_lights_punctual": { "light": 2 } } } ],
+ "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0, "mode": 4 } ] } ],
+ "materials": [ { "emissiveFactor": [ 1, 1, 1 ], "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
+  "emissiveTexture": { "index": 0, "extensions": { "KHR_texture_transform": {
+   "offset": [ 0.5, 0.25 ], "rotation": 0.3, "scale": [ 2, 3 ] } } },
+  "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 683 } } } ],
+ "textures": [ { "source": 0, "sampler": 0 } ],
+ "samplers": [ { "wrapS": 33071, "wrapT": 33648 } ],
+ "images": [ { "uri": "a.png" } ],
+ "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" },
+  { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" } ],
+ "bufferViews": [ { "buffer": 0, "byteLength": 36 }, { "buffer": 0, "byteOffset": 36, "byteLength": 24 } ],
+ "buffers": [ { "byteLength": 60, "uri": "a.bin" } ]
+}
+"#;
+
+#[test]
+fn broken_files_with_every_key_end_with_status_2() {
+    /// Places at which each file is cut, and has a hole.
+    const PLACES: usize = 100;
+    let name = format!("lights-bad-keys-{}", std::process::id());
+    let folder = Folder(std::env::temp_dir().join(name));
+    let folder = &*folder.0;
+    fs::create_dir_all(folder).expect("a folder");
+    let picture = Image::new(4, 4, vec![Vec3::splat(0.5); 16]).expect("an image");
+    write_image(&folder.join("a.png"), &picture).expect("written");
+    let numbers = [
+        0.0f32, 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 1.,
+    ];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    fs::write(folder.join("a.bin"), bytes).expect("written");
+    fs::write(folder.join("keys.mtl"), MTL).expect("written");
+    // The least number of variants that are no scene: a text that ends early may still be one, and what is not known by its name is left out
+    // with a warning.
+    for (file, good, least) in [
+        ("keys.pbrt", PBRT, 140),
+        ("keys.obj", OBJ, 160),
+        ("keys.gltf", GLTF, 200),
+        ("keys.mtl", MTL, 130),
+    ] {
+        let write = |name: &str, text: &[u8]| {
+            fs::write(folder.join(name), text).expect("written");
+            if !name.ends_with(".mtl") {
+                return refusal(folder, &["info", "--json"], name);
+            }
+            let obj = OBJ.replace("keys.mtl", name);
+            fs::write(folder.join("user.obj"), obj).expect("written");
+            refusal(folder, &["info", "--json"], "user.obj")
+        };
+        assert_eq!(write(file, good.as_bytes()), None, "{file} is good");
+        let good = good.as_bytes();
+        let mut refused = 0;
+        for k in 1..=PLACES {
+            let cut = good.len() * k / (PLACES + 1);
+            let hole = [&good[..cut], &b"\0x\xff"[..], &good[cut + 1..]].concat();
+            for (kind, variant) in [("cut", &good[..cut]), ("hole", &*hole)] {
+                let broken = format!("{kind}-{k}-{file}");
+                if let Some(said) = write(&broken, variant) {
+                    assert_eq!(said.lines().count(), 1, "{broken}: {said}");
+                    let names = said.contains(&broken) || said.contains("user.obj");
+                    assert!(names, "{broken}: the file is named: {said}");
+                    refused += 1;
+                }
+            }
+        }
+        assert!(refused >= least, "{refused} variants of {file}");
+    }
+}

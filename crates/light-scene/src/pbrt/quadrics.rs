@@ -166,10 +166,46 @@ mod tests {
             "\"cylinder\" \"float zmin\" 0 \"float phimax\" 90",
             0.5 * PI,
         );
+        has_area("\"disk\"", PI);
+        has_area("\"cylinder\" \"float radius\" 3", 12.0 * PI);
         let zone = mesh("\"sphere\" \"float zmin\" .5").bounds();
         assert!(
             (zone.min.z - 0.5).abs() < 1e-6 && zone.max.z == 1.0,
             "{zone:?}"
         );
+    }
+
+    #[test]
+    fn quadrics_shine_with_the_power_that_is_asked_for_or_that_of_their_area() {
+        let shapes = [
+            ("\"disk\" \"float radius\" 2", 4.0 * PI),
+            (
+                "\"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float phimax\" 180",
+                1.5 * PI,
+            ),
+            (
+                "\"cylinder\" \"float zmin\" 0 \"float phimax\" 90",
+                0.5 * PI,
+            ),
+        ];
+        for (shape, area) in shapes {
+            for (amount, expected) in [
+                ("\"float power\" 10", 10.0),
+                ("\"rgb L\" [ 3 3 3 ]", 3.0 * PI * area),
+            ] {
+                let text = format!("WorldBegin AreaLightSource \"diffuse\" {amount} Shape {shape}");
+                let scene = parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene");
+                let mesh = &scene.meshes[0];
+                let emission = scene.material(mesh.material).emission.as_ref();
+                let Color::Constant(radiance) = emission.expect("a lamp").radiance else {
+                    unreachable!("no image")
+                };
+                let power = PI * mesh.area() * radiance.y;
+                assert!(
+                    (power / expected - 1.0).abs() < 5e-3,
+                    "{shape}, {amount}: {power} W, not {expected}"
+                );
+            }
+        }
     }
 }
