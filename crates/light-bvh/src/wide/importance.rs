@@ -12,12 +12,14 @@ const EMISSION_SLACK: f32 = 0.004;
 /// More than any child emits in any frame, per unit of its spread: one whose lights differ is never given up.
 const ANYTHING: f32 = 1e12;
 
-/// How much of the squared support of a child counts as variance of its height over the horizon, how much of its squared width, and of its
-/// squared spread and distance, as variance of its emission, in codes of the axis, how much of its squared width as variance of its distance,
-/// and how much more it is worth where its width is that distance. Chosen by V: see the crate's first page.
-const HEIGHT: f32 = 0.165;
+/// How much of the squared support of a child counts as variance of its height over the horizon, and how much of the support is taken off
+/// again, for no light is beyond it; how much of its squared width, and of its squared spread and distance, as variance of its emission, in
+/// codes of the axis; how much of its squared width as variance of its distance, and how much more it is worth where its width is that
+/// distance. Chosen by V: see the crate's first page.
+const HEIGHT: f32 = 0.35;
+const BEYOND: f32 = 0.14;
 const RAMP_BY_POSITION: f32 = 11.0;
-const RAMP_BY_SPREAD: f32 = 0.3;
+const RAMP_BY_SPREAD: f32 = 0.27;
 pub(crate) const DISTANCE: f32 = 0.09;
 const NEARNESS: f32 = 0.28;
 
@@ -63,7 +65,7 @@ impl SurfaceReceiver {
     #[inline(always)]
     pub(crate) fn expected_height(&self, lane: &Lane) -> f32 {
         let (height, support) = self.horizon.height(lane);
-        at_least(lane.slack, height + blurred(height, support))
+        at_least(lane.slack, height + expected_abs(height, support))
     }
 }
 
@@ -109,7 +111,7 @@ impl Receiver for TwoSidedReceiver {
     #[inline(always)]
     fn weigh(&self, lane: &Lane, _: f32) -> f32 {
         let (height, support) = self.horizon.height(lane);
-        let expected = at_least(lane.slack, blurred(height, support));
+        let expected = at_least(lane.slack, expected_abs(height, support));
         masked(lane.weight(2.0 * expected), lane.shines_here())
     }
 }
@@ -214,10 +216,11 @@ pub(crate) fn at_most(most: f32, x: f32) -> f32 {
     if x > most { most } else { x }
 }
 
-/// The root mean square of a height that varies as `support` allows.
+/// About the mean distance from the horizon, up or down, of lights whose height varies as `support` allows: more than `-height` even where
+/// the support just reaches the horizon.
 #[inline(always)]
-fn blurred(height: f32, support: f32) -> f32 {
-    float::sqrt(height * height + HEIGHT * (support * support))
+fn expected_abs(height: f32, support: f32) -> f32 {
+    float::sqrt(height * height + HEIGHT * (support * support)) - BEYOND * support
 }
 
 impl Lane {
