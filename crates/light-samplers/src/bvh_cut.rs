@@ -106,6 +106,11 @@ impl<'a> SeenLights<'a> {
 
     /// [`BvhLightCut::sample_many`].
     pub(crate) fn sample_many(&self, u: f64, count: u32, mut each: impl FnMut(SampledLight)) {
+        if self.sky.is_empty() {
+            let us = (0..count).map(|i| stratum(i, count, u));
+            let tree = self.tree.view();
+            return self.cut.sample_many_at(&tree, self.ctx, 1.0, us, each);
+        }
         let choices = (0..count).filter_map(|i| self.sample(stratum(i, count, u)));
         choices.for_each(&mut each);
     }

@@ -9,6 +9,8 @@ mod build;
 #[cfg(feature = "alloc")]
 mod clusters;
 mod cut;
+mod cut_choose;
+mod cut_grow;
 #[cfg(feature = "alloc")]
 mod emission;
 #[cfg(feature = "alloc")]

@@ -135,26 +135,34 @@ impl<'a> LightBvhRef<'a> {
             .map_or(0.0, |root| answer(ctx, Irradiance { root }))
     }
 
-    /// The probability of `light` after another choice of probability `pmf` led to the tree.
+    /// The probability of `light`, if `pmf` is that of the root; or of the first child of a node on the way up from it that `known` tells.
     #[inline(always)]
-    fn ascend<R: Receiver>(&self, receiver: &R, pmf: f32, light: LightId) -> f32 {
+    pub(crate) fn ascend<R: Receiver>(
+        &self,
+        receiver: &R,
+        pmf: f32,
+        light: LightId,
+        known: impl Fn(usize, usize) -> Option<f32>,
+    ) -> f32 {
         let mut shares = [0.0; MAX_DEPTH];
         let mut slot = self.slot(light);
-        let mut levels = 0;
+        if slot == NOWHERE {
+            return 0.0;
+        }
+        let (mut pmf, mut levels) = (pmf, 0);
         // Up along the parents: which nodes to visit does not depend on what they weigh, so their latencies overlap.
         while slot != NOWHERE {
-            let (Some(node), Some(share)) = (
-                self.nodes.get(slot as usize / WIDTH),
-                shares.get_mut(levels),
-            ) else {
+            let (index, child) = (slot as usize / WIDTH, slot as usize % WIDTH);
+            if let Some(known) = known(index, child) {
+                pmf = known;
+                break;
+            }
+            let (Some(node), Some(share)) = (self.nodes.get(index), shares.get_mut(levels)) else {
                 return 0.0;
             };
-            *share = Weights::new(node, receiver).probability(slot as usize % WIDTH);
+            *share = Weights::new(node, receiver).probability(child);
             levels += 1;
             slot = node.parent;
-        }
-        if levels == 0 {
-            return 0.0;
         }
         // Multiplied from the root down, as a sample does it.
         shares[..levels]
@@ -247,7 +255,8 @@ impl Query for Probability<'_, '_> {
 
     #[inline(always)]
     fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
-        self.tree.ascend(receiver, self.pmf, self.light)
+        let nothing = |_, _| None;
+        self.tree.ascend(receiver, self.pmf, self.light, nothing)
     }
 }
 

@@ -29,7 +29,7 @@ impl Weights {
         }
     }
 
-    /// The same, and for each child how rough its estimate is: 0 for a point far away, 1 for a box around the receiver.
+    /// The same, and for each child how rough its estimate is: its squared width over its squared distance.
     #[inline(always)]
     pub(crate) fn with_roughness<R: Receiver>(
         node: &WideNode,
@@ -39,8 +39,8 @@ impl Weights {
         let frame = Frame::in_codes(node, receiver);
         let weights = Self::in_frame(node, receiver, &frame, |k, lane| {
             let [hx, hy, hz] = lane.extent;
-            let extent_sq = hx * hx + hy * hy + hz * hz;
-            roughness[k] = extent_sq / (extent_sq + lane.dist_sq);
+            let width = hx + hy + hz;
+            roughness[k] = width * width * (1.0 / lane.dist_sq);
         });
         if weights.total >= LEAST_TOTAL {
             (weights, roughness)
@@ -80,7 +80,7 @@ impl Weights {
 
 /// The sum of all lanes, in pairs.
 #[inline(always)]
-fn total(lanes: [f32; WIDTH]) -> f32 {
+pub(super) fn total(lanes: [f32; WIDTH]) -> f32 {
     let w: [f32; WIDTH / 2] = core::array::from_fn(|k| lanes[k] + lanes[k + WIDTH / 2]);
     ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7]))
 }

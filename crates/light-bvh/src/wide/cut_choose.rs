@@ -1,0 +1,127 @@
+//! How a [`LightCut`] is sampled.
+
+use light_bounds::{LightId, SampledLight};
+
+use super::cut::LightCut;
+use super::importance::Receiver;
+use super::query::Query;
+use super::select::{both, low, pick, share};
+use super::tree::LightBvhRef;
+
+/// [`LightCut::sample_at`].
+pub(super) struct Sample<'a, 'b> {
+    pub(super) cut: &'b LightCut,
+    pub(super) tree: &'b LightBvhRef<'a>,
+    pub(super) pmf: f32,
+    pub(super) u: f64,
+}
+
+impl Query for Sample<'_, '_> {
+    type Answer = Option<SampledLight>;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        self.cut.choose(receiver, self.tree, self.pmf, self.u)
+    }
+}
+
+/// [`LightCut::sample_many_at`].
+pub(super) struct SampleMany<'a, 'b, U, F> {
+    pub(super) cut: &'b LightCut,
+    pub(super) tree: &'b LightBvhRef<'a>,
+    pub(super) pmf: f32,
+    pub(super) us: U,
+    pub(super) each: F,
+}
+
+impl<U: IntoIterator<Item = f64>, F: FnMut(SampledLight)> Query for SampleMany<'_, '_, U, F> {
+    type Answer = ();
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) {
+        let Self { cut, tree, pmf, .. } = self;
+        let mut each = self.each;
+        for u in self.us {
+            if let Some(sample) = cut.choose(receiver, tree, pmf, u) {
+                each(sample);
+            }
+        }
+    }
+}
+
+/// [`LightCut::pmf_at`].
+pub(super) struct Probability<'a, 'b> {
+    pub(super) cut: &'b LightCut,
+    pub(super) tree: &'b LightBvhRef<'a>,
+    pub(super) pmf: f32,
+    pub(super) light: LightId,
+}
+
+impl Query for Probability<'_, '_> {
+    type Answer = f32;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> f32 {
+        let Self { cut, pmf, .. } = self;
+        self.tree.ascend(receiver, 0.0, self.light, |node, child| {
+            let at = cut.nodes[..cut.count]
+                .iter()
+                .position(|&n| n as usize == node)?;
+            Some(both(pmf, share(cut.weights[at][child], cut.total())))
+        })
+    }
+}
+
+impl LightCut {
+    #[inline(always)]
+    fn choose<R: Receiver>(
+        &self,
+        receiver: &R,
+        tree: &LightBvhRef<'_>,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        let total = self.total();
+        if !(total > 0.0) {
+            return None;
+        }
+        let target = u * f64::from(total);
+        let (index, within) = self.node_at(target)?;
+        let (child, u) = pick(&self.weights[index], within, low(within))?;
+        let pmf = both(pmf, share(self.weights[index][child], total));
+        tree.descend_from(receiver, self.nodes[index], child, pmf, u)
+    }
+
+    /// The node that `target`, from 0 to the sum of the weights, falls on, and how far into it.
+    #[inline(always)]
+    fn node_at(&self, target: f64) -> Option<(usize, f64)> {
+        // All are compared, for a search that stops could not be foretold; in single precision, which is right but for the nearest of misses.
+        let about = low(target);
+        let guess: u32 = self.ends.iter().map(|&end| u32::from(end <= about)).sum();
+        let guess = guess as usize;
+        let start = |index: usize| match index {
+            0 => 0.0,
+            _ => f64::from(self.ends[index - 1]),
+        };
+        let is_right = (guess < self.count)
+            && (start(guess) <= target)
+            && (target < f64::from(self.ends[guess]));
+        let index = if is_right {
+            guess
+        } else {
+            self.search(target)?
+        };
+        Some((index, target - start(index)))
+    }
+
+    /// The same, looked for; the last node with any weight takes what rounding leaves beyond the sum.
+    #[cold]
+    fn search(&self, target: f64) -> Option<usize> {
+        let ends = self.ends.get(..self.count)?;
+        let index = ends.partition_point(|&end| f64::from(end) <= target);
+        if index < ends.len() {
+            return Some(index);
+        }
+        Some(ends.partition_point(|&end| end < self.total()))
+    }
+}
