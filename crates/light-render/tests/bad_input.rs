@@ -193,7 +193,10 @@ const GLTF: &str = r#"{
 #[test]
 fn broken_files_with_every_key_end_with_status_2() {
     /// Places at which each file is cut, and has a hole.
-    const PLACES: usize = 100;
+    const PLACES: usize = 160;
+    /// Variants that are no scene, at least: a text that ends early may still be one, and what is not known by its name is left out with a
+    /// warning.
+    const BROKEN: usize = 200;
     let name = format!("lights-bad-keys-{}", std::process::id());
     let folder = Folder(std::env::temp_dir().join(name));
     let folder = &*folder.0;
@@ -206,13 +209,11 @@ fn broken_files_with_every_key_end_with_status_2() {
     let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
     fs::write(folder.join("a.bin"), bytes).expect("written");
     fs::write(folder.join("keys.mtl"), MTL).expect("written");
-    // The least number of variants that are no scene: a text that ends early may still be one, and what is not known by its name is left out
-    // with a warning.
-    for (file, good, least) in [
-        ("keys.pbrt", PBRT, 140),
-        ("keys.obj", OBJ, 160),
-        ("keys.gltf", GLTF, 200),
-        ("keys.mtl", MTL, 130),
+    for (file, good) in [
+        ("keys.pbrt", PBRT),
+        ("keys.obj", OBJ),
+        ("keys.gltf", GLTF),
+        ("keys.mtl", MTL),
     ] {
         let write = |name: &str, text: &[u8]| {
             fs::write(folder.join(name), text).expect("written");
@@ -239,6 +240,6 @@ fn broken_files_with_every_key_end_with_status_2() {
                 }
             }
         }
-        assert!(refused >= least, "{refused} variants of {file}");
+        assert!(refused >= BROKEN, "{refused} variants of {file}");
     }
 }
