@@ -11,6 +11,9 @@ use super::subject::Subject;
 /// Passes over all points that every sampler gets at least, and how long to go on.
 const MIN_PASSES: usize = 9;
 
+/// How far `u` moves from pass to pass: the golden ratio's fraction, by which no two of many passes come near each other.
+const TURN: f64 = 0.618_033_988_749_895;
+
 /// Queries that are timed together.
 const RUN: usize = 64;
 const TIME_PER_SUBJECT: Duration = Duration::from_millis(600);
@@ -47,7 +50,7 @@ pub(super) fn queries(
     k: u32,
 ) -> Vec<QueryTime> {
     let mut rng = Pcg64Mcg::seed_from_u64(0x7131);
-    let us: Vec<f64> = contexts.iter().map(|_| unit(&mut rng)).collect();
+    let mut us: Vec<f64> = contexts.iter().map(|_| unit(&mut rng)).collect();
     let plans: Vec<Plan> = subjects
         .iter()
         .map(|subject| Plan::new(subject, contexts, &us, &mut rng))
@@ -58,6 +61,8 @@ pub(super) fn queries(
     let mut passes = 0;
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
+        // Each pass asks with other `u`: the caches do not hold the ways of the last one.
+        us.iter_mut().for_each(|u| *u = (*u + TURN).fract());
         for ((subject, plan), time) in subjects.iter().zip(&plans).zip(&mut times) {
             let asked: Vec<_> = contexts.iter().zip(&us).collect();
             time.sample.pass(&asked, |(ctx, u)| {
