@@ -4,7 +4,7 @@
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
-use light_bvh::{LightBvh, LightBvhError, LightBvhOptions, MAX_DEPTH};
+use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions, LightCut, MAX_DEPTH};
 
 mod support;
 use support::lamp;
@@ -204,4 +204,41 @@ fn lights_are_given_up_only_where_no_part_of_them_shines() {
         }
     }
     assert!(given_up > kept / 10, "{given_up} given up, {kept} kept");
+}
+
+/// A cut that looks at one place after another is the one that each place would get by itself.
+#[test]
+fn a_cut_forgets_where_it_was() {
+    let mut numbers = Numbers(9);
+    let lights: Vec<LightExtent> = (0..3000)
+        .map(|_| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(numbers.vec3()),
+                w: numbers.direction(),
+                phi: 1.0 + numbers.next(),
+                cos_theta_o: 1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        })
+        .collect();
+    let trees = [&lights[..], &lights[..5], &[]].map(|l| LightBvh::build(l).expect("valid lights"));
+    let (mut cut, mut found) = (LightCut::default(), 0);
+    for tree in trees.iter().cycle().take(60) {
+        let (p, n) = (numbers.vec3(), numbers.direction());
+        let ctx = LightSampleContext::surface(p, n, n);
+        let detail = CutDetail {
+            threshold: 0.3 * numbers.next(),
+        };
+        let view = tree.view();
+        cut.look_at(&view, &ctx, detail);
+        let alone = LightCut::at(&view, &ctx, detail);
+        for i in 0..16 {
+            let u = (f64::from(i) + 0.5) / 16.0;
+            let sample = cut.sample_at(&view, &ctx, 1.0, u);
+            assert_eq!(sample, alone.sample_at(&view, &ctx, 1.0, u), "{ctx:?}");
+            found += u32::from(sample.is_some());
+        }
+    }
+    assert!(found > 300, "{found} lights");
 }

@@ -1,5 +1,5 @@
 use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions, LightCut};
+use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::bvh_cut::{BvhLightCut, SeenLights};
 use crate::light_sampler::stratum;
@@ -129,8 +129,8 @@ impl LightSampler for BvhLightSampler {
             let choices = (0..count).filter_map(|i| self.sample(ctx, stratum(i, count, u)));
             choices.for_each(each);
         } else {
-            let cut = LightCut::at(&self.tree.view(), ctx, CutDetail::default());
-            let cut = look.0.insert(cut);
+            let cut = look.0.get_or_insert_default();
+            cut.look_at(&self.tree.view(), ctx, CutDetail::default());
             SeenLights::new(&self.tree, &self.sky, ctx, cut).sample_many(u, count, each);
         }
     }

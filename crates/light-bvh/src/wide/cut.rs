@@ -40,6 +40,13 @@ pub struct LightCut {
     pub(super) inv_unit: f32,
 }
 
+impl Default for LightCut {
+    /// A cut in which there is no light.
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl LightCut {
     /// No node.
     const EMPTY: Self = Self {
@@ -54,9 +61,14 @@ impl LightCut {
     #[must_use]
     pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
         let mut cut = Self::EMPTY;
-        let into = &mut cut;
-        answer(ctx, Grow { tree, detail, into });
+        cut.look_at(tree, ctx, detail);
         cut
+    }
+
+    /// Becomes the cut of `tree` for `ctx`, in the same place: [`at`](Self::at) without a copy.
+    pub fn look_at(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
+        let into = self;
+        answer(ctx, Grow { tree, detail, into });
     }
 
     /// The cut of `tree` for `receiver`.

@@ -15,7 +15,7 @@ use super::weights::{Weights, total};
 /// and keep their sign.
 const MAX_ZOOM: f32 = 1_073_741_824.0;
 
-/// [`LightCut::at`]: fills an empty cut.
+/// [`LightCut::look_at`]: whatever the cut held is gone.
 pub(super) struct Grow<'a, 'b> {
     pub(super) tree: &'b LightBvhRef<'a>,
     pub(super) detail: CutDetail,
@@ -33,6 +33,7 @@ impl Query for Grow<'_, '_> {
             into: cut,
         } = self;
         let mut count = usize::from(!tree.is_empty());
+        cut.nodes[0] = 0;
         let mut limit = 0.0;
         let mut end = 0.0;
         let mut index = 0;
@@ -76,6 +77,7 @@ impl Query for Grow<'_, '_> {
             index += 1;
         }
         cut.count = index;
+        cut.ends[index..].fill(f32::INFINITY);
     }
 }
 
