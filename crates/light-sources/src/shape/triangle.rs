@@ -11,7 +11,7 @@ use light_math::{Aabb, DirectionCone};
 
 /// A triangle; its front is the side from which the vertices run counter-clockwise.
 ///
-/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small or far.
+/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     p: [Vec3; 3],
@@ -80,7 +80,7 @@ impl Triangle {
         }
     }
 
-    /// The triangle on the sphere of directions around `p`; `None` where it is so small or far that area does.
+    /// The triangle on the sphere of directions around `p`; `None` where it is so small that area does.
     fn seen_from(&self, p: Vec3) -> Option<SphericalTriangle> {
         if self.is_far_from(p) {
             return None;
@@ -88,15 +88,15 @@ impl Triangle {
         SphericalTriangle::new(self.p, p).filter(|seen| seen.solid_angle() > SMALL)
     }
 
-    /// Whether the triangle is ten times as far as two of its edges are long: most lamps are, from most points.
+    /// Whether [`SMALL`] is more than the triangle can cover, by little arithmetic: most lamps are, from most points.
     ///
-    /// Its distance changes by a tenth over it then, and the angles at which it sends and meets light as little, so that to choose by area is
-    /// to choose by solid angle and cosine, but for an amount that shadows hide, in less time.
+    /// With two edges of at most `e` and a corner between them at distance `d`, it covers at most `e^2 / 2` over `(d - e)^2`.
     fn is_far_from(&self, p: Vec3) -> bool {
-        const FAR_SQ: f32 = 100.0;
+        /// The square of `d / e`, of which `1 / (2 SMALL)` is that of `d / e - 1`, and a hundredth for rounding.
+        const FAR: f32 = 1770.0;
         let [a, b, c] = self.p;
         let edge_sq = (b - a).length_squared().max((c - a).length_squared());
-        (p - a).length_squared() > FAR_SQ * edge_sq
+        (p - a).length_squared() > FAR * edge_sq
     }
 
     /// The square of a [`SphericalTriangle`] has the second vertex all along its lower side.
@@ -209,7 +209,7 @@ mod tests {
     use light_math::solid_angle;
 
     #[test]
-    fn from_afar_area_is_nearly_solid_angle() {
+    fn what_is_far_looks_small_from_every_side() {
         let uv = Triangle::DEFAULT_UV;
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         for corners in [corners, [corners[1], corners[0], corners[2]]] {
@@ -218,20 +218,15 @@ mod tests {
             for i in 0..64u8 {
                 let (turn, tilt) = (f32::from(i % 8), f32::from(i / 8));
                 let (sin, cos) = (0.8 * turn).sin_cos();
-                let toward = Vec3::new(cos, sin, 0.6 + 0.3 * tilt).normalize();
-                let distances = (5..50u8).map(|d| toward * f32::from(d));
+                let toward = Vec3::new(cos, sin, 0.3 * tilt).normalize();
+                let distances = (20..80u8).map(|d| toward * f32::from(d));
                 for p in distances.filter(|&p| triangle.is_far_from(p)) {
                     far += 1;
-                    let ctx = LightSampleContext::medium(p);
                     let omega = solid_angle::triangle(corners, p);
-                    for u in [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::splat(0.5)] {
-                        let sample = triangle.sample_toward(&ctx, u).expect("a direction");
-                        let ratio = sample.pdf * omega;
-                        assert!((0.75..1.35).contains(&ratio), "{ratio} from {p}");
-                    }
+                    assert!(omega <= SMALL, "{omega} from {p}");
                 }
             }
-            assert!(far > 1000, "most of the farther ones: {far}");
+            assert!(far > 1000, "most of the farther half: {far}");
         }
     }
 }
