@@ -1,5 +1,5 @@
+use light_math::Aabb;
 use light_math::glam::Vec3;
-use light_math::{Aabb, float};
 
 use super::prim::{Prim, Sums};
 
@@ -47,12 +47,6 @@ impl Grid {
         bin((prim.center[axis] - self.low[axis]) * self.scale[axis])
     }
 
-    /// The bin by how narrow the cones are.
-    #[inline]
-    pub(super) fn narrowness(prim: &Prim) -> usize {
-        bin(2.0 * float::ln(1.0 + prim.axis_sq))
-    }
-
     /// The sums of `prims` in bins by position along each of the [axes](Self::axes).
     pub(super) fn sums_by_position(&self, prims: &[Prim]) -> [Bins; 3] {
         let mut bins = [Bins::EMPTY; 3];
@@ -63,16 +57,6 @@ impl Grid {
                 let bin = &mut bins[axis].0[position[axis]];
                 *bin = bin.plus(&sums);
             }
-        }
-        bins
-    }
-
-    /// The sums of `prims` in bins by how narrow their cones are.
-    pub(super) fn sums_by_narrowness(&self, prims: &[Prim]) -> Bins {
-        let mut bins = Bins::EMPTY;
-        for prim in prims {
-            let bin = Self::narrowness(prim);
-            bins.0[bin] = bins.0[bin].plus(&Sums::of(prim, prim.center - self.low));
         }
         bins
     }
@@ -106,13 +90,6 @@ pub(super) struct Bins([Sums; BINS]);
 
 impl Bins {
     const EMPTY: Self = Self([Sums([0.0; 9]); BINS]);
-
-    /// The sums of all lights.
-    pub(super) fn total(&self) -> Sums {
-        self.0
-            .iter()
-            .fold(Sums::default(), |total, sums| total.plus(sums))
-    }
 
     /// The cheapest plane with lights on both sides.
     pub(super) fn best_plane(&self) -> Option<Plane> {

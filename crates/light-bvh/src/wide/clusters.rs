@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use super::group::Group;
 use super::lamp::Lamp;
 use super::morton::Range;
-use super::prim::{MIXED_AXES, Prim};
+use super::prim::Prim;
 use crate::join::{join, map};
 
 /// Lights of a cluster, at most.
@@ -63,14 +63,9 @@ pub(super) fn clusters(ends: &[u32], lamps: &[Lamp]) -> Vec<Prim> {
         let mut prims = Vec::with_capacity(ends.len());
         for (&start, &end) in starts.zip(ends) {
             let lamps = (start..).zip(&lamps[start as usize..end as usize]);
-            let lights = lamps.map(|(place, lamp)| Prim::of_lamp(lamp, place));
-            let cluster = Prim::join(lights.clone());
-            if cluster.axis_variance() > MIXED_AXES {
-                // Wide cones among narrow ones part early, before they are taken one by one.
-                prims.extend(lights);
-            } else {
-                prims.push(cluster);
-            }
+            prims.push(Prim::join(
+                lamps.map(|(place, lamp)| Prim::of_lamp(lamp, place)),
+            ));
         }
         prims
     });

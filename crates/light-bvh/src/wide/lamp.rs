@@ -3,6 +3,12 @@ use light_math::glam::Vec3;
 
 use super::moments::Moments;
 
+/// How long the builder takes the axes of narrow cones to be: where they point matters more than how narrow they are.
+const LONGEST_AXIS: f32 = 3.0;
+
+/// Squared length of an axis beyond which a cone is narrow; that of a diffuse light is at most 1.
+pub(super) const NARROW: f32 = 8.4;
+
 /// A light as far as the builder looks at it to find its neighbours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lamp {
@@ -31,9 +37,11 @@ impl Lamp {
         }
     }
 
-    /// Axis of its moments: the narrower a cone, the longer.
+    /// Axis of its moments, as far as the builder looks at it.
     #[inline]
     pub(super) fn axis(&self) -> Vec3 {
-        self.w * Moments::axis_length(self.cos_theta_o, self.cos_theta_e, self.two_sided)
+        self.w
+            * Moments::axis_length(self.cos_theta_o, self.cos_theta_e, self.two_sided)
+                .min(LONGEST_AXIS)
     }
 }

@@ -7,10 +7,10 @@ use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use super::group::Group;
+use super::lamp::NARROW;
 use super::lights::{Lights, phi};
 use super::moments::Moments;
 use super::options::DarkLights;
-use super::prim::MIXED_AXES;
 use super::radix;
 use super::scan::is_held;
 use crate::join::map;
@@ -83,7 +83,7 @@ fn kind(bounds: &LightBounds) -> u64 {
         ..
     } = *bounds;
     let length = Moments::axis_length(cos_theta_o, cos_theta_e, two_sided);
-    let is_narrow = length * length > MIXED_AXES;
+    let is_narrow = length * length > NARROW;
     u64::from(is_narrow) << 63
 }
 

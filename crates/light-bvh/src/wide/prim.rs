@@ -1,11 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use super::lamp::Lamp;
-
-/// Variance of the axes beyond which lights are also split by how narrow their cones are, and squared length of an axis beyond which a
-/// cone is narrow. Diffuse lights stay below 1.
-pub(super) const MIXED_AXES: f32 = 100.0;
+use super::lamp::{Lamp, NARROW};
 
 /// A light, or a few neighbours, as the builder sorts them.
 ///
@@ -54,9 +50,9 @@ impl Prim {
         }
     }
 
-    /// Variance of the axes.
-    pub(super) fn axis_variance(&self) -> f32 {
-        self.axis_sq - self.axis.length_squared()
+    /// Whether they shine into narrow cones; neighbours on the curve all do, or none of them.
+    pub(super) fn is_narrow(&self) -> bool {
+        self.axis_sq > NARROW
     }
 
     /// Neighbours together, that follow each other along the curve.
@@ -146,7 +142,7 @@ impl Sums {
 
     /// Variance of the axes.
     #[inline(always)]
-    pub(super) fn axis_variance(&self) -> f32 {
+    fn axis_variance(&self) -> f32 {
         let [_, _, _, power, wx, wy, wz, _, axis_sq] = self.0;
         let inv = 1.0 / power.max(f32::MIN_POSITIVE);
         (axis_sq * inv - (wx * wx + wy * wy + wz * wz) * (inv * inv)).max(0.0)

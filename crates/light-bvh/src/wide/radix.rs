@@ -9,43 +9,59 @@ use crate::join::{map, table};
 /// Bits of a digit.
 const DIGIT: u32 = 11;
 
-/// So few entries are sorted by comparing them.
-const FEW: usize = 1024;
-
 /// Entries that are put in the order of a digit in one go.
 pub(super) const CHUNK: usize = 1 << 15;
 
 /// Sorts `entries`, whose lights are in ascending order.
 pub(super) fn sort(entries: &mut [Entry]) {
-    if entries.len() <= FEW {
-        sort_few(entries);
+    if entries.len() <= VERY_FEW {
+        sort_by_comparing(entries);
+    } else if entries.len() <= CHUNK {
+        sort_into(&mut entries.to_vec(), entries);
     } else {
         let chunks = entries.chunks(CHUNK).map(<[Entry]>::to_vec);
         entries.copy_from_slice(&sorted(chunks.collect()));
     }
 }
 
-/// The same for at most [`FEW`]: by a short digit first, which leaves little to be compared.
-fn sort_few(entries: &mut [Entry]) {
-    /// Fewer are compared at once.
-    const VERY_FEW: usize = 32;
+/// Fewer are compared at once.
+const VERY_FEW: usize = 32;
+
+/// Makes `to` what `from` is when sorted; what becomes of `from` does not matter.
+fn sort_into(from: &mut [Entry], to: &mut [Entry]) {
+    /// So many are worth a full digit; fewer go by a short one, which leaves little to be compared.
+    const MANY: usize = 1024;
     const SHORT: u32 = 8;
-    if entries.len() <= VERY_FEW {
-        return sort_by_comparing(entries);
-    }
-    let first = entries[0].key;
-    let differing = entries.iter().fold(0, |bits, e| bits | (e.key ^ first));
-    let Some(top) = u64::checked_ilog2(differing) else {
-        return;
+    let first = from.first().map_or(0, |e| e.key);
+    let differing = from.iter().fold(0, |bits, e| bits | (e.key ^ first));
+    let top = match u64::checked_ilog2(differing) {
+        Some(top) if from.len() > VERY_FEW => top + 1,
+        _ => {
+            to.copy_from_slice(from);
+            return sort_by_comparing(to);
+        }
     };
-    let mut piles = [Entry::default(); FEW];
-    let piles = &mut piles[..entries.len()];
-    let mut ends = [0; 1 << SHORT];
-    pile(entries, (top + 1).saturating_sub(SHORT), piles, &mut ends);
-    entries.copy_from_slice(piles);
+    if from.len() > MANY {
+        let ends = pile(from, top.saturating_sub(DIGIT), to, [0; 1 << DIGIT]);
+        sort_piles(&ends, from, to);
+    } else {
+        let ends = pile(from, top.saturating_sub(SHORT), to, [0; 1 << SHORT]);
+        sort_piles(&ends, from, to);
+    }
+}
+
+/// Sorts the parts of `entries` that end at `ends`; there is as much `room`.
+fn sort_piles(ends: &[usize], room: &mut [Entry], entries: &mut [Entry]) {
     let mut start = 0;
-    for end in ends {
-        sort_by_comparing(&mut entries[start..end]);
+    for &end in ends {
+        let pile = &mut entries[start..end];
+        if pile.len() <= VERY_FEW {
+            sort_by_comparing(pile);
+        } else {
+            let room = &mut room[..pile.len()];
+            room.copy_from_slice(pile);
+            sort_into(room, pile);
+        }
         start = end;
     }
 }
@@ -71,6 +87,8 @@ fn sort_by_comparing(entries: &mut [Entry]) {
 
 /// All entries in the order of their keys, those of one key in the order of the lights, as they come.
 pub(super) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
+    /// Entries that are worth a job of their own.
+    const JOB: usize = 1 << 13;
     let Some(shift) = top_digit(&chunks) else {
         return chunks.concat();
     };
@@ -79,19 +97,35 @@ pub(super) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
         Entry::default()
     });
     let mut rest = &mut *out;
-    let mut parts = Vec::new();
+    let (mut jobs, mut job, mut entries) = (Vec::new(), Vec::new(), 0);
     for digit in 0..1 << DIGIT {
-        let count = piles.iter().map(|p| p.get(digit).len()).sum();
+        let count: usize = piles.iter().map(|p| p.get(digit).len()).sum();
         let (part, behind) = core::mem::take(&mut rest).split_at_mut(count);
         rest = behind;
         if count > 0 {
-            parts.push((digit, part));
+            job.push((digit, part));
+            entries += count;
+        }
+        if entries >= JOB {
+            jobs.push(core::mem::take(&mut job));
+            entries = 0;
         }
     }
-    map(parts, |(digit, part): (usize, &mut [Entry])| {
-        let entries = piles.iter().flat_map(|p| p.get(digit));
-        part.iter_mut().zip(entries).for_each(|(to, e)| *to = *e);
-        sort(part);
+    jobs.push(job);
+    map(jobs, |job: Vec<(usize, &mut [Entry])>| {
+        let mut room = Vec::new();
+        for (digit, part) in job {
+            room.clear();
+            for piles in &piles {
+                room.extend_from_slice(piles.get(digit));
+            }
+            if part.len() > CHUNK {
+                part.copy_from_slice(&room);
+                sort(part);
+            } else {
+                sort_into(&mut room, part);
+            }
+        }
     });
     out
 }
@@ -111,14 +145,13 @@ struct Piles {
     /// In the order of the digit, otherwise as they came.
     entries: Vec<Entry>,
     /// Where the entries of each digit end.
-    ends: Vec<usize>,
+    ends: [usize; 1 << DIGIT],
 }
 
 impl Piles {
     fn new(chunk: &[Entry], shift: u32) -> Self {
-        let mut ends = vec![0; 1 << DIGIT];
         let mut entries = vec![Entry::default(); chunk.len()];
-        pile(chunk, shift, &mut entries, &mut ends);
+        let ends = pile(chunk, shift, &mut entries, [0; 1 << DIGIT]);
         Self { entries, ends }
     }
 
@@ -128,18 +161,22 @@ impl Piles {
     }
 }
 
-/// Puts `entries` into the order of the digit that `shift` leaves at the right, and tells where those of each digit end; of `ends`,
+/// Puts `entries` into the order of the digit that `shift` leaves at the right, and returns where those of each digit end; of `ends`,
 /// all 0, there are as many as digits, a power of two.
 #[inline]
-fn pile(entries: &[Entry], shift: u32, piles: &mut [Entry], ends: &mut [usize]) {
-    let mask = ends.len() - 1;
+fn pile<const DIGITS: usize>(
+    entries: &[Entry],
+    shift: u32,
+    piles: &mut [Entry],
+    mut ends: [usize; DIGITS],
+) -> [usize; DIGITS] {
     #[expect(clippy::cast_possible_truncation, reason = "masked to a digit")]
-    let digit = |entry: &Entry| (entry.key >> shift) as usize & mask;
+    let digit = |entry: &Entry| (entry.key >> shift) as usize & (DIGITS - 1);
     for entry in entries {
         ends[digit(entry)] += 1;
     }
     let mut end = 0;
-    for next in &mut *ends {
+    for next in &mut ends {
         // The start of each pile, which moves on to its end as the pile grows.
         (*next, end) = (end, end + *next);
     }
@@ -148,6 +185,7 @@ fn pile(entries: &[Entry], shift: u32, piles: &mut [Entry], ends: &mut [usize]) 
         piles[*next] = *entry;
         *next += 1;
     }
+    ends
 }
 
 #[cfg(test)]

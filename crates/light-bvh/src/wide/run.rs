@@ -10,7 +10,7 @@ use super::build::{Crowd, Plot};
 use super::group::Group;
 use super::lamp::Lamp;
 use super::node::WIDTH;
-use super::prim::{MIXED_AXES, Prim, Sums};
+use super::prim::{Prim, Sums};
 use super::skeleton::Skeleton;
 
 /// Runs of so many are split across their widest axis, the first part as large as a node, so that the lowest nodes come out full.
@@ -26,13 +26,17 @@ pub(super) struct Run<'a> {
     /// Box of the centres.
     bounds: Aabb,
     cost: f32,
+    /// Prims before the first narrow one, in the order of the curve; 0 if all are of one kind.
+    wide: usize,
 }
 
 impl<'a> Run<'a> {
+    /// The lights of `prims`, which are in the order of the curve or of one kind.
     pub(super) fn new(prims: &'a mut [Prim], lamps: &'a [Lamp]) -> Self {
         Self {
             bounds: centers(prims),
             lights: prims.iter().map(|p| p.lights as usize).sum(),
+            wide: prims.partition_point(|p| !p.is_narrow()),
             prims,
             lamps,
             cost: f32::INFINITY,
@@ -54,6 +58,7 @@ impl<'a> Run<'a> {
             lights,
             bounds: bounds[side],
             cost: costs[side],
+            wide: 0,
         };
         (
             part(left, left_lights, 0),
@@ -72,7 +77,7 @@ impl<'a> Run<'a> {
     }
 
     /// The cheapest plane across an axis.
-    fn best_by_position(&self, grid: &Grid) -> (Option<(usize, Plane)>, f32) {
+    fn best_plane(&self, grid: &Grid) -> Option<(usize, Plane)> {
         let bins = grid.sums_by_position(self.prims);
         let mut best: Option<(usize, Plane)> = None;
         for axis in grid.axes() {
@@ -82,8 +87,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
-        let total = grid.axes().next().map(|axis| bins[axis].total());
-        (best, total.map_or(0.0, |sums| sums.axis_variance()))
+        best
     }
 }
 
@@ -101,22 +105,19 @@ impl Group for Run<'_> {
     }
 
     fn split(self) -> (Self, Self) {
+        if (1..self.prims.len()).contains(&self.wide) {
+            let (wide, narrow) = self.prims.split_at(self.wide);
+            let bounds = [centers(wide), centers(narrow)];
+            let costs = [cost(wide, bounds[0].min), cost(narrow, bounds[1].min)];
+            let middle = self.wide;
+            return self.split_at(middle, bounds, costs);
+        }
         if SNAP.contains(&self.prims.len()) {
             let axis = self.bounds.diagonal().max_position();
             return self.split_near(axis, WIDTH);
         }
         let grid = Grid::new(&self.bounds);
-        let (best, axis_variance) = self.best_by_position(&grid);
-        if axis_variance > MIXED_AXES {
-            if let Some(plane) = grid.sums_by_narrowness(self.prims).best_plane() {
-                if best.is_none_or(|(_, best)| plane.cost() < best.cost()) {
-                    let is_left = |p: &Prim| Grid::narrowness(p) <= plane.bin;
-                    let (middle, bounds) = partition(self.prims, is_left);
-                    return self.split_at(middle, bounds, plane.costs);
-                }
-            }
-        }
-        let Some((axis, plane)) = best else {
+        let Some((axis, plane)) = self.best_plane(&grid) else {
             // Nothing tells them apart: centres in one point, or too close to each other.
             let costs = [self.cost / 2.0; 2];
             let (middle, bounds) = (self.prims.len() / 2, [self.bounds; 2]);
