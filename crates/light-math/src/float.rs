@@ -108,6 +108,15 @@ pub fn safe_asin(x: f32) -> f32 {
 /// The largest `f32` below one: the upper end of `u`, which lies in `[0, 1)`.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
 
+/// A power of two that takes the positive number `x` to between 1 and 4, or below that if it is subnormal: a unit without any rounding.
+#[inline]
+#[must_use]
+pub(crate) fn inverse_power_of_two(x: f32) -> f32 {
+    const EXPONENT: u32 = 0xff << (f32::MANTISSA_DIGITS - 1);
+    const LARGEST: u32 = 0xfe << (f32::MANTISSA_DIGITS - 1);
+    f32::from_bits(LARGEST.saturating_sub(x.to_bits() & EXPONENT)).max(f32::MIN_POSITIVE)
+}
+
 /// The smallest `f32` above `x`; `x` itself at the upper end and for NaN.
 #[inline]
 #[must_use]
@@ -142,6 +151,24 @@ mod tests {
             safe_asin(-2.0),
             -core::f32::consts::FRAC_PI_2,
             "below minus one"
+        );
+    }
+
+    #[test]
+    fn units_are_exact() {
+        for x in [f32::MIN_POSITIVE, 1e-20, 0.75, 1.0, 1.5, 3e7, f32::MAX] {
+            let scaled = x * inverse_power_of_two(x);
+            assert!((1.0..4.0).contains(&scaled), "{x} to {scaled}");
+            let mantissa = |x: f32| x.to_bits() << 9;
+            assert_eq!(mantissa(scaled), mantissa(x), "the digits of {x}");
+        }
+        assert!(
+            f32::from_bits(1) * inverse_power_of_two(f32::from_bits(1)) > 0.0,
+            "subnormal"
+        );
+        assert!(
+            (f32::INFINITY * inverse_power_of_two(f32::INFINITY)).is_infinite(),
+            "infinite"
         );
     }
 

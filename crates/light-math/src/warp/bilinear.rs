@@ -4,6 +4,7 @@
 //! not finite) the density is uniform.
 
 use super::linear;
+use crate::float::inverse_power_of_two;
 use glam::Vec2;
 
 /// The point of the square for `u`.
@@ -54,12 +55,13 @@ fn row(y: f32, w: [f32; 4]) -> (f32, f32) {
     (z * w[0] + y * w[2], z * w[1] + y * w[3])
 }
 
-/// The values over the largest one; none if that is no positive number.
+/// The values in a unit in which the largest is near 1; none if that is no positive number.
 #[inline]
 fn scaled(w: [f32; 4]) -> Option<[f32; 4]> {
-    let largest = w.into_iter().fold(0.0, f32::max);
+    let largest = w[0].max(w[1]).max(w[2].max(w[3]));
     let valid = w.iter().all(|&value| value >= 0.0) && largest > 0.0 && largest.is_finite();
-    valid.then(|| w.map(|value| value / largest))
+    let scale = inverse_power_of_two(largest);
+    valid.then(|| w.map(|value| value * scale))
 }
 
 #[cfg(test)]

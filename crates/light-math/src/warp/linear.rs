@@ -3,7 +3,7 @@
 //! The line has the values `a` at 0 and `b` at 1, neither negative; if both are 0 (or one is not finite) the density
 //! is uniform.
 
-use crate::float::{ONE_MINUS_EPSILON, sqrt};
+use crate::float::{ONE_MINUS_EPSILON, inverse_power_of_two, sqrt};
 
 /// A start of the line, over its end, that counts as zero: products of two such densities would vanish.
 const NEGLIGIBLE: f32 = 1e-20;
@@ -51,12 +51,13 @@ pub fn invert(x: f32, a: f32, b: f32) -> f32 {
     }
 }
 
-/// The two values over the larger one; none if that is no positive number.
+/// The two values in a unit in which the larger is near 1; none if that is no positive number.
 #[inline]
 fn scaled(a: f32, b: f32) -> Option<(f32, f32)> {
     let largest = a.max(b);
     let valid = a >= 0.0 && b >= 0.0 && largest > 0.0 && largest.is_finite();
-    valid.then(|| (a / largest, b / largest))
+    let scale = inverse_power_of_two(largest);
+    valid.then_some((a * scale, b * scale))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Directions toward a triangle, uniform in solid angle.
 
-use crate::float::{atan2, sin_cos, sqrt};
-use crate::solid_angle::{HalfAngle, direction_sum, nearest, normal, scaled};
+use crate::float::{atan2, inverse_power_of_two, sin_cos, sqrt};
+use crate::solid_angle::SeenTriangle;
 use glam::{Vec2, Vec3};
 
 /// A triangle projected to the unit sphere around a point.
@@ -20,8 +20,8 @@ pub struct SphericalTriangle {
     /// The side from the first to the third corner, and the edge from the second corner to the first.
     opposite: Side,
     second_to_first: Vec3,
-    /// Direction and distance of the second corner.
-    second: Vec3,
+    /// Unit vectors toward the corners, and the distance of the second one.
+    directions: [Vec3; 3],
     second_dist: f32,
     /// In the frame of the first corner, where the side opposite to the second one starts along a tangent: the volume
     /// of both directions and the tangent, the second direction along the tangent, and `1 + cos` of the angle between
@@ -34,24 +34,26 @@ pub struct SphericalTriangle {
 
 impl SphericalTriangle {
     /// The triangle `v` seen from `p`; none if it covers no solid angle there.
+    #[inline]
     #[must_use]
     pub fn new(v: [Vec3; 3], p: Vec3) -> Option<Self> {
-        let (r, v) = scaled(v, p);
-        let l = r.map(Vec3::length);
-        let half = HalfAngle::of(r, v);
-        let solid_angle = 2.0 * atan2(half.sin.abs(), half.cos);
+        let seen = SeenTriangle::new(v, p);
+        let half = seen.half_angle();
+        let solid_angle = half.doubled();
+        let ([l0, l1, l2], [first, ..]) = (seen.dist, seen.directions);
 
-        let first_to_second = v[1] - v[0];
-        let opposite = Side::new(r[0], v[2] - v[0]);
-        let tangent = opposite.tangent(r[0]);
+        let first_to_second = seen.v[1] - seen.v[0];
+        let side = seen.v[2] - seen.v[0];
+        let rejected = rejection(side, first);
+        let opposite = Side::new(side, side.dot(first), rejected, l0);
         let this = Self {
             opposite,
             second_to_first: -first_to_second,
-            second: r[1] / l[1],
-            second_dist: l[1],
-            volume: nearest(r, l).dot(normal(v)).abs() / (l[0] * l[1] * opposite.across),
-            along_tangent: first_to_second.dot(tangent) / l[1],
-            one_plus_cos: 0.5 * direction_sum(r[0], r[1], first_to_second).length_squared(),
+            directions: seen.directions,
+            second_dist: l1,
+            volume: half.sin.abs() * l2 / opposite.across,
+            along_tangent: first_to_second.dot(rejected) / (l1 * opposite.across),
+            one_plus_cos: seen.one_plus_first_cosine(),
             solid_angle,
         };
         let is_usable = solid_angle > 0.0 && this.volume > 0.0 && this.volume.is_finite();
@@ -65,17 +67,26 @@ impl SphericalTriangle {
         self.solid_angle
     }
 
+    /// The unit vectors toward the corners.
+    #[inline]
+    #[must_use]
+    pub fn directions(&self) -> [Vec3; 3] {
+        self.directions
+    }
+
     /// Barycentric coordinates for `u`, not negative and of sum 1.
+    #[inline]
     #[must_use]
     pub fn sample(&self, u: Vec2) -> Vec3 {
-        let (sin_half, cos_half) = sin_cos(0.5 * u.x * self.solid_angle);
+        let (sin_half, cos_half) = sin_cos_of_small(0.5 * u.x * self.solid_angle);
         let cut = self.opposite.place_of_half_angle(
             sin_half * self.one_plus_cos,
             cos_half * self.volume - sin_half * self.along_tangent,
         );
         let arc = self.arc_to(cut);
         let (sin_sq, cos_sq) = arc.half_angle_squares(1.0);
-        let walked = arc.place_of_half_angle(sqrt(u.y * sin_sq), sqrt((1.0 - u.y) + u.y * cos_sq));
+        let (sin_sq, cos_sq) = (u.y * sin_sq, (1.0 - u.y) + u.y * cos_sq);
+        let walked = arc.place_of_angle(2.0 * sqrt(sin_sq * cos_sq), cos_sq - sin_sq);
         Vec3::new((1.0 - cut) * walked, 1.0 - walked, cut * walked)
     }
 
@@ -106,9 +117,12 @@ impl SphericalTriangle {
     }
 
     /// The side from the second corner to a place on the opposite one.
+    #[inline]
     fn arc_to(&self, cut: f32) -> Side {
         let edge = self.second_to_first + self.opposite.edge * cut;
-        Side::with_direction(self.second, self.second_dist, edge)
+        let [_, second, _] = self.directions;
+        let along = edge.dot(second);
+        Side::new(edge, along, rejection(edge, second), self.second_dist)
     }
 }
 
@@ -123,33 +137,25 @@ struct Side {
 }
 
 impl Side {
-    fn new(start: Vec3, edge: Vec3) -> Self {
-        let start_dist = start.length();
-        Self::with_direction(start / start_dist, start_dist, edge)
-    }
-
-    fn with_direction(direction: Vec3, start_dist: f32, edge: Vec3) -> Self {
-        let along = edge.dot(direction);
-        let across = rejection(edge, direction).length();
+    /// The edge with its part along the direction of its start, what is `rejected` from there, and the distance of its start.
+    #[inline]
+    fn new(edge: Vec3, along: f32, rejected: Vec3, start_dist: f32) -> Self {
         Self {
             edge,
             start_dist,
             along,
-            across,
+            across: rejected.length(),
         }
     }
 
-    /// The unit vector at right angles to the start's direction toward the end.
-    fn tangent(&self, start: Vec3) -> Vec3 {
-        rejection(self.edge, start / self.start_dist) / self.across
-    }
-
     /// Coordinates of a place in the frame of the start: along its direction, and across.
+    #[inline]
     fn coordinates(&self, place: f32) -> Vec2 {
         Vec2::new(self.start_dist + place * self.along, place * self.across)
     }
 
     /// Sine and cosine, up to a factor, of half the angle between the start and a place.
+    #[inline]
     fn half_angle(&self, place: f32) -> (f32, f32) {
         let Vec2 { x, y } = self.coordinates(place);
         let dist = sqrt(x * x + y * y);
@@ -161,23 +167,27 @@ impl Side {
     }
 
     /// The squares of sine and cosine of half the angle between the start and a place.
+    #[inline]
     fn half_angle_squares(&self, place: f32) -> (f32, f32) {
         let (sin_half, cos_half) = self.half_angle(place);
         let (sin_sq, cos_sq) = (sin_half * sin_half, cos_half * cos_half);
-        (sin_sq / (sin_sq + cos_sq), cos_sq / (sin_sq + cos_sq))
+        let scale = 1.0 / (sin_sq + cos_sq);
+        (sin_sq * scale, cos_sq * scale)
     }
 
     /// The place that [`half_angle`](Self::half_angle) takes to these two.
+    #[inline]
     fn place_of_half_angle(&self, sin_half: f32, cos_half: f32) -> f32 {
-        // The larger one as unit, so that neither square overflows nor both vanish.
-        let unit = sin_half.max(cos_half);
-        let (sin_half, cos_half) = (sin_half / unit, (cos_half / unit).max(0.0));
+        // Near 1, so that neither square overflows nor both vanish.
+        let scale = inverse_power_of_two(sin_half.max(cos_half));
+        let (sin_half, cos_half) = (sin_half * scale, cos_half.max(0.0) * scale);
         let sin = 2.0 * sin_half * cos_half;
         let cos = (cos_half - sin_half) * (cos_half + sin_half);
         self.place_of_angle(sin, cos)
     }
 
     /// The place seen at an angle from the start, given its sine and cosine up to a factor.
+    #[inline]
     fn place_of_angle(&self, sin: f32, cos: f32) -> f32 {
         let place = self.start_dist * sin / (self.across * cos - self.along * sin);
         if place >= 0.0 {
@@ -191,7 +201,21 @@ impl Side {
     }
 }
 
+/// Sine and cosine of `x`, which is mostly small and not negative.
+#[inline]
+fn sin_cos_of_small(x: f32) -> (f32, f32) {
+    if !(x < 0.1) {
+        return sin_cos(x);
+    }
+    let sq = x * x;
+    (
+        x * (1.0 - sq * (1.0 / 6.0 - sq * (1.0 / 120.0))),
+        1.0 - sq * (0.5 - sq * (1.0 / 24.0)),
+    )
+}
+
 /// What is left of `v` at right angles to the unit vector `axis`; twice, for the digits that the first time loses.
+#[inline]
 fn rejection(v: Vec3, axis: Vec3) -> Vec3 {
     let once = v - axis * axis.dot(v);
     once - axis * axis.dot(once)

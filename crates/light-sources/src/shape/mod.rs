@@ -123,6 +123,7 @@ const SMALL: f32 = 3e-4;
 
 /// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with unit normal `n`, seen
 /// along `to_light` (not of unit length); `None` from its edge, where the density is infinite.
+#[inline]
 pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Option<(Vec3, f32)> {
     let wi = to_light.try_normalize()?;
     let pdf = pdf_area * to_light.length_squared() / n.dot(wi).abs();

@@ -18,8 +18,14 @@ const SMALLEST: f32 = 0.01;
 impl ReceiverCosine {
     /// The map for a receiver, where the corners (0, 0), (1, 0), (0, 1), (1, 1) of the square stand for `points`.
     pub(super) fn new(ctx: &LightSampleContext, points: [Vec3; 4]) -> Self {
-        let cosine = |p: Vec3| (p - ctx.p).normalize_or_zero().dot(ctx.ns).abs();
-        Self((!ctx.is_medium()).then(|| points.map(|p| cosine(p).max(SMALLEST))))
+        Self::toward(ctx, points.map(|p| (p - ctx.p).normalize_or_zero()))
+    }
+
+    /// The same, where they stand for points in these `directions`.
+    #[inline]
+    pub(super) fn toward(ctx: &LightSampleContext, directions: [Vec3; 4]) -> Self {
+        let cosine = |w: Vec3| w.dot(ctx.ns).abs().max(SMALLEST);
+        Self((!ctx.is_medium()).then(|| directions.map(cosine)))
     }
 
     /// The mean cosine over the square, 1 in a medium.
