@@ -25,5 +25,5 @@ pub use validate::validate;
 pub use wide::{BuildMode, DarkLights, LightBvh, LightBvhOptions};
 pub use wide::{
     CutDetail, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH, MediumReceiver, Receiver,
-    SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,
+    SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far, prefetch_item,
 };

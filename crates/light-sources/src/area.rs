@@ -49,6 +49,7 @@ impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
 }
 
 impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
+    #[inline]
     fn light_type(&self) -> LightType {
         if self.emission.is_visible() {
             LightType::Area
@@ -61,6 +62,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
         self.emission.phi(&self.shape, wavelengths)
     }
 
+    #[inline]
     fn sample_li(
         &self,
         ctx: &LightSampleContext,

@@ -1,9 +1,11 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::area::DiffuseAreaLight;
 use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
 use crate::distant::DistantLight;
+use crate::glam::Vec3;
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::light::Light;
@@ -12,6 +14,7 @@ use crate::mesh::MeshLight;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
 use crate::projection::ProjectionLight;
+use crate::shape::Triangle;
 use crate::spot::SpotLight;
 use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
@@ -38,6 +41,8 @@ pub struct LightSet<C: ColorModel> {
     ends: [u32; Kind::COUNT],
     /// How many triangles there are up to and with each mesh.
     mesh_ends: Vec<u32>,
+    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle, between which those of the others lie.
+    mesh_of: Vec<u32>,
     /// Where each description went: its kind, and how many lights of that kind came before.
     sources: Vec<(Kind, u32)>,
 }
@@ -81,6 +86,9 @@ impl Kind {
 }
 
 impl<C: ColorModel> LightSet<C> {
+    /// Among so many triangles there are few meshes to search.
+    const STRIDE: usize = 64;
+
     /// The set without lights.
     pub(crate) const fn empty() -> Self {
         Self {
@@ -97,6 +105,7 @@ impl<C: ColorModel> LightSet<C> {
             portal_infinites: Vec::new(),
             ends: [0; Kind::COUNT],
             mesh_ends: Vec::new(),
+            mesh_of: Vec::new(),
             sources: Vec::new(),
         }
     }
@@ -112,7 +121,10 @@ impl<C: ColorModel> LightSet<C> {
         }
         self.sources.push((kind, u32::try_from(before).ok()?));
         if kind == Kind::Triangle {
-            self.mesh_ends.push(self.ids(kind).len().try_into().ok()?);
+            let end = self.ids(kind).len();
+            let mesh = self.mesh_ends.len().try_into().ok()?;
+            self.mesh_of.resize(end.div_ceil(Self::STRIDE), mesh);
+            self.mesh_ends.push(end.try_into().ok()?);
         }
         Some(SourceId(source))
     }
@@ -133,30 +145,67 @@ impl<C: ColorModel> LightSet<C> {
     #[inline]
     #[must_use]
     pub fn get(&self, light: LightId) -> Option<LightRef<'_, C>> {
+        // Where there are many lights they are triangles.
+        match self.triangle_number(light) {
+            Some(number) => Some(LightRef::Triangle(self.triangle(number)?)),
+            None => self.get_other(light),
+        }
+    }
+
+    /// A light that is no triangle.
+    fn get_other(&self, light: LightId) -> Option<LightRef<'_, C>> {
         let kind = *Kind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
-        let start = self.ids(kind).start;
-        let index = (light.0 - start) as usize;
+        let index = (light.0 - self.ids(kind).start) as usize;
         Some(match kind {
             Kind::Point => LightRef::Point(&self.points[index]),
             Kind::Spot => LightRef::Spot(&self.spots[index]),
             Kind::Projection => LightRef::Projection(&self.projections[index]),
             Kind::Goniometric => LightRef::Goniometric(&self.goniometrics[index]),
             Kind::Area => LightRef::Area(self.areas[index].light()),
-            Kind::Triangle => {
-                let mesh = self.mesh_ends.partition_point(|&end| end as usize <= index);
-                let first = if mesh == 0 {
-                    0
-                } else {
-                    self.mesh_ends[mesh - 1] as usize
-                };
-                LightRef::Triangle(self.meshes[mesh].triangle(index - first)?)
-            }
+            Kind::Triangle => LightRef::Triangle(self.triangle(index)?),
             Kind::Distant => LightRef::Distant(&self.distants[index]),
             Kind::Sun => LightRef::Sun(&self.suns[index]),
             Kind::UniformInfinite => LightRef::UniformInfinite(&self.uniform_infinites[index]),
             Kind::ImageInfinite => LightRef::ImageInfinite(&self.image_infinites[index]),
             Kind::PortalInfinite => LightRef::PortalInfinite(&self.portal_infinites[index]),
         })
+    }
+
+    /// What sampling the light reads last and waits for, where that is known without reading it: the corners of a triangle whose mesh has no
+    /// list of vertices ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may ask their memory for it while they do other work.
+    #[inline]
+    #[must_use]
+    pub fn corners(&self, light: LightId) -> Option<&[Vec3; 3]> {
+        let (mesh, index) = self.place(self.triangle_number(light)?)?;
+        mesh.corners(index)
+    }
+
+    /// The number of a light among all triangles; `None` if it is none.
+    #[inline]
+    fn triangle_number(&self, light: LightId) -> Option<usize> {
+        let triangles = self.ids(Kind::Triangle);
+        let is_one = triangles.contains(&light.0);
+        is_one.then(|| (light.0 - triangles.start) as usize)
+    }
+
+    /// The triangle with the given number.
+    #[inline]
+    fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
+        let (mesh, index) = self.place(index)?;
+        mesh.triangle(index)
+    }
+
+    /// The mesh of a triangle, and its number there.
+    #[inline]
+    fn place(&self, index: usize) -> Option<(&MeshLight<C>, usize)> {
+        let block = index / Self::STRIDE;
+        let low = *self.mesh_of.get(block)? as usize;
+        let next = self.mesh_of.get(block + 1);
+        let high = next.map_or(self.mesh_ends.len() - 1, |&mesh| mesh as usize);
+        let between = &self.mesh_ends[low..high];
+        let mesh = low + between.partition_point(|&end| end as usize <= index);
+        let first = mesh.checked_sub(1).map_or(0, |m| self.mesh_ends[m]);
+        Some((&self.meshes[mesh], index - first as usize))
     }
 
     /// The id of the first light that a description became: of its only one, or of the first triangle of its mesh.
@@ -210,6 +259,7 @@ impl<C: ColorModel> LightSet<C> {
             + size_of_val(&*self.image_infinites)
             + size_of_val(&*self.portal_infinites)
             + size_of_val(&*self.mesh_ends)
+            + size_of_val(&*self.mesh_of)
             + size_of_val(&*self.sources)
     }
 

@@ -125,16 +125,28 @@ impl<C: ColorModel> MeshLight<C> {
         let triangle = triangle(&self.positions, self.uvs.as_deref(), vertices);
         Some(DiffuseAreaLight::new(triangle, &self.emission))
     }
+
+    /// The corners of a triangle, where no list of vertices has to be read for them.
+    #[inline]
+    pub(crate) fn corners(&self, index: usize) -> Option<&[Vec3; 3]> {
+        match self.indices {
+            MeshIndices::Consecutive(_) => {
+                let first = index.checked_mul(3)?;
+                self.positions.get(first..)?.first_chunk()
+            }
+            MeshIndices::List(_) => None,
+        }
+    }
 }
 
 #[inline]
-fn triangle(positions: &[Vec3], uvs: Option<&[Vec2]>, vertices: [u32; 3]) -> Triangle {
-    let vertices = vertices.map(|vertex| vertex as usize);
+fn triangle(positions: &[Vec3], uvs: Option<&[Vec2]>, [a, b, c]: [u32; 3]) -> Triangle {
+    let [a, b, c] = [a as usize, b as usize, c as usize];
     let uv = match uvs {
-        Some(uvs) => vertices.map(|vertex| uvs[vertex]),
+        Some(uvs) => [uvs[a], uvs[b], uvs[c]],
         None => Triangle::DEFAULT_UV,
     };
-    Triangle::from_corners(vertices.map(|vertex| positions[vertex]), uv)
+    Triangle::from_corners([positions[a], positions[b], positions[c]], uv)
 }
 
 impl fmt::Display for MeshLightError {

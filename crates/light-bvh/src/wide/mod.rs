@@ -67,3 +67,4 @@ pub use node::WideNode;
 pub use options::{BuildMode, DarkLights, LightBvhOptions};
 pub use segment::SegmentReceiver;
 pub use tree::{LightBvhRef, MAX_DEPTH};
+pub use vectors::prefetch_item;

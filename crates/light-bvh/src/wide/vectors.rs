@@ -63,15 +63,24 @@ unsafe fn run_by_avx2<W: Work>(work: W) -> W::Output {
     work.run()
 }
 
-/// Asks the memory for one of `items`, of up to two cache lines, that is read soon.
+/// Asks the memory for one of `items` that is read soon.
 #[cfg(feature = "alloc")]
 #[inline(always)]
 pub(super) fn prefetch_one<T>(items: &[T], index: u32) {
+    if let Some(item) = items.get(index as usize) {
+        prefetch_item(item);
+    }
+}
+
+/// Asks the memory for `item`, of up to two cache lines, that is read soon: a light that was chosen, while other work is done. On machines
+/// where that cannot be asked nothing happens.
+#[inline(always)]
+pub fn prefetch_item<T>(item: &T) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     {
         use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let item: *const i8 = items.as_ptr().wrapping_add(index as usize).cast();
-        let last = item.wrapping_add(size_of::<T>() - 1);
+        let item: *const i8 = core::ptr::from_ref(item).cast();
+        let last = item.wrapping_add(size_of::<T>().saturating_sub(1));
         // SAFETY: every machine of this kind has the instruction, and it may be given any address.
         unsafe {
             _mm_prefetch::<_MM_HINT_T0>(item);
@@ -79,7 +88,7 @@ pub(super) fn prefetch_one<T>(items: &[T], index: u32) {
         }
     }
     #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
-    let _ = (items, index);
+    let _ = item;
 }
 
 /// Asks the memory for the nodes from `first`, of which one may be visited next.

@@ -1,9 +1,11 @@
 use lights::bounds::{LightId, LightSampleContext, SampledLight};
+use lights::bvh::prefetch_item;
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
 use lights::samplers::{LightLook, LightSampler};
 use lights::sources::{Light, LightType, PdfCoverage};
 
+use super::chosen::ChosenLights;
 use super::{Estimator, Traced};
 use crate::bsdf::Scattering;
 use crate::{SampleStream, VertexNumbers, World};
@@ -94,34 +96,51 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// The light that as many light samples as `question` says send over `vertex` toward its viewer, with one shadow ray for all of
-    /// them: an unbiased estimate that costs little more than that of a single light.
+    /// As many lights as `question` says, which memory brings nearer while something else is done.
+    #[inline]
+    pub(super) fn choose(
+        &mut self,
+        question: &LightQuestion,
+        numbers: &VertexNumbers,
+    ) -> ChosenLights {
+        let LightQuestion { ctx, count } = question;
+        let lights = self.world.lights();
+        let mut chosen = ChosenLights::default();
+        let mut each = |choice: SampledLight| {
+            if let Some(corners) = lights.corners(choice.light) {
+                prefetch_item(corners);
+            }
+            chosen.push(choice);
+        };
+        let look = &mut self.look;
+        self.sampler
+            .sample_many_looking(ctx, numbers.light, *count, look, &mut each);
+        chosen
+    }
+
+    /// The light that the `chosen` lights send over `vertex` toward its viewer, with one shadow ray for all of them: an unbiased estimate
+    /// that costs little more than that of a single light. They are those of [`choose`](Self::choose) for the same question.
     ///
     /// `arrived` says what is left of the light of the one whose shadow counts for all.
     #[inline]
     pub(super) fn sample<V: Scatters>(
-        &mut self,
+        &self,
         question: &LightQuestion,
+        chosen: &ChosenLights,
         vertex: &Vertex<'_, V>,
         numbers: &VertexNumbers,
         stream: &SampleStream,
         arrived: impl FnOnce(&Unshadowed) -> Arrived,
     ) -> Traced {
-        let LightQuestion { ctx, count } = question;
-        let (u, u_shadow) = (numbers.light, numbers.shadow);
         let (world, estimator) = (self.world, self.estimator);
         // The more a candidate would give, the more likely it is the one whose shadow is looked at.
-        let mut candidates = WeightedReservoir::new(u_shadow.into());
-        let mut number = 0;
-        let mut each = |choice| {
-            let point = stream.light_point(vertex.number, number, *count);
-            number += 1;
+        let mut candidates = WeightedReservoir::new(numbers.shadow.into());
+        for (number, choice) in (0..).zip(chosen.iter()) {
+            let point = stream.light_point(vertex.number, number, question.count);
             if let Some(candidate) = unshadowed(world, estimator, question, vertex, choice, point) {
                 candidates.add(candidate, candidate.radiance.element_sum());
             }
-        };
-        self.sampler
-            .sample_many_looking(ctx, u, *count, &mut self.look, &mut each);
+        }
         let Some(chosen) = candidates.sample() else {
             return Traced::default();
         };

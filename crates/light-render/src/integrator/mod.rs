@@ -1,5 +1,6 @@
 //! How light reaches the camera: the estimators of the rendering equation.
 
+mod chosen;
 mod direct;
 mod estimator;
 mod kind;

@@ -120,24 +120,31 @@ pub fn trace<S: LightSampler>(
             ctx: world.light_context(&surface, &scattering, wo),
             count,
         };
-        if !scattering.bsdf().is_dirac() {
-            if estimator.samples_lights() {
-                let vertex = Vertex {
-                    scattering: &scattering,
-                    wo,
-                    number,
-                };
-                let lit = direct.sample(&question, &vertex, &numbers, stream, |light| {
-                    let shadowed = world.occluded(&surface, light.wi, light.p_light);
-                    let left = if shadowed { Vec3::ZERO } else { Vec3::ONE };
-                    Arrived { left, rays: 1 }
-                });
-                traced.radiance += throughput * lit.radiance;
-                traced.rays += lit.rays;
-            }
+        let asks = !scattering.bsdf().is_dirac();
+        let chosen = if asks && estimator.samples_lights() {
+            Some(direct.choose(&question, &numbers))
+        } else {
+            None
+        };
+        let sample = scattering.sample(wo, numbers.lobe, numbers.direction);
+        if let Some(chosen) = &chosen {
+            let vertex = Vertex {
+                scattering: &scattering,
+                wo,
+                number,
+            };
+            let lit = direct.sample(&question, chosen, &vertex, &numbers, stream, |light| {
+                let shadowed = world.occluded(&surface, light.wi, light.p_light);
+                let left = if shadowed { Vec3::ZERO } else { Vec3::ONE };
+                Arrived { left, rays: 1 }
+            });
+            traced.radiance += throughput * lit.radiance;
+            traced.rays += lit.rays;
+        }
+        if asks {
             count = 1;
         }
-        let Some(sample) = scattering.sample(wo, numbers.lobe, numbers.direction) else {
+        let Some(sample) = sample else {
             break;
         };
         throughput *= sample.weight;

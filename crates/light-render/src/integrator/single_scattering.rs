@@ -61,7 +61,9 @@ pub fn trace_single_scattering<S: LightSampler>(
                     wo,
                     number: 0,
                 };
-                let lit = direct.sample(&question, &at, &stream.vertex(0), stream, |light| {
+                let numbers = stream.vertex(0);
+                let chosen = direct.choose(&question, &numbers);
+                let lit = direct.sample(&question, &chosen, &at, &numbers, stream, |light| {
                     let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
                     let target = is_near.then_some(light.p_light);
                     let from = vertex.spawn(world, light.wi);

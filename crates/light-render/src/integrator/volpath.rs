@@ -61,15 +61,16 @@ pub fn trace_volume<S: LightSampler>(
                     wo,
                     number,
                 };
-                let lit = path
-                    .direct
-                    .sample(&question, &vertex, &numbers, stream, |light| {
-                        let is_near =
-                            matches!(light.kind, LightType::DeltaPosition | LightType::Area);
-                        let target = is_near.then_some(light.p_light);
-                        let from = met.vertex.spawn(world, light.wi);
-                        transmittance(world, from, target, &mut || flight.next_u())
-                    });
+                let chosen = path.direct.choose(&question, &numbers);
+                let lit =
+                    path.direct
+                        .sample(&question, &chosen, &vertex, &numbers, stream, |light| {
+                            let is_near =
+                                matches!(light.kind, LightType::DeltaPosition | LightType::Area);
+                            let target = is_near.then_some(light.p_light);
+                            let from = met.vertex.spawn(world, light.wi);
+                            transmittance(world, from, target, &mut || flight.next_u())
+                        });
                 path.traced.radiance += path.throughput * lit.radiance;
                 path.traced.rays += lit.rays;
             }

@@ -55,6 +55,64 @@ fn set(descs: &[LightDesc<Rgb>]) -> (LightSet<Rgb>, Vec<SourceId>) {
 }
 
 #[test]
+fn every_triangle_is_found_in_its_mesh() {
+    let counts = [1, 0, 0, 200, 1, 1, 63, 64, 0, 65, 1, 500, 0, 0];
+    let radiance = |mesh: usize| (mesh + 1) as f32;
+    let descs: Vec<_> = (0..)
+        .zip(counts)
+        .map(|(m, n)| mesh(n, radiance(m)))
+        .collect();
+    let (set, sources) = set(&descs);
+    assert_eq!(set.len(), counts.iter().sum::<usize>(), "all");
+    for (m, (count, source)) in counts.into_iter().zip(sources).enumerate() {
+        let Some(LightId(first)) = set.first_id(source) else {
+            panic!("no id for mesh {m}");
+        };
+        for id in (first..).take(count) {
+            let Some(LightRef::Triangle(light)) = set.get(LightId(id)) else {
+                panic!("no triangle {id}");
+            };
+            let phi = light.phi(&());
+            let expected = core::f32::consts::PI * 0.5 * radiance(m);
+            assert!(
+                (phi.x - expected).abs() < 1e-4 * expected,
+                "{phi} of {id} in {m}"
+            );
+        }
+    }
+}
+
+#[test]
+fn corners_are_known_beforehand_where_they_follow_each_other() {
+    let soup = |triangles: u32| {
+        let vertex = |k: u32| Vec3::new(k as f32, (k % 3) as f32, (k % 2) as f32);
+        LightDesc::Mesh(MeshLightDesc {
+            positions: (0..3 * triangles).map(vertex).collect(),
+            indices: crate::MeshIndices::Consecutive(triangles),
+            uvs: None,
+            emission: DiffuseEmissionDesc::new(
+                SurfaceColor::Uniform(Vec3::ONE),
+                RadianceAmount::Radiometric(1.0),
+            ),
+        })
+    };
+    let (set, _) = set(&[point(1.0), soup(70), mesh(3, 1.0), soup(9), sun()]);
+    let mut known = 0;
+    for (id, light) in set.iter() {
+        let Some(corners) = set.corners(id) else {
+            continue;
+        };
+        known += 1;
+        let LightRef::Triangle(light) = light else {
+            panic!("{id:?} is no triangle");
+        };
+        assert_eq!(light.shape().vertices(), *corners, "those of {id:?}");
+    }
+    assert_eq!(known, 79, "all but those by a list");
+    assert_eq!(set.corners(LightId(u32::MAX)), None, "unknown");
+}
+
+#[test]
 fn ids_run_by_kind_and_sources_know_theirs() {
     let (set, sources) = set(&[
         sun(),
