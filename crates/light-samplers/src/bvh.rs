@@ -2,6 +2,7 @@ use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, Sam
 use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::bvh_cut::{BvhLightCut, SeenLights};
+use crate::light_look::Seen;
 use crate::light_sampler::stratum;
 use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
 use crate::{LightLook, LightSampler};
@@ -61,31 +62,58 @@ impl BvhLightSampler {
     pub fn cut(&self, ctx: &LightSampleContext, detail: CutDetail) -> BvhLightCut<'_> {
         BvhLightCut::new(&self.tree, &self.sky, ctx, detail)
     }
-}
 
-impl LightSampler for BvhLightSampler {
+    /// About the irradiance at `ctx` by the lights of the tree, if there are others to compare them with.
     #[inline]
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn worth_beside_sky(&self, ctx: &LightSampleContext) -> f64 {
+        if self.sky.is_empty() {
+            1.0
+        } else {
+            self.tree.irradiance(ctx)
+        }
+    }
+
+    /// One light, where those of the tree are worth `in_tree` at `ctx`.
+    #[inline]
+    fn sample_beside_sky(
+        &self,
+        ctx: &LightSampleContext,
+        in_tree: f64,
+        u: f64,
+    ) -> Option<SampledLight> {
         if self.sky.is_empty() {
             return self.tree.sample(ctx, u);
         }
         let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
-        match self.sky.first(u, self.tree.irradiance(ctx), worth) {
+        match self.sky.first(u, in_tree, worth) {
             FirstChoice::Tree { pmf, u } => self.tree.view().sample_after(ctx, pmf, u),
             FirstChoice::Sky(light) => light,
         }
     }
 
+    /// The probability of `light`, where those of the tree are worth `in_tree` at `ctx`.
     #[inline]
-    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+    fn pmf_beside_sky(&self, ctx: &LightSampleContext, in_tree: f64, light: LightId) -> f32 {
         if self.sky.is_empty() {
             return self.tree.pmf(ctx, light);
         }
         let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
-        match self.sky.first_pmf(light, self.tree.irradiance(ctx), worth) {
+        match self.sky.first_pmf(light, in_tree, worth) {
             FirstPmf::Tree(pmf) => self.tree.view().pmf_after(ctx, pmf, light),
             FirstPmf::Sky(pmf) => pmf,
         }
+    }
+}
+
+impl LightSampler for BvhLightSampler {
+    #[inline]
+    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+        self.sample_beside_sky(ctx, self.worth_beside_sky(ctx), u)
+    }
+
+    #[inline]
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.pmf_beside_sky(ctx, self.worth_beside_sky(ctx), light)
     }
 
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
@@ -125,11 +153,13 @@ impl LightSampler for BvhLightSampler {
         each: &mut dyn FnMut(SampledLight),
     ) {
         if count < FEWEST_OF_CUT {
-            look.0 = None;
-            let choices = (0..count).filter_map(|i| self.sample(ctx, stratum(i, count, u)));
-            choices.for_each(each);
+            let in_tree = self.worth_beside_sky(ctx);
+            look.seen = Seen::FromAfar { in_tree };
+            let choice = |i| self.sample_beside_sky(ctx, in_tree, stratum(i, count, u));
+            (0..count).filter_map(choice).for_each(each);
         } else {
-            let cut = look.0.get_or_insert_default();
+            look.seen = Seen::Closely;
+            let cut = &mut look.cut;
             cut.look_at(&self.tree.view(), ctx, CutDetail::default());
             SeenLights::new(&self.tree, &self.sky, ctx, cut).sample_many(u, count, each);
         }
@@ -142,12 +172,11 @@ impl LightSampler for BvhLightSampler {
         count: u32,
         look: &LightLook,
     ) -> f32 {
-        if count < FEWEST_OF_CUT {
-            return self.pmf(ctx, light);
-        }
-        match &look.0 {
-            Some(cut) => SeenLights::new(&self.tree, &self.sky, ctx, cut).pmf(light),
-            None => self.cut(ctx, CutDetail::default()).pmf(light),
+        match look.seen {
+            Seen::FromAfar { in_tree } => self.pmf_beside_sky(ctx, in_tree, light),
+            Seen::Closely => SeenLights::new(&self.tree, &self.sky, ctx, &look.cut).pmf(light),
+            Seen::Never if count < FEWEST_OF_CUT => self.pmf(ctx, light),
+            Seen::Never => self.cut(ctx, CutDetail::default()).pmf(light),
         }
     }
 }

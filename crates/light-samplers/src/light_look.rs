@@ -1,8 +1,24 @@
 use light_bvh::LightCut;
 
-/// What a sampler found out about the lights at one place when it chose several, so that their probabilities may be asked for without
+/// What a sampler found out about the lights at one place when it chose there, so that their probabilities may be asked for without
 /// finding it out again.
 ///
 /// Filled by [`sample_many_looking`](crate::LightSampler::sample_many_looking), whatever it held before. About 1.8 KB.
 #[derive(Clone, Debug, Default)]
-pub struct LightLook(pub(crate) Option<LightCut>);
+pub struct LightLook {
+    pub(crate) seen: Seen,
+    /// What the lights are if they were seen closely.
+    pub(crate) cut: LightCut,
+}
+
+/// How the lights were looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) enum Seen {
+    /// Not, or nothing was kept.
+    #[default]
+    Never,
+    /// As they are in a tree, which is worth so much.
+    FromAfar { in_tree: f64 },
+    /// As the cut has them.
+    Closely,
+}

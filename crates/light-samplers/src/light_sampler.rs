@@ -1,4 +1,5 @@
 use crate::LightLook;
+use crate::light_look::Seen;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 /// A way to choose one light of a set at random, with a probability that can be asked for.
@@ -57,7 +58,7 @@ pub trait LightSampler {
         look: &mut LightLook,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        look.0 = None;
+        look.seen = Seen::Never;
         self.sample_many(ctx, u, count, each);
     }
 
