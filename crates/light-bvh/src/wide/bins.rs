@@ -4,7 +4,7 @@ use light_math::glam::Vec3;
 use super::prim::{Prim, Sums};
 
 /// Bins on each axis.
-pub(super) const BINS: usize = 12;
+pub(super) const BINS: usize = 8;
 
 /// The bins that lights fall into.
 #[derive(Clone, Copy, Debug)]

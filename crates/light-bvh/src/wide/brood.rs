@@ -15,10 +15,9 @@ pub(super) struct Brood {
 }
 
 impl Brood {
-    /// `None` if all are off.
+    /// `some` is one of them that is on.
     #[inline(always)]
-    pub(super) fn new(children: &[Moments]) -> Option<Self> {
-        let some = children.iter().find(|c| c.power > 0.0)?;
+    pub(super) fn new(children: &[Moments], some: &Moments) -> Self {
         let child = |k: usize| children.get(k).filter(|c| c.power > 0.0);
         let mut brood = Self {
             power: core::array::from_fn(|k| child(k).map_or(0.0, |c| c.power)),
@@ -42,6 +41,6 @@ impl Brood {
             brood.spread_sq[k] = child.spread_sq;
             brood.both_sides[k] = child.shape == Shape::BothSides;
         }
-        Some(brood)
+        brood
     }
 }

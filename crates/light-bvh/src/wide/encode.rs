@@ -33,7 +33,7 @@ impl WideNode {
             "no more children than a node has slots"
         );
         self.count = u8::try_from(children.len()).unwrap_or(0);
-        let Some(brood) = Brood::new(children) else {
+        let Some(some) = children.iter().find(|c| c.power > 0.0) else {
             *self = Self {
                 count: self.count,
                 child_base: self.child_base,
@@ -45,6 +45,7 @@ impl WideNode {
             };
             return;
         };
+        let brood = Brood::new(children, some);
         self.set_frame(&brood);
         self.set_boxes(&brood);
         let units = self.set_emission(&brood);

@@ -16,32 +16,25 @@ pub(super) struct Lamp {
     /// As a share of the power of all lights.
     pub(super) power: f32,
     pub(super) light: u32,
-    w: Vec3,
-    cos_theta_o: f32,
-    cos_theta_e: f32,
-    two_sided: bool,
+    /// Axis of its moments, as far as the builder looks at it.
+    pub(super) axis: Vec3,
 }
 
 impl Lamp {
-    /// Copies, and decides nothing, so that a reader of many lights need not wait for one.
     #[inline]
     pub(super) fn new(light: u32, bounds: &LightBounds, power: f32) -> Self {
+        let LightBounds {
+            cos_theta_o,
+            cos_theta_e,
+            two_sided,
+            ..
+        } = *bounds;
+        let length = Moments::axis_length(cos_theta_o, cos_theta_e, two_sided);
         Self {
             center: bounds.bounds.center(),
             power,
             light,
-            w: bounds.w,
-            cos_theta_o: bounds.cos_theta_o,
-            cos_theta_e: bounds.cos_theta_e,
-            two_sided: bounds.two_sided,
+            axis: bounds.w * length.min(LONGEST_AXIS),
         }
-    }
-
-    /// Axis of its moments, as far as the builder looks at it.
-    #[inline]
-    pub(super) fn axis(&self) -> Vec3 {
-        self.w
-            * Moments::axis_length(self.cos_theta_o, self.cos_theta_e, self.two_sided)
-                .min(LONGEST_AXIS)
     }
 }

@@ -38,12 +38,11 @@ impl Prim {
     /// One light; `place` is its place along the curve.
     #[inline]
     pub(super) fn of_lamp(lamp: &Lamp, place: u32) -> Self {
-        let axis = lamp.axis();
         Self {
             center: lamp.center,
             power: lamp.power,
-            axis,
-            axis_sq: axis.length_squared(),
+            axis: lamp.axis,
+            axis_sq: lamp.axis.length_squared(),
             variance: 0.0,
             first: place,
             lights: 1,

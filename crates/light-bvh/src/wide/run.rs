@@ -1,5 +1,4 @@
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 
 use light_math::Aabb;
@@ -66,12 +65,17 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Two parts across an axis, the first of `middle` prims.
-    fn split_near(self, axis: usize, middle: usize) -> (Self, Self) {
-        self.prims
-            .select_nth_unstable_by(middle, |a, b| along(a, b, axis));
+    /// Two parts of a few across the widest axis, the first as large as a node.
+    fn split_few(self) -> (Self, Self) {
+        let axis = self.bounds.diagonal().max_position();
+        let mut keys = [u64::MAX; *SNAP.end()];
+        for (key, prim) in keys.iter_mut().zip(&*self.prims) {
+            *key = key_along(prim, axis);
+        }
+        let (_, &mut first_right, _) = keys.select_nth_unstable(WIDTH);
+        let is_left = |p: &Prim| key_along(p, axis) < first_right;
+        let (middle, bounds) = partition(self.prims, is_left);
         let (left, right) = self.prims.split_at(middle);
-        let bounds = [centers(left), centers(right)];
         let costs = [cost(left, bounds[0].min), cost(right, bounds[1].min)];
         self.split_at(middle, bounds, costs)
     }
@@ -113,8 +117,7 @@ impl Group for Run<'_> {
             return self.split_at(middle, bounds, costs);
         }
         if SNAP.contains(&self.prims.len()) {
-            let axis = self.bounds.diagonal().max_position();
-            return self.split_near(axis, WIDTH);
+            return self.split_few();
         }
         let grid = Grid::new(&self.bounds);
         let Some((axis, plane)) = self.best_plane(&grid) else {
@@ -130,7 +133,12 @@ impl Group for Run<'_> {
     fn halve(self) -> (Self, Self) {
         let axis = self.bounds.diagonal().max_position();
         let middle = self.prims.len() / 2;
-        self.split_near(axis, middle)
+        self.prims
+            .select_nth_unstable_by_key(middle, |p| key_along(p, axis));
+        let (left, right) = self.prims.split_at(middle);
+        let bounds = [centers(left), centers(right)];
+        let costs = [cost(left, bounds[0].min), cost(right, bounds[1].min)];
+        self.split_at(middle, bounds, costs)
     }
 
     fn each_light(&self, each: impl FnMut(u32)) {
@@ -158,11 +166,12 @@ fn of_prim<'a>(lamps: &'a [Lamp], prim: &Prim) -> &'a [Lamp] {
     &lamps[prim.first as usize..][..prim.lights as usize]
 }
 
-/// The order of the centres along `axis`; of the places on the curve where they agree.
-fn along(a: &Prim, b: &Prim, axis: usize) -> Ordering {
-    a.center[axis]
-        .total_cmp(&b.center[axis])
-        .then(a.first.cmp(&b.first))
+/// Numbers in the order of the centres along `axis`; of the places on the curve where they agree.
+fn key_along(prim: &Prim, axis: usize) -> u64 {
+    let bits = prim.center[axis].to_bits();
+    let is_negative = bits >> 31 == 1;
+    let ascending = bits ^ if is_negative { !0 } else { 1 << 31 };
+    u64::from(ascending) << 32 | u64::from(prim.first)
 }
 
 /// The cost of a group; `near` is a point near it.
