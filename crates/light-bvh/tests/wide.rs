@@ -2,8 +2,12 @@
 
 #![cfg(feature = "alloc")]
 
+use core::ops::ControlFlow;
+
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
-use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+use light_bvh::light_bounds::{
+    LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
+};
 use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions, LightCut, MAX_DEPTH};
 
 mod support;
@@ -57,6 +61,36 @@ fn the_same_lights_give_the_same_tree() {
         let (a, b) = (a.expect("valid lights"), b.expect("valid lights"));
         assert_eq!(a.view().nodes(), b.view().nodes(), "nodes");
         assert_eq!(a.view().order(), b.view().order(), "order");
+    }
+}
+
+#[test]
+fn a_first_choice_beside_the_tree_gives_the_bits_of_two_questions() {
+    let contexts = [
+        LightSampleContext::medium(Vec3::new(0.5, 0.25, -1.0)),
+        LightSampleContext::surface(Vec3::new(3.0, 1.0, -2.0), Vec3::Z, Vec3::Z),
+    ];
+    let other = SampledLight {
+        light: LightId(u32::MAX),
+        pmf: 0.5,
+        u: 0.25,
+    };
+    for lights in nasty_sets().into_iter().chain([Vec::new()]) {
+        let tree = LightBvh::build(&lights).expect("valid lights");
+        let view = tree.view();
+        for ctx in &contexts {
+            for u in [0.0, 0.3, 0.999] {
+                let mut told = None;
+                let inside = view.sample_beside(ctx, |irradiance| {
+                    told = Some(irradiance);
+                    ControlFlow::Continue((0.375, u))
+                });
+                assert_eq!(told, Some(view.irradiance(ctx)), "the irradiance");
+                assert_eq!(inside, view.sample_after(ctx, 0.375, u), "into the tree");
+            }
+            let elsewhere = view.sample_beside(ctx, |_| ControlFlow::Break(Some(other)));
+            assert_eq!(elsewhere, Some(other), "past the tree");
+        }
     }
 }
 

@@ -1,3 +1,5 @@
+use core::ops::ControlFlow;
+
 use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
@@ -73,22 +75,27 @@ impl BvhLightSampler {
         }
     }
 
-    /// One light, where those of the tree are worth `in_tree` at `ctx`.
+    /// One light, and in `look` what the tree is worth.
     #[inline]
-    fn sample_beside_sky(
+    fn sample_looking(
         &self,
         ctx: &LightSampleContext,
-        in_tree: f64,
         u: f64,
+        look: &mut Seen,
     ) -> Option<SampledLight> {
         if self.sky.is_empty() {
+            *look = Seen::FromAfar { in_tree: 1.0 };
             return self.tree.sample(ctx, u);
         }
         let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
-        match self.sky.first(u, in_tree, worth) {
-            FirstChoice::Tree { pmf, u } => self.tree.view().sample_after(ctx, pmf, u),
-            FirstChoice::Sky(light) => light,
-        }
+        self.tree.view().sample_beside(ctx, |irradiance| {
+            let in_tree = irradiance * self.tree.power();
+            *look = Seen::FromAfar { in_tree };
+            match self.sky.first(u, in_tree, worth) {
+                FirstChoice::Tree { pmf, u } => ControlFlow::Continue((pmf, u)),
+                FirstChoice::Sky(light) => ControlFlow::Break(light),
+            }
+        })
     }
 
     /// The probability of `light`, where those of the tree are worth `in_tree` at `ctx`.
@@ -108,7 +115,7 @@ impl BvhLightSampler {
 impl LightSampler for BvhLightSampler {
     #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.sample_beside_sky(ctx, self.worth_beside_sky(ctx), u)
+        self.sample_looking(ctx, u, &mut Seen::default())
     }
 
     #[inline]
@@ -153,9 +160,9 @@ impl LightSampler for BvhLightSampler {
         each: &mut dyn FnMut(SampledLight),
     ) {
         if count < FEWEST_OF_CUT {
-            let in_tree = self.worth_beside_sky(ctx);
-            look.seen = Seen::FromAfar { in_tree };
-            let choice = |i| self.sample_beside_sky(ctx, in_tree, stratum(i, count, u));
+            look.seen = Seen::Never;
+            let seen = &mut look.seen;
+            let choice = |i| self.sample_looking(ctx, stratum(i, count, u), seen);
             (0..count).filter_map(choice).for_each(each);
         } else {
             look.seen = Seen::Closely;

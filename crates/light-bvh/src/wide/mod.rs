@@ -1,5 +1,6 @@
 //! The default tree: wide nodes of quantised moments.
 
+mod beside;
 #[cfg(feature = "alloc")]
 mod bins;
 #[cfg(feature = "alloc")]

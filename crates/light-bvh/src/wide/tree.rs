@@ -270,9 +270,6 @@ impl Query for Irradiance<'_> {
 
     #[inline(always)]
     fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
-        let weights = Weights::new(self.root, receiver);
-        let inv_unit = f64::from(weights.inv_unit);
-        // Heights and intensities are counted twice each.
-        0.25 * f64::from(weights.total) * f64::from(self.root.gain()) * inv_unit * inv_unit
+        Weights::new(self.root, receiver).irradiance(self.root)
     }
 }

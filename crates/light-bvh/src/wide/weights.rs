@@ -50,6 +50,14 @@ impl Weights {
         }
     }
 
+    /// About the irradiance by the lights of `node`, of which these are the weights, where all lights of the tree have power 1.
+    #[inline(always)]
+    pub(crate) fn irradiance(&self, node: &WideNode) -> f64 {
+        let inv_unit = f64::from(self.inv_unit);
+        // Heights and intensities are counted twice each.
+        0.25 * f64::from(self.total) * f64::from(node.gain()) * inv_unit * inv_unit
+    }
+
     /// The weights of lights so far away, or nodes so large, that they vanish in codes.
     #[cold]
     fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
