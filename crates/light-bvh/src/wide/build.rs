@@ -42,6 +42,8 @@ pub(super) fn build(
     if scan.count == 0 {
         return (Skeleton(Vec::new()), order);
     }
+    /// So few lights are split one by one from the root on: clusters of them would be too coarse.
+    const FEW: usize = 2048;
     /// So many lights are on their way from memory while one is read.
     const AHEAD: usize = 24;
     let lights = Lights::new(extents, scan.power);
@@ -62,7 +64,13 @@ pub(super) fn build(
                 }
                 Lamp::new(entry.light, lights.bounds(entry.light), entry.power)
             });
-            plot.build(Run::new(&mut clusters(&ends, &lamps), &lamps))
+            let mut clusters = clusters(&ends, &lamps);
+            let run = Run::new(&mut clusters, &lamps);
+            if lamps.len() <= FEW {
+                run.plant(plot)
+            } else {
+                plot.build(run)
+            }
         }
     };
     (tree, order)
