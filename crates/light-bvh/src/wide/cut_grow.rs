@@ -8,7 +8,6 @@ use super::node::WIDTH;
 use super::query::Query;
 use super::select::both;
 use super::tree::LightBvhRef;
-use super::vectors::prefetch;
 use super::weights::{Weights, total};
 
 /// How much more a nearer node may count per unit of its weight: where distances differ by more than 2^30, weights lose their proportion
@@ -46,7 +45,7 @@ impl Query for Grow<'_, '_> {
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }
-            prefetch(tree.nodes(), node.child_base);
+            tree.prefetch_below(node);
             let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
             let scale = node.gain() * zoom * zoom;
             let mut lanes = weights.lanes.map(|w| both(w, scale));

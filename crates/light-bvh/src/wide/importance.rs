@@ -270,6 +270,6 @@ impl Lane {
         let inv_dist_sq = 1.0 / self.dist_sq;
         // One near light may outshine all others of its group.
         let near = 1.0 + NEARNESS * (width * width * inv_dist_sq);
-        ((self.power * inv_dist_sq) * (height * inv_dist_sq)) * (ramp * near)
+        (((self.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * ramp
     }
 }

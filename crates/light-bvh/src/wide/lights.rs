@@ -3,7 +3,7 @@ use core::f32::consts::PI;
 use light_bounds::{LightBounds, LightExtent};
 
 use super::moments::Moments;
-use super::vectors::prefetch_one;
+use super::vectors::prefetch;
 
 /// The lights of a tree in the making.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ impl<'a> Lights<'a> {
     /// Asks the memory for a light that is read soon.
     #[inline]
     pub(super) fn prefetch(&self, light: u32) {
-        prefetch_one(self.extents, light);
+        prefetch::<1, _>(self.extents, light);
     }
 
     #[inline(always)]

@@ -11,6 +11,8 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// The first `inner` children are subtrees, in the nodes `child_base..`; the others are lights, in the order entries
 /// `light_base..`.
 ///
+/// Aligned so that none is on more than four cache lines.
+///
 /// | byte | field | |
 /// | --- | --- | --- |
 /// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
@@ -29,7 +31,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
-#[repr(C)]
+#[repr(C, align(32))]
 #[allow(missing_docs, reason = "the table above documents every field")]
 pub struct WideNode {
     pub mean: [[u8; WIDTH]; 3],

@@ -10,6 +10,11 @@ use super::weights::Weights;
 /// Levels of nodes that a tree may have: the builder keeps to it whatever the lights are.
 pub const MAX_DEPTH: usize = 24;
 
+/// How many levels below the start of a descent the caches near a processor hold, and how many nodes of a tree in all: the memory need not be
+/// asked early for those.
+const CACHED_LEVELS: usize = 2;
+const CACHED_NODES: usize = 1 << 14;
+
 /// The default light hierarchy on borrowed memory: what queries need and nothing else.
 ///
 /// Three plain arrays that can be copied to a GPU as they are.
@@ -181,9 +186,11 @@ impl<'a> LightBvhRef<'a> {
         u: f64,
     ) -> Option<SampledLight> {
         let (mut index, mut pmf, mut u) = (node, pmf, u);
-        for _ in 0..MAX_DEPTH {
+        for level in 0..MAX_DEPTH {
             let node = self.nodes.get(index)?;
-            prefetch(self.nodes, node.child_base);
+            if level >= CACHED_LEVELS {
+                self.prefetch_below(node);
+            }
             let choice = Weights::new(node, receiver).choose(u)?;
             pmf = both(pmf, choice.probability);
             u = choice.u;
@@ -208,6 +215,18 @@ impl<'a> LightBvhRef<'a> {
         match self.child(self.nodes.get(node as usize)?, child)? {
             Child::Light(light) => Some(SampledLight { light, pmf, u }),
             Child::Node(child) => self.descend(receiver, child, pmf, u),
+        }
+    }
+
+    /// Asks the memory for what a choice among the children of `node` may lead to, unless the caches hold all of the tree.
+    #[inline(always)]
+    pub(crate) fn prefetch_below(&self, node: &WideNode) {
+        if self.nodes.len() <= CACHED_NODES {
+            return;
+        }
+        prefetch::<WIDTH, _>(self.order, node.light_base);
+        if node.inner > 0 {
+            prefetch::<WIDTH, _>(self.nodes, node.child_base);
         }
     }
 

@@ -10,14 +10,22 @@
 //!
 //! The same arithmetic in the same order either way, nothing fused: the same bits.
 
-use super::node::WideNode;
 use super::query::{Asker, Query};
+
+/// Bytes that the memory delivers at once.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+const CACHE_LINE: usize = 64;
 
 /// The answer to `query`, as the receiver that `asker` turns into sees the tree.
 ///
 /// The whole query is one piece of code for each kind of vector, so that what a receiver knows stays in registers on its way down.
 #[inline(always)]
 pub(crate) fn answer<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
+    #[cfg(avx512)]
+    if has_avx512() {
+        // SAFETY: as it says.
+        return unsafe { answer_by_avx512(asker, query) };
+    }
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the machine has AVX2.
@@ -31,6 +39,22 @@ pub(crate) fn answer<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2")]
 unsafe fn answer_by_avx2<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
+    asker.ask(query)
+}
+
+/// Whether the machine has AVX-512, of the generation from which on it costs no clock frequency.
+#[cfg(avx512)]
+#[inline(always)]
+fn has_avx512() -> bool {
+    use std::arch::is_x86_feature_detected as has;
+    has!("avx512vbmi2") && has!("avx512vl") && has!("avx512dq")
+}
+
+/// # Safety
+/// The machine [has AVX-512](has_avx512).
+#[cfg(avx512)]
+#[target_feature(enable = "avx512vbmi2,avx512vl,avx512dq")]
+unsafe fn answer_by_avx512<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
     asker.ask(query)
 }
 
@@ -63,46 +87,38 @@ unsafe fn run_by_avx2<W: Work>(work: W) -> W::Output {
     work.run()
 }
 
-/// Asks the memory for one of `items` that is read soon.
-#[cfg(feature = "alloc")]
-#[inline(always)]
-pub(super) fn prefetch_one<T>(items: &[T], index: u32) {
-    if let Some(item) = items.get(index as usize) {
-        prefetch_item(item);
-    }
-}
-
-/// Asks the memory for `item`, of up to two cache lines, that is read soon: a light that was chosen, while other work is done. On machines
-/// where that cannot be asked nothing happens.
+/// Asks the memory for `item`, which is read soon: a light that was chosen, while other work is done. On machines where that cannot be asked
+/// nothing happens.
 #[inline(always)]
 pub fn prefetch_item<T>(item: &T) {
+    ask_memory(item, 1);
+}
+
+/// Asks the memory for `N` of `items`, which are read soon.
+#[inline(always)]
+pub(super) fn prefetch<const N: usize, T>(items: &[T], first: u32) {
+    ask_memory(items.as_ptr().wrapping_add(first as usize), N);
+}
+
+/// Asks the memory for every cache line that `count` items are on.
+#[inline(always)]
+fn ask_memory<T>(from: *const T, count: usize) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     {
         use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let item: *const i8 = core::ptr::from_ref(item).cast();
-        let last = item.wrapping_add(size_of::<T>().saturating_sub(1));
-        // SAFETY: every machine of this kind has the instruction, and it may be given any address.
-        unsafe {
-            _mm_prefetch::<_MM_HINT_T0>(item);
-            _mm_prefetch::<_MM_HINT_T0>(last);
+        let (mut byte, last) = (0, (count * size_of::<T>()).saturating_sub(1));
+        loop {
+            let line = from.cast::<i8>().wrapping_add(byte);
+            // SAFETY: every machine of this kind has the instruction, and it may be given any address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(line) };
+            if byte == last {
+                break;
+            }
+            byte = (byte + CACHE_LINE).min(last);
         }
     }
     #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
-    let _ = item;
-}
-
-/// Asks the memory for the nodes from `first`, of which one may be visited next.
-#[inline(always)]
-pub(crate) fn prefetch(nodes: &[WideNode], first: u32) {
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    for child in 0..super::node::WIDTH {
-        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let node = nodes.as_ptr().wrapping_add(first as usize + child);
-        // SAFETY: every machine of this kind has the instruction, and it may be given any address.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(node.cast()) };
-    }
-    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
-    let _ = (nodes, first);
+    let _ = (from, count);
 }
 
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
@@ -112,7 +128,7 @@ mod tests {
     use super::*;
     use crate::wide::glossy::GlossyReceiver;
     use crate::wide::importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
-    use crate::wide::node::WIDTH;
+    use crate::wide::node::{WIDTH, WideNode};
     use crate::wide::query::Oneself;
     use crate::wide::segment::SegmentReceiver;
     use crate::wide::weights::Weights;
@@ -135,8 +151,13 @@ mod tests {
     fn wide_vectors_give_the_bits_of_narrow_ones() {
         fn check<R: Receiver>(node: &WideNode, receiver: &R) {
             let narrow = Bits(node).of(receiver);
-            let wide = answer(Oneself(receiver), Bits(node));
-            assert_eq!(narrow, wide, "weights of {node:?}");
+            let widest = answer(Oneself(receiver), Bits(node));
+            assert_eq!(narrow, widest, "weights of {node:?}");
+            if std::arch::is_x86_feature_detected!("avx2") {
+                // SAFETY: the machine has AVX2.
+                let wide = unsafe { answer_by_avx2(Oneself(receiver), Bits(node)) };
+                assert_eq!(narrow, wide, "by AVX2, weights of {node:?}");
+            }
         }
         let mut state = 1u32;
         let mut next = || {
