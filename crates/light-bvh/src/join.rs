@@ -9,16 +9,17 @@ pub(crate) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    /// Less work than this many lights is done before another thread has woken up.
     #[cfg(feature = "rayon")]
-    const WORTH_A_THREAD: usize = 2048;
-
-    #[cfg(feature = "rayon")]
-    if work >= WORTH_A_THREAD {
+    if is_worth_a_thread(work) {
         return rayon::join(a, b);
     }
     let _ = work;
     (a(), b())
+}
+
+/// Whether work on so many lights is not done before another thread has woken up.
+pub(crate) const fn is_worth_a_thread(work: usize) -> bool {
+    work >= 2048
 }
 
 /// What `each` makes of every one of `jobs`, in their order, on all threads that the feature `rayon` allows.

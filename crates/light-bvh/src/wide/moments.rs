@@ -59,56 +59,26 @@ impl Moments {
 
     /// The moments of one light; `inv_total` is one over the power of all lights together.
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn of_light(light: &LightExtent, inv_total: f64) -> Self {
-        match light {
-            LightExtent::Bounded(bounds) => Self::of_bounds(bounds, inv_total),
-            LightExtent::Lobe(bounds, lobe) => Self::of_lobe(bounds, lobe, inv_total),
-            LightExtent::Infinite(_) => Self::NOTHING,
-        }
-    }
-
-    /// As a light in one point with a lobe emits. However small the spread, it keeps what is emitted beyond the line alive.
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    fn of_lobe(light: &LightBounds, lobe: &EmissionLobe, inv_total: f64) -> Self {
-        let line = lobe.line();
-        let power = (f64::from(line.peak) * inv_total) as f32;
+        let (light, emission) = match light {
+            LightExtent::Bounded(light) => (light, Emission::of_bounds(light)),
+            LightExtent::Lobe(light, lobe) => (light, Emission::of_lobe(lobe)),
+            LightExtent::Infinite(_) => return Self::NOTHING,
+        };
+        let power = (f64::from(emission.power) * inv_total) as f32 * emission.peak;
         Self {
-            power: if light.phi > 0.0 || line.peak > 0.0 {
+            power: if emission.power > 0.0 || light.phi > 0.0 {
                 power.max(f32::MIN_POSITIVE)
             } else {
                 0.0
             },
             bounds: light.bounds,
             mean: light.bounds.center(),
-            axis: line.axis,
-            offset: line.offset,
-            spread_sq: (lobe.spread * lobe.spread).clamp(f32::MIN_POSITIVE, MAX_SPREAD_SQ),
-            shape: if line.offset > WIDEST_SPOT {
-                Shape::Spots
-            } else {
-                Shape::Mixed
-            },
-        }
-    }
-
-    /// As a light within the given bounds may emit.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    fn of_bounds(light: &LightBounds, inv_total: f64) -> Self {
-        let lobe = Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided);
-        let power = (f64::from(light.phi) * inv_total) as f32 * lobe.peak;
-        Self {
-            power: if light.phi > 0.0 {
-                power.max(f32::MIN_POSITIVE)
-            } else {
-                0.0
-            },
-            bounds: light.bounds,
-            mean: light.bounds.center(),
-            axis: light.w * lobe.axis,
-            offset: lobe.offset,
-            spread_sq: lobe.spread_sq,
-            shape: lobe.shape,
+            axis: emission.axis,
+            offset: emission.offset,
+            spread_sq: emission.spread_sq,
+            shape: emission.shape,
         }
     }
 
@@ -193,6 +163,50 @@ impl Shape {
             aside_sq + (forward - offset) * (forward - offset)
         } else {
             axis.length_squared() + offset * offset
+        }
+    }
+}
+
+/// How one light emits, whose peak intensity is `peak * power`.
+struct Emission {
+    power: f32,
+    peak: f32,
+    axis: Vec3,
+    offset: f32,
+    spread_sq: f32,
+    shape: Shape,
+}
+
+impl Emission {
+    /// As a light within the given bounds may emit.
+    #[inline(always)]
+    fn of_bounds(light: &LightBounds) -> Self {
+        let lobe = Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided);
+        Self {
+            power: light.phi,
+            peak: lobe.peak,
+            axis: light.w * lobe.axis,
+            offset: lobe.offset,
+            spread_sq: lobe.spread_sq,
+            shape: lobe.shape,
+        }
+    }
+
+    /// As a light in one point with a lobe emits. However small the spread, it keeps what is emitted beyond the line alive.
+    #[inline(always)]
+    fn of_lobe(lobe: &EmissionLobe) -> Self {
+        let line = lobe.line();
+        Self {
+            power: line.peak,
+            peak: 1.0,
+            axis: line.axis,
+            offset: line.offset,
+            spread_sq: (lobe.spread * lobe.spread).clamp(f32::MIN_POSITIVE, MAX_SPREAD_SQ),
+            shape: if line.offset > WIDEST_SPOT {
+                Shape::Spots
+            } else {
+                Shape::Mixed
+            },
         }
     }
 }

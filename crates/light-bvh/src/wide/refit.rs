@@ -7,7 +7,7 @@ use super::node::{NOWHERE, WIDTH, WideNode};
 use super::options::DarkLights;
 use super::scan::Scan;
 use crate::LightBvhError;
-use crate::join::join;
+use crate::join::{is_worth_a_thread, join};
 
 /// Subtrees of so many lights read them all before they make use of them.
 const BATCH: usize = 128;
@@ -53,7 +53,7 @@ pub(super) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent]
         order,
     };
     if let Some((root, below)) = nodes.split_first_mut() {
-        filling.subtree(root, below, 1, order.len());
+        filling.subtree(root, below, 1, order.len(), &mut [Moments::NOTHING; BATCH]);
     }
 }
 
@@ -62,6 +62,9 @@ struct Filling<'a> {
     lights: Lights<'a>,
     order: &'a [u32],
 }
+
+/// Room for the moments of a batch, used again and again.
+type Room = [Moments; BATCH];
 
 impl Filling<'_> {
     /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below `node`, and perhaps more;
@@ -72,6 +75,7 @@ impl Filling<'_> {
         below: &mut [WideNode],
         base: usize,
         end: usize,
+        room: &mut Room,
     ) -> Moments {
         let first = node.light_base as usize;
         let lights = &self.order[first..end];
@@ -79,15 +83,14 @@ impl Filling<'_> {
             // Lights are far from each other in memory: those of the next batches are on their way while these are looked at.
             let later = self.order.get(first + BATCH..).unwrap_or_default();
             let mut later = later.iter();
-            let mut moments = [Moments::NOTHING; BATCH];
-            for (moments, &light) in moments.iter_mut().zip(lights) {
+            for (moments, &light) in room.iter_mut().zip(lights) {
                 if let Some(&light) = later.next() {
                     self.lights.prefetch(light);
                 }
                 *moments = self.lights.moments(light);
             }
             return Batch {
-                moments: &moments,
+                moments: room,
                 first,
             }
             .subtree(node, below, base);
@@ -99,7 +102,7 @@ impl Filling<'_> {
             *moments = self.lights.moments(light);
         }
         let (children, rest) = below.split_at_mut(inner);
-        self.side_by_side(children, rest, base + inner, end, &mut brood[..inner]);
+        self.side_by_side(children, rest, base + inner, end, room, &mut brood[..inner]);
         encode(node, &brood)
     }
 
@@ -110,11 +113,12 @@ impl Filling<'_> {
         below: &mut [WideNode],
         base: usize,
         end: usize,
+        room: &mut Room,
         moments: &mut [Moments],
     ) {
         match nodes {
             [] => {}
-            [node] => moments[0] = self.subtree(node, below, base, end),
+            [node] => moments[0] = self.subtree(node, below, base, end, room),
             _ => {
                 let middle = nodes.len() / 2;
                 let lights = end - nodes[0].light_base as usize;
@@ -124,11 +128,19 @@ impl Filling<'_> {
                 let light_border = later[0].light_base as usize;
                 let (below, below_later) = below.split_at_mut(border - base);
                 let (moments, moments_later) = moments.split_at_mut(middle);
-                join(
-                    lights,
-                    || self.side_by_side(nodes, below, base, light_border, moments),
-                    || self.side_by_side(later, below_later, border, end, moments_later),
-                );
+                let mut first = |room: &mut Room| {
+                    self.side_by_side(nodes, below, base, light_border, room, moments);
+                };
+                let mut second = |room: &mut Room| {
+                    self.side_by_side(later, below_later, border, end, room, moments_later);
+                };
+                if is_worth_a_thread(lights) {
+                    let mut room_later = [Moments::NOTHING; BATCH];
+                    join(lights, || first(room), || second(&mut room_later));
+                } else {
+                    first(room);
+                    second(room);
+                }
             }
         }
     }

@@ -71,6 +71,11 @@ pub(super) trait Work {
 #[cfg(feature = "alloc")]
 #[inline(always)]
 pub(super) fn widely<W: Work>(work: W) -> W::Output {
+    #[cfg(avx512)]
+    if has_avx512() {
+        // SAFETY: as it says.
+        return unsafe { run_by_avx512(work) };
+    }
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the machine has AVX2.
@@ -84,6 +89,14 @@ pub(super) fn widely<W: Work>(work: W) -> W::Output {
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2")]
 unsafe fn run_by_avx2<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+/// # Safety
+/// The machine [has AVX-512](has_avx512).
+#[cfg(all(avx512, feature = "alloc"))]
+#[target_feature(enable = "avx512vbmi2,avx512vl,avx512dq")]
+unsafe fn run_by_avx512<W: Work>(work: W) -> W::Output {
     work.run()
 }
 
