@@ -48,7 +48,10 @@ impl Query for Grow<'_, '_> {
             tree.prefetch_below(node);
             let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
             let scale = node.gain() * zoom * zoom;
-            let mut lanes = weights.lanes.map(|w| both(w, scale));
+            let mut lanes = weights.lanes;
+            for weight in &mut lanes {
+                *weight = both(*weight, scale);
+            }
             if index == 0 {
                 limit = detail.threshold * total(lanes);
             }

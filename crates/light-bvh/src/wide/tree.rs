@@ -13,7 +13,7 @@ pub const MAX_DEPTH: usize = 24;
 /// How many levels below the start of a descent the caches near a processor hold, and how many nodes of a tree in all: the memory need not be
 /// asked early for those.
 const CACHED_LEVELS: usize = 2;
-const CACHED_NODES: usize = 1 << 14;
+const CACHED_NODES: usize = 1 << 8;
 
 /// The default light hierarchy on borrowed memory: what queries need and nothing else.
 ///
