@@ -5,6 +5,13 @@ use light_bvh::LightCut;
 ///
 /// Filled by [`sample_many_looking`](crate::LightSampler::sample_many_looking), whatever it held before. About 1.8 KB.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(
+    not(feature = "alloc"),
+    expect(
+        dead_code,
+        reason = "only hierarchies, which own memory, keep anything"
+    )
+)]
 pub struct LightLook {
     pub(crate) seen: Seen,
     /// What the lights are if they were seen closely.
@@ -13,6 +20,13 @@ pub struct LightLook {
 
 /// How the lights were looked at.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    not(feature = "alloc"),
+    expect(
+        dead_code,
+        reason = "only hierarchies, which own memory, keep anything"
+    )
+)]
 pub(crate) enum Seen {
     /// Not, or nothing was kept.
     #[default]
