@@ -24,6 +24,7 @@ pub use validate::validate;
 #[cfg(feature = "alloc")]
 pub use wide::{BuildMode, DarkLights, LightBvh, LightBvhOptions};
 pub use wide::{
-    CutDetail, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH, MediumReceiver, Receiver,
-    SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far, prefetch_item,
+    CutDetail, CutDetailError, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH,
+    MediumReceiver, Receiver, SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,
+    prefetch_item,
 };

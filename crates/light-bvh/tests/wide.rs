@@ -8,7 +8,9 @@ use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{
     LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
 };
-use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions, LightCut, MAX_DEPTH};
+use light_bvh::{
+    CutDetail, CutDetailError, LightBvh, LightBvhError, LightBvhOptions, LightCut, MAX_DEPTH,
+};
 
 mod support;
 use support::lamp;
@@ -261,9 +263,7 @@ fn a_cut_forgets_where_it_was() {
     for tree in trees.iter().cycle().take(60) {
         let (p, n) = (numbers.vec3(), numbers.direction());
         let ctx = LightSampleContext::surface(p, n, n);
-        let detail = CutDetail {
-            threshold: 0.3 * numbers.next(),
-        };
+        let detail = CutDetail::new(0.3 * numbers.next()).expect("at least 0");
         let view = tree.view();
         cut.look_at(&view, &ctx, detail);
         let alone = LightCut::at(&view, &ctx, detail);
@@ -275,4 +275,16 @@ fn a_cut_forgets_where_it_was() {
         }
     }
     assert!(found > 300, "{found} lights");
+}
+
+#[test]
+fn a_cut_opens_no_group_without_weight() {
+    for threshold in [-1.0, -f32::MIN_POSITIVE, f32::NEG_INFINITY, f32::NAN] {
+        let detail = CutDetail::new(threshold);
+        assert_eq!(detail, Err(CutDetailError::Threshold), "{threshold}");
+    }
+    for threshold in [0.0, 0.08, f32::INFINITY] {
+        let detail = CutDetail::new(threshold).map(CutDetail::threshold);
+        assert_eq!(detail, Ok(threshold), "{threshold}");
+    }
 }

@@ -33,6 +33,8 @@ mod test_folder;
 mod text;
 #[cfg(test)]
 mod three_formats;
+#[cfg(test)]
+mod upright;
 mod write_whole;
 
 pub use builtin::{BuiltinScene, UnknownScene};

@@ -1,3 +1,6 @@
+use core::error::Error;
+use core::fmt;
+
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 use super::cut_choose::{Probability, Sample, SampleMany};
@@ -14,9 +17,46 @@ pub(super) const MAX_NODES: usize = 24;
 /// Where a cut stops to look closer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutDetail {
-    /// A group of lights is opened while its share of the whole, times its squared width over its squared distance, is above this.
-    pub threshold: f32,
+    pub(super) threshold: f32,
 }
+
+/// Why a number is no [`CutDetail`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CutDetailError {
+    /// The threshold is negative or NaN: a group of no weight would be opened.
+    Threshold,
+}
+
+impl CutDetail {
+    /// A group of lights is opened while its share of the whole, times its squared width over its squared distance, is above
+    /// `threshold`, a number of at least 0.
+    ///
+    /// # Errors
+    /// When `threshold` is negative or NaN.
+    pub fn new(threshold: f32) -> Result<Self, CutDetailError> {
+        if !(threshold >= 0.0) {
+            return Err(CutDetailError::Threshold);
+        }
+        Ok(Self { threshold })
+    }
+
+    /// The number above which a group is opened.
+    #[must_use]
+    pub const fn threshold(self) -> f32 {
+        self.threshold
+    }
+}
+
+impl fmt::Display for CutDetailError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threshold => f.write_str("threshold: must be at least 0"),
+        }
+    }
+}
+
+impl Error for CutDetailError {}
 
 impl Default for CutDetail {
     fn default() -> Self {

@@ -57,7 +57,7 @@ mod tree;
 mod vectors;
 mod weights;
 
-pub use cut::{CutDetail, LightCut};
+pub use cut::{CutDetail, CutDetailError, LightCut};
 pub use glossy::GlossyReceiver;
 pub use importance::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far};
 pub use lane::Lane;

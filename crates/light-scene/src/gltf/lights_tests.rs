@@ -85,3 +85,31 @@ fn measured_luminaires_look_along_minus_z() {
     let amount = ::lights::sources::IntensityAmount::LuminousPower(lumens);
     assert_eq!(light.amount, amount, "half as much");
 }
+
+/// The extension's own frame: the zero of both angles along -z, level planes in x and y, and angles of type C counter-clockwise.
+#[test]
+fn measured_luminaires_are_not_mirrored() {
+    let file = "IESNA:LM-63-2002\nTILT=NONE\n1 9000 1 2 4 1 2 0 0 0\n1 1 100\n0 180\n0 90 180 270\n\
+        100 100\n200 200\n300 300\n400 400\n";
+    let scene = read(&format!(
+        r#""scenes": [{{"nodes": [0]}}],
+        "nodes": [{{"extensions": {{"EXT_lights_ies": {{"light": 0}}}}}}],
+        "extensions": {{"EXT_lights_ies": {{"lights": [{{"uri": "{}"}}]}}}}"#,
+        data_uri(file.as_bytes())
+    ))
+    .expect("a scene");
+    let [LightDesc::Goniometric(light)] = &scene.lights[..] else {
+        panic!("one light");
+    };
+    for (w, quarters) in [
+        (Vec3::X, 1.0),
+        (Vec3::Y, 2.0),
+        (Vec3::NEG_X, 3.0),
+        (Vec3::NEG_Y, 4.0),
+    ] {
+        let local = light.transform.inverse().transform_vector3(w);
+        let uv = ::lights::math::equal_area::sphere_to_square(local);
+        let found = light.distribution.nearest(uv).x * 4.0;
+        assert!((found - quarters).abs() < 0.05, "{w}: {found} quarters");
+    }
+}

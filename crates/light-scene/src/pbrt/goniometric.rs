@@ -6,10 +6,10 @@ use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, Li
 
 use super::lights::luminance;
 use super::state::{Reader, Typed};
-use crate::Diagnostic;
 use crate::glam::{Affine3A, Mat3A, Vec3};
 use crate::ies::parse_luminaire;
 use crate::text::text_of;
+use crate::{Camera, Diagnostic};
 
 /// Texels a side of the map of a measured luminaire.
 const WEB_SIZE: u32 = 256;
@@ -64,7 +64,8 @@ impl Reader {
         }))
     }
 
-    /// A luminaire gives off what its file says, times the colour; it hangs with its nadir along -y.
+    /// A luminaire gives off what its file says, times the colour; it hangs with its nadir along -y and its photometric
+    /// horizontal along x, and pictures show it the right way around: not as in a mirror.
     fn luminaire(
         &mut self,
         typed: &Typed<'_>,
@@ -79,11 +80,23 @@ impl Reader {
         self.scene.warnings.extend(luminaire.warnings);
         let power = typed.parameters.number("power").map(|watts| watts * 683.0);
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
-        let mut light = luminaire.web.light(place, color, WEB_SIZE);
+        let mut light = luminaire
+            .web
+            .light(place * self.web_to_light(), color, WEB_SIZE);
         let tint = color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens * tint));
         light.media = self.light_media();
         Ok(LightDesc::Goniometric(light))
+    }
+
+    /// From the space of a web, which is right-handed, to that of the scene: left-handed unless the camera mirrors it.
+    fn web_to_light(&self) -> Affine3A {
+        let is_mirrored = |camera: Camera| camera.right.cross(camera.up).dot(camera.forward) < 0.0;
+        if self.camera.is_some_and(is_mirrored) {
+            Affine3A::IDENTITY
+        } else {
+            Affine3A::from_scale(Vec3::new(1.0, 1.0, -1.0))
+        }
     }
 }
 

@@ -61,7 +61,8 @@ impl Reader {
                 amount: IrradianceAmount::default(),
             }),
             "projection" => LightDesc::Projection(ProjectionLightDesc {
-                transform: place,
+                // Rows run downward where y runs upward.
+                transform: place * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
                 image: self.light_image(typed)?,
                 fov: parameters.number_or("fov", 90.0).to_radians(),
                 amount: match parameters.number("power") {
@@ -128,12 +129,12 @@ impl Reader {
         let [a, b, c, d] = portal[..] else {
             return Err(typed.at.diagnostic("expected four corners of a portal"));
         };
-        let portal = [a, b, c, d].map(|corner| transform.transform_point3(corner));
+        // Unlike the map, a portal is in the world whatever the transform in force.
         Ok(LightDesc::PortalInfinite(PortalInfiniteLightDesc {
             transform,
             map,
             amount,
-            portal,
+            portal: [a, b, c, d],
         }))
     }
 

@@ -5,6 +5,8 @@ mod cloud;
 mod directives;
 #[cfg(test)]
 mod files_tests;
+#[cfg(test)]
+mod frames_tests;
 mod goniometric;
 mod image_map;
 mod lights;
