@@ -14,9 +14,11 @@ mod fuzz;
 mod gallery;
 mod march_convergence;
 mod median_cut_table;
+mod mutants;
 mod no_std;
 mod references;
 mod steps;
+mod tools;
 mod uplift;
 
 use steps::{StepResult, Steps};
@@ -36,6 +38,7 @@ usage: cargo xtask [COMMAND]
   march-convergence           redraw how marches through media converge, for the first page of light-media
   median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
+  mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
   uplift-table                remake the spectra of sRGB colours that light-math ships
@@ -60,6 +63,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("median-cut-table", images) => one("median-cut-table", || {
             median_cut_table::median_cut_table(images)
         }),
+        ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),

@@ -19,14 +19,23 @@ pub type StepResult = Result<Outcome, String>;
 #[derive(Debug)]
 pub struct Steps {
     start: Instant,
-    failed: Vec<String>,
-    skipped: Vec<String>,
+    passed: usize,
+    failed: Vec<Reason>,
+    skipped: Vec<Reason>,
+}
+
+/// A step that did not pass, and why.
+#[derive(Debug, PartialEq, Eq)]
+struct Reason {
+    step: String,
+    why: String,
 }
 
 impl Default for Steps {
     fn default() -> Self {
         Self {
             start: Instant::now(),
+            passed: 0,
             failed: Vec::new(),
             skipped: Vec::new(),
         }
@@ -40,34 +49,59 @@ impl Steps {
         let start = Instant::now();
         let result = step();
         let seconds = start.elapsed().as_secs();
+        let reason = |why: String| Reason {
+            step: name.to_owned(),
+            why,
+        };
         match result {
-            Ok(Outcome::Passed) => println!("    passed in {seconds} s"),
-            Ok(Outcome::Skipped(reason)) => {
-                println!("    skipped: {reason}");
-                self.skipped.push(format!("skipped {name}: {reason}"));
+            Ok(Outcome::Passed) => {
+                println!("    passed in {seconds} s");
+                self.passed += 1;
             }
-            Err(reason) => {
-                println!("    FAILED after {seconds} s: {reason}");
-                self.failed.push(format!("FAILED  {name}: {reason}"));
+            Ok(Outcome::Skipped(why)) => {
+                println!("    skipped: {why}");
+                self.skipped.push(reason(why));
+            }
+            Err(why) => {
+                println!("    FAILED after {seconds} s: {why}");
+                self.failed.push(reason(why));
             }
         }
     }
 
-    /// Says what was skipped and what failed; success if nothing did.
+    /// Prints what was skipped, what failed, the counts and the verdict; success if nothing failed.
     #[must_use]
     pub fn finish(self) -> ExitCode {
         println!();
-        for line in self.skipped.iter().chain(&self.failed) {
-            println!("{line}");
+        for Reason { step, why } in &self.skipped {
+            println!("skipped {step}: {why}");
         }
+        for Reason { step, why } in &self.failed {
+            println!("FAILED  {step}: {why}");
+        }
+        println!(
+            "{} passed, {} failed, {} skipped",
+            self.passed,
+            self.failed.len(),
+            self.skipped.len()
+        );
         let seconds = self.start.elapsed().as_secs();
-        let verdict = if self.failed.is_empty() {
-            "all steps passed"
-        } else {
-            "some steps failed"
-        };
-        println!("{verdict} ({} min {} s)", seconds / 60, seconds % 60);
+        let time = format!("{} min {} s", seconds / 60, seconds % 60);
+        println!("{} ({time})", self.verdict());
         ExitCode::from(u8::from(!self.failed.is_empty()))
+    }
+
+    /// The last line of a run: it claims that all steps passed only where all of them ran.
+    fn verdict(&self) -> String {
+        let names = |reasons: &[Reason]| {
+            let names: Vec<&str> = reasons.iter().map(|r| r.step.as_str()).collect();
+            names.join("; ")
+        };
+        match (self.failed.is_empty(), self.skipped.is_empty()) {
+            (true, true) => "all steps passed".to_owned(),
+            (true, false) => format!("not checked on this machine: {}", names(&self.skipped)),
+            (false, _) => format!("failed: {}", names(&self.failed)),
+        }
     }
 }
 
@@ -147,15 +181,20 @@ mod tests {
     fn a_failed_step_fails_the_list_and_a_skipped_one_does_not() {
         let mut steps = Steps::default();
         steps.run("passes", || Ok(Outcome::Passed));
-        steps.run("is skipped", || Ok(Outcome::Skipped("no such tool".into())));
+        assert_eq!(steps.verdict(), "all steps passed", "nothing was skipped");
+        steps.run("needs a tool", || {
+            Ok(Outcome::Skipped("no such tool".into()))
+        });
         assert!(steps.failed.is_empty(), "nothing failed");
-        steps.run("fails", || Err("reason".into()));
-        assert_eq!(steps.failed, ["FAILED  fails: reason"], "one failed");
         assert_eq!(
-            steps.skipped,
-            ["skipped is skipped: no such tool"],
-            "one skipped"
+            steps.verdict(),
+            "not checked on this machine: needs a tool",
+            "the last line names what was skipped"
         );
+        steps.run("fails", || Err("reason".into()));
+        assert_eq!(steps.verdict(), "failed: fails", "one failed");
+        let counts = (steps.passed, steps.failed.len(), steps.skipped.len());
+        assert_eq!(counts, (1, 1, 1), "one of each kind");
     }
 
     #[test]
