@@ -2,10 +2,13 @@
 
 use std::process::Command;
 
-use crate::steps::{Outcome, StepResult, Steps, root, run};
-use crate::{check, counts, fuzz, no_std};
+use crate::debian::Toolchain;
+use crate::features::for_each_set;
+use crate::steps::{Outcome, StepResult, Steps, output, root, run};
+use crate::tools::Install;
+use crate::{check, counts, dependencies, fuzz, no_std};
 
-/// The oldest toolchain that the workspace promises to build with.
+/// The oldest toolchain that the libraries promise to build with.
 const OLDEST: &str = env!("CARGO_PKG_RUST_VERSION");
 
 /// Seconds that each fuzz target gets.
@@ -15,32 +18,44 @@ const FUZZ_SECONDS: u32 = 5;
 pub fn add_steps(steps: &mut Steps) {
     check::add_steps(steps);
     no_std::add_steps(steps);
-    steps.run(&format!("build with Rust {OLDEST}"), oldest_toolchain);
+    steps.run(&format!("libraries with Rust {OLDEST}"), oldest_toolchain);
+    dependencies::add_steps(steps, Install::Forbidden);
     steps.run("fuzz targets, a few seconds each", || {
         fuzz::smoke(FUZZ_SECONDS)
     });
     steps.run("instruction counts", || counts::counts(&[]));
 }
 
+/// Checks every feature set of the libraries with the oldest compiler: rustup's, or Debian's.
 fn oldest_toolchain() -> StepResult {
-    let installed = Command::new("rustup")
-        .args(["run", OLDEST, "rustc", "--version"])
-        .output();
-    if !installed.is_ok_and(|out| out.status.success()) {
-        return Ok(Outcome::Skipped(format!(
-            "no such toolchain (rustup toolchain install {OLDEST})"
-        )));
-    }
-    let mut check = Command::new("rustup");
-    check.args([
-        "run",
-        OLDEST,
-        "cargo",
-        "check",
-        "--workspace",
-        "--quiet",
-        "--target-dir",
-    ]);
-    check.arg(root().join("target/oldest")).current_dir(root());
-    run(check.env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN")).map(|()| Outcome::Passed)
+    let target = root().join("target/oldest");
+    let check = |mut command: Command, set: &[&str]| {
+        command
+            .args(["check", "--quiet", "--lib", "--target-dir"])
+            .arg(&target)
+            .args(set);
+        run(&mut command)
+    };
+    let rustup = || {
+        let mut command = Command::new("rustup");
+        command.args(["run", OLDEST, "cargo"]).current_dir(root());
+        command.env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN");
+        command
+    };
+    let has_rustup = output(rustup().arg("--version")).is_ok();
+    let debian = if has_rustup {
+        None
+    } else {
+        match Toolchain::of_release(OLDEST) {
+            Ok(toolchain) => Some(toolchain),
+            Err(reason) => {
+                return Ok(Outcome::Skipped(format!(
+                    "no such toolchain (rustup toolchain install {OLDEST}), none from Debian ({reason})"
+                )));
+            }
+        }
+    };
+    let cargo = || debian.as_ref().map_or_else(rustup, Toolchain::cargo);
+    for_each_set(|_| true, |set| check(cargo(), &set.arguments()))?;
+    check(cargo(), &["--package", "light-scene"]).map(|()| Outcome::Passed)
 }

@@ -8,6 +8,9 @@ mod check;
 mod ci;
 pub mod conformance;
 mod counts;
+mod coverage;
+mod debian;
+mod dependencies;
 pub mod exhaustive;
 mod features;
 mod fuzz;
@@ -22,6 +25,7 @@ mod tools;
 mod uplift;
 
 use steps::{StepResult, Steps};
+use tools::Install;
 
 const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
@@ -38,6 +42,8 @@ usage: cargo xtask [COMMAND]
   march-convergence           redraw how marches through media converge, for the first page of light-media
   median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
+  coverage                    which lines and regions of the core crates the tests reach
+  deny                        check licences, sources and advisories of dependencies
   mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
@@ -63,6 +69,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("median-cut-table", images) => one("median-cut-table", || {
             median_cut_table::median_cut_table(images)
         }),
+        ("coverage", []) => one("coverage", coverage::coverage),
+        ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("conformance", rest) => conformance::run(rest),

@@ -9,8 +9,8 @@ use std::process::Command;
 use crate::steps::{Outcome, StepResult, output, root};
 use crate::tools::{Install, cargo_tool};
 
-/// The crates that are mutated.
-const CRATES: [&str; 6] = [
+/// The core: the crates that are mutated, and whose coverage is measured.
+pub const CRATES: [&str; 6] = [
     "light-math",
     "light-bounds",
     "light-bvh",

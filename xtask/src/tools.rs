@@ -1,6 +1,6 @@
 //! Cargo's extensions that some steps need: found, or installed into the target folder.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::steps::{output, root, run};
@@ -21,7 +21,7 @@ pub enum Install {
 pub fn cargo_tool(name: &str, install: Install) -> Result<PathBuf, String> {
     let ours = root().join("target/tools/bin").join(name);
     for tool in [PathBuf::from(name), ours.clone()] {
-        if output(Command::new(&tool).arg("--version")).is_ok() {
+        if answers(&tool, name) {
             return Ok(tool);
         }
     }
@@ -35,4 +35,12 @@ pub fn cargo_tool(name: &str, install: Install) -> Result<PathBuf, String> {
     build.args(["install", name, "--locked", "--quiet", "--root"]);
     run(build.arg(root().join("target/tools")))?;
     Ok(ours)
+}
+
+/// Whether the program runs. Some of cargo's extensions want their own name first, as cargo passes it.
+fn answers(tool: &Path, name: &str) -> bool {
+    let subcommand = name.trim_start_matches("cargo-");
+    let asks: [&[&str]; 2] = [&["--version"], &[subcommand, "--version"]];
+    asks.iter()
+        .any(|ask| output(Command::new(tool).args(*ask)).is_ok())
 }

@@ -1,11 +1,11 @@
 //! `cargo xtask no-std`: the proof that nothing needs an operating system, and most of it no allocator.
 
-mod debian;
 mod probe;
 
 use std::path::Path;
 use std::process::Command;
 
+use crate::debian::Toolchain;
 use crate::features::{FeatureSet, Needs, for_each_set};
 use crate::steps::{Outcome, StepResult, Steps, cargo, output, root, run};
 
@@ -30,7 +30,7 @@ fn check_bare_target() -> StepResult {
         println!("    with the installed target");
         return build_all(&|_| cargo(["build", "--target", TARGET]));
     }
-    match debian::toolchain() {
+    match Toolchain::with_sources() {
         Ok(toolchain) => {
             println!(
                 "    with Debian's toolchain in {}",

@@ -47,9 +47,11 @@ impl Reader {
     ) -> Result<(), Diagnostic> {
         let id = match self.materials.awaited.remove(&name) {
             Some((id, first_use)) => {
-                if let Surface::Mix { materials, .. } = self.scene.material(described).surface
-                    && materials.into_iter().any(|part| part > id)
-                {
+                let uses_later = match self.scene.material(described).surface {
+                    Surface::Mix { materials, .. } => materials.into_iter().any(|part| part > id),
+                    _ => false,
+                };
+                if uses_later {
                     let message = format!(
                         "expected the mixture \"{}\" to be described before its use",
                         shown(&name)

@@ -1,0 +1,89 @@
+//! `cargo xtask coverage`: which lines and regions of the core crates the tests reach, by `cargo-llvm-cov`.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::debian;
+use crate::mutants::CRATES;
+use crate::steps::{Outcome, StepResult, output, root, run};
+use crate::tools::{Install, cargo_tool};
+
+/// What the table leaves out: other crates, and tests.
+const OTHERS: &str = "light-testkit|light-scene|light-render|crates/lights/|/tests?/|tests\\.rs";
+
+/// Runs the tests of the core crates and of the test kit, and prints a table of the core crates' files.
+///
+/// # Errors
+/// What could not run.
+pub fn coverage() -> StepResult {
+    let tool = cargo_tool("cargo-llvm-cov", Install::Allowed)?;
+    let llvm = match llvm_tools() {
+        Ok(llvm) => llvm,
+        Err(reason) => return Ok(Outcome::Skipped(reason)),
+    };
+    let command = || {
+        let mut command = Command::new(&tool);
+        command
+            .arg("llvm-cov")
+            .current_dir(root())
+            .env_remove("CARGO");
+        if let Some(folder) = &llvm {
+            let programs = folder.join("usr/bin");
+            command.env("LD_LIBRARY_PATH", debian::libraries(folder));
+            for (variable, program) in
+                [("LLVM_COV", "llvm-cov"), ("LLVM_PROFDATA", "llvm-profdata")]
+            {
+                command.env(variable, programs.join(format!("{program}-{}", major()?)));
+            }
+        }
+        Ok::<_, String>(command)
+    };
+    let mut tests = command()?;
+    tests.args(["--no-report", "--quiet"]);
+    for name in CRATES.iter().chain(&["light-testkit"]) {
+        tests.args(["--package", name]);
+    }
+    run(&mut tests)?;
+    let mut table = command()?;
+    println!(
+        "{}",
+        output(table.args(["report", "--ignore-filename-regex", OTHERS]))?
+    );
+    let mut lines = command()?;
+    lines.args(["report", "--text", "--ignore-filename-regex", OTHERS]);
+    lines.args(["--output-path", "target/coverage.txt"]);
+    output(&mut lines)?;
+    println!("each line with its count: target/coverage.txt");
+    Ok(Outcome::Passed)
+}
+
+/// Debian's LLVM of the compiler's version, where rustup's component `llvm-tools` is not installed.
+fn llvm_tools() -> Result<Option<PathBuf>, String> {
+    let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
+    let libraries = PathBuf::from(sysroot.trim()).join("lib/rustlib");
+    let hosts = std::fs::read_dir(&libraries).map_err(|e| e.to_string())?;
+    let has_component = hosts
+        .filter_map(Result::ok)
+        .any(|host| host.path().join("bin/llvm-cov").is_file());
+    if has_component {
+        return Ok(None);
+    }
+    let package = format!("llvm-{}", major()?);
+    let folder =
+        debian::unpacked("debian-llvm", std::slice::from_ref(&package)).map_err(|reason| {
+            format!(
+                "no llvm-cov (rustup component add llvm-tools), no {package} from Debian ({reason})"
+            )
+        })?;
+    Ok(Some(folder))
+}
+
+/// The major version of the compiler's LLVM.
+fn major() -> Result<String, String> {
+    let rustc = output(Command::new("rustc").arg("-vV"))?;
+    let line = rustc.lines().find_map(|l| l.strip_prefix("LLVM version: "));
+    let number = line.and_then(|l| l.split('.').next());
+    number
+        .map(str::to_owned)
+        .ok_or_else(|| "rustc -vV names no LLVM version".to_owned())
+}
