@@ -192,20 +192,19 @@ fn follow_paths(scene: Scene) -> Result<Rays, Box<dyn core::error::Error>> {
             let point = stream.light_point(vertex, 0, 1);
             if let Some(li) =
                 light.and_then(|light| light.sample_li(&ctx, point, &(), PdfCoverage::Incomplete))
+                && scattering.eval(wo, li.wi) != Vec3::ZERO
             {
-                if scattering.eval(wo, li.wi) != Vec3::ZERO {
-                    let origin = surface.spawn(li.wi).origin;
-                    let way = li.p_light - origin;
-                    let t = way.length();
-                    rays.shadow.push((
-                        Ray {
-                            origin,
-                            direction: way / t,
-                        },
-                        t * (1.0 - 1e-4),
-                        surface.primitive,
-                    ));
-                }
+                let origin = surface.spawn(li.wi).origin;
+                let way = li.p_light - origin;
+                let t = way.length();
+                rays.shadow.push((
+                    Ray {
+                        origin,
+                        direction: way / t,
+                    },
+                    t * (1.0 - 1e-4),
+                    surface.primitive,
+                ));
             }
             let Some(sample) = scattering.sample(wo, numbers.lobe, numbers.direction) else {
                 break;

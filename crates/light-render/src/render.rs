@@ -112,18 +112,18 @@ fn pass_end(settings: &RenderSettings, next: u32, elapsed: Duration) -> u32 {
     const LONGEST: u32 = 8;
     let before = next - settings.samples.start;
     let mut count = before.clamp(1, LONGEST);
-    if let Some(limit) = settings.time_limit {
-        if before > 0 {
-            let each = elapsed.as_secs_f64() / f64::from(before);
-            let left = limit.as_secs_f64() - elapsed.as_secs_f64();
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "saturates at 0 and at the longest"
-            )]
-            let fits = (left / each) as u32;
-            count = count.min(fits);
-        }
+    if let Some(limit) = settings.time_limit
+        && before > 0
+    {
+        let each = elapsed.as_secs_f64() / f64::from(before);
+        let left = limit.as_secs_f64() - elapsed.as_secs_f64();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "saturates at 0 and at the longest"
+        )]
+        let fits = (left / each) as u32;
+        count = count.min(fits);
     }
     settings.samples.end.min(next.saturating_add(count))
 }
