@@ -9,9 +9,6 @@ pub(crate) const FAR: f32 = 1e36;
 /// Round-off of axis and offset over the distance, in codes of them.
 const EMISSION_SLACK: f32 = 0.004;
 
-/// More than any child emits in any frame, per unit of its spread: one whose lights differ is never given up.
-const ANYTHING: f32 = 1e12;
-
 /// How much of the squared support of a child counts as variance of its height over the horizon, and how much of the support is taken off
 /// again, for no light is beyond it; how much of its squared width, and of its squared spread and distance, as variance of its emission, in
 /// codes of the axis; how much of its squared width as variance of its distance, and how much more it is worth where its width is that
@@ -233,7 +230,8 @@ impl Lane {
         let beyond = mx * vx + my * vy + mz * vz + (self.offset - EMISSION_SLACK) * self.dist;
         // From any point of the box it differs by less than the largest axis and offset, 127 each, times the widths of the box; and the mean
         // distance by less than a third of these.
-        beyond < 297.0 * (hx + hy + hz) + ANYTHING * self.spread
+        // A child whose lights differ is never given up.
+        (beyond < 297.0 * (hx + hy + hz)) | (self.spread > 0.0)
     }
 
     /// The same child from a place `offset` away from the receiver's position.

@@ -96,6 +96,7 @@ impl Moments {
             Some(_) => Shape::Mixed,
             None => return Self::NOTHING,
         };
+        let line = parts().next().and_then(|first| first.common_line(parts()));
         let bounds = parts().fold(Aabb::EMPTY, |b, p| b.union(p.bounds));
         let power: f32 = parts().map(|p| p.power).sum();
         let mut joined = Self {
@@ -117,6 +118,13 @@ impl Moments {
             joined.offset += part.offset * share;
         }
         joined.mean = (joined.mean + bounds.min).clamp(bounds.min, bounds.max);
+        if let Some((axis, offset)) = line {
+            return Self {
+                axis,
+                offset,
+                ..joined
+            };
+        }
         let along = joined.axis.normalize_or_zero();
         for part in parts() {
             let share = part.power * inv_power;
@@ -124,14 +132,25 @@ impl Moments {
             let axis = part.axis - joined.axis;
             let offset = part.offset - joined.offset;
             let deviation_sq = part.spread_sq + shape.deviation_sq(axis, offset, along);
-            joined.spread_sq += if deviation_sq > 0.0 {
-                // Only lights that are all alike have none.
-                (share * deviation_sq).max(f32::MIN_POSITIVE)
-            } else {
-                0.0
-            };
+            joined.spread_sq += share * deviation_sq;
         }
+        // Deviations that cancel, or vanish by rounding, are deviations: a group without spread is given up beyond its line.
+        joined.spread_sq = joined.spread_sq.max(f32::MIN_POSITIVE);
         joined
+    }
+
+    /// Axis and offset of these lights, if all of `parts` emit within the same cone, to the bit, and none beyond it.
+    ///
+    /// Then, and only then, the line of the group is as exact as that of each light: no light of it emits where the line says that nothing
+    /// is emitted.
+    fn common_line<'a>(&self, mut parts: impl Iterator<Item = &'a Self>) -> Option<(Vec3, f32)> {
+        let is_alike = |p: &Self| {
+            p.spread_sq == 0.0
+                && p.axis == self.axis
+                && p.offset == self.offset
+                && (p.shape == Shape::BothSides) == (self.shape == Shape::BothSides)
+        };
+        parts.all(is_alike).then_some((self.axis, self.offset))
     }
 
     /// The same lights as a part of a group of the given shape and the axis so far.
@@ -224,19 +243,14 @@ impl Lobe {
     #[inline]
     fn new(cos_o: f32, cos_e: f32, two_sided: bool) -> Self {
         if cos_e.abs() < DIFFUSE {
-            return Self::diffuse(cos_o, two_sided);
+            return Self::diffuse(cos_o, cos_e, two_sided);
         }
-        let sin_o = float::safe_sqrt(1.0 - cos_o * cos_o);
-        let sin_e = float::safe_sqrt(1.0 - cos_e * cos_e);
-        // Beyond pi the sum of the angles is a full turn: `sin(o + e) < 0`.
-        let wraps = sin_o * cos_e + cos_o * sin_e < 0.0;
-        let cos_total = if wraps {
-            -1.0
-        } else {
-            cos_o * cos_e - sin_o * sin_e
-        };
-        if cos_total <= -0.5 || two_sided {
-            return Self::diffuse(-1.0, false);
+        // The sum of the angles is pi or more where `cos(o) <= cos(pi - e)`; the sign of the sum of two floats is exact.
+        let is_everywhere = cos_o + cos_e <= 0.0;
+        let sin = |cos: f32| float::sqrt((1.0 - cos) * (1.0 + cos));
+        let cos_total = cos_o * cos_e - sin(cos_o) * sin(cos_e);
+        if is_everywhere || cos_total <= -0.5 || two_sided {
+            return Self::diffuse(-1.0, 0.0, false);
         }
         // A line in the cosine, from 1 on the axis to 0 at the edge of the cone.
         let slope = 1.0 / (1.0 - cos_total).max(1e-4);
@@ -249,8 +263,9 @@ impl Lobe {
         }
     }
 
-    /// A diffuse surface whose normals fill a cone of half angle `theta_o`; a point or a sphere fills all directions.
-    fn diffuse(cos_theta_o: f32, two_sided: bool) -> Self {
+    /// A diffuse surface whose normals fill a cone of half angle `theta_o`; a point or a sphere fills all directions. What it emits
+    /// beyond a right angle, if `theta_e` is a little more, is not given up.
+    fn diffuse(cos_theta_o: f32, cos_theta_e: f32, two_sided: bool) -> Self {
         let mean_cos = 0.5 + 0.5 * cos_theta_o;
         let rest = 1.0 - mean_cos;
         if two_sided {
@@ -265,9 +280,12 @@ impl Lobe {
         Self {
             peak: (1.0 - 0.75 * rest) / PI,
             axis: mean_cos,
-            offset: -rest,
+            offset: cos_theta_e.min(0.0) - rest,
             spread_sq: rest * mean_cos,
             shape: Shape::Mixed,
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
