@@ -19,6 +19,7 @@ mod march_convergence;
 mod median_cut_table;
 mod mutants;
 mod no_std;
+mod oldest;
 mod references;
 mod steps;
 mod tools;
@@ -46,6 +47,7 @@ usage: cargo xtask [COMMAND]
   deny                        check licences, sources and advisories of dependencies
   mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
+  oldest                      check the libraries with the oldest compiler that they promise
   thin-vectors FROM           remake testdata/pbrt from a full set of vectors
   uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
@@ -58,6 +60,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     };
     match (command.as_str(), rest) {
         ("ci", []) => all(ci::add_steps),
+        ("oldest", []) => all(oldest::add_steps),
         ("no-std", []) => all(no_std::add_steps),
         ("bench", [flag, names @ ..]) if flag == "--table" => {
             one("bench --table", || bench_table::bench_table(names))
