@@ -57,12 +57,14 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     core("light-sources", "libm"),
     alloc("light-sources", "libm,alloc"),
     std("light-sources", "std"),
+    alloc("light-sources", "libm,serde"),
     core("light-media", "libm"),
     alloc("light-media", "libm,alloc"),
     std("light-media", "std"),
+    alloc("light-media", "libm,serde"),
     core("lights", "libm"),
     alloc("lights", "libm,alloc"),
-    std("lights", "std,rayon"),
+    std("lights", "std,rayon,serde"),
 ];
 
 /// Runs `check` for the sets that `select` chooses, all of them, whatever fails.

@@ -4,6 +4,7 @@ use light_math::glam::{Affine3A, Quat, Vec3};
 
 /// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape, everywhere).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Region {
     from_scene: Affine3A,
     bounds: Option<Aabb>,

@@ -1,28 +1,30 @@
 use lights::glam::Vec3;
 
-use crate::ExactSum;
+use crate::{ExactSum, FilmRow};
 
 /// The picture while it is made: the sum of the samples of every pixel, rows from the top.
 ///
-/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no other.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no other. A pixel takes
+/// [`BYTES_PER_PIXEL`](Self::BYTES_PER_PIXEL).
+#[derive(Clone, Debug)]
 pub struct Film {
     width: u32,
-    height: u32,
     samples: u32,
-    sums: Vec<ExactSum>,
+    rows: Vec<FilmRow>,
 }
 
 impl Film {
+    /// What a pixel takes in rows where a sum of a channel reaches 65536; 24 bytes in others. Beyond sums of 2^31, which no scene that makes sense has, 48.
+    pub const BYTES_PER_PIXEL: u64 = 30;
+
     /// A black film of `width` by `height` pixels.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
-        let sums = vec![ExactSum::default(); width as usize * height as usize];
+        let row = || FilmRow::new(width as usize);
         Self {
             width,
-            height,
             samples: 0,
-            sums,
+            rows: (0..height).map(|_| row()).collect(),
         }
     }
 
@@ -31,20 +33,24 @@ impl Film {
     pub fn from_sums(
         (width, height): (u32, u32),
         samples: u32,
-        sums: Vec<ExactSum>,
+        sums: impl IntoIterator<Item = ExactSum>,
     ) -> Option<Self> {
-        (sums.len() == width as usize * height as usize).then_some(Self {
-            width,
-            height,
-            samples,
-            sums,
-        })
+        let mut film = Self::new(width, height);
+        film.samples = samples;
+        let mut sums = sums.into_iter();
+        for row in &mut film.rows {
+            for x in 0..width as usize {
+                row.add_sum(x, sums.next()?);
+            }
+        }
+        sums.next().is_none().then_some(film)
     }
 
     /// Width and height in pixels.
     #[must_use]
-    pub const fn resolution(&self) -> (u32, u32) {
-        (self.width, self.height)
+    #[expect(clippy::cast_possible_truncation, reason = "made from a u32")]
+    pub fn resolution(&self) -> (u32, u32) {
+        (self.width, self.rows.len() as u32)
     }
 
     /// How many samples every pixel has received.
@@ -54,15 +60,14 @@ impl Film {
     }
 
     /// The sums of all pixels, row by row.
-    #[must_use]
-    pub fn sums(&self) -> &[ExactSum] {
-        &self.sums
+    pub fn sums(&self) -> impl Iterator<Item = ExactSum> {
+        self.rows.iter().flat_map(FilmRow::sums)
     }
 
-    /// The sums of all pixels, row by row, for a pass that adds `samples` samples to each.
-    pub fn expose(&mut self, samples: u32) -> &mut [ExactSum] {
+    /// The rows from the top, for a pass that adds `samples` samples to each pixel.
+    pub fn expose(&mut self, samples: u32) -> &mut [FilmRow] {
         self.samples += samples;
-        &mut self.sums
+        &mut self.rows
     }
 
     /// Adds the samples of a film of the same size.
@@ -76,17 +81,30 @@ impl Film {
             "films of one picture"
         );
         self.samples += other.samples;
-        for (sum, &more) in self.sums.iter_mut().zip(&other.sums) {
-            *sum = *sum + more;
+        for (row, more) in self.rows.iter_mut().zip(&other.rows) {
+            for (x, sum) in more.sums().enumerate() {
+                row.add_sum(x, sum);
+            }
         }
     }
 
     /// The mean of each pixel's samples as linear RGB, row by row; black without samples.
     #[must_use]
     pub fn develop(&self) -> Vec<Vec3> {
-        self.sums.iter().map(|sum| sum.mean(self.samples)).collect()
+        self.sums().map(|sum| sum.mean(self.samples)).collect()
     }
 }
+
+impl PartialEq for Film {
+    fn eq(&self, other: &Self) -> bool {
+        // Rows of equal sums may differ in the room that they have for them.
+        self.resolution() == other.resolution()
+            && self.samples == other.samples
+            && self.sums().eq(other.sums())
+    }
+}
+
+impl Eq for Film {}
 
 #[cfg(test)]
 mod tests {
@@ -100,13 +118,27 @@ mod tests {
             [Vec3::ZERO; 2],
             "black before the first sample"
         );
-        film.expose(1)[1] += Vec3::splat(1.0);
-        film.expose(1)[1] += Vec3::splat(3.0);
+        film.expose(1)[0].add(1, Vec3::splat(1.0));
+        film.expose(1)[0].add(1, Vec3::splat(3.0));
         assert_eq!(
             film.develop(),
             [Vec3::ZERO, Vec3::splat(2.0)],
             "the mean of 1 and 3"
         );
         assert_eq!((film.samples(), film.resolution()), (2, (2, 1)), "counts");
+    }
+
+    #[test]
+    fn sums_make_a_film_of_their_size_alone() {
+        let sums = [1.0, 1e5, 1e12].map(|x| ExactSum::from(Vec3::splat(x)));
+        let film = Film::from_sums((3, 1), 2, sums).expect("three pixels");
+        assert!(film.sums().eq(sums), "the same sums");
+        assert_eq!(Film::from_sums((2, 1), 2, sums), None, "one too many");
+        assert_eq!(Film::from_sums((4, 1), 2, sums), None, "one too few");
+        let mut dimmed = Film::from_sums((3, 1), 1, sums).expect("three pixels");
+        dimmed.expose(1)[0].add(2, Vec3::splat(-1e12));
+        let plain = [1.0, 1e5, 0.0].map(|x| ExactSum::from(Vec3::splat(x)));
+        let plain = Film::from_sums((3, 1), 2, plain).expect("three pixels");
+        assert_eq!(dimmed, plain, "whatever room the rows have");
     }
 }

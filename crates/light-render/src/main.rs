@@ -1,9 +1,7 @@
 //! The program `lights`.
 
-mod cli;
-
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::main()
+    light_render::cli::main()
 }

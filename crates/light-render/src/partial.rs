@@ -1,24 +1,27 @@
 use core::error::Error;
 use core::fmt;
 use core::ops::Range;
+use std::path::Path;
 
-use light_scene::ChannelFile;
+use light_scene::{ChannelFile, Diagnostic, Files, write_whole};
 use lights::glam::Vec3;
 
-use crate::{ExactSum, Film};
+use crate::file_checksum::{self, CHECKSUM, NO_CHECKSUM};
+use crate::{ExactSum, Film, PictureIdentity};
 
 /// A picture of some of its samples, with exact sums: parts of one picture add up to the same bits as if it had been
 /// rendered at once.
 ///
-/// In a file it is an ordinary OpenEXR picture (R, G, B: the mean) with further channels that hold the sums.
+/// In a file it is an ordinary OpenEXR picture (R, G, B: the mean) with further channels that hold the sums, the picture's identity, and a
+/// checksum of all bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartialPicture {
     /// The sums.
     pub film: Film,
     /// The numbers of the samples.
     pub samples: Range<u32>,
-    /// What was rendered, in words that are equal only for parts of the same picture.
-    pub subject: String,
+    /// What was rendered: equal only for parts of the same picture.
+    pub identity: PictureIdentity,
 }
 
 /// Why pictures do not add up.
@@ -27,8 +30,13 @@ pub struct PartialPicture {
 pub enum PartialPictureError {
     /// The file holds no sums: it was not rendered as a part.
     NoPart,
-    /// The parts are not of one picture: scene, size or settings differ.
-    OtherPicture,
+    /// The file is not as it was written.
+    Damaged,
+    /// The parts are not of one picture.
+    OtherPicture {
+        /// Where they differ.
+        difference: String,
+    },
     /// Two parts hold the same samples.
     Overlap {
         /// The samples of the later part.
@@ -39,58 +47,121 @@ pub enum PartialPictureError {
 }
 
 const SAMPLES: &str = "lights.samples";
-const SUBJECT: &str = "lights.subject";
+const IDENTITY: &str = "lights.picture";
 const COLORS: [&str; 3] = ["R", "G", "B"];
 
+/// How many integers hold the sum of a channel, and how many of them are always there; the others are 0 if they are not.
+const WORDS: usize = 4;
+const LOW_WORDS: usize = 2;
+
 impl PartialPicture {
-    /// The file that holds this part.
-    #[must_use]
-    pub fn to_file(&self) -> ChannelFile {
-        let (width, height) = self.film.resolution();
-        let mut channels = color_channels("", self.film.develop());
-        let lanes: Vec<_> = self.film.sums().iter().map(|sum| sum.to_lanes()).collect();
-        for lane in 0..ExactSum::LANES {
-            let colors = lanes.iter().map(|lanes| lanes[lane]).collect();
-            channels.extend(color_channels(&lane_prefix(lane), colors));
+    /// Bytes a pixel that are taken to write or read a file, the film itself left out.
+    pub const FILE_BYTES_PER_PIXEL: u64 = 150;
+
+    /// Reads the part in a file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, holds no part or is damaged.
+    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+        Self::parse(path, &Files::DISK.read(path)?)
+    }
+
+    /// As [`read`](Self::read), from the bytes of the file; `path` names it in messages.
+    ///
+    /// # Errors
+    /// When the bytes hold no part or are damaged.
+    pub fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
+        let refuse = |error: PartialPictureError| Diagnostic::file(path, error.to_string());
+        match file_checksum::is_whole(bytes) {
+            Some(true) => {}
+            Some(false) => return Err(refuse(PartialPictureError::Damaged)),
+            None => return Err(refuse(PartialPictureError::NoPart)),
         }
+        let file = ChannelFile::parse(path, bytes)?;
+        Self::from_file(&file).ok_or_else(|| refuse(PartialPictureError::NoPart))
+    }
+
+    /// Writes the part.
+    ///
+    /// # Errors
+    /// When the file cannot be written; nothing is left behind then.
+    pub fn write(&self, path: &Path) -> Result<(), Diagnostic> {
+        write_whole(path, &self.to_bytes(path)?)
+    }
+
+    /// What [`write`](Self::write) writes; `path` names the file in messages.
+    ///
+    /// # Errors
+    /// When the picture has no pixels.
+    pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        let mut bytes = self.to_file().into_bytes(path)?;
+        if file_checksum::seal(&mut bytes) {
+            Ok(bytes)
+        } else {
+            Err(Diagnostic::file(path, "no room for a checksum"))
+        }
+    }
+
+    fn to_file(&self) -> ChannelFile {
+        let (width, height) = self.film.resolution();
+        let means = self.film.develop();
+        let channels = (0..3).zip(COLORS).map(|(i, color)| {
+            let numbers = means.iter().map(|mean: &Vec3| mean[i]);
+            (color.to_owned(), numbers.collect())
+        });
+        let channels = channels.collect();
+        let is_low = self.film.sums().all(|sum| {
+            let words = sum.steps().map(words);
+            words.iter().all(|words| words[LOW_WORDS..] == [0; 2])
+        });
+        let count = if is_low { LOW_WORDS } else { WORDS };
+        let names = (0..count).flat_map(|word| (0..3).map(move |color| (word, color)));
+        let integers = names.map(|(word, color)| {
+            let numbers = self.film.sums().map(|sum| words(sum.steps()[color])[word]);
+            (channel_name(word, color), numbers.collect())
+        });
         let Range { start, end } = self.samples;
         ChannelFile {
             width,
             height,
             channels,
+            integers: integers.collect(),
             notes: vec![
                 (SAMPLES.into(), format!("{start}..{end}")),
-                (SUBJECT.into(), self.subject.clone()),
+                (IDENTITY.into(), self.identity.to_string()),
+                (CHECKSUM.into(), NO_CHECKSUM.into()),
             ],
         }
     }
 
-    /// The part that a file holds.
-    ///
-    /// # Errors
-    /// [`PartialPictureError::NoPart`] when it holds none.
-    pub fn from_file(file: &ChannelFile) -> Result<Self, PartialPictureError> {
-        Self::parse(file).ok_or(PartialPictureError::NoPart)
-    }
-
-    fn parse(file: &ChannelFile) -> Option<Self> {
+    fn from_file(file: &ChannelFile) -> Option<Self> {
         let (start, end) = file.note(SAMPLES)?.split_once("..")?;
         let samples: Range<u32> = start.parse().ok()?..end.parse().ok()?;
+        let count = samples.end.checked_sub(samples.start)?;
         let pixels = file.width as usize * file.height as usize;
-        let mut sums = vec![ExactSum::default(); pixels];
-        for lane in 0..ExactSum::LANES {
-            let prefix = lane_prefix(lane);
-            let [r, g, b] = COLORS.map(|color| file.channel(&format!("{prefix}{color}")));
-            let colors = r?.iter().zip(g?).zip(b?);
-            for (sum, ((&r, &g), &b)) in sums.iter_mut().zip(colors) {
-                *sum += Vec3::new(r, g, b);
+        let channel = |word: usize, color: usize| {
+            let numbers = file.integers(&channel_name(word, color));
+            numbers.filter(|numbers| numbers.len() == pixels)
+        };
+        let mut channels = [[None; 3]; WORDS];
+        for (word, colors) in channels.iter_mut().enumerate() {
+            for (color, numbers) in colors.iter_mut().enumerate() {
+                *numbers = channel(word, color);
+                if word < LOW_WORDS && numbers.is_none() {
+                    return None;
+                }
             }
         }
-        let count = samples.end.checked_sub(samples.start)?;
+        let steps = |pixel: usize, color: usize| {
+            let word = |colors: &[Option<&[u32]>; 3]| colors[color].map_or(0, |n| n[pixel]);
+            from_words(channels.each_ref().map(word))
+        };
+        let sums = (0..pixels)
+            .map(|pixel| ExactSum::from_steps([steps(pixel, 0), steps(pixel, 1), steps(pixel, 2)]));
         Some(Self {
             film: Film::from_sums((file.width, file.height), count, sums)?,
             samples,
-            subject: file.note(SUBJECT)?.into(),
+            identity: PictureIdentity::parse(file.note(IDENTITY)?)?,
         })
     }
 
@@ -103,6 +174,17 @@ impl PartialPicture {
         self.film.add(film);
     }
 
+    /// Makes sure that this is a part of the picture that is `expected`.
+    ///
+    /// # Errors
+    /// [`PartialPictureError::OtherPicture`] when it is not.
+    pub fn expect(&self, expected: &PictureIdentity) -> Result<(), PartialPictureError> {
+        match self.identity.difference(expected) {
+            Some(difference) => Err(PartialPictureError::OtherPicture { difference }),
+            None => Ok(()),
+        }
+    }
+
     /// The film that all parts make together.
     ///
     /// # Errors
@@ -113,9 +195,10 @@ impl PartialPicture {
         let mut film = first.film;
         let mut ranges = vec![first.samples];
         for part in parts {
-            let same_size = part.film.resolution() == film.resolution();
-            if part.subject != first.subject || !same_size {
-                return Err(PartialPictureError::OtherPicture);
+            part.expect(&first.identity)?;
+            if part.film.resolution() != film.resolution() {
+                let difference = "size".into();
+                return Err(PartialPictureError::OtherPicture { difference });
             }
             let samples = part.samples;
             let overlaps =
@@ -130,27 +213,37 @@ impl PartialPicture {
     }
 }
 
-fn lane_prefix(lane: usize) -> String {
-    format!("sum.{lane}.")
+/// The name of the channel with word `word`, from the lowest, of a colour's sums.
+fn channel_name(word: usize, color: usize) -> String {
+    format!("sum.{word}.{}", COLORS[color])
 }
 
-/// Three channels with the given prefix.
-fn color_channels(prefix: &str, colors: Vec<Vec3>) -> Vec<(String, Vec<f32>)> {
-    (0..3)
-        .zip(COLORS)
-        .map(|(i, color)| {
-            let numbers = colors.iter().map(|c| c[i]).collect();
-            (format!("{prefix}{color}"), numbers)
-        })
-        .collect()
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the parts of a number"
+)]
+fn words(steps: i128) -> [u32; WORDS] {
+    core::array::from_fn(|word| (steps >> (32 * word)) as u32)
+}
+
+fn from_words(words: [u32; WORDS]) -> i128 {
+    let mut steps = 0;
+    for (i, word) in words.into_iter().enumerate() {
+        steps |= i128::from(word) << (32 * i);
+    }
+    steps
 }
 
 impl fmt::Display for PartialPictureError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoPart => f.write_str("expected a picture rendered with --samples"),
-            Self::OtherPicture => {
-                f.write_str("expected a part of the same picture: scene, size or settings differ")
+            Self::NoPart => {
+                f.write_str("expected a picture rendered with --samples or a checkpoint")
+            }
+            Self::Damaged => f.write_str("is damaged: its bytes do not fit its checksum"),
+            Self::OtherPicture { difference } => {
+                write!(f, "expected a part of the same picture: {difference}")
             }
             Self::Overlap { samples } => {
                 let Range { start, end } = samples;
@@ -167,58 +260,89 @@ impl Error for PartialPictureError {}
 mod tests {
     use super::*;
 
-    fn part(samples: Range<u32>, subject: &str) -> PartialPicture {
+    fn identity(seed: &str) -> PictureIdentity {
+        PictureIdentity::new([("seed", seed.to_owned())])
+    }
+
+    fn part(samples: Range<u32>, seed: &str, scale: f32) -> PartialPicture {
         let mut film = Film::new(2, 1);
         for sample in samples.clone() {
-            let x = 1.0 / (sample as f32 + 3.0);
-            for sum in film.expose(1) {
-                *sum += Vec3::new(x, x * 1e9, x * 1e-9);
+            let x = scale / (sample as f32 + 3.0);
+            let row = &mut film.expose(1)[0];
+            for pixel in 0..2 {
+                row.add(pixel, Vec3::new(x, x * 1e4, x * 1e-9));
             }
         }
         PartialPicture {
             film,
             samples,
-            subject: subject.into(),
+            identity: identity(seed),
         }
+    }
+
+    fn file() -> &'static Path {
+        Path::new("part.exr")
     }
 
     #[test]
     fn parts_add_up_to_the_whole_through_files() {
-        let back = |part: &PartialPicture| PartialPicture::from_file(&part.to_file());
-        let parts = [3..7, 0..3, 7..20].map(|range| back(&part(range, "a")).expect("a part"));
-        let whole = part(0..20, "a").film;
-        assert_eq!(
-            PartialPicture::merge(parts.into()),
-            Ok(whole),
-            "to the last bit"
-        );
+        // The largest sums need all words.
+        for scale in [1.0, 1e4, 1e12, -1.0] {
+            let back = |part: &PartialPicture| {
+                let bytes = part.to_bytes(file()).expect("bytes");
+                PartialPicture::parse(file(), &bytes).expect("a part")
+            };
+            let parts = [3..7, 0..3, 7..20].map(|range| back(&part(range, "a", scale)));
+            let whole = part(0..20, "a", scale).film;
+            assert_eq!(
+                PartialPicture::merge(parts.into()),
+                Ok(whole),
+                "to the last bit"
+            );
+        }
     }
 
     #[test]
     fn what_does_not_belong_together_is_refused() {
         let merge = |parts: &[PartialPicture]| PartialPicture::merge(parts.to_vec()).err();
-        let a = part(0..4, "a");
-        let other = Some(PartialPictureError::OtherPicture);
+        let a = part(0..4, "a", 1.0);
+        let difference = "seed b, expected a".into();
+        let other = Some(PartialPictureError::OtherPicture { difference });
         assert_eq!(
-            merge(&[a.clone(), part(4..5, "b")]),
+            merge(&[a.clone(), part(4..5, "b", 1.0)]),
             other,
-            "another subject"
+            "another picture"
         );
         let samples = 3..5;
         let overlap = Some(PartialPictureError::Overlap { samples });
         assert_eq!(
-            merge(&[a.clone(), part(3..5, "a")]),
+            merge(&[a.clone(), part(3..5, "a", 1.0)]),
             overlap,
             "sample 3 twice"
         );
         assert_eq!(merge(&[]), Some(PartialPictureError::Nothing), "nothing");
         let mut file = a.to_file();
         file.notes.clear();
-        let no_part = Err(PartialPictureError::NoPart);
-        assert_eq!(
-            PartialPicture::from_file(&file),
-            no_part,
-            "an ordinary picture"
-        );
+        let bytes = file.into_bytes(Path::new("a.exr")).expect("bytes");
+        let error = PartialPicture::parse(Path::new("a.exr"), &bytes).expect_err("no part");
+        assert!(error.to_string().contains("--samples"), "{error}");
+    }
+
+    #[test]
+    fn every_flipped_bit_is_found() {
+        let bytes = part(0..3, "a", 1.0).to_bytes(file()).expect("bytes");
+        for bit in 0..8 * bytes.len() {
+            let mut broken = bytes.clone();
+            broken[bit / 8] ^= 1 << (bit % 8);
+            assert!(PartialPicture::parse(file(), &broken).is_err(), "bit {bit}");
+        }
+        for length in 0..bytes.len() {
+            let cut = &bytes[..length];
+            assert!(
+                PartialPicture::parse(file(), cut).is_err(),
+                "{length} bytes"
+            );
+        }
+        assert!(PartialPicture::parse(file(), &bytes).is_ok(), "as it was");
     }
 }

@@ -57,8 +57,9 @@ pub fn render<S: LightSampler + Sync>(
     settings: &RenderSettings,
     mut report: impl FnMut(Progress),
 ) -> Rendering {
-    let Crop { min, max } = view.crop();
-    let (width, height) = (max[0] - min[0], max[1] - min[1]);
+    let crop = view.crop();
+    let (width, height) = crop.size();
+    let Crop { min, max } = crop;
     let mut film = Film::new(width, height);
     let (rays, rejected) = (AtomicU64::new(0), AtomicU64::new(0));
     let start = Instant::now();
@@ -71,11 +72,11 @@ pub fn render<S: LightSampler + Sync>(
         }
         let count = pass.end - pass.start;
         film.expose(count)
-            .par_chunks_mut(width as usize)
+            .par_iter_mut()
             .zip(min[1]..max[1])
             .for_each(|(row, y)| {
                 let mut row_rays = 0;
-                for (pixel, x) in row.iter_mut().zip(min[0]..max[0]) {
+                for (pixel, x) in (min[0]..max[0]).enumerate() {
                     for sample in pass.clone() {
                         let stream = SampleStream::new(settings.seed, (x, y), sample);
                         let numbers = stream.camera();
@@ -84,7 +85,7 @@ pub fn render<S: LightSampler + Sync>(
                         let traced = follow(world, sampler, &settings.path, ray, &stream);
                         row_rays += u64::from(traced.rays);
                         if traced.radiance.is_finite() {
-                            *pixel += traced.radiance;
+                            row.add(pixel, traced.radiance);
                         } else {
                             rejected.fetch_add(1, Ordering::Relaxed);
                         }

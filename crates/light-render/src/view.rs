@@ -92,6 +92,12 @@ impl View {
         self.crop
     }
 
+    /// Who looks.
+    #[must_use]
+    pub const fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
     /// Width and height of the whole picture, in pixels.
     #[must_use]
     pub const fn resolution(&self) -> (u32, u32) {

@@ -28,7 +28,7 @@ pub struct Camera {
 }
 
 /// A thin lens.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Lens {
     /// Radius of the aperture, in scene units.
     pub radius: f32,
@@ -43,6 +43,15 @@ pub struct Crop {
     pub min: [u32; 2],
     /// First column and row beyond, each above that of `min`.
     pub max: [u32; 2],
+}
+
+impl Crop {
+    /// Width and height in pixels; 0 where the ends are in the wrong order.
+    #[must_use]
+    pub const fn size(&self) -> (u32, u32) {
+        let Self { min, max } = self;
+        (max[0].saturating_sub(min[0]), max[1].saturating_sub(min[1]))
+    }
 }
 
 /// Why numbers are no camera.

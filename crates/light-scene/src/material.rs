@@ -4,7 +4,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::{ImageId, MaterialId};
 
 /// What a surface is made of, and whether it shines.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Material {
     /// The name in the file.
     pub name: String,
@@ -23,7 +23,7 @@ pub struct Material {
 ///
 /// `alpha` are the widths of the microfacet distribution (GGX) along u and v; (0, 0) is perfectly smooth. `eta` is
 /// the index of refraction on the back side of the surface over that on its front.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub enum Surface {
     /// Scatters alike in all directions of the hemisphere (Lambert), on both sides.
@@ -85,7 +85,7 @@ pub enum Surface {
 }
 
 /// A colour over a surface: linear RGB, one value or an image.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub enum Color {
     /// The same everywhere.
     Constant(Vec3),
@@ -97,7 +97,7 @@ pub enum Color {
 ///
 /// Holes let rays pass; the light that a surface emits does not change. So a lamp whose share is 0 everywhere lights the
 /// scene and is not seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Alpha {
     /// The share, in [0, 1]; of a colour the first channel counts.
     pub share: Color,
@@ -107,7 +107,7 @@ pub struct Alpha {
 }
 
 /// An image over texture coordinates, times a factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ColorImage {
     /// The image.
     pub image: ImageId,
@@ -118,7 +118,7 @@ pub struct ColorImage {
 }
 
 /// Light that a surface emits, the same in all directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Emission {
     /// Radiance, in W m^-2 sr^-1 per channel of linear RGB.
     pub radiance: Color,
@@ -127,7 +127,7 @@ pub struct Emission {
 }
 
 /// Which sides of a surface emit light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum EmissionSides {
     /// Only the side from which the vertices run counter-clockwise.
     Front,

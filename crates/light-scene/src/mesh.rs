@@ -7,7 +7,7 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 ///
 /// Seen from their front the vertices of a triangle run counter-clockwise: the front normal is
 /// `cross(p1 - p0, p2 - p0)`, and it is the side on which a one-sided emitter shines.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Mesh {
     /// The group's name in the file; may be empty.
     pub name: String,

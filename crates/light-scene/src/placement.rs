@@ -4,11 +4,11 @@ use crate::glam::{Affine3A, Vec3};
 use crate::{Mesh, Sphere};
 
 /// Position of a prototype in [`Scene::prototypes`](crate::Scene::prototypes).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
 pub struct PrototypeId(pub u32);
 
 /// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it stands nowhere.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Prototype {
     /// The name in the file; may be empty.
     pub name: String,
@@ -19,7 +19,7 @@ pub struct Prototype {
 }
 
 /// A place where a prototype stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Placement {
     /// What stands there.
     pub prototype: PrototypeId,

@@ -11,15 +11,15 @@ use crate::{
 };
 
 /// Position of a material in [`Scene::materials`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
 pub struct MaterialId(pub u32);
 
 /// Position of an image in [`Scene::images`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
 pub struct ImageId(pub u32);
 
 /// A medium of a scene: fog, smoke, a flame. Its constructors have checked it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct NamedMedium {
     /// The name in the file.
     pub name: String,

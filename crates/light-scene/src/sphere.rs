@@ -13,7 +13,7 @@ use crate::{MaterialId, Mesh};
 ///
 /// One that shines is one light, which is found best where no light passes its surface: what a sphere with holes or of
 /// [`Surface::Interface`](crate::Surface::Interface) gives off at its inside is asked for at the nearer side alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Sphere {
     /// The name in the file; may be empty.
     pub name: String,
@@ -26,7 +26,7 @@ pub struct Sphere {
 }
 
 /// The front of a sphere.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub enum SphereFront {
     /// Its outside.
     #[default]

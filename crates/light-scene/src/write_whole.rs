@@ -1,29 +1,85 @@
-use std::fs;
+use core::sync::atomic::{AtomicU32, Ordering};
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Diagnostic;
 
 /// Writes a file so that it appears whole or not at all: beside its place first, then renamed.
 ///
+/// A link is followed: the file that it leads to is replaced. What is no file, a device or a pipe, is written to directly.
+///
 /// # Errors
 /// When the file cannot be written; nothing is left behind then, and a file that was there stays as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
-    let refuse = |error| Diagnostic::file(path, format!("cannot be written: {error}"));
-    let beside = beside(path)
-        .ok_or_else(|| Diagnostic::file(path, "cannot be written: expected a file's name"))?;
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|error| {
-        // What stops the removal stopped the writing, and that is what is reported.
-        drop(fs::remove_file(&beside));
-        refuse(error)
-    })
+    StagedFile::new(path, bytes)
+        .and_then(StagedFile::publish)
+        .map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))
 }
 
-/// A name in the same folder that no other process uses.
+/// A file that is written completely, but not yet at its place. Unless it is published, it is removed.
+#[derive(Debug)]
+pub(crate) struct StagedFile {
+    /// Where it is and where it belongs; `None` when nothing is left to do.
+    places: Option<(PathBuf, PathBuf)>,
+}
+
+impl StagedFile {
+    /// Writes `bytes` beside `path`.
+    pub(crate) fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
+        Self::with(path, |file| file.write_all(bytes))
+    }
+
+    /// Lets `write` fill a file beside `path`.
+    fn with(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<Self> {
+        let kind = fs::metadata(path).map(|there| there.file_type());
+        if kind.as_ref().is_ok_and(fs::FileType::is_dir) {
+            return Err(io::Error::other("it is a folder"));
+        }
+        if kind.as_ref().is_ok_and(|kind| !kind.is_file()) {
+            write(&mut File::options().write(true).open(path)?)?;
+            return Ok(Self { places: None });
+        }
+        let target = match kind {
+            Ok(_) => fs::canonicalize(path)?,
+            Err(_) => path.to_path_buf(),
+        };
+        let beside = beside(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
+        let mut file = File::options().write(true).create_new(true).open(&beside)?;
+        let staged = Self {
+            places: Some((beside, target)),
+        };
+        write(&mut file)?;
+        // A full disk may show here for the first time.
+        file.sync_all()?;
+        Ok(staged)
+    }
+
+    /// Puts the file at its place.
+    pub(crate) fn publish(mut self) -> io::Result<()> {
+        if let Some((beside, target)) = &self.places {
+            fs::rename(beside, target)?;
+        }
+        self.places = None;
+        Ok(())
+    }
+}
+
+impl Drop for StagedFile {
+    fn drop(&mut self) {
+        if let Some((beside, _)) = &self.places {
+            // What stops the removal stopped the writing, and that is what is reported.
+            drop(fs::remove_file(beside));
+        }
+    }
+}
+
+/// A name in the same folder that nothing else uses.
 fn beside(path: &Path) -> Option<PathBuf> {
-    let name = path.file_name()?.to_string_lossy();
-    let process = std::process::id();
-    Some(path.with_file_name(format!(".{name}.{process}.part")))
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    path.file_name()?;
+    let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+    Some(path.with_file_name(format!(".lights-{process}-{count}.part")))
 }
 
 #[cfg(test)]
@@ -52,5 +108,48 @@ mod tests {
         write_whole(&folder.path("folder"), b"x").expect_err("a folder is in the way");
         assert_eq!(folder.names(), ["folder"], "nothing beside");
         write_whole(&folder.path(".."), b"x").expect_err("no name");
+    }
+
+    #[test]
+    fn a_full_disk_leaves_what_was_there() {
+        let folder = TestFolder::new("write_whole_full");
+        let path = folder.path("a.txt");
+        write_whole(&path, b"old").expect("written");
+        let full = StagedFile::with(&path, |file| {
+            file.write_all(b"half of the new te")?;
+            Err(io::ErrorKind::StorageFull.into())
+        });
+        let error = full.expect_err("a full disk");
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull, "its reason");
+        assert_eq!(folder.names(), ["a.txt"], "nothing beside");
+        assert_eq!(fs::read(&path).expect("a file"), b"old", "as it was");
+        drop(StagedFile::new(&path, b"new").expect("staged"));
+        assert_eq!(folder.names(), ["a.txt"], "not published, not there");
+    }
+
+    #[test]
+    fn long_names_have_room_beside_them() {
+        let folder = TestFolder::new("write_whole_long");
+        let name = "n".repeat(250);
+        write_whole(&folder.path(&name), b"x").expect("written");
+        assert_eq!(folder.names(), [name], "nothing beside");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_devices_stay() {
+        use std::os::unix::fs::{FileTypeExt, symlink};
+        let folder = TestFolder::new("write_whole_links");
+        let [file, link, device] = ["file", "link", "device"].map(|name| folder.path(name));
+        fs::write(&file, "old").expect("a file");
+        symlink(&file, &link).expect("a link");
+        write_whole(&link, b"new").expect("written");
+        assert_eq!(fs::read(&file).expect("a file"), b"new", "through the link");
+        symlink("/dev/full", &device).expect("a link");
+        let error = write_whole(&device, b"new").expect_err("a device without room");
+        assert!(error.message.starts_with("cannot be written: "), "{error}");
+        let full = fs::metadata("/dev/full").expect("a device");
+        assert!(full.file_type().is_char_device(), "still a device");
+        assert_eq!(folder.names(), ["device", "file", "link"], "nothing beside");
     }
 }

@@ -12,6 +12,7 @@ use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 /// How bright a light at a point is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum IntensityAmount {
     /// The intensity is this times the emission, in W/sr.
     Radiometric(f32),
@@ -26,6 +27,7 @@ pub enum IntensityAmount {
 /// How bright a light from one direction is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum IrradianceAmount {
     /// The irradiance of a plane that faces the light is this times the emission, in W m^-2.
     Radiometric(f32),
@@ -36,6 +38,7 @@ pub enum IrradianceAmount {
 /// How bright a surface or a sky is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RadianceAmount {
     /// The radiance is this times the emission, in W m^-2 sr^-1.
     Radiometric(f32),
@@ -46,6 +49,7 @@ pub enum RadianceAmount {
 /// How bright a surface with an area is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SurfaceAmount {
     /// How bright each place of it is.
     Radiance(RadianceAmount),

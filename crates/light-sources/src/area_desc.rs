@@ -8,6 +8,11 @@ use crate::shape::{AnyShape, ShapeDesc, ShapeError};
 
 /// A shape that shines, as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct AreaLightDesc<C: ColorModel> {
     /// What shines.
     pub shape: ShapeDesc,

@@ -18,6 +18,11 @@ use crate::uniform_infinite::UniformInfiniteLightDesc;
 /// A light as a user describes it, in the user's units; it may hold nonsense, which the built light cannot.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub enum LightDesc<C: ColorModel> {
     /// A point light.
     Point(PointLightDesc<C>),

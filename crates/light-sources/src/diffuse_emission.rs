@@ -20,6 +20,11 @@ use crate::texture_means::TextureMeans;
 
 /// How a surface shines, whatever its shape; as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct DiffuseEmissionDesc<C: ColorModel> {
     /// Colour of the surface.
     pub color: SurfaceColor<C>,
@@ -37,6 +42,11 @@ pub struct DiffuseEmissionDesc<C: ColorModel> {
 
 /// The colour of an emitting surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub enum SurfaceColor<C: ColorModel> {
     /// The same everywhere.
     Uniform(C::Emission),
@@ -51,6 +61,7 @@ pub enum SurfaceColor<C: ColorModel> {
 
 /// Where an emitting surface emits.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EmissionMask {
     /// Everywhere.
     #[default]

@@ -16,6 +16,11 @@ use light_math::warp::concentric_disk;
 
 /// A [`DistantLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct DistantLightDesc<C: ColorModel> {
     /// Direction toward the light, of any length above 0.
     pub direction: Vec3,

@@ -18,6 +18,11 @@ use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
 /// A [`GoniometricLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct GoniometricLightDesc<C: ColorModel> {
     /// From light space to the scene.
     pub transform: Affine3A,

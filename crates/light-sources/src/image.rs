@@ -13,6 +13,7 @@ use half::f16;
 /// `[x / width, (x + 1) / width) x [y / height, (y + 1) / height)` of the unit square. They are shared: a clone costs
 /// a counter.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Image {
     size: [u32; 2],
     channels: Channels,
@@ -21,6 +22,7 @@ pub struct Image {
 
 /// What a texel holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Channels {
     /// One number, for all colours alike.
     Gray,
@@ -29,6 +31,7 @@ pub enum Channels {
 }
 
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Texels {
     Single(Arc<[f32]>),
     Half(Arc<[f16]>),

@@ -24,6 +24,7 @@ use light_math::{DirectionCone, SphereMap};
 
 /// An [`ImageInfiniteLight`] as a user describes it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImageInfiniteLightDesc {
     /// From light space to the scene; only its rotation counts.
     pub transform: Affine3A,
@@ -35,6 +36,7 @@ pub struct ImageInfiniteLightDesc {
 
 /// A picture of all directions, and how it shows them.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EnvironmentMap {
     /// A square, by [`equal_area`](light_math::equal_area).
     EqualArea(Image),

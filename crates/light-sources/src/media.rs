@@ -2,6 +2,7 @@ use core::num::NonZeroU32;
 
 /// The index of a participating medium in the caller's own list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MediumId(NonZeroU32);
 
 impl MediumId {
@@ -26,6 +27,7 @@ impl MediumId {
 
 /// The media on both sides of a light's surface, 8 bytes; a light without a surface lies in `outside`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MediumInterface {
     /// Behind the surface, opposite to its normal; `None` for vacuum.
     pub inside: Option<MediumId>,

@@ -11,6 +11,11 @@ use crate::shape::Triangle;
 
 /// A [`MeshLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct MeshLightDesc<C: ColorModel> {
     /// Vertices in scene space, shared with whoever else needs them.
     pub positions: Arc<[Vec3]>,

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 /// A list costs 12 bytes a triangle, and to look a triangle up means to wait for memory twice. Where triangles hardly share vertices none is
 /// needed: of such meshes with a million lamps, that wait is what a sample of a lamp costs most.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum MeshIndices {
     /// Triangle `k` has the vertices `3 k`, `3 k + 1` and `3 k + 2`, for `k` below this number.
     Consecutive(u32),

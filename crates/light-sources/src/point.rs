@@ -14,6 +14,11 @@ use light_math::warp::uniform_sphere;
 
 /// A [`PointLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct PointLightDesc<C: ColorModel> {
     /// Where it is, in scene units.
     pub position: Vec3,

@@ -22,6 +22,7 @@ use light_math::{DirectionCone, SphereImage, SphereMap};
 
 /// A [`PortalInfiniteLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PortalInfiniteLightDesc {
     /// From light space to the scene; only its rotation counts.
     pub transform: Affine3A,

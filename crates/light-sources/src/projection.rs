@@ -21,6 +21,7 @@ use light_math::float::{sqrt, tan};
 
 /// A [`ProjectionLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ProjectionLightDesc {
     /// From light space, where the light stands at the origin and shines along +z, to the scene.
     pub transform: Affine3A,

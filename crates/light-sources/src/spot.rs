@@ -16,6 +16,11 @@ use light_math::warp::{smoothstep, uniform_cone};
 
 /// A [`SpotLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct SpotLightDesc<C: ColorModel> {
     /// From light space, where the light stands at the origin and shines along +z, to the scene.
     pub transform: Affine3A,

@@ -19,6 +19,11 @@ use light_math::{DirectionCone, Frame};
 
 /// A [`SunLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct SunLightDesc<C: ColorModel> {
     /// Direction toward the middle of the sun, of any length above 0.
     pub direction: Vec3,
@@ -33,6 +38,7 @@ pub struct SunLightDesc<C: ColorModel> {
 /// How bright a sun is, as the user states it; the emission then gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SunAmount {
     /// The radiance of its disk.
     Radiance(RadianceAmount),

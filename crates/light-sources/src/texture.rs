@@ -34,6 +34,14 @@ impl Texture {
     }
 }
 
+#[cfg(feature = "serde")]
+impl serde::Serialize for Texture {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // The means follow from the image.
+        self.image().serialize(serializer)
+    }
+}
+
 impl From<Image> for Texture {
     fn from(image: Image) -> Self {
         Self::new(image)

@@ -3,6 +3,7 @@ use light_math::float::floor;
 
 /// How an image lies on a surface: where in the image each surface parameter is, and what is beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TextureMapping {
     /// From surface parameters (u, v) to those of the image, of which (0, 0) is the lower left corner.
     pub transform: Affine2,
@@ -12,6 +13,7 @@ pub struct TextureMapping {
 
 /// What is beyond the edges of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Wrap {
     /// The texel at the edge.
     #[default]

@@ -15,6 +15,11 @@ use light_math::warp::uniform_sphere;
 
 /// A [`UniformInfiniteLight`] as a user describes it.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct UniformInfiniteLightDesc<C: ColorModel> {
     /// Colour of the sky.
     pub emission: C::Emission,

@@ -11,6 +11,11 @@ use light_sources::ColorModel;
 /// The media of this crate as one value, so that a scene can list them. Grids live in vectors.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub enum AnyMedium<C: ColorModel> {
     /// The same everywhere.
     Homogeneous(Homogeneous<C>),

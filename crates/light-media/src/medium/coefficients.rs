@@ -29,6 +29,11 @@ impl<R: Radiance> Coefficients<R> {
 
 /// What a medium is made of, at density 1.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct Substance<C: ColorModel> {
     sigma_a: C::Emission,
     sigma_s: C::Emission,

@@ -13,6 +13,11 @@ use light_sources::{ColorModel, Radiance};
 ///
 /// For RGB the basis is red, green and blue; for spectra any three of them.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
+)]
 pub struct ColorGrid<C: ColorModel, S> {
     basis: [C::Emission; 3],
     grid: Grid<S, 3>,
@@ -60,10 +65,17 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGrid<C, S> {
 
 /// A medium whose absorption, scattering and emission vary in colour over grids that fill a box.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
+)]
 pub struct ColorGridMedium<C: ColorModel, S> {
     sigma_a: ColorGrid<C, S>,
     sigma_s: ColorGrid<C, S>,
     le: Option<ColorGrid<C, S>>,
+    // They follow from the samples.
+    #[cfg_attr(feature = "serde", serde(skip))]
     majorants: [MajorantGrid; 2],
     phase: Phase,
     region: Region,

@@ -6,8 +6,11 @@ use light_math::glam::Vec3;
 ///
 /// Costs 4 bytes a sample and 16 KiB for the maxima of coarse cells.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DensityGrid<S> {
     grid: Grid<S>,
+    // They follow from the samples.
+    #[cfg_attr(feature = "serde", serde(skip))]
     majorants: MajorantGrid,
 }
 

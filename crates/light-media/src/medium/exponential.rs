@@ -9,6 +9,11 @@ use light_sources::ColorModel;
 
 /// A medium that thins out with height: density 1 up to a base, above it `exp(-falloff * height)`.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct ExponentialHeight<C: ColorModel> {
     substance: Substance<C>,
     phase: Phase,

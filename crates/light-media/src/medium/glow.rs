@@ -6,6 +6,11 @@ use light_sources::{ColorModel, Radiance};
 
 /// How the emission of a grid medium varies over the unit cube: a factor of its substance's emission.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
+)]
 pub struct Glow<C: ColorModel, S> {
     /// A plain factor; the same everywhere where it is absent.
     pub scale: Option<Grid<S>>,

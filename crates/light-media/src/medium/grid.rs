@@ -8,6 +8,11 @@ use light_sources::{ColorModel, Radiance};
 
 /// A medium whose density, and whose glow if it has one, varies over a grid that fills a box.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
+)]
 pub struct GridMedium<C: ColorModel, S> {
     substance: Substance<C>,
     phase: Phase,

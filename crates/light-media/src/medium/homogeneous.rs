@@ -7,6 +7,11 @@ use light_sources::{ColorModel, Radiance};
 
 /// A medium that is the same everywhere in its region.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
 pub struct Homogeneous<C: ColorModel> {
     /// What it is made of.
     pub substance: Substance<C>,

@@ -5,6 +5,7 @@ use light_math::glam::Vec3;
 /// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest, the channels of a sample stand together. The
 /// values may live anywhere: in a vector, a borrowed slice, in flash.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grid<S, const K: usize = 1> {
     size: [u32; 3],
     values: S,

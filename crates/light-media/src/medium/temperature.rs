@@ -29,6 +29,11 @@ impl<const N: usize> Incandescence for Spectral<N> {
 
 /// Temperatures over the unit cube and the colours of their glow.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
+)]
 pub struct TemperatureGrid<C: ColorModel, S> {
     kelvin: Grid<S>,
     colors: Vec<C::Emission>,

@@ -7,6 +7,7 @@ use light_math::float;
 /// # Source
 /// `[HenyeyGreenstein1941]`; sampling as in `[PBRT4]`, section 11.3.1.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HenyeyGreenstein {
     g: f32,
 }

@@ -3,6 +3,7 @@ use core::f32::consts::PI;
 
 /// Light leaves in all directions alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Isotropic;
 
 impl PhaseFunction for Isotropic {

@@ -7,6 +7,7 @@ use light_math::float;
 /// # Source
 /// `[Nishita1987]`, after a fit to Mie's theory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MieHazy;
 
 /// Scattering by droplets of dense haze: `(1/2 + 33/2 ((1 + cos)/2)^32) / (4 pi)`.
@@ -14,6 +15,7 @@ pub struct MieHazy;
 /// # Source
 /// `[Nishita1987]`, after a fit to Mie's theory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MieMurky;
 
 impl PhaseFunction for MieHazy {

@@ -41,6 +41,7 @@ pub struct PhaseSample {
 /// The phase functions of this crate as one plain value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Phase {
     /// The same in all directions.
     Isotropic(Isotropic),

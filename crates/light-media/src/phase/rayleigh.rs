@@ -4,6 +4,7 @@ use light_math::float;
 
 /// Scattering by molecules, much smaller than the wavelength: `3 (1 + cos^2) / (16 pi)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rayleigh;
 
 impl PhaseFunction for Rayleigh {

@@ -6,6 +6,7 @@ use core::f32::consts::PI;
 /// # Source
 /// `[Blasi1993]`, section 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Schlick {
     k: f32,
 }

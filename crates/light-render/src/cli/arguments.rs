@@ -1,5 +1,6 @@
 use core::ops::Range;
 use core::str::FromStr;
+use core::time::Duration;
 
 use light_scene::Crop;
 use lights::glam::Vec3;
@@ -106,6 +107,33 @@ pub(crate) fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
+/// A time in seconds, above zero and at most [`MOST_SECONDS`].
+pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if seconds > 0.0 && seconds <= MOST_SECONDS {
+        // A time that rounds to nothing would be none.
+        Ok(Duration::from_secs_f64(seconds).max(Duration::from_nanos(1)))
+    } else {
+        Err(format!(
+            "expected a number of seconds above 0, at most {MOST_SECONDS:e}"
+        ))
+    }
+}
+
+/// Thirty years: longer times mean a slip.
+const MOST_SECONDS: f64 = 1e9;
+
+/// A number of threads, at most [`MOST_THREADS`].
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok();
+    threads
+        .filter(|&threads| threads <= MOST_THREADS)
+        .ok_or_else(|| format!("expected a whole number from 0 to {MOST_THREADS}"))
+}
+
+/// More threads than this would be started for minutes, and none would have work.
+const MOST_THREADS: usize = 1024;
+
 /// A finite number, zero or above.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     let number: f64 = text
@@ -185,6 +213,37 @@ mod tests {
         assert_eq!(sample_range("3..7"), Ok(3..7), "four samples");
         for bad in ["", "3", "7..3", "3..3", "-1..2", "a..b"] {
             assert!(sample_range(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn times_are_longer_than_nothing_and_shorter_than_a_life() {
+        assert_eq!(
+            seconds("0.5"),
+            Ok(Duration::from_millis(500)),
+            "half a second"
+        );
+        assert_eq!(
+            seconds("1e9"),
+            Ok(Duration::from_secs(1_000_000_000)),
+            "the longest"
+        );
+        assert_eq!(
+            seconds("1e-30"),
+            Ok(Duration::from_nanos(1)),
+            "the shortest"
+        );
+        for bad in ["0", "-1", "1e30", "inf", "nan", "x", ""] {
+            assert!(seconds(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn threads_are_counted() {
+        assert_eq!(threads("0"), Ok(0), "one a core");
+        assert_eq!(threads("1024"), Ok(1024), "many");
+        for bad in ["1025", "100000", "-1", "1.5", "nan", "18446744073709551616"] {
+            assert!(threads(bad).is_err(), "{bad}");
         }
     }
 

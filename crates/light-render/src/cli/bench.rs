@@ -1,16 +1,20 @@
-use core::error::Error;
 use core::fmt;
 use core::str::FromStr;
 use std::path::PathBuf;
 
+use crate::SamplerKind;
+use crate::bench::{BenchOptions, BenchRow, DriftRow, ReceiverKind, Truth, bench, drift};
 use clap::Args;
-use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, BenchRow, DriftRow, ReceiverKind, Truth, bench, drift};
 use light_scene::light_set::{LightSetFile, SetKind};
 use serde_json::Value;
 
-/// Steps of moving lights: each goes twice as far.
-const MAX_DRIFT: u32 = 20;
+use super::arguments::threads;
+use super::failure::Failure;
+use super::room::expect_room;
+use super::say::say;
+
+/// What a light takes while samplers are built over it one after another and measured side by side: itself, its bounds, and a node in each of them.
+const BYTES_PER_LIGHT: u64 = 1500;
 
 /// Measure light samplers side by side on a set of lights.
 #[derive(Args, Debug)]
@@ -25,8 +29,8 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.
-    #[arg(long, value_name = "N", default_value_t = 10_000)]
-    n: usize,
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    n: u32,
     /// Seed of the set to make.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -36,14 +40,14 @@ pub(crate) struct BenchArgs {
     /// Samplers to measure, with commas between.
     #[arg(long, value_name = "LIST", default_value_t = default_samplers())]
     samplers: String,
-    /// Samples of one call.
-    #[arg(long, default_value_t = 1)]
+    /// Samples of one call, at most 65536.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
     k: u32,
     /// Points that the variance is taken over: all, or 256 above 10 thousand lights, unless told.
     #[arg(long, value_name = "M")]
     var_points: Option<usize>,
-    /// Threads for building.
-    #[arg(long, value_name = "T", default_value_t = 1)]
+    /// Threads for building, at most 1024.
+    #[arg(long, value_name = "T", default_value_t = 1, value_parser = threads)]
     threads: usize,
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
     #[arg(long, default_value = "centroid")]
@@ -51,11 +55,11 @@ pub(crate) struct BenchArgs {
     /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half microfacets.
     #[arg(long, default_value = "diffuse")]
     receiver: ReceiverKind,
-    /// Spheres that block light, a tenth of the set's volume together.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    occluders: usize,
-    /// Move the lights in N steps, and compare hierarchies that follow with ones built anew.
-    #[arg(long, value_name = "N", conflicts_with = "k")]
+    /// Spheres that block light, a tenth of the set's volume together; at most 65536.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1 << 16))]
+    occluders: u32,
+    /// Move the lights in N steps, at most 20, each twice as far as the last, and compare hierarchies that follow with new ones.
+    #[arg(long, value_name = "N", conflicts_with = "k", value_parser = clap::value_parser!(u32).range(..=20))]
     drift: Option<u32>,
     /// One JSON object a line instead of a table.
     #[arg(long)]
@@ -67,18 +71,21 @@ impl BenchArgs {
     ///
     /// # Errors
     /// A file that cannot be read or written, or arguments that do not fit together.
-    pub(crate) fn run(&self) -> Result<(), Box<dyn Error>> {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
         let samplers: Vec<SamplerKind> = self
             .samplers
             .split(',')
             .map(SamplerKind::from_str)
-            .collect::<Result<_, _>>()?;
-        if self.k == 0 {
-            return Err("expected --k of at least 1".into());
-        }
+            .collect::<Result<_, _>>()
+            .map_err(|error| Failure::Input(format!("--samplers: {error}")))?;
+        // The measurement starts its threads as if that could not fail.
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         let (name, set) = self.set()?;
         if let Some(prefix) = &self.write {
-            set.write(prefix)?;
+            set.write(prefix).map_err(Failure::input)?;
         }
         let options = BenchOptions {
             samplers,
@@ -87,51 +94,55 @@ impl BenchArgs {
             threads: self.threads.max(1),
             truth: self.truth,
             receiver: self.receiver,
-            occluders: self.occluders,
+            occluders: self.occluders as usize,
         };
         if let Some(steps) = self.drift {
-            if steps > MAX_DRIFT {
-                return Err("expected --drift of at most 20".into());
-            }
             let rows = drift(&name, &set, &options, steps);
-            self.print(&DriftRow::header(), &rows, DriftRow::json);
+            self.print(&DriftRow::header(), &rows, DriftRow::json)
         } else {
             let rows = bench(&name, &set, &options);
-            self.print(&BenchRow::header(), &rows, BenchRow::json);
+            self.print(&BenchRow::header(), &rows, BenchRow::json)
+        }
+    }
+
+    /// A table, or one JSON object a row.
+    fn print<R: fmt::Display>(
+        &self,
+        header: &str,
+        rows: &[R],
+        json: impl Fn(&R) -> Value,
+    ) -> Result<(), Failure> {
+        if !self.json {
+            say!("{header}")?;
+        }
+        for row in rows {
+            if self.json {
+                say!("{}", json(row))?;
+            } else {
+                say!("{row}")?;
+            }
         }
         Ok(())
     }
 
-    /// A table, or one JSON object a row.
-    fn print<R: fmt::Display>(&self, header: &str, rows: &[R], json: impl Fn(&R) -> Value) {
-        if !self.json {
-            println!("{header}");
-        }
-        for row in rows {
-            if self.json {
-                println!("{}", json(row));
-            } else {
-                println!("{row}");
-            }
-        }
-    }
-
-    fn set(&self) -> Result<(String, LightSetFile), Box<dyn Error>> {
+    fn set(&self) -> Result<(String, LightSetFile), Failure> {
         if let (Some(lights), Some(points)) = (&self.lights, &self.points) {
             let name = lights
                 .file_stem()
                 .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            return Ok((name, LightSetFile::read(lights, points)?));
+            let set = LightSetFile::read(lights, points).map_err(Failure::input)?;
+            return Ok((name, set));
         }
-        let kind = self
-            .generate
-            .ok_or("expected --generate KIND, or --lights FILE --points FILE")?;
-        if self.n == 0 || u32::try_from(self.n).is_err() {
-            return Err("expected --n of at least 1 and below 2^32".into());
-        }
+        let kind = self.generate.ok_or_else(|| {
+            Failure::Input("expected --generate KIND, or --lights FILE --points FILE".into())
+        })?;
+        expect_room(
+            &format!("--n {}", self.n),
+            u64::from(self.n) * BYTES_PER_LIGHT,
+        )?;
         Ok((
             kind.name().to_owned(),
-            LightSetFile::generate(kind, self.n, self.seed),
+            LightSetFile::generate(kind, self.n as usize, self.seed),
         ))
     }
 }

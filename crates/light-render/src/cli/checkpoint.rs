@@ -2,15 +2,15 @@ use core::time::Duration;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::Args;
-use light_render::{
-    AnyLightSampler, Film, PartialPicture, PartialPictureError, Progress, RenderSettings,
-    Rendering, View, World, render,
+use crate::{
+    AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
+    View, World, render,
 };
-use light_scene::{ChannelFile, Crop, Diagnostic};
+use clap::Args;
 
-use super::arguments::positive;
+use super::arguments::seconds;
 use super::failure::Failure;
+use super::output_file::{expect_another, expect_writable, refuse};
 
 /// Renderings that may be interrupted.
 #[derive(Args, Debug)]
@@ -19,8 +19,8 @@ pub(crate) struct CheckpointArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "samples")]
     checkpoint: Option<PathBuf>,
     /// How much work an interruption may lose.
-    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 30.0, requires = "checkpoint")]
-    checkpoint_every: f32,
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "30", requires = "checkpoint")]
+    checkpoint_every: Duration,
 }
 
 /// A file with the exact sums of all samples so far.
@@ -29,32 +29,45 @@ pub(crate) struct Checkpoint {
     path: PathBuf,
     every: Duration,
     /// What is rendered.
-    subject: String,
+    identity: PictureIdentity,
     /// The samples that the file held.
     part: Option<PartialPicture>,
 }
 
 impl CheckpointArgs {
-    /// The checkpoint that was asked for, of the picture that `subject` describes.
+    /// Whether a checkpoint was asked for.
+    pub(crate) const fn is_wanted(&self) -> bool {
+        self.checkpoint.is_some()
+    }
+
+    /// Makes sure that a checkpoint can be written, and is none of the `outputs`.
     ///
     /// # Errors
-    /// When the file cannot be read, or is of another picture.
-    pub(crate) fn open(
-        &self,
-        subject: impl FnOnce() -> String,
-    ) -> Result<Option<Checkpoint>, Failure> {
+    /// When its name does not end in .exr, its folder is missing, or it is one of the outputs.
+    pub(crate) fn expect_place(&self, outputs: &[PathBuf]) -> Result<(), Failure> {
         let Some(path) = &self.checkpoint else {
-            return Ok(None);
+            return Ok(());
         };
         if path.extension().is_none_or(|ending| ending != "exr") {
             return Err(refuse(path, "expected a file name that ends in .exr"));
         }
-        let subject = subject();
-        let part = path.exists().then(|| read(path, &subject)).transpose()?;
+        expect_another(path, outputs, "--output for --checkpoint")?;
+        expect_writable(path)
+    }
+
+    /// The checkpoint that was asked for, of the picture of this `identity`.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is of another picture.
+    pub(crate) fn open(&self, identity: &PictureIdentity) -> Result<Option<Checkpoint>, Failure> {
+        let Some(path) = &self.checkpoint else {
+            return Ok(None);
+        };
+        let part = path.exists().then(|| read(path, identity)).transpose()?;
         Ok(Some(Checkpoint {
             path: path.clone(),
-            every: Duration::from_secs_f32(self.checkpoint_every),
-            subject,
+            every: self.checkpoint_every,
+            identity: identity.clone(),
             part,
         }))
     }
@@ -74,11 +87,11 @@ impl Checkpoint {
         report: impl Fn(Progress),
     ) -> Result<Rendering, Failure> {
         let start = Instant::now();
-        let Crop { min, max } = view.crop();
+        let (width, height) = view.crop().size();
         let mut part = self.part.unwrap_or_else(|| PartialPicture {
-            film: Film::new(max[0] - min[0], max[1] - min[1]),
+            film: Film::new(width, height),
             samples: 0..0,
-            subject: self.subject,
+            identity: self.identity,
         });
         let (had, wanted) = (part.samples.end, settings.samples.end);
         if had > wanted {
@@ -115,7 +128,7 @@ impl Checkpoint {
             rays += rendering.rays;
             rejected += rendering.rejected;
             part.append(&rendering.film);
-            part.to_file().write(&self.path).map_err(Failure::input)?;
+            part.write(&self.path).map_err(Failure::input)?;
         }
         Ok(Rendering {
             film: part.film,
@@ -126,20 +139,13 @@ impl Checkpoint {
     }
 }
 
-/// The samples from 0 on that a file holds, of the picture that `subject` describes.
-fn read(path: &Path, subject: &str) -> Result<PartialPicture, Failure> {
-    let file = ChannelFile::read(path).map_err(Failure::input)?;
-    let part = PartialPicture::from_file(&file);
-    let part = part.map_err(|error| refuse(path, error.to_string()))?;
-    if part.subject != subject {
-        return Err(refuse(path, PartialPictureError::OtherPicture.to_string()));
-    }
+/// The samples from 0 on that a file holds, of the picture of this `identity`.
+fn read(path: &Path, identity: &PictureIdentity) -> Result<PartialPicture, Failure> {
+    let part = PartialPicture::read(path).map_err(Failure::input)?;
+    let same = part.expect(identity);
+    same.map_err(|error| refuse(path, error.to_string()))?;
     if part.samples.start != 0 {
         return Err(refuse(path, "expected samples from 0 on"));
     }
     Ok(part)
-}
-
-fn refuse(path: &Path, message: impl Into<String>) -> Failure {
-    Failure::input(Diagnostic::file(path, message.into()))
 }

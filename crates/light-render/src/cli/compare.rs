@@ -1,12 +1,14 @@
 use std::path::{Path, PathBuf};
 
+use crate::{Comparison, difference};
 use clap::Args;
-use light_render::{Comparison, difference};
 use light_scene::{Diagnostic, Image, read_image, write_image};
 use serde_json::json;
 
 use super::arguments::not_negative;
 use super::failure::Failure;
+use super::output_file::expect_another;
+use super::say::say;
 
 /// Compare an image with a reference.
 #[derive(Args, Debug)]
@@ -50,13 +52,15 @@ impl CompareArgs {
         let comparison = Comparison::new(image.texels(), reference.texels())
             .ok_or_else(|| Failure::Input("nothing to compare".into()))?;
         if let Some(path) = &self.diff {
+            let inputs = [self.image.clone(), self.reference.clone()];
+            expect_another(path, &inputs, "the images for --diff")?;
             write_difference(path, &image, &reference)?;
         }
-        self.print(&comparison);
+        self.print(&comparison)?;
         self.check(&comparison)
     }
 
-    fn print(&self, c: &Comparison) {
+    fn print(&self, c: &Comparison) -> Result<(), Failure> {
         let (bias, error) = (c.bias.to_array(), c.bias_error.to_array());
         if self.json {
             let line = json!({
@@ -65,14 +69,14 @@ impl CompareArgs {
                 "bias": bias,
                 "bias_se": error,
             });
-            println!("{line}");
-            return;
+            return say!("{line}");
         }
-        println!("relMSE {:.6e}", c.rel_mse);
-        println!("MSE    {:.6e}", c.mse);
+        say!("relMSE {:.6e}", c.rel_mse)?;
+        say!("MSE    {:.6e}", c.mse)?;
         for (name, (bias, error)) in ["R", "G", "B"].into_iter().zip(bias.into_iter().zip(error)) {
-            println!("bias {name} {bias:+.6e} +- {error:.1e}");
+            say!("bias {name} {bias:+.6e} +- {error:.1e}")?;
         }
+        Ok(())
     }
 
     fn check(&self, c: &Comparison) -> Result<(), Failure> {

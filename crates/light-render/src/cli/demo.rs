@@ -3,8 +3,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use light_render::integrator::{Estimator, Integrator, PathSettings};
-use light_render::{
+use crate::integrator::{Estimator, Integrator, PathSettings};
+use crate::{
     AnyLightSampler, Comparison, Progress, RenderSettings, SamplerKind, ToneMap, View, World,
     render,
 };
@@ -15,6 +15,7 @@ use super::failure::Failure;
 use super::output_image::shown;
 use super::progress::{ProgressLine, Volume};
 use super::references::reference;
+use super::say::say;
 
 /// Where the pictures go.
 const FOLDER: &str = "out";
@@ -65,10 +66,14 @@ pub(crate) fn run() -> Result<(), Failure> {
     let folder = PathBuf::from(FOLDER);
     fs::create_dir_all(&folder)
         .map_err(|error| Failure::Input(format!("{FOLDER}: cannot be made: {error}")))?;
-    println!(
+    say!(
         "{:<13} {:<14} {:>5} {:>8} {:>9}",
-        "scene", "sampler", "spp", "seconds", "relMSE"
-    );
+        "scene",
+        "sampler",
+        "spp",
+        "seconds",
+        "relMSE"
+    )?;
     let mut rows: Vec<Row> = Vec::new();
     let mut stage: Option<Stage> = None;
     for shot in &SHOTS {
@@ -77,24 +82,24 @@ pub(crate) fn run() -> Result<(), Failure> {
             _ => Stage::new(shot.scene)?,
         };
         let row = ready.shoot(shot, &folder)?;
-        println!(
+        say!(
             "{:<13} {:<14} {:>5} {:>8.1} {:>9.5}",
             row.scene.name(),
             row.sampler.name(),
             row.samples,
             row.elapsed.as_secs_f64(),
             row.rel_mse
-        );
+        )?;
         rows.push(row);
         stage = Some(ready);
     }
-    print_point(&rows);
+    print_point(&rows)?;
     let shown = folder.canonicalize().unwrap_or(folder);
-    println!("relMSE is taken over the pixels in which no light is seen directly.");
-    println!(
+    say!("relMSE is taken over the pixels in which no light is seen directly.")?;
+    say!(
         "The pictures, PNG to look at and EXR to measure, are in {}.",
         shown.display()
-    );
+    )?;
     Ok(())
 }
 
@@ -211,7 +216,7 @@ fn sees_no_light(world: &World, view: &View) -> Result<Vec<bool>, Failure> {
 }
 
 /// Says what the table shows about many lights.
-fn print_point(rows: &[Row]) {
+fn print_point(rows: &[Row]) -> Result<(), Failure> {
     let night = |sampler| {
         rows.iter()
             .find(|row| row.scene == BuiltinScene::Night && row.sampler == sampler)
@@ -225,14 +230,14 @@ fn print_point(rows: &[Row]) {
     let (Some(best), [Some(uniform), Some(power), Some(published)]) =
         (night(SamplerKind::Bvh), kinds.map(night))
     else {
-        return;
+        return Ok(());
     };
-    println!();
-    println!(
+    say!("")?;
+    say!(
         "In the same time the light hierarchy's error on the night scene is {:.0} times below that of uniform sampling, \
          {:.0} times below that of sampling by power, {:.1} times below that of the published hierarchy.",
         uniform / best,
         power / best,
         published / best
-    );
+    )
 }

@@ -7,6 +7,11 @@ use lights::sources::equal_area_size;
 
 use super::env::{Environment, MapName};
 use super::failure::Failure;
+use super::output_file::expect_writable;
+use super::room::expect_room;
+
+/// A texel while it is made, as light, as a picture, and in the file.
+const BYTES_PER_TEXEL: u64 = 64;
 
 /// Convert a lat-long environment map into an equal-area one, or back.
 ///
@@ -41,6 +46,12 @@ impl ConvertArgs {
             None if to == map => image.size(),
             None => shape(to, natural_height(to, image.size()[1])),
         };
+        expect_writable(&self.output)?;
+        let what = format!("a map of {} x {} texels (--height)", size[0], size[1]);
+        expect_room(
+            &what,
+            u64::from(size[0]) * u64::from(size[1]) * BYTES_PER_TEXEL,
+        )?;
         let out = image
             .resampled(map, to, size)
             .map_err(|error| Failure::input(Diagnostic::file(&self.input, error.to_string())))?;

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::env::{Environment, MapName};
 use super::env_regions::draw_regions;
 use super::failure::Failure;
+use super::say::say;
 
 /// Turn an environment map into directional lights of equal energy, by median cut.
 ///
@@ -71,7 +72,7 @@ impl MedianCutArgs {
         let drawn = draw_regions(&image, map, &lights).map_err(Failure::input)?;
         write_image(&picture, &drawn).map_err(Failure::input)?;
         if self.csv {
-            print_csv(&lights);
+            print_csv(&lights)?;
         } else {
             let lights: Vec<Value> = lights.iter().map(report).collect();
             let line = json!({
@@ -82,7 +83,7 @@ impl MedianCutArgs {
                 "picture": picture.display().to_string(),
                 "lights": lights,
             });
-            println!("{line}");
+            say!("{line}")?;
         }
         Ok(())
     }
@@ -103,16 +104,15 @@ fn report(light: &MedianCutLight) -> Value {
     })
 }
 
-fn print_csv(lights: &[MedianCutLight]) {
-    println!(
-        "direction_x,direction_y,direction_z,irradiance_r,irradiance_g,irradiance_b,x0,y0,x1,y1"
-    );
+fn print_csv(lights: &[MedianCutLight]) -> Result<(), Failure> {
+    say!("direction_x,direction_y,direction_z,irradiance_r,irradiance_g,irradiance_b,x0,y0,x1,y1")?;
     for light in lights {
         let [x, y, z] = light.direction.to_array();
         let [r, g, b] = light.irradiance.to_array();
         let ([x0, y0], [x1, y1]) = (light.region.min, light.region.max);
-        println!("{x},{y},{z},{r},{g},{b},{x0},{y0},{x1},{y1}");
+        say!("{x},{y},{z},{r},{g},{b},{x0},{y0},{x1},{y1}")?;
     }
+    Ok(())
 }
 
 impl From<CentroidName> for Centroid {

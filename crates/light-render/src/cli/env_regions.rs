@@ -1,4 +1,4 @@
-use light_render::ToneMap;
+use crate::ToneMap;
 use light_scene::{Image, ImageError};
 use lights::glam::{Vec2, Vec3};
 use lights::math::SphereMap;
@@ -6,6 +6,9 @@ use lights::sources::{self, MedianCutLight};
 
 /// Maps are drawn at least this wide.
 const WIDTH: u32 = 1024;
+
+/// Unless that would make them higher than this.
+const HEIGHT: u32 = 4096;
 
 const BORDER: Vec3 = Vec3::new(0.05, 0.9, 0.1);
 const LIGHT: Vec3 = Vec3::new(1.0, 0.05, 0.05);
@@ -18,7 +21,9 @@ pub(super) fn draw_regions(
 ) -> Result<Image, ImageError> {
     let radiance: Vec<Vec3> = map.texels().collect();
     let tone_map = ToneMap::fit(&radiance);
-    let scale = WIDTH.div_ceil(map.size()[0]);
+    // A tall map is drawn smaller, as is one of few columns and many rows.
+    let [columns, rows] = map.size();
+    let scale = WIDTH.div_ceil(columns).min(HEIGHT.div_ceil(rows));
     let [width, height] = map.size().map(|side| side * scale);
     let mut canvas = Canvas {
         texels: (0..height)

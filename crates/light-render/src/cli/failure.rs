@@ -1,6 +1,8 @@
 use core::fmt;
 use std::process::ExitCode;
 
+use super::say::{complain, flush, line};
+
 /// Why a command does not end with status 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
@@ -22,7 +24,7 @@ impl Failure {
             Self::Input(message) => (message, 2),
             Self::Check(message) => (message, 1),
         };
-        eprintln!("lights: {}", one_line(message));
+        complain(format_args!("{}", one_line(message)));
         ExitCode::from(status)
     }
 }
@@ -31,8 +33,10 @@ impl Failure {
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     if !error.use_stderr() {
-        print!("{text}");
-        return ExitCode::SUCCESS;
+        return match line(format_args!("{}", text.trim_end())).and_then(|()| flush()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => failure.report(),
+        };
     }
     // What is wrong stands before the usage; the rest is for those who ask for help.
     let wrong = text.split("\nUsage:").next().unwrap_or_default();

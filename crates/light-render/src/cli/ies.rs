@@ -7,6 +7,7 @@ use light_scene::write_whole;
 use serde_json::json;
 
 use super::failure::Failure;
+use super::say::say;
 
 /// Show what a photometric file (.ies, .ldt) holds: lumens, type, peak, and a polar plot.
 #[derive(Args, Debug)]
@@ -33,9 +34,9 @@ impl IesArgs {
             write_whole(output, plot.as_bytes()).map_err(Failure::input)?;
         }
         if self.json {
-            println!("{}", self.report(&luminaire));
+            say!("{}", self.report(&luminaire))?;
         } else {
-            self.print(&luminaire);
+            self.print(&luminaire)?;
         }
         Ok(())
     }
@@ -58,25 +59,26 @@ impl IesArgs {
         })
     }
 
-    fn print(&self, luminaire: &Luminaire) {
+    fn print(&self, luminaire: &Luminaire) -> Result<(), Failure> {
         let web = &luminaire.web;
-        println!("{}: {}", self.file.display(), luminaire.format);
-        println!("lumens      {:.1}", web.total_lumens());
-        println!("peak        {:.1} cd", web.peak_candelas());
-        println!("type        {}", web.web_type());
+        say!("{}: {}", self.file.display(), luminaire.format)?;
+        say!("lumens      {:.1}", web.total_lumens())?;
+        say!("peak        {:.1} cd", web.peak_candelas())?;
+        say!("type        {}", web.web_type())?;
         if let (Some(lamps), Some(part)) = (luminaire.lamp_lumens, luminaire.efficiency()) {
-            println!(
+            say!(
                 "lamps       {lamps:.1} lm, {:.1} % of it leaves",
                 100.0 * part
-            );
+            )?;
         }
-        println!("input       {:.1} W", luminaire.input_watts);
+        say!("input       {:.1} W", luminaire.input_watts)?;
         for (keyword, words) in &luminaire.keywords {
-            println!("[{keyword}] {words}");
+            say!("[{keyword}] {words}")?;
         }
         for warning in &luminaire.warnings {
-            println!("warning: {warning}");
+            say!("warning: {warning}")?;
         }
+        Ok(())
     }
 }
 

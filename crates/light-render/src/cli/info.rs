@@ -1,13 +1,12 @@
 use std::time::Instant;
 
+use crate::{AnyLightSampler, LightInventory, SamplerKind, World, choice_variance, inventory};
 use clap::Args;
-use light_render::{
-    AnyLightSampler, LightInventory, SamplerKind, World, choice_variance, inventory,
-};
 use light_scene::Diagnostic;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
+use super::say::say;
 use super::scene_input::SceneInput;
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
@@ -44,9 +43,9 @@ impl InfoArgs {
         let tree = Tree::over(&world)?;
         let kinds = inventory(world.lights());
         if self.json {
-            println!("{}", self.report(&world, &kinds, &tree, &warnings));
+            say!("{}", self.report(&world, &kinds, &tree, &warnings))?;
         } else {
-            self.print(&world, &kinds, &tree, &warnings);
+            self.print(&world, &kinds, &tree, &warnings)?;
         }
         Ok(())
     }
@@ -102,57 +101,69 @@ impl InfoArgs {
         })
     }
 
-    fn print(&self, world: &World, kinds: &[LightInventory], tree: &Tree, warnings: &[Diagnostic]) {
+    fn print(
+        &self,
+        world: &World,
+        kinds: &[LightInventory],
+        tree: &Tree,
+        warnings: &[Diagnostic],
+    ) -> Result<(), Failure> {
         let bounds = world.bounds();
-        println!("{}", self.input.scene.display());
-        println!("  triangles  {}", world.triangle_count());
+        say!("{}", self.input.scene.display())?;
+        say!("  triangles  {}", world.triangle_count())?;
         if world.sphere_count() > 0 {
-            println!("  spheres    {}", world.sphere_count());
+            say!("  spheres    {}", world.sphere_count())?;
         }
         if world.placement_count() > 0 {
-            println!(
+            say!(
                 "  objects    {} stored once, in {} places: {} triangles, {} spheres stored",
                 world.prototype_count(),
                 world.placement_count(),
                 world.stored_triangle_count(),
                 world.stored_sphere_count()
-            );
+            )?;
         }
-        println!("  bounds     {} to {}", bounds.min, bounds.max);
-        println!("  lights     {}", world.lights().len());
+        say!("  bounds     {} to {}", bounds.min, bounds.max)?;
+        say!("  lights     {}", world.lights().len())?;
         for k in kinds {
             let [r, g, b] = k.power.to_array();
-            println!(
+            say!(
                 "    {:<12} {:>8}   power {r:.4e} {g:.4e} {b:.4e} W   area {:.4e}",
-                k.kind, k.count, k.area
-            );
+                k.kind,
+                k.count,
+                k.area
+            )?;
         }
-        println!(
+        say!(
             "  hierarchy  {}: depth {}, {} bytes, built in {:.2} ms",
-            tree.sampler, tree.depth, tree.bytes, tree.build_ms
-        );
+            tree.sampler,
+            tree.depth,
+            tree.bytes,
+            tree.build_ms
+        )?;
         let bytes = world.lights().bytes();
-        println!(
+        say!(
             "  memory     {:.1} bytes a light: hierarchy {}, lights {}, images {}; {} of vertices",
             tree.bytes_per_light(world),
             tree.bytes,
             bytes.lights,
             bytes.images,
             bytes.vertices
-        );
+        )?;
         if let Some(quality) = tree.quality {
-            println!(
+            say!(
                 "  quality    {quality:.3}: relative variance of one choice, nothing in the way, the median over points"
-            );
+            )?;
         }
         if let Some(looseness) = tree.looseness {
-            println!(
+            say!(
                 "  looseness  {looseness:.3}: spread of a group over that of its parent; lights that move raise it"
-            );
+            )?;
         }
         for warning in warnings {
-            println!("  ignored    {warning}");
+            say!("  ignored    {warning}")?;
         }
+        Ok(())
     }
 }
 

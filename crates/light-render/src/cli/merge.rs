@@ -1,10 +1,11 @@
 use std::path::PathBuf;
 
+use crate::{PartialPicture, ToneMap};
 use clap::Args;
-use light_render::{PartialPicture, PartialPictureError, ToneMap};
-use light_scene::{ChannelFile, Diagnostic, Image};
+use light_scene::Image;
 
 use super::failure::Failure;
+use super::output_file::expect_another;
 use super::output_image::{OutputImage, Precision};
 
 /// Put parts of a picture together that were rendered with --samples.
@@ -25,13 +26,10 @@ impl MergeArgs {
     /// Parts that cannot be read or do not belong together; an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let output = OutputImage::new(&self.output, Precision::Single)?;
+        expect_another(&self.output, &self.parts, "a part for --output")?;
         let mut parts = Vec::new();
         for path in &self.parts {
-            let file = ChannelFile::read(path).map_err(Failure::input)?;
-            let refuse = |error: PartialPictureError| {
-                Failure::input(Diagnostic::file(path, error.to_string()))
-            };
-            parts.push(PartialPicture::from_file(&file).map_err(refuse)?);
+            parts.push(PartialPicture::read(path).map_err(Failure::input)?);
         }
         let film = PartialPicture::merge(parts).map_err(Failure::input)?;
         let (width, height) = film.resolution();

@@ -13,18 +13,21 @@ mod failure;
 mod ies;
 mod info;
 mod merge;
+mod output_file;
 mod output_image;
 mod progress;
 mod references;
 mod render;
+mod render_settings;
+mod room;
+mod say;
 mod scene_input;
 mod view_args;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use failure::Failure;
 
 /// Lights and light sampling for physically based rendering.
 ///
@@ -48,13 +51,14 @@ enum Command {
 }
 
 /// Runs the program with the arguments of the process.
-pub(crate) fn main() -> ExitCode {
+#[must_use]
+pub fn main() -> ExitCode {
     let program = match Program::try_parse() {
         Ok(program) => program,
         Err(error) => return failure::report_usage(&error),
     };
     let result = match program.command {
-        Some(Command::Bench(args)) => args.run().map_err(Failure::input),
+        Some(Command::Bench(args)) => args.run(),
         Some(Command::Compare(args)) => args.run(),
         Some(Command::Env(args)) => args.run(),
         Some(Command::Ies(args)) => args.run(),
@@ -63,8 +67,20 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Render(args)) => args.run(),
         None => demo::run(),
     };
-    match result {
+    match result.and_then(|()| say::flush()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// Reads a command line, the program's name first, as [`main`] does, and runs nothing.
+///
+/// # Errors
+/// What is wrong with it, or the help that it asks for.
+pub fn parse<A>(arguments: impl IntoIterator<Item = A>) -> Result<(), String>
+where
+    A: Into<OsString> + Clone,
+{
+    let parsed = Program::try_parse_from(arguments);
+    parsed.map(drop).map_err(|error| error.render().to_string())
 }

@@ -1,10 +1,10 @@
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use light_render::{PartialPicture, ToneMap};
-use light_scene::{Diagnostic, Image, write_exr, write_exr_half, write_png};
+use crate::{PartialPicture, ToneMap};
+use light_scene::{Image, write_exr, write_exr_half, write_png};
 
 use super::failure::Failure;
+use super::output_file::{expect_writable, refuse};
 
 /// The file that a picture will be written to, tried before the work whose result it will hold.
 #[derive(Debug)]
@@ -44,13 +44,7 @@ impl OutputImage {
                 ));
             }
         };
-        if path.is_dir() {
-            return Err(refuse(path, "cannot be written: it is a folder"));
-        }
-        let probe = path.with_extension(format!("{}.probe", std::process::id()));
-        fs::write(&probe, [])
-            .and_then(|()| fs::remove_file(&probe))
-            .map_err(|error| refuse(path, format!("cannot be written: {error}")))?;
+        expect_writable(path)?;
         Ok(Self {
             path: path.to_path_buf(),
             format,
@@ -63,7 +57,7 @@ impl OutputImage {
     /// When the file is no EXR or cannot be written; nothing is left behind then.
     pub(crate) fn write_part(&self, part: &PartialPicture) -> Result<(), Failure> {
         self.expect_part()?;
-        part.to_file().write(&self.path).map_err(Failure::input)
+        part.write(&self.path).map_err(Failure::input)
     }
 
     /// Makes sure that a part of a picture can be written.
@@ -95,8 +89,4 @@ impl OutputImage {
 pub(crate) fn shown(image: &Image, tone_map: &ToneMap) -> Result<Image, Failure> {
     let texels = image.texels().iter().map(|&t| tone_map.apply(t)).collect();
     Image::new(image.width(), image.height(), texels).map_err(Failure::input)
-}
-
-fn refuse(path: &Path, message: impl Into<String>) -> Failure {
-    Failure::input(Diagnostic::file(path, message))
 }

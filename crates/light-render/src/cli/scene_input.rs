@@ -1,12 +1,13 @@
 use std::path::{Path, PathBuf};
 
+use crate::World;
 use clap::Args;
-use light_render::World;
 use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image};
 use lights::glam::Affine3A;
 
 use super::arguments::Emit;
 use super::failure::Failure;
+use super::say::complain;
 
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
@@ -75,6 +76,6 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
 /// Tells on standard error what the readers repaired or left out.
 pub(crate) fn report_warnings(warnings: &[Diagnostic]) {
     for warning in warnings {
-        eprintln!("lights: warning: {warning}");
+        complain(format_args!("warning: {warning}"));
     }
 }

@@ -1,5 +1,5 @@
+use crate::View;
 use clap::Args;
-use light_render::View;
 use light_scene::{Camera, Crop, Scene};
 
 use super::arguments::{LookAt, Window, positive};

@@ -18,7 +18,7 @@ fn environment(folder: &Folder, texel: f32) -> String {
         channels: ["R", "G", "B"]
             .map(|name| (name.into(), numbers.clone()))
             .into(),
-        notes: vec![],
+        ..ChannelFile::default()
     };
     file.write(Path::new(&path)).expect("an image");
     path

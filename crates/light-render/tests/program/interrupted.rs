@@ -8,7 +8,7 @@ use std::thread::sleep;
 use std::time::Instant;
 
 use light_render::PartialPicture;
-use light_scene::{ChannelFile, read_image};
+use light_scene::read_image;
 
 use crate::folder::{Folder, LIT, assert_refused, stdout};
 
@@ -145,11 +145,8 @@ fn a_killed_rendering_goes_on() {
     child.kill().expect("still running");
     child.wait().expect("ended");
     assert!(!Path::new(&out).exists(), "no picture yet");
-    let file = ChannelFile::read(Path::new(&kept)).expect("whole");
-    let done = PartialPicture::from_file(&file)
-        .expect("a part")
-        .samples
-        .end;
+    let part = PartialPicture::read(Path::new(&kept)).expect("whole");
+    let done = part.samples.end;
     let spp = (done + 5).to_string();
     stdout(&[&args[..], &["--spp", &spp]].concat());
     stdout(&[

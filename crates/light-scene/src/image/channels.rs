@@ -3,12 +3,15 @@ use std::path::Path;
 
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, Error, FlatSamples, Image, Layer,
-    LayerAttributes, ReadChannels, ReadLayers, Text, Vec2, WritableImage, read,
+    LayerAttributes, MetaData, ReadChannels, ReadLayers, Text, Vec2, WritableImage, read,
 };
 
 use super::openexr::message;
 use crate::text::read_bytes;
 use crate::{Diagnostic, write_whole};
+
+/// More numbers than this many times the bytes of a file are not in it: no method of compression reaches that.
+const DENSEST: usize = 4096;
 
 /// An OpenEXR file as it is: any channels by name, and notes beside them.
 ///
@@ -21,42 +24,65 @@ pub struct ChannelFile {
     pub height: u32,
     /// Name and float32 numbers of each channel, row by row from the top.
     pub channels: Vec<(String, Vec<f32>)>,
+    /// Name and 32-bit integers of each channel that holds such.
+    pub integers: Vec<(String, Vec<u32>)>,
     /// Name and text of each note (a custom attribute).
     pub notes: Vec<(String, String)>,
 }
 
 impl ChannelFile {
-    /// Reads the first layer of an OpenEXR file; channels of other than float32 numbers and notes of other than text are
-    /// left out.
+    /// Reads the first layer of an OpenEXR file; channels of half floats and notes of other than text are left out.
     ///
     /// # Errors
     /// When the file cannot be read or is broken.
     pub fn read(path: &Path) -> Result<Self, Diagnostic> {
-        let bytes = read_bytes(path)?;
+        Self::parse(path, &read_bytes(path)?)
+    }
+
+    /// As [`read`](Self::read), from the bytes of the file; `path` names it in messages.
+    ///
+    /// # Errors
+    /// When the file is broken, or says that it holds more than so many bytes can.
+    pub fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
+        let refuse = |error: Error| Diagnostic::file(path, message(&error));
+        let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
+        let numbers = meta.headers.iter().map(|header| {
+            let pixels = header.layer_size.0.checked_mul(header.layer_size.1);
+            pixels.and_then(|pixels| pixels.checked_mul(header.channels.list.len()))
+        });
+        if numbers
+            .into_iter()
+            .any(|n| n.is_none_or(|n| n / DENSEST > bytes.len()))
+        {
+            return Err(Diagnostic::file(
+                path,
+                "expected as many pixels as the file says",
+            ));
+        }
         let reader = read()
             .no_deep_data()
             .largest_resolution_level()
             .all_channels()
             .first_valid_layer()
             .all_attributes();
-        let refuse = |error: Error| Diagnostic::file(path, message(&error));
         let image = reader.from_buffered(Cursor::new(bytes)).map_err(refuse)?;
         let layer = image.layer_data;
         let side = |n: usize| {
             u32::try_from(n).map_err(|_| Diagnostic::file(path, "expected a smaller image"))
         };
+        let (mut channels, mut integers) = (vec![], vec![]);
+        for channel in layer.channel_data.list {
+            match channel.sample_data {
+                FlatSamples::F32(numbers) => channels.push((channel.name.to_string(), numbers)),
+                FlatSamples::U32(numbers) => integers.push((channel.name.to_string(), numbers)),
+                FlatSamples::F16(_) => {}
+            }
+        }
         Ok(Self {
             width: side(layer.size.0)?,
             height: side(layer.size.1)?,
-            channels: layer
-                .channel_data
-                .list
-                .into_iter()
-                .filter_map(|channel| match channel.sample_data {
-                    FlatSamples::F32(numbers) => Some((channel.name.to_string(), numbers)),
-                    FlatSamples::F16(_) | FlatSamples::U32(_) => None,
-                })
-                .collect(),
+            channels,
+            integers,
             notes: layer
                 .attributes
                 .other
@@ -73,18 +99,27 @@ impl ChannelFile {
     ///
     /// # Errors
     /// When the file cannot be written, or a channel does not fit the size; nothing is left behind then.
-    pub fn write(&self, path: &Path) -> Result<(), Diagnostic> {
+    pub fn write(self, path: &Path) -> Result<(), Diagnostic> {
+        write_whole(path, &self.into_bytes(path)?)
+    }
+
+    /// What [`write`](Self::write) writes; `path` names the file in messages.
+    ///
+    /// # Errors
+    /// When a channel does not fit the size.
+    pub fn into_bytes(self, path: &Path) -> Result<Vec<u8>, Diagnostic> {
         let size = Vec2(self.width as usize, self.height as usize);
-        if self
-            .channels
-            .iter()
-            .any(|(_, numbers)| numbers.len() != size.area())
-        {
+        let floats = self.channels.iter().map(|(_, numbers)| numbers.len());
+        let mut lengths = floats.chain(self.integers.iter().map(|(_, numbers)| numbers.len()));
+        if lengths.any(|length| length != size.area()) {
             return Err(Diagnostic::file(path, "a channel does not fit the size"));
         }
-        let channels = self.channels.iter().map(|(name, numbers)| {
-            AnyChannel::new(name.as_str(), FlatSamples::F32(numbers.clone()))
-        });
+        let floats = self.channels.into_iter();
+        let floats = floats.map(|(name, numbers)| (name, FlatSamples::F32(numbers)));
+        let integers = self.integers.into_iter();
+        let integers = integers.map(|(name, numbers)| (name, FlatSamples::U32(numbers)));
+        let channels = floats.chain(integers);
+        let channels = channels.map(|(name, samples)| AnyChannel::new(name.as_str(), samples));
         let mut attributes = LayerAttributes {
             software_name: Some(Text::from("lights")),
             ..LayerAttributes::default()
@@ -100,13 +135,20 @@ impl ChannelFile {
         let image = Image::from_layer(layer);
         let written = image.write().non_parallel().to_buffered(&mut bytes);
         written.map_err(|error| Diagnostic::file(path, message(&error)))?;
-        write_whole(path, bytes.get_ref())
+        Ok(bytes.into_inner())
     }
 
     /// The numbers of a channel.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&[f32]> {
         let found = self.channels.iter().find(|(other, _)| other == name);
+        found.map(|(_, numbers)| numbers.as_slice())
+    }
+
+    /// The integers of a channel.
+    #[must_use]
+    pub fn integers(&self, name: &str) -> Option<&[u32]> {
+        let found = self.integers.iter().find(|(other, _)| other == name);
         found.map(|(_, numbers)| numbers.as_slice())
     }
 
@@ -134,13 +176,19 @@ mod tests {
                 ("B".into(), vec![0.25, 1e-30, 3.5, -4.0, 5.0, 6.0]),
                 ("sum.0.R".into(), vec![1e30, 2.0, 3.0, 4.0, 5.0, 0.1]),
             ],
+            integers: vec![("id".into(), vec![0, 1, u32::MAX, 3, 4, 5])],
             notes: vec![("samples".into(), "0..4".into())],
         };
-        file.write(&path).expect("written");
+        file.clone().write(&path).expect("written");
         let back = ChannelFile::read(&path).expect("read");
         assert_eq!(back, file, "every bit");
         assert_eq!(back.note("samples"), Some("0..4"), "by name");
         assert_eq!(back.channel("R"), None, "not there");
+        assert_eq!(
+            back.integers("id"),
+            Some(&file.integers[0].1[..]),
+            "by name"
+        );
     }
 
     #[test]

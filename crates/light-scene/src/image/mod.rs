@@ -26,7 +26,7 @@ pub use file::{ImageFile, parse_image, read_image, write_image};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 
 /// A linear RGB image in memory, row 0 on top.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Image {
     width: u32,
     height: u32,

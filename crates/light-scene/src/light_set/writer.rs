@@ -1,10 +1,11 @@
 use core::fmt::Write as _;
-use std::fs;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::{LightSetError, LightSetFile, LightSetProblem, SetLight};
+use crate::write_whole::StagedFile;
 
 impl LightSetFile {
     /// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same bits.
@@ -24,11 +25,20 @@ impl LightSetFile {
             }
             points.push('\n');
         }
-        for (extension, text) in [("lights", lights), ("points", points)] {
+        let staged = [("lights", lights), ("points", points)].map(|(extension, text)| {
             let mut path = prefix.as_os_str().to_owned();
             path.push(".");
             path.push(extension);
-            replace_file(Path::new(&path), &text)?;
+            let path = PathBuf::from(path);
+            StagedFile::new(&path, text.as_bytes())
+                .map(|file| (path.clone(), file))
+                .map_err(|error| cannot_be_written(path, error))
+        });
+        // One without the other is no set: both are complete before either is at its place.
+        let [lights, points] = staged;
+        for (path, file) in [lights?, points?] {
+            file.publish()
+                .map_err(|error| cannot_be_written(path, error))?;
         }
         Ok(())
     }
@@ -94,23 +104,20 @@ fn number(value: f32) -> String {
     out
 }
 
-/// Writes beside `path` and renames, so that the file appears whole or not at all.
-fn replace_file(path: &Path, text: &str) -> Result<(), LightSetError> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    fs::write(&beside, text)
-        .and_then(|()| fs::rename(&beside, path))
-        .map_err(|error| LightSetError {
-            path: path.to_owned(),
-            line: 0,
-            problem: LightSetProblem::Io(error),
-        })
+fn cannot_be_written(path: PathBuf, error: io::Error) -> LightSetError {
+    LightSetError {
+        path,
+        line: 0,
+        problem: LightSetProblem::Io(error),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::light_set::SetKind;
+    use crate::test_folder::TestFolder;
+    use std::fs;
 
     #[test]
     fn what_is_written_reads_back_bit_for_bit() {
@@ -130,5 +137,15 @@ mod tests {
                 "normal, which the reader makes unit"
             );
         }
+    }
+
+    #[test]
+    fn a_set_is_written_whole_or_not_at_all() {
+        let folder = TestFolder::new("light-set-whole");
+        fs::create_dir(folder.path("set.points")).expect("a folder in the way");
+        let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
+        let error = set.write(&folder.path("set")).expect_err("no file");
+        assert!(error.to_string().contains("set.points"), "{error}");
+        assert_eq!(folder.names(), ["set.points"], "no lights without points");
     }
 }

@@ -14,6 +14,7 @@ use light_math::{Aabb, DirectionCone};
 /// A shape as a user describes it; it may hold nonsense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ShapeDesc {
     /// Vertices, counter-clockwise on the front. Many triangles are better described as a mesh.
     Triangle([Vec3; 3]),

@@ -1,0 +1,76 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use light_scene::Diagnostic;
+
+use super::failure::Failure;
+
+/// Makes sure that a file can be written to `path`, before the work whose result it will hold; nothing appears there yet.
+///
+/// # Errors
+/// When there is a folder of that name, or the file's folder is missing or cannot be written to.
+pub(crate) fn expect_writable(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(refuse(path, "cannot be written: it is a folder"));
+    }
+    if path.file_name().is_none() {
+        return Err(refuse(path, "cannot be written: expected a file's name"));
+    }
+    let target = resolved(path);
+    let probe = target.with_file_name(format!(".lights-{}.probe", std::process::id()));
+    fs::write(&probe, [])
+        .and_then(|()| fs::remove_file(&probe))
+        .map_err(|error| refuse(path, format!("cannot be written: {error}")))
+}
+
+/// Makes sure that `path` names none of the files in `others`, however it is spelled; `role` says what those are.
+///
+/// # Errors
+/// When it does.
+pub(crate) fn expect_another(path: &Path, others: &[PathBuf], role: &str) -> Result<(), Failure> {
+    let own = resolved(path);
+    if others.iter().any(|other| resolved(other) == own) {
+        let message = format!("expected another file than {role}");
+        return Err(refuse(path, message));
+    }
+    Ok(())
+}
+
+/// The one name of a file, through all links; of one that is not there yet in the one name of its folder.
+fn resolved(path: &Path) -> PathBuf {
+    if let Ok(path) = fs::canonicalize(path) {
+        return path;
+    }
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    match (fs::canonicalize(folder), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_path_buf(),
+    }
+}
+
+/// The failure of a file, in words.
+pub(crate) fn refuse(path: &Path, message: impl Into<String>) -> Failure {
+    Failure::input(Diagnostic::file(path, message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spellings_of_one_file_are_one() {
+        let same = |a: &str, b: &str| expect_another(Path::new(a), &[b.into()], "it").is_err();
+        assert!(same("a.exr", "a.exr"), "as it is");
+        assert!(same("a.exr", "./a.exr"), "in this folder");
+        assert!(same("src/../a.exr", "a.exr"), "there and back");
+        assert!(
+            same("Cargo.toml", "src/../Cargo.toml"),
+            "a file that is there"
+        );
+        assert!(!same("a.exr", "b.exr"), "another");
+        assert!(!same("src/a.exr", "a.exr"), "elsewhere");
+    }
+}

@@ -1,0 +1,121 @@
+use core::num::NonZeroU32;
+use core::ops::Range;
+use core::time::Duration;
+
+use clap::{Args, ValueEnum};
+use lights::media::StepSize;
+
+use crate::integrator::{self, Integrator, PathSettings, SingleScattering};
+use crate::{RenderSettings, SamplerKind, World};
+
+use super::arguments::{positive, sample_range, seconds};
+use super::failure::Failure;
+
+/// Which samples are taken, and how.
+#[derive(Args, Debug)]
+pub(crate) struct SettingsArgs {
+    /// Samples a pixel; without it 64, or as many as fit into --time.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// Render these samples alone, into an .exr that `lights merge` adds to others.
+    #[arg(long, value_name = "A..B", value_parser = sample_range, conflicts_with = "spp")]
+    pub(crate) samples: Option<Range<u32>>,
+    /// Stop at this budget.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
+    /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    max_depth: u32,
+    /// What scatters light: surfaces alone (path), or media as well (volpath), or either once (single-scattering, with
+    /// lights for the ray as a whole, and -classic, in steps); without it volpath where the scene has media, else path.
+    #[arg(long, value_enum)]
+    integrator: Option<IntegratorName>,
+    /// Length of the steps of single-scattering-classic, at least 1/65536 of the scene; without it a hundredth of the scene.
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    step: Option<f32>,
+    /// Same seed, same image.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u32,
+    /// How lights are chosen.
+    #[arg(long, value_name = "SAMPLER", default_value_t = SamplerKind::DEFAULT)]
+    pub(crate) light_sampler: SamplerKind,
+    /// How many lights are chosen at the first diffuse point of a path, at most as many as there are.
+    #[arg(long, value_name = "N", default_value_t = PathSettings::DEFAULT_LIGHT_SAMPLES)]
+    light_samples: NonZeroU32,
+    /// How light is found: by light samples, by material samples, or by both, weighted.
+    #[arg(long, value_enum, default_value_t = Estimator::Mis)]
+    estimator: Estimator,
+}
+
+/// The names of the integrators on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum IntegratorName {
+    Path,
+    Volpath,
+    SingleScattering,
+    SingleScatteringClassic,
+}
+
+/// The names of the estimators on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Estimator {
+    Mis,
+    Light,
+    Bsdf,
+}
+
+impl SettingsArgs {
+    /// The settings for `world`.
+    ///
+    /// # Errors
+    /// When the steps of a march are so short that it would not reach through the scene.
+    pub(crate) fn settings(&self, world: &World) -> Result<RenderSettings, Failure> {
+        let samples = match (&self.samples, self.spp, self.time) {
+            (Some(samples), _, _) => samples.clone(),
+            (None, Some(spp), _) => 0..spp,
+            (None, None, Some(_)) => 0..u32::MAX,
+            (None, None, None) => 0..64,
+        };
+        Ok(RenderSettings {
+            samples,
+            time_limit: self.time,
+            seed: self.seed,
+            path: PathSettings {
+                max_depth: self.max_depth,
+                estimator: match self.estimator {
+                    Estimator::Mis => integrator::Estimator::Mis,
+                    Estimator::Light => integrator::Estimator::Light,
+                    Estimator::Bsdf => integrator::Estimator::Bsdf,
+                },
+                light_samples: self.light_samples,
+                integrator: self.integrator(world)?,
+            },
+        })
+    }
+
+    fn integrator(&self, world: &World) -> Result<Integrator, Failure> {
+        Ok(match self.integrator {
+            Some(IntegratorName::Path) => Integrator::Path,
+            Some(IntegratorName::Volpath) => Integrator::VolPath,
+            Some(IntegratorName::SingleScattering) => {
+                Integrator::SingleScattering(SingleScattering::NextEvent)
+            }
+            Some(IntegratorName::SingleScatteringClassic) => {
+                let step = self.step.map(|step| long_enough(step, world)).transpose()?;
+                let step = step.unwrap_or_else(|| integrator::coarse_step(world));
+                Integrator::SingleScattering(SingleScattering::Classic(step))
+            }
+            None => Integrator::fitting(world),
+        })
+    }
+}
+
+/// Steps of this length, if the most that a march takes reach through the world.
+fn long_enough(step: f32, world: &World) -> Result<StepSize, Failure> {
+    let refuse = |message: String| Failure::Input(format!("--step {step:e}: {message}"));
+    let least = world.bounds().diagonal().length() / StepSize::MAX_STEPS as f32;
+    if step < least {
+        return Err(refuse(format!("expected at least {least:e} in this scene")));
+    }
+    StepSize::new(step).map_err(|error| refuse(error.to_string()))
+}

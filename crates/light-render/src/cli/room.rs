@@ -1,0 +1,38 @@
+use crate::available_memory::available_memory;
+
+use super::failure::Failure;
+
+/// Makes sure that `bytes` of memory are there, before they are taken. `what` needs them: the words name the flags that ask for it.
+///
+/// # Errors
+/// When there is less, with both figures.
+pub(crate) fn expect_room(what: &str, bytes: u64) -> Result<(), Failure> {
+    fits(what, bytes, available_memory())
+}
+
+fn fits(what: &str, bytes: u64, available: u64) -> Result<(), Failure> {
+    if bytes <= available {
+        return Ok(());
+    }
+    let gigabytes = |bytes: u64| bytes as f64 * 1e-9;
+    Err(Failure::Input(format!(
+        "{what}: needs {:.1} GB of memory, {:.1} GB are available",
+        gigabytes(bytes),
+        gigabytes(available)
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn too_much_is_refused_with_both_figures() {
+        assert_eq!(fits("--width 9", 4, 4), Ok(()), "it fits");
+        let expected = "--width 9: needs 43.2 GB of memory, 8.6 GB are available";
+        let refused = fits("--width 9", 43_200_000_000, 1 << 33);
+        assert_eq!(refused, Err(Failure::Input(expected.into())), "the line");
+        assert_eq!(expect_room("nothing", 0), Ok(()), "nothing is there");
+        assert!(expect_room("all", u64::MAX).is_err(), "but not everything");
+    }
+}

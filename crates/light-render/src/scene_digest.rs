@@ -1,0 +1,103 @@
+use light_scene::{Camera, Crop, Scene};
+
+use crate::content_digest::content_digest;
+use crate::integrator::PathSettings;
+use crate::{PictureIdentity, RenderSettings, SamplerKind, View};
+
+/// The layout of files with parts of pictures, and the rules by which samples are made: one that changes makes other pictures.
+const FORMAT: u32 = 2;
+
+/// Digests of all of a scene that its picture depends on, taken before the scene becomes a world.
+#[derive(Clone, Debug)]
+pub struct SceneDigest([(&'static str, String); 5]);
+
+impl SceneDigest {
+    /// The digests of a scene: every vertex, material, texel, light and medium counts.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        // No field may be left out unseen, so that each is named.
+        let Scene {
+            meshes,
+            spheres,
+            prototypes,
+            placements,
+            materials,
+            images,
+            lights,
+            media,
+            // The view knows it, with what the command line changes.
+            camera: _,
+            camera_medium,
+            // They may name files by other paths on other machines, and say nothing about the picture.
+            warnings: _,
+        } = scene;
+        let geometry = (meshes, spheres, prototypes, placements);
+        Self([
+            ("geometry", content_digest(&geometry)),
+            ("materials", content_digest(materials)),
+            ("images", content_digest(images)),
+            ("lights", content_digest(lights)),
+            ("media", content_digest(&(media, camera_medium))),
+        ])
+    }
+
+    /// The identity of the picture of `view` of the scene, rendered with `sampler` as `settings` say.
+    #[must_use]
+    pub fn identity(
+        &self,
+        view: &View,
+        settings: &RenderSettings,
+        sampler: SamplerKind,
+    ) -> PictureIdentity {
+        let RenderSettings {
+            // Parts differ in these two.
+            samples: _,
+            time_limit: _,
+            seed,
+            path,
+        } = settings;
+        let PathSettings {
+            max_depth,
+            estimator,
+            light_samples,
+            integrator,
+        } = path;
+        let Crop { min, max } = view.crop();
+        let [(x0, y0), (x1, y1)] = [min, max].map(|[x, y]| (x, y));
+        let (width, height) = view.resolution();
+        let version = format!("{FORMAT} of lights {}", env!("CARGO_PKG_VERSION"));
+        let Self(scene) = self;
+        let scene = scene.iter().map(|(name, digest)| (*name, digest.clone()));
+        let rest = [
+            ("format", version),
+            ("camera", camera_digest(view.camera())),
+            ("size", format!("{width} x {height}")),
+            ("crop", format!("{x0},{y0} to {x1},{y1}")),
+            ("seed", seed.to_string()),
+            ("depth", max_depth.to_string()),
+            ("estimator", format!("{estimator:?}")),
+            ("light samples", light_samples.to_string()),
+            ("integrator", format!("{integrator:?}")),
+            ("light sampler", sampler.name().to_owned()),
+        ];
+        PictureIdentity::new(scene.chain(rest))
+    }
+}
+
+/// The digest of what decides where rays begin and go.
+fn camera_digest(camera: &Camera) -> String {
+    let Camera {
+        position,
+        right,
+        up,
+        forward,
+        fov,
+        lens,
+        // The view's size and crop count.
+        resolution: _,
+        crop: _,
+        // It says how the picture is shown.
+        exposure: _,
+    } = camera;
+    content_digest(&((position, right, up, forward), fov, lens))
+}
