@@ -26,13 +26,35 @@ use light_math::{DirectionCone, Frame};
 pub struct DiffuseAreaLight<'a, C: ColorModel, S> {
     shape: S,
     emission: &'a DiffuseEmission<C>,
+    /// The mean over the shape of what varies, where it is kept.
+    mean: Option<&'a Vec3>,
 }
 
 impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
     /// The light that shines from `shape` with `emission`.
     #[must_use]
     pub const fn new(shape: S, emission: &'a DiffuseEmission<C>) -> Self {
-        Self { shape, emission }
+        Self::with_mean(shape, emission, None)
+    }
+
+    /// As [`new`](Self::new), where the mean of what varies over the shape may be known.
+    #[inline]
+    pub(crate) const fn with_mean(
+        shape: S,
+        emission: &'a DiffuseEmission<C>,
+        mean: Option<&'a Vec3>,
+    ) -> Self {
+        Self {
+            shape,
+            emission,
+            mean,
+        }
+    }
+
+    fn mean(&self) -> Vec3 {
+        self.mean
+            .copied()
+            .unwrap_or_else(|| self.emission.mean(&self.shape))
     }
 
     /// The surface.
@@ -59,7 +81,8 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.emission.phi(&self.shape, wavelengths)
+        let area = self.shape.area();
+        self.emission.phi_of(area, self.mean(), wavelengths)
     }
 
     #[inline]
@@ -148,7 +171,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
             } else {
                 self.emission.sides().emitting_normal(cone.w)
             },
-            phi: self.emission.strength(&self.shape),
+            phi: self.emission.strength_of(self.shape.area(), self.mean()),
             cos_theta_o: cone.cos_theta,
             cos_theta_e: 0.0,
             two_sided: self.emission.sides() == Sides::Both,

@@ -4,7 +4,9 @@ use core::fmt;
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
-use crate::shape::{AnyShape, ShapeDesc, ShapeError};
+use crate::glam::Vec3;
+use crate::shape::{AnyShape, Shape, ShapeDesc, ShapeError};
+use crate::surface_texture::SurfaceTexture;
 
 /// A shape that shines, as a user describes it.
 #[derive(Clone, Debug)]
@@ -25,6 +27,8 @@ pub struct AreaLightDesc<C: ColorModel> {
 pub(crate) struct AreaSource<C: ColorModel> {
     shape: AnyShape,
     emission: DiffuseEmission<C>,
+    /// Of what varies over the shape.
+    mean: Vec3,
 }
 
 /// Why a description is no area light; each variant names a field.
@@ -40,15 +44,19 @@ pub enum AreaLightError {
 impl<C: ColorModel> AreaSource<C> {
     pub(crate) fn new(desc: AreaLightDesc<C>) -> Result<Self, AreaLightError> {
         let shape = desc.shape.build().map_err(AreaLightError::Shape)?;
-        let emission = DiffuseEmission::new(desc.emission, [&shape]);
+        let texture = SurfaceTexture::new(&desc.emission);
+        let mean = texture.as_ref().map_or(Vec3::ONE, |t| t.mean(&shape));
+        let shapes = || core::iter::once((shape.area(), mean));
+        let emission = DiffuseEmission::with_means(desc.emission, texture, shapes);
         Ok(Self {
-            shape,
             emission: emission.map_err(AreaLightError::Emission)?,
+            shape,
+            mean,
         })
     }
 
     pub(crate) const fn light(&self) -> DiffuseAreaLight<'_, C, &AnyShape> {
-        DiffuseAreaLight::new(&self.shape, &self.emission)
+        DiffuseAreaLight::with_mean(&self.shape, &self.emission, Some(&self.mean))
     }
 }
 

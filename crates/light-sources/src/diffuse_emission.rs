@@ -1,22 +1,19 @@
-use alloc::sync::Arc;
-use alloc::vec::Vec;
 use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
 
 use crate::amount::SurfaceAmount;
 use crate::color::{ColorModel, Radiance};
-use crate::glam::{Vec2, Vec3};
-use crate::image::{Channels, Image};
+use crate::glam::Vec3;
 use crate::media::MediumInterface;
 use crate::rgb_sum::RgbSum;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::shape::Shape;
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;
+use crate::surface_texture::SurfaceTexture;
 use crate::texture::Texture;
 use crate::texture_mapping::TextureMapping;
-use crate::texture_means::TextureMeans;
 
 /// How a surface shines, whatever its shape; as a user describes it.
 #[derive(Clone, Debug)]
@@ -81,8 +78,8 @@ pub struct DiffuseEmission<C: ColorModel> {
     sides: Sides,
     mask: EmissionMask,
     mapping: TextureMapping,
-    /// Of what varies over the surface: image times alpha. None where nothing does.
-    means: Option<Arc<TextureMeans>>,
+    /// What varies over the surface: image times alpha. None where nothing does.
+    texture: Option<SurfaceTexture>,
     media: MediumInterface,
 }
 
@@ -131,21 +128,30 @@ impl<C: ColorModel> DiffuseEmission<C> {
         desc: DiffuseEmissionDesc<C>,
         shapes: impl IntoIterator<Item = impl Shape>,
     ) -> Result<Self, DiffuseEmissionError> {
+        let texture = SurfaceTexture::new(&desc);
+        let means = || {
+            let mean = |shape: &_| texture.as_ref().map_or(Vec3::ONE, |t| t.mean(shape));
+            shapes
+                .into_iter()
+                .map(move |shape| (shape.area(), mean(&shape)))
+        };
+        Self::with_means(desc, texture.clone(), means)
+    }
+
+    /// As [`new`](Self::new), for shapes of which the areas are known and the means of what varies over them.
+    pub(crate) fn with_means<I: Iterator<Item = (f32, Vec3)>>(
+        desc: DiffuseEmissionDesc<C>,
+        surface: Option<SurfaceTexture>,
+        shapes: impl FnOnce() -> I,
+    ) -> Result<Self, DiffuseEmissionError> {
         if let EmissionMask::Alpha(texture) = &desc.mask {
-            if texture.means().brightest().max_element() > 1.0 {
+            if texture.brightest().max_element() > 1.0 {
                 return Err(DiffuseEmissionError::Mask);
             }
         }
-        let means = means(&desc.color, &desc.mask);
-        let mapping = desc.mapping;
         let etendue = || {
             let mut sum = RgbSum::default();
-            for shape in shapes {
-                let texture = means
-                    .as_ref()
-                    .map_or(Vec3::ONE, |m| m.over(&shape, &mapping));
-                sum.add(texture, f64::from(shape.area()));
-            }
+            shapes().for_each(|(area, mean)| sum.add(mean, f64::from(area)));
             sum.over(1.0) * (PI * desc.sides.count())
         };
         let color = match desc.color {
@@ -162,7 +168,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
                 let scale = desc
                     .amount
                     .scale(white, || C::flux_of_texel(etendue() * tint))?;
-                let brightest = texture.means().brightest() * tint * scale;
+                let brightest = texture.brightest() * tint * scale;
                 if !(scale >= 0.0 && brightest.is_finite()) {
                     return Err(EmissionError::Amount.into());
                 }
@@ -174,11 +180,11 @@ impl<C: ColorModel> DiffuseEmission<C> {
             }
         };
         Ok(Self {
-            means,
+            texture: surface,
             color,
             sides: desc.sides,
             mask: desc.mask,
-            mapping,
+            mapping: desc.mapping,
             media: desc.media,
         })
     }
@@ -226,77 +232,49 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// Power in W that a shape emits, on all sides.
     #[must_use]
     pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let texture = self.means.as_ref();
-        let texture = texture.map_or(Vec3::ONE, |means| means.over(shape, &self.mapping));
-        let mean = match &self.color {
-            Color::Uniform(radiance) => radiance.at(wavelengths) * texture.x,
-            Color::Image { tint, scale, .. } => {
-                C::emit_texel(texture * *tint, wavelengths) * *scale
-            }
-        };
-        mean * (PI * self.sides.count() * shape.area())
+        self.phi_of(shape.area(), self.mean(shape), wavelengths)
     }
 
     /// Power that a shape emits on one side in one number, by which light samplers compare: above 0 unless all of it is
     /// black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
-        /// What the points miss, at which the texture is looked at, is about that part of it.
-        const MISSED: f32 = 1.0 / 64.0;
-        let texture = self.means.as_ref().map_or(Vec3::ONE, |means| {
-            let least = MISSED * means.around(shape, &self.mapping);
-            means.over(shape, &self.mapping).max(least)
-        });
-        let mean = match &self.color {
-            Color::Uniform(radiance) => radiance.maximum() * texture.x,
-            Color::Image { tint, scale, .. } => (texture * *tint).average() * *scale,
-        };
-        PI * mean * shape.area()
+        self.strength_of(shape.area(), self.mean(shape))
     }
 
-    /// The textures, and the means that belong to none of them.
-    pub(crate) fn textures(&self) -> (impl Iterator<Item = &Texture>, Option<&Arc<TextureMeans>>) {
-        let color = match &self.color {
-            Color::Image { texture, .. } => Some(texture),
-            Color::Uniform(_) => None,
-        };
-        let mask = match &self.mask {
-            EmissionMask::Alpha(texture) => Some(texture),
-            EmissionMask::Opaque | EmissionMask::Invisible => None,
-        };
-        let is_product = color.is_some() && mask.is_some();
-        let product = self.means.as_ref().filter(|_| is_product);
-        (color.into_iter().chain(mask), product)
+    /// The mean over a shape of what varies over the surface.
+    pub(crate) fn mean(&self, shape: &impl Shape) -> Vec3 {
+        let texture = self.texture.as_ref();
+        texture.map_or(Vec3::ONE, |texture| texture.mean(shape))
     }
-}
 
-/// The means of image times alpha, which are those of the one that is there; of both they are made anew, on the grid of the
-/// image.
-fn means<C: ColorModel>(color: &SurfaceColor<C>, mask: &EmissionMask) -> Option<Arc<TextureMeans>> {
-    match (color, mask) {
-        (SurfaceColor::Image { texture, .. }, EmissionMask::Alpha(alpha)) => {
-            let product = product(texture.image(), alpha.image())?;
-            Some(Arc::new(TextureMeans::new(product)))
-        }
-        (SurfaceColor::Image { texture, .. }, _) | (_, EmissionMask::Alpha(texture)) => {
-            Some(texture.means().clone())
-        }
-        (SurfaceColor::Uniform(_), _) => None,
+    /// As [`phi`](Self::phi), of a shape with this area and [`mean`](Self::mean).
+    pub(crate) fn phi_of(
+        &self,
+        area: f32,
+        mean: Vec3,
+        wavelengths: &C::Wavelengths,
+    ) -> C::Radiance {
+        let radiance = match &self.color {
+            Color::Uniform(radiance) => radiance.at(wavelengths) * mean.x,
+            Color::Image { tint, scale, .. } => C::emit_texel(mean * *tint, wavelengths) * *scale,
+        };
+        radiance * (PI * self.sides.count() * area)
     }
-}
 
-/// Each texel of `image` times the value of `alpha` there, which is at most 1.
-fn product(image: &Image, alpha: &Image) -> Option<Image> {
-    let [width, height] = image.size();
-    let extent = Vec2::new(width as f32, height as f32);
-    let texel = |x: u32, y: u32| {
-        let uv = (Vec2::new(x as f32, y as f32) + 0.5) / extent;
-        image.texel(x, y) * alpha.bilinear(uv).x
-    };
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    let texels = texels.flat_map(|(x, y)| texel(x, y).to_array());
-    let texels: Vec<f32> = texels.collect();
-    Image::from_f32([width, height], Channels::Rgb, texels).ok()
+    /// As [`strength`](Self::strength), of a shape with this area and [`mean`](Self::mean).
+    pub(crate) fn strength_of(&self, area: f32, mean: Vec3) -> f32 {
+        let radiance = match &self.color {
+            Color::Uniform(radiance) => radiance.maximum() * mean.x,
+            Color::Image { tint, scale, .. } => (mean * *tint).average() * *scale,
+        };
+        PI * radiance * area
+    }
+
+    /// What varies over the surface; `None` where nothing does.
+    pub(crate) const fn texture(&self) -> Option<&SurfaceTexture> {
+        self.texture.as_ref()
+    }
 }
 
 impl fmt::Display for DiffuseEmissionError {

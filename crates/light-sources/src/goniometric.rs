@@ -65,6 +65,9 @@ pub enum GoniometricLightError {
     Emission(EmissionError),
 }
 
+/// Parts that a distribution has along each axis at least, for its mean direction.
+const PARTS: u32 = 32;
+
 impl<C: ColorModel> GoniometricLight<C> {
     /// The light that `desc` describes.
     ///
@@ -88,13 +91,17 @@ impl<C: ColorModel> GoniometricLight<C> {
         if !(brightest * intensity.maximum()).is_finite() {
             return Err(EmissionError::Amount.into());
         }
-        let solid_angle = 4.0 * PI / (width as f32 * height as f32);
+        // Texels of a coarse image in parts: what lies in a part has nearly one direction.
+        let parts = PARTS.div_ceil(width);
+        let rows = width * parts;
+        let solid_angle = 4.0 * PI / (rows as f32 * rows as f32);
         let lobe = emission_lobe(|| {
-            (0..).zip(image.texels()).map(|(i, texel)| {
-                let place = Vec2::new((i % width) as f32, (i / width) as f32) + 0.5;
+            let places = (0..rows).flat_map(|y| (0..rows).map(move |x| [x, y]));
+            places.map(|[x, y]| {
+                let place = (Vec2::new(x as f32, y as f32) + 0.5) / rows as f32;
                 Emitted {
-                    w: transform.vector(square_to_sphere(place / width as f32)),
-                    intensity: texel.x * intensity.maximum(),
+                    w: transform.vector(square_to_sphere(place)),
+                    intensity: image.texel(x / parts, y / parts).x * intensity.maximum(),
                     solid_angle,
                 }
             })

@@ -17,6 +17,8 @@ mod amount;
 mod area;
 #[cfg(feature = "alloc")]
 mod area_desc;
+#[cfg(feature = "alloc")]
+mod block_means;
 mod color;
 mod coverage;
 #[cfg(feature = "alloc")]
@@ -30,14 +32,14 @@ mod flux;
 #[cfg(feature = "alloc")]
 mod goniometric;
 #[cfg(feature = "alloc")]
-mod halved;
-#[cfg(feature = "alloc")]
 mod image;
 #[cfg(feature = "alloc")]
 mod image_error;
 #[cfg(feature = "alloc")]
 mod image_infinite;
 mod kind;
+#[cfg(feature = "alloc")]
+mod known_means;
 mod light;
 #[cfg(feature = "alloc")]
 mod light_ref;
@@ -54,6 +56,8 @@ mod median_cut;
 mod mesh;
 #[cfg(feature = "alloc")]
 mod mesh_indices;
+#[cfg(feature = "alloc")]
+mod picture_grid;
 mod point;
 mod point_source;
 #[cfg(feature = "alloc")]
@@ -81,12 +85,18 @@ mod spot;
 mod sun;
 mod surface_point;
 #[cfg(feature = "alloc")]
+mod surface_texture;
+#[cfg(feature = "alloc")]
+mod texel_cells;
+#[cfg(feature = "alloc")]
 mod texture;
 #[cfg(feature = "alloc")]
-mod texture_mapping;
+mod texture_integral;
 #[cfg(feature = "alloc")]
-mod texture_means;
+mod texture_mapping;
 mod uniform_infinite;
+#[cfg(feature = "alloc")]
+mod uv_polygon;
 
 pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount, SurfaceAmount};
 #[cfg(feature = "alloc")]

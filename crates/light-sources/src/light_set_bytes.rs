@@ -1,11 +1,13 @@
 use alloc::collections::BTreeSet;
+use alloc::sync::Arc;
 
 use crate::color::ColorModel;
 use crate::diffuse_emission::DiffuseEmission;
 use crate::image::Image;
 use crate::light_set::LightSet;
 use crate::mesh_indices::MeshIndices;
-use crate::texture_means::TextureMeans;
+use crate::surface_texture::SurfaceTexture;
+use crate::texture::Texture;
 
 /// What a [`LightSet`] holds in memory, in bytes; what several lights share counts once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,6 +43,9 @@ impl<C: ColorModel> LightSet<C> {
                 count.vertices(list);
             }
             uvs.into_iter().for_each(|uvs| count.vertices(uvs));
+            if let Some(means) = mesh.means() {
+                count.means(means.as_ptr().addr(), size_of_val(means));
+            }
             count.emission(mesh.emission());
         }
         for light in &self.projections {
@@ -76,14 +81,27 @@ impl Count {
         }
     }
 
-    fn means(&mut self, means: &TextureMeans) {
-        means.levels().iter().for_each(|level| self.image(level));
+    /// `bytes` that lie at an address.
+    fn means(&mut self, address: usize, bytes: usize) {
+        if self.seen.insert(address) {
+            self.bytes.images += bytes;
+        }
+    }
+
+    fn texture(&mut self, texture: &Texture) {
+        self.image(texture.image());
+        let blocks = texture.blocks();
+        self.means(core::ptr::from_ref(blocks).addr(), blocks.bytes());
     }
 
     fn emission<C: ColorModel>(&mut self, emission: &DiffuseEmission<C>) {
-        let (textures, product) = emission.textures();
-        textures.for_each(|texture| self.means(texture.means()));
-        product.into_iter().for_each(|means| self.means(means));
+        let Some((textures, product)) = emission.texture().map(SurfaceTexture::parts) else {
+            return;
+        };
+        textures.for_each(|texture| self.texture(texture));
+        if let Some(blocks) = product {
+            self.means(Arc::as_ptr(blocks).addr(), blocks.bytes());
+        }
     }
 }
 
@@ -99,7 +117,6 @@ mod tests {
     use crate::mesh::MeshLightDesc;
     use crate::rgb::Rgb;
     use crate::scene_sphere::SceneSphere;
-    use crate::texture::Texture;
     use alloc::vec;
 
     #[test]
@@ -126,10 +143,11 @@ mod tests {
         }
         let bytes = builder.build().bytes();
         assert_eq!(bytes.vertices, 1000 * (36 + 12 + 24), "of each mesh");
-        assert_eq!(bytes.images, texture.bytes(), "of all together");
+        let means = 1000 * 12;
+        assert_eq!(bytes.images, texture.bytes() + means, "of all together");
         assert!(
             texture.bytes() < 4 * 64 * 64 * 3 / 2,
-            "the means are a third"
+            "the means are a third of a grey image"
         );
         let each = bytes.lights / 1000;
         assert!((100..400).contains(&each), "{each} bytes a mesh");

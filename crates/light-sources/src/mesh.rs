@@ -6,8 +6,10 @@ use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
 use crate::glam::{Vec2, Vec3};
+use crate::known_means::KnownMeans;
 use crate::mesh_indices::MeshIndices;
-use crate::shape::Triangle;
+use crate::shape::{Shape, Triangle};
+use crate::surface_texture::SurfaceTexture;
 
 /// A [`MeshLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -29,14 +31,16 @@ pub struct MeshLightDesc<C: ColorModel> {
 
 /// An emissive mesh: one source, whose triangles are area lights with consecutive ids.
 ///
-/// Vertices are shared and emission is stored once, so that a triangle costs nothing here. A triangle without area is
-/// a light without power.
+/// Vertices are shared and emission is stored once, so that a triangle costs nothing here, and 12 bytes where an image or
+/// a mask lies on it. A triangle without area is a light without power.
 #[derive(Clone, Debug)]
 pub struct MeshLight<C: ColorModel> {
     positions: Arc<[Vec3]>,
     indices: MeshIndices,
     uvs: Option<Arc<[Vec2]>>,
     emission: DiffuseEmission<C>,
+    /// Of what varies over each triangle; none where nothing does.
+    means: Option<Arc<[Vec3]>>,
 }
 
 /// Why a description is no mesh light; each variant names a field.
@@ -88,15 +92,29 @@ impl<C: ColorModel> MeshLight<C> {
             }
         }
         let uvs = desc.uvs.as_deref();
-        let triangles = desc.indices.iter();
-        let triangles = triangles.map(|vertices| triangle(&desc.positions, uvs, vertices));
-        let emission = DiffuseEmission::new(desc.emission, triangles);
+        let triangles = || {
+            let triangles = desc.indices.iter();
+            triangles.map(|vertices| triangle(&desc.positions, uvs, vertices))
+        };
+        let texture = SurfaceTexture::new(&desc.emission);
+        let means = texture.as_ref().map(|texture| {
+            let mut known = KnownMeans::default();
+            let mean = |triangle: Triangle| known.mean(texture, &triangle);
+            triangles().map(mean).collect::<Arc<[Vec3]>>()
+        });
+        let shapes = || {
+            let mean = |k: usize| means.as_ref().map_or(Vec3::ONE, |means| means[k]);
+            let areas = triangles().map(|triangle| triangle.area());
+            areas.enumerate().map(move |(k, area)| (area, mean(k)))
+        };
+        let emission = DiffuseEmission::with_means(desc.emission, texture, shapes);
         let emission = emission.map_err(MeshLightError::Emission)?;
         Ok(Self {
             positions: desc.positions,
             indices: desc.indices,
             uvs: desc.uvs,
             emission,
+            means,
         })
     }
 
@@ -122,13 +140,19 @@ impl<C: ColorModel> MeshLight<C> {
         (&self.positions, &self.indices, self.uvs.as_deref())
     }
 
+    /// Means of what varies over each triangle.
+    pub(crate) fn means(&self) -> Option<&[Vec3]> {
+        self.means.as_deref()
+    }
+
     /// The light that triangle number `index` is; `None` beyond the last.
     #[inline]
     #[must_use]
     pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
         let vertices = self.indices.get(index)?;
         let triangle = triangle(&self.positions, self.uvs.as_deref(), vertices);
-        Some(DiffuseAreaLight::new(triangle, &self.emission))
+        let mean = self.means.as_ref().and_then(|means| means.get(index));
+        Some(DiffuseAreaLight::with_mean(triangle, &self.emission, mean))
     }
 
     /// The corners of a triangle, where no list of vertices has to be read for them.

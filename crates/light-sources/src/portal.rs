@@ -1,9 +1,10 @@
-use crate::glam::{Vec2, Vec3};
+use crate::glam::{DVec2, Vec2, Vec3};
 use light_math::Frame;
 use light_math::distribution::Window;
 use light_math::float::{atan2, tan};
 
 use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+use core::f64;
 
 /// A rectangle through which the sky is seen, and the map of directions that makes it a rectangle of the unit square
 /// from wherever it is seen.
@@ -65,6 +66,21 @@ impl Portal {
         let angles = (uv - 0.5) * PI;
         let w = Vec3::new(tan(angles.x), tan(angles.y), 1.0).normalize();
         (self.frame.from_local(w), solid_angle_per_area(w))
+    }
+
+    /// The integral of the cosine at the portal over a texel of a square map with `n` of them along each side, in sr.
+    ///
+    /// From the axis to the angles `a` and `b` it is `(sin a atan(tan b cos a) + sin b atan(tan a cos b)) / 2`: the form
+    /// factor of a rectangle.
+    pub(crate) fn projected_solid_angle([x, y]: [u32; 2], n: u32) -> f64 {
+        let angle =
+            |i: u32| DVec2::from_angle((f64::from(i) / f64::from(n) - 0.5) * f64::consts::PI);
+        let corner = |x: u32, y: u32| {
+            let (a, b) = (angle(x), angle(y));
+            let up_to = |a: DVec2, b: DVec2| a.y * DVec2::new(b.x, b.y * a.x).to_angle();
+            0.5 * (up_to(a, b) + up_to(b, a))
+        };
+        corner(x + 1, y + 1) - corner(x, y + 1) - corner(x + 1, y) + corner(x, y)
     }
 
     /// The point of the square of a direction, and the solid angle per area there; `None` for directions from which no

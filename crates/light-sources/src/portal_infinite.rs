@@ -95,8 +95,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
                 let (w, solid_angle) = portal.direction(uv);
                 let texel = sky.bilinear(transform.inverse_vector(w));
                 let weight = texel.average() * solid_angle;
-                let cos_theta = portal.frame().z.dot(w);
-                irradiance.add(texel, f64::from(solid_angle * cos_theta));
+                irradiance.add(texel, Portal::projected_solid_angle([x, y], n));
                 mean.add(w, f64::from(weight));
                 fluence += f64::from(weight);
                 texels.extend_from_slice(&texel.to_array());
@@ -104,7 +103,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
             }
         }
         let count = f64::from(n) * f64::from(n);
-        let irradiance = irradiance.over(count);
+        let irradiance = irradiance.over(1.0);
         let amount = PortalInfiniteLightError::Sky(ImageInfiniteLightError::Amount);
         if !(scale >= 0.0 && (irradiance * scale).is_finite()) {
             return Err(amount);

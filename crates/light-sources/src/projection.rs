@@ -10,8 +10,9 @@ use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
 use crate::media::MediumInterface;
+use crate::picture_grid::PictureGrid;
 use crate::point_source::{DirectionSample, PointSource};
-use crate::rgb_sum::RgbSum;
+use crate::rgb_sum::{RgbSum, single};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scaled_emission::EmissionError;
 use light_bounds::{EmissionLobe, LightBounds};
@@ -85,18 +86,14 @@ impl<C: ColorModel> ProjectionLight<C> {
         }
 
         // Each texel counts by its solid angle.
-        let texel_area = area / (width * height);
+        let picture = PictureGrid::new(image.size(), half);
         let (mut power, mut maxima) = (RgbSum::default(), RgbSum::default());
         let mut weights = image.averages();
-        let on_plane = |i: u32| {
-            let place = Vec2::new((i % image.size()[0]) as f32, (i / image.size()[0]) as f32);
-            (2.0 * (place + 0.5) / Vec2::new(width, height) - 1.0) * half
-        };
-        for (i, (texel, weight)) in (0..).zip(image.texels().zip(&mut weights)) {
-            let on_plane = on_plane(i);
-            let cos_cubed = solid_angle_per_area(on_plane);
-            *weight *= cos_cubed;
-            power.add(texel, f64::from(cos_cubed * texel_area));
+        for ((texel, texel_part), weight) in image.texels().zip(picture.texels()).zip(&mut weights)
+        {
+            // A texel's middle is enough for a density.
+            *weight *= solid_angle_per_area(texel_part.center);
+            power.add(texel, texel_part.solid_angle);
             maxima.add(Vec3::splat(texel.max_element()), 1.0);
         }
         let mean_maximum = maxima.over(f64::from(width) * f64::from(height)).x;
@@ -107,13 +104,10 @@ impl<C: ColorModel> ProjectionLight<C> {
             return Err(EmissionError::Amount.into());
         }
         let lobe = emission_lobe(|| {
-            (0..).zip(image.texels()).map(|(i, texel)| {
-                let p = on_plane(i);
-                Emitted {
-                    w: transform.vector(p.extend(1.0).normalize()),
-                    intensity: texel.max_element() * scale,
-                    solid_angle: solid_angle_per_area(p) * texel_area,
-                }
+            picture.parts().map(|part| Emitted {
+                w: transform.vector(part.center.extend(1.0).normalize()),
+                intensity: image.texel(part.texel[0], part.texel[1]).max_element() * scale,
+                solid_angle: single(part.solid_angle),
             })
         });
         let table =

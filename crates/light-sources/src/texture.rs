@@ -1,36 +1,61 @@
 use alloc::sync::Arc;
 
+use crate::block_means::BlockMeans;
+use crate::glam::Vec3;
 use crate::image::Image;
-use crate::texture_means::TextureMeans;
+use crate::texel_cells::Shown;
+use crate::texture_mapping::Wrap;
 
 /// An image on a surface that shines, with the means of its parts: how bright each triangle is follows from the texels that
 /// it covers.
 ///
-/// It is a third larger than the image, and shared: a clone costs a counter, however many meshes it lies on.
+/// It is a little larger than the image, and shared: a clone costs a counter, however many meshes it lies on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Texture(Arc<TextureMeans>);
+pub struct Texture(Arc<Shared>);
+
+#[derive(Clone, Debug, PartialEq)]
+struct Shared {
+    image: Image,
+    blocks: BlockMeans,
+    /// The largest value of each channel.
+    brightest: Vec3,
+}
 
 impl Texture {
     /// The texture that shows `image`.
     #[must_use]
     pub fn new(image: Image) -> Self {
-        Self(Arc::new(TextureMeans::new(image)))
+        let blocks = BlockMeans::new(&Shown {
+            image: &image,
+            alpha: None,
+            wrap: [Wrap::Clamp; 2],
+        });
+        let brightest = image.texels().fold(Vec3::ZERO, Vec3::max);
+        Self(Arc::new(Shared {
+            image,
+            blocks,
+            brightest,
+        }))
     }
 
     /// What it shows.
     #[must_use]
     pub fn image(&self) -> &Image {
-        self.0.image()
+        &self.0.image
     }
 
     /// Bytes that clones share: the image and its means.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.0.bytes()
+        self.0.image.bytes() + self.0.blocks.bytes()
     }
 
-    pub(crate) const fn means(&self) -> &Arc<TextureMeans> {
-        &self.0
+    pub(crate) fn blocks(&self) -> &BlockMeans {
+        &self.0.blocks
+    }
+
+    pub(crate) fn brightest(&self) -> Vec3 {
+        self.0.brightest
     }
 }
 

@@ -69,7 +69,7 @@ impl Wrap {
         let t = folded * count - 0.5;
         let first = floor(t);
         Neighbours {
-            texels: [first, first + 1.0].map(|i| self.index(i, n)),
+            texels: [first, first + 1.0].map(|i| self.texel(i.into(), n)),
             part: t - first,
         }
     }
@@ -80,8 +80,8 @@ impl Wrap {
         clippy::cast_sign_loss,
         reason = "a whole number below n"
     )]
-    fn index(self, i: f32, n: u32) -> Option<u32> {
-        if i >= 0.0 && i < n as f32 {
+    pub(crate) fn texel(self, i: f64, n: u32) -> Option<u32> {
+        if i >= 0.0 && i < f64::from(n) {
             return Some(i as u32);
         }
         match self {

@@ -83,8 +83,7 @@ fn a_sun_is_found_within_its_texel() {
         let sun = Vec3::new(0.3, 0.5, -0.4).normalize();
         let texel = map.point(sun);
         let is_sun = |d: Vec3| {
-            let off =
-                (map.point(d) - texel) * crate::glam::Vec2::new(size[0] as f32, size[1] as f32);
+            let off = (map.point(d) - texel) * glam::Vec2::new(size[0] as f32, size[1] as f32);
             off.abs().max_element() <= 0.5
         };
         let cut = cut(map, size, |d| if is_sun(d) { 1e5 } else { 0.1 });

@@ -4,6 +4,7 @@ use core::fmt;
 use super::{
     BilinearPatch, BilinearPatchError, Cylinder, CylinderError, DirectionSample, Disk, DiskError,
     Rectangle, RectangleError, Shape, ShapeSample, Sphere, SphereError, Triangle, TriangleError,
+    UvArea,
 };
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
@@ -174,8 +175,8 @@ impl Shape for AnyShape {
         for_each_shape!(self, shape => shape.normal_cone())
     }
 
-    fn uv_bounds(&self) -> [Vec2; 2] {
-        for_each_shape!(self, shape => shape.uv_bounds())
+    fn uv_area(&self) -> UvArea {
+        for_each_shape!(self, shape => shape.uv_area())
     }
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {

@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::flat_quad::FlatQuad;
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle};
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -202,6 +202,12 @@ impl Shape for BilinearPatch {
         } else {
             DirectionCone::WHOLE_SPHERE
         }
+    }
+
+    fn uv_area(&self) -> UvArea {
+        let n = self.scaled_normal(Vec2::ZERO);
+        let along = [Vec2::X, Vec2::Y].map(|uv| self.scaled_normal(uv) - n);
+        UvArea::Square(UvDensity::Length([n, along[0], along[1]]))
     }
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {

@@ -2,7 +2,7 @@ use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, area_to_solid_angle, azimuth};
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -83,6 +83,13 @@ impl Shape for Disk {
 
     fn normal_cone(&self) -> DirectionCone {
         DirectionCone::from_direction(self.transform.axis())
+    }
+
+    fn uv_area(&self) -> UvArea {
+        // The farther out, the longer the ring.
+        let width = self.radius - self.inner_radius;
+        let radius = [self.radius, 0.0, -width].map(|r| Vec3::X * r);
+        UvArea::Square(UvDensity::Length(radius))
     }
 
     /// The rings of a disk are moved outward, each to where it keeps its area, so that none falls into the hole.

@@ -10,6 +10,7 @@ mod receiver_cosine;
 mod rectangle;
 mod sphere;
 mod triangle;
+mod uv_area;
 
 pub use any::{AnyShape, ShapeDesc, ShapeError};
 pub use bilinear_patch::{BilinearPatch, BilinearPatchError};
@@ -18,6 +19,7 @@ pub use disk::{Disk, DiskError};
 pub use rectangle::{Rectangle, RectangleError};
 pub use sphere::{Sphere, SphereError};
 pub use triangle::{Triangle, TriangleError};
+pub use uv_area::{UvArea, UvDensity};
 
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -37,9 +39,9 @@ pub trait Shape {
     /// A cone around the normals of the front side.
     fn normal_cone(&self) -> DirectionCone;
 
-    /// The least and the largest surface parameters.
-    fn uv_bounds(&self) -> [Vec2; 2] {
-        [Vec2::ZERO, Vec2::ONE]
+    /// How the area lies over the surface parameters.
+    fn uv_area(&self) -> UvArea {
+        UvArea::Square(UvDensity::Even)
     }
 
     /// A point of the surface, for light that leaves it, with its density per area; `None` without area.
@@ -72,8 +74,8 @@ impl<S: Shape> Shape for &S {
         (**self).normal_cone()
     }
 
-    fn uv_bounds(&self) -> [Vec2; 2] {
-        (**self).uv_bounds()
+    fn uv_area(&self) -> UvArea {
+        (**self).uv_area()
     }
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {

@@ -2,7 +2,9 @@ use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeDesc, ShapeSample, area_to_solid_angle, azimuth};
+use super::{
+    DirectionSample, Shape, ShapeDesc, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth,
+};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -154,6 +156,10 @@ impl Shape for Sphere {
 
     fn normal_cone(&self) -> DirectionCone {
         DirectionCone::WHOLE_SPHERE
+    }
+
+    fn uv_area(&self) -> UvArea {
+        UvArea::Square(UvDensity::Sine)
     }
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {

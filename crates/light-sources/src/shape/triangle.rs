@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle};
+use super::{DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -160,9 +160,8 @@ impl Shape for Triangle {
             .map_or(DirectionCone::EMPTY, DirectionCone::from_direction)
     }
 
-    fn uv_bounds(&self) -> [Vec2; 2] {
-        let [a, b, c] = self.uv;
-        [a.min(b).min(c), a.max(b).max(c)]
+    fn uv_area(&self) -> UvArea {
+        UvArea::Triangle(self.uv)
     }
 
     #[inline(always)]

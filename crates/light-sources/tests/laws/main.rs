@@ -9,6 +9,7 @@ mod at_infinity;
 mod at_points;
 mod extremes;
 mod portals;
+mod powers;
 mod shapes;
 mod spectral;
 

@@ -34,8 +34,10 @@ fn a_goniometric_light_spreads_its_power_as_its_image() {
 fn a_projector_spreads_its_power_over_its_picture() {
     // A pyramid with a square base seen under a right angle is one face of a cube.
     let solid_angle = 4.0 * PI / 6.0;
-    spreads::<Rgb>("rgb", solid_angle, projection);
-    spreads::<Spectral<4>>("spectral", solid_angle, projection);
+    for n in [1, 4, 64] {
+        spreads::<Rgb>("rgb", solid_angle, |amount| projection(n, amount));
+        spreads::<Spectral<4>>("spectral", solid_angle, |amount| projection(n, amount));
+    }
 }
 
 #[test]
@@ -114,11 +116,11 @@ fn goniometric<M: Model>(amount: IntensityAmount) -> LightDesc<M> {
     })
 }
 
-fn projection<M: Model>(amount: IntensityAmount) -> LightDesc<M> {
-    let white = vec![1.0; 3 * 64 * 64];
+fn projection<M: Model>(n: u32, amount: IntensityAmount) -> LightDesc<M> {
+    let white = vec![1.0; 3 * (n * n) as usize];
     LightDesc::Projection(ProjectionLightDesc {
         transform: Affine3A::IDENTITY,
-        image: Image::from_f32([64, 64], Channels::Rgb, white).expect("an image"),
+        image: Image::from_f32([n, n], Channels::Rgb, white).expect("an image"),
         fov: 0.5 * PI,
         amount,
         media: MediumInterface::default(),

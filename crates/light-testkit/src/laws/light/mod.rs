@@ -4,11 +4,13 @@ mod arrival;
 mod bounds;
 mod case;
 mod emission;
+mod power;
 
 pub use arrival::{dirac_li_is, li_adds_up, li_follows_its_density};
 pub use bounds::{bounds_hold, edges_are_survived};
 pub use case::LightCase;
 pub use emission::{flux_is_phi, infinite_flux_is_phi, le_adds_up_to_phi, le_has_no_variance};
+pub use power::phi_is_exact;
 
 /// Samples that an estimate takes.
 const SAMPLES: u32 = 1 << 14;

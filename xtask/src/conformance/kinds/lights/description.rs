@@ -1,7 +1,8 @@
 use super::LightCase;
 use super::differences::Differences;
 use super::portal;
-use super::rules::{COLORS, LOOSE_BOX, PATCH_AREA, PORTAL_POWER, WIDE_NORMALS};
+use super::projection;
+use super::rules::{COLORS, LOOSE_BOX, PATCH_AREA, PICTURE_POWER, PORTAL_POWER, WIDE_NORMALS};
 use crate::conformance::{Case, Findings, Malformed, Tolerance};
 use lights::bounds::LightBounds;
 use lights::sources::{Light, LightType, Radiance};
@@ -44,6 +45,13 @@ impl LightCase<'_> {
                 findings.near("phi", power * white, theirs, POWER);
             }
             findings.exempt(&PORTAL_POWER);
+        } else if self.kind == "projection" {
+            let [centers, exact] = projection::powers(&self.case)?;
+            for (theirs, white) in theirs.floats()?.into_iter().zip(white) {
+                findings.near("phi by centres", centers * white, theirs, POWER);
+            }
+            findings.near("phi", ours.average(), exact, POWER);
+            findings.exempt(&PICTURE_POWER);
         } else if let Ok(theirs) = theirs.float() {
             let mut differences = Differences::default();
             differences.near("phi", ours.average(), theirs, POWER);

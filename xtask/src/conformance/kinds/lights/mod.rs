@@ -6,6 +6,7 @@ mod differences;
 mod exact;
 mod outward;
 mod portal;
+mod projection;
 mod rules;
 mod toward;
 

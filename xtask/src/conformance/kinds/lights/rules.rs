@@ -23,6 +23,11 @@ pub(super) const COLORS: Rule = Rule {
     reason: "the power of a coloured picture is given at four wavelengths only; grey ones are compared",
 };
 
+pub(super) const PICTURE_POWER: Rule = Rule {
+    name: "picture_power",
+    reason: "the reference adds the centres of a picture's texels, ours is the integral: both are computed",
+};
+
 pub(super) const PORTAL_POWER: Rule = Rule {
     name: "portal_power",
     reason: "the reference divides by the solid angle per area where it has to multiply, and leaves out the cosine: \

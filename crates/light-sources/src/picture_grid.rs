@@ -1,0 +1,128 @@
+use crate::glam::{DVec2, DVec3, Vec2};
+
+/// The texels of a picture on the plane z = 1, seen from the origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PictureGrid {
+    size: [u32; 2],
+    /// Half width and half height of the picture.
+    half: DVec2,
+}
+
+/// A texel, or a part of one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PicturePart {
+    /// Column and row of the texel.
+    pub(crate) texel: [u32; 2],
+    /// The middle of the part on the plane.
+    pub(crate) center: Vec2,
+    /// In sr.
+    pub(crate) solid_angle: f64,
+}
+
+/// Parts that a picture has along each axis at least.
+const PARTS: u32 = 32;
+
+impl PictureGrid {
+    pub(crate) fn new(size: [u32; 2], half: Vec2) -> Self {
+        let half = half.as_dvec2();
+        Self { size, half }
+    }
+
+    /// The texels, row by row.
+    pub(crate) fn texels(&self) -> impl Iterator<Item = PicturePart> + use<> {
+        self.cells([1, 1])
+    }
+
+    /// The texels, those of a coarse picture in parts: what lies in a part has nearly one direction.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = PicturePart> + use<> {
+        self.cells(self.size.map(|n| PARTS.div_ceil(n)))
+    }
+
+    /// So many parts of each texel along each axis.
+    fn cells(&self, parts: [u32; 2]) -> impl Iterator<Item = PicturePart> + use<> {
+        let grid = *self;
+        let [width, height] = [0, 1].map(|i| self.size[i] * parts[i]);
+        (0..height).flat_map(move |y| {
+            (0..width).map(move |x| {
+                let (low, high) = (
+                    grid.corner([x, y], parts),
+                    grid.corner([x + 1, y + 1], parts),
+                );
+                PicturePart {
+                    texel: [x / parts[0], y / parts[1]],
+                    center: (0.5 * (low + high)).as_vec2(),
+                    solid_angle: solid_angle(low, high),
+                }
+            })
+        })
+    }
+
+    /// A corner of the grid with so many parts a texel along each axis.
+    fn corner(&self, [x, y]: [u32; 2], parts: [u32; 2]) -> DVec2 {
+        let along = |i: usize| f64::from(self.size[i]) * f64::from(parts[i]);
+        let count = DVec2::new(along(0), along(1));
+        (2.0 * DVec2::new(x.into(), y.into()) / count - 1.0) * self.half
+    }
+}
+
+/// The solid angle in sr of a rectangle on the plane z = 1.
+fn solid_angle(low: DVec2, high: DVec2) -> f64 {
+    /// The square of the angle below which the middle of a rectangle stands for all of it, to 1e-7.
+    const SMALL: f64 = 1e-7;
+    let (size, middle) = (high - low, 0.5 * (low + high));
+    let dist_sq = 1.0 + middle.length_squared();
+    if size.length_squared() < SMALL * dist_sq {
+        return size.x * size.y / (dist_sq * middle.extend(1.0).length());
+    }
+    // Of the rectangle from the axis to a corner; its sign is that of x y.
+    let corner = |x: f64, y: f64| DVec2::new(DVec3::new(1.0, x, y).length(), x * y).to_angle();
+    corner(high.x, high.y) - corner(low.x, high.y) - corner(high.x, low.y) + corner(low.x, low.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+
+    #[test]
+    fn a_face_of_a_cube_is_a_sixth_of_the_sphere() {
+        for size in [[1, 1], [2, 2], [4, 6], [5, 1], [2000, 3]] {
+            let grid = PictureGrid::new(size, Vec2::ONE);
+            let sum: f64 = grid.texels().map(|texel| texel.solid_angle).sum();
+            assert!(
+                (sum / (4.0 * PI / 6.0) - 1.0).abs() < 1e-9,
+                "{size:?}: {sum}"
+            );
+            let parts: f64 = grid.parts().map(|part| part.solid_angle).sum();
+            assert!((parts / sum - 1.0).abs() < 1e-6, "{size:?}: {parts}");
+            assert!(
+                grid.parts().count() >= 1024,
+                "{size:?}: fine enough for its directions"
+            );
+        }
+    }
+
+    /// Texels a little above and a little below the size at which the middle stands for all.
+    #[test]
+    fn the_middle_of_a_texel_stands_for_little_ones() {
+        for at in [DVec2::ZERO, DVec2::new(0.7, -0.2), DVec2::new(-3.0, 8.0)] {
+            let dist_sq = 1.0 + at.length_squared();
+            for size in [2e-4, 3e-4, 4e-4] {
+                let half = DVec2::splat(0.5 * size * dist_sq.sqrt());
+                let whole = solid_angle(at - half, at + half);
+                // Cut into texels that are certainly small.
+                let sixteenth = half / 16.0;
+                let parts = (0..256).map(|i| {
+                    let cell = DVec2::new(f64::from(i % 16), f64::from(i / 16));
+                    let center = at + (2.0 * cell - 15.0) * sixteenth;
+                    solid_angle(center - sixteenth, center + sixteenth)
+                });
+                let parts: f64 = parts.sum();
+                assert!(
+                    (whole / parts - 1.0).abs() < 1e-7,
+                    "{at}, {size}: {whole}, {parts}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+use crate::glam::{Vec2, Vec3};
+
+/// How the area of a shape lies over its surface parameters (u, v).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UvArea {
+    /// Evenly over a triangle, which may have shrunk to a line or to a point.
+    Triangle([Vec2; 3]),
+    /// Over the unit square.
+    Square(UvDensity),
+}
+
+/// The area of a shape per area of its surface parameters, but for a factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UvDensity {
+    /// The same everywhere.
+    Even,
+    /// `sin(pi v)`: of a sphere with the poles at `v = 0` and `v = 1`.
+    Sine,
+    /// The length of `[at_origin + du u + dv v]`: of a disk, or of a bilinear patch with this normal.
+    Length([Vec3; 3]),
+}
+
+#[cfg(feature = "alloc")]
+impl UvDensity {
+    /// The density at a place of the unit square.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough for a weight"
+    )]
+    pub(crate) fn at(&self, uv: glam::DVec2) -> f64 {
+        use light_math::float::{sin, sqrt};
+        match self {
+            Self::Even => 1.0,
+            Self::Sine => sin(core::f32::consts::PI * (uv.y as f32)).max(0.0).into(),
+            Self::Length([n, du, dv]) => {
+                let n = n.as_dvec3() + du.as_dvec3() * uv.x + dv.as_dvec3() * uv.y;
+                sqrt(n.length_squared() as f32).into()
+            }
+        }
+    }
+}

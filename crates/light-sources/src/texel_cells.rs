@@ -1,0 +1,199 @@
+use crate::glam::{DVec3, Vec3};
+use crate::image::Image;
+use crate::texture_mapping::Wrap;
+use crate::uv_polygon::Axis;
+
+/// One axis of an image between two centres of texels, where its colour is a line: two texels, and how far from the first to
+/// the second a place is.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    texels: [Option<u32>; 2],
+    /// At the place 0.
+    start: f64,
+    /// Per place.
+    slope: f64,
+}
+
+/// An image where it is bilinear: between four centres of texels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    x: Span,
+    y: Span,
+    colors: [[DVec3; 2]; 2],
+}
+
+impl Cell {
+    /// The cell that holds the place `middle`, not on its edge.
+    pub(crate) fn new(image: &Image, wrap: [Wrap; 2], middle: [f64; 2]) -> Self {
+        let x = Span::new(wrap[0], image.size()[0], middle[0]);
+        let y = Span::new(wrap[1], image.size()[1], middle[1]);
+        let color = |x: Option<u32>, y: Option<u32>| match (x, y) {
+            (Some(x), Some(y)) => image.texel(x, y).as_dvec3(),
+            _ => DVec3::ZERO,
+        };
+        let colors = y.texels.map(|y| x.texels.map(|x| color(x, y)));
+        Self { x, y, colors }
+    }
+
+    /// The colour at a place of the cell.
+    #[inline]
+    pub(crate) fn at(&self, x: f64, y: f64) -> DVec3 {
+        let x = self.x.start + self.x.slope * x;
+        let row = |[a, b]: [DVec3; 2]| a + (b - a) * x;
+        let [top, bottom] = self.colors.map(row);
+        let y = self.y.start + self.y.slope * y;
+        // Rounding must not make darkness of light, nor light of darkness.
+        (top + (bottom - top) * y).max(DVec3::ZERO)
+    }
+}
+
+impl Span {
+    fn new(wrap: Wrap, n: u32, middle: f64) -> Self {
+        let count = f64::from(n);
+        let (origin, slope) = match wrap {
+            Wrap::Clamp | Wrap::Black => (0.0, count),
+            Wrap::Repeat => (floor(middle), count),
+            Wrap::Mirror => {
+                let turn = 2.0 * floor(0.5 * middle);
+                if middle - turn <= 1.0 {
+                    (turn, count)
+                } else {
+                    (turn + 2.0, -count)
+                }
+            }
+        };
+        let t = (middle - origin) * slope - 0.5;
+        let first = match wrap {
+            Wrap::Clamp => floor(t).clamp(-1.0, count - 1.0),
+            _ => floor(t),
+        };
+        Self {
+            texels: [first, first + 1.0].map(|i| wrap.texel(i, n)),
+            start: -origin * slope - 0.5 - first,
+            slope,
+        }
+    }
+}
+
+/// The first place beyond `from` at which the colour of an image with `n` texels may bend: the centre of a texel.
+pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
+    let count = f64::from(n);
+    let (least, most) = match wrap {
+        Wrap::Clamp => (0.0, count - 1.0),
+        Wrap::Black => (-1.0, count),
+        Wrap::Repeat | Wrap::Mirror => (f64::MIN, f64::MAX),
+    };
+    let mut k = floor(from * count + 0.5).max(least);
+    while k <= most {
+        let bend = (k + 0.5) / count;
+        if bend > from {
+            return bend;
+        }
+        k += 1.0;
+    }
+    f64::INFINITY
+}
+
+/// What a surface shows: an image, or the product of two that lie on it alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown<'a> {
+    pub(crate) image: &'a Image,
+    /// A grey factor.
+    pub(crate) alpha: Option<&'a Image>,
+    pub(crate) wrap: [Wrap; 2],
+}
+
+/// [`Shown`] between neighbouring bends of all images: a polynomial.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShownCell {
+    image: Cell,
+    alpha: Option<Cell>,
+}
+
+impl<'a> Shown<'a> {
+    pub(crate) fn cell(&self, middle: [f64; 2]) -> ShownCell {
+        ShownCell {
+            image: Cell::new(self.image, self.wrap, middle),
+            alpha: self.alpha.map(|a| Cell::new(a, self.wrap, middle)),
+        }
+    }
+
+    pub(crate) fn next_bend(&self, axis: Axis, from: f64) -> f64 {
+        let axis = axis as usize;
+        let bend = |image: &Image| next_bend(self.wrap[axis], image.size()[axis], from);
+        let alpha = self.alpha.map_or(f64::INFINITY, bend);
+        bend(self.image).min(alpha)
+    }
+
+    /// Texels along an axis, of the image that has more of them.
+    pub(crate) fn texels(&self, axis: Axis) -> u32 {
+        let axis = axis as usize;
+        let alpha = self.alpha.map_or(0, |a| a.size()[axis]);
+        self.image.size()[axis].max(alpha)
+    }
+
+    /// The integral over the rectangle between two places.
+    pub(crate) fn over_rectangle(&self, low: [f64; 2], high: [f64; 2]) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        self.each_span(Axis::Y, low[1], high[1], |y0, y1| {
+            self.each_span(Axis::X, low[0], high[0], |x0, x1| {
+                let cell = self.cell([0.5 * (x0 + x1), 0.5 * (y0 + y1)]);
+                sum += cell.mean([x0, y0], [x1, y1]) * ((x1 - x0) * (y1 - y0));
+            });
+        });
+        sum
+    }
+
+    /// The parts of an axis between bends.
+    pub(crate) fn each_span(&self, axis: Axis, from: f64, to: f64, mut each: impl FnMut(f64, f64)) {
+        let mut start = from;
+        while start < to {
+            let end = self.next_bend(axis, start).min(to);
+            each(start, end);
+            start = end;
+        }
+    }
+}
+
+impl ShownCell {
+    #[inline]
+    pub(crate) fn at(&self, x: f64, y: f64) -> DVec3 {
+        let color = self.image.at(x, y);
+        self.alpha.map_or(color, |alpha| color * alpha.at(x, y).x)
+    }
+
+    /// The mean over a rectangle: exact, as the product of two lines is of degree 2 along each axis.
+    pub(crate) fn mean(&self, low: [f64; 2], high: [f64; 2]) -> DVec3 {
+        /// The nodes of Gauss and Legendre, from the middle, in half sizes.
+        const NODE: f64 = 0.577_350_269_189_625_8;
+        let [x, y] = [0, 1].map(|i| 0.5 * (low[i] + high[i]));
+        if self.alpha.is_none() {
+            return self.at(x, y);
+        }
+        let [dx, dy] = [0, 1].map(|i| 0.5 * NODE * (high[i] - low[i]));
+        let sum = self.at(x - dx, y - dy)
+            + self.at(x + dx, y - dy)
+            + self.at(x - dx, y + dy)
+            + self.at(x + dx, y + dy);
+        0.25 * sum
+    }
+}
+
+/// The largest whole number that is not above `x`, which `core` lacks in double precision.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "saturates, far beyond where a place has a fraction"
+)]
+pub(crate) fn floor(x: f64) -> f64 {
+    let toward_zero = (x as i64) as f64;
+    if toward_zero > x {
+        toward_zero - 1.0
+    } else {
+        toward_zero
+    }
+}
+
+/// The nearest single-precision colour.
+pub(crate) fn single(color: DVec3) -> Vec3 {
+    color.as_vec3()
+}

@@ -1,0 +1,394 @@
+use crate::block_means::{Block, BlockMeans};
+use crate::glam::{DVec2, DVec3, Vec2, Vec3};
+use crate::shape::{UvArea, UvDensity};
+use crate::texel_cells::{Shown, ShownCell, floor};
+use crate::texture_mapping::{TextureMapping, Wrap};
+use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
+
+/// The mean of what a surface shows over its area.
+///
+/// Exact: the surface is cut where the colour bends, which is at the centres of texels, and between them it is a polynomial.
+/// Blocks of texels that the surface covers as a whole are known. Above 0 wherever the surface shows any light.
+///
+/// Only what covers more than [`FINEST`] blocks along an axis is cut more coarsely.
+pub(crate) fn mean(
+    shown: &Shown<'_>,
+    blocks: &BlockMeans,
+    mapping: &TextureMapping,
+    area: &UvArea,
+) -> Vec3 {
+    let mut integral = Integral {
+        shown,
+        blocks,
+        density: UvDensity::Even,
+        sum: DVec3::ZERO,
+        total: 0.0,
+        nearby: DVec3::ZERO,
+    };
+    match *area {
+        // The area is even whatever the surface parameters are, so that any others do as well.
+        UvArea::Triangle(shown) => integral.add([Vec2::ZERO, Vec2::X, Vec2::Y], shown, mapping),
+        UvArea::Square(density) => {
+            integral.density = density;
+            for [low, high] in pieces(&density) {
+                let corners = [
+                    low,
+                    Vec2::new(high.x, low.y),
+                    high,
+                    Vec2::new(low.x, high.y),
+                ];
+                integral.add(corners, corners, mapping);
+            }
+        }
+    }
+    integral.mean()
+}
+
+/// Parts of the unit square on which a density is nearly a polynomial of low degree.
+fn pieces(density: &UvDensity) -> impl Iterator<Item = [Vec2; 2]> {
+    let [columns, rows] = match density {
+        UvDensity::Even => [1, 1],
+        UvDensity::Sine => [1, 16],
+        UvDensity::Length(_) => [8, 8],
+    };
+    let count = Vec2::new(f32::from(columns), f32::from(rows));
+    (0..columns * rows).map(move |i: u8| {
+        let low = Vec2::new(f32::from(i % columns), f32::from(i / columns));
+        [low / count, (low + 1.0) / count]
+    })
+}
+
+/// How many blocks along an axis, as a power of two, a surface is cut into at most.
+const FINEST: u32 = 12;
+
+/// How many times an image that is repeated counts at most: more do not change the mean.
+const MOST_REPEATED: f64 = 1024.0;
+
+/// A part of the surface parameters on which a density counts as even within a block.
+const EVEN: f64 = 1.0 / 1024.0;
+
+/// What lies nearby and may show by rounding, as a part of it: far below what single precision tells apart.
+const NEARBY: f64 = 1.0 / (1u64 << 40) as f64;
+
+struct Integral<'a> {
+    shown: &'a Shown<'a>,
+    blocks: &'a BlockMeans,
+    density: UvDensity,
+    sum: DVec3,
+    total: f64,
+    nearby: DVec3,
+}
+
+impl Integral<'_> {
+    /// Adds the polygon with these surface parameters, which shows what lies at others.
+    fn add<const N: usize>(
+        &mut self,
+        corners: [Vec2; N],
+        shown: [Vec2; N],
+        mapping: &TextureMapping,
+    ) {
+        let transform = &mapping.transform;
+        let [x, y] = [transform.x_axis, transform.y_axis].map(|axis| axis.as_dvec2());
+        let offset = transform.translation.as_dvec2();
+        let corner = |i: usize| {
+            let (uv, at) = (corners[i].as_dvec2(), shown[i].as_dvec2());
+            let place = x * at.x + y * at.y + offset;
+            let place = DVec2::new(place.x, 1.0 - place.y);
+            // As a lookup takes what is no number.
+            let place = if place.is_finite() {
+                place
+            } else {
+                DVec2::ZERO
+            };
+            Corner { uv, place }
+        };
+        let mut corners: [Corner; N] = core::array::from_fn(corner);
+        self.fold(&mut corners);
+        let polygon = UvPolygon::new(&corners);
+        self.nearby += self.near(&polygon);
+        self.polygon(polygon);
+    }
+
+    fn mean(self) -> Vec3 {
+        if !(self.total > 0.0) {
+            return Vec3::ZERO;
+        }
+        let exact = self.sum / self.total;
+        // What is too dark for single precision is not quite black.
+        let darkest = self.nearby.map(|x| {
+            if x > 0.0 {
+                f64::from(f32::MIN_POSITIVE)
+            } else {
+                0.0
+            }
+        });
+        exact.max(self.nearby * NEARBY).max(darkest).as_vec3()
+    }
+
+    /// Moves the corners to where the image repeats itself, not far from the origin.
+    fn fold(&self, corners: &mut [Corner]) {
+        let [min, max] = UvPolygon::new(corners).place_bounds();
+        for corner in corners {
+            for axis in Axis::BOTH {
+                if self.ends(axis) {
+                    // Beyond its edges there is nothing new.
+                    let place = &mut corner.place[axis as usize];
+                    *place = place.clamp(-1e9, 1e9);
+                    continue;
+                }
+                let (min, max) = (axis.of(min), axis.of(max));
+                let place = &mut corner.place[axis as usize];
+                let origin = 2.0 * floor(0.5 * min);
+                *place -= if origin.abs() < 1e15 { origin } else { min };
+                if max - min > MOST_REPEATED {
+                    *place *= MOST_REPEATED / (max - min);
+                }
+            }
+        }
+    }
+
+    /// Whether there is only one image along an axis.
+    fn ends(&self, axis: Axis) -> bool {
+        matches!(self.shown.wrap[axis as usize], Wrap::Clamp | Wrap::Black)
+    }
+
+    fn polygon(&mut self, polygon: UvPolygon) {
+        let mut inside = polygon;
+        for axis in Axis::BOTH {
+            if !self.ends(axis) {
+                continue;
+            }
+            let [below, rest] = inside.split(axis, 0.0);
+            let [middle, above] = rest.split(axis, 1.0);
+            self.cells(&below);
+            self.cells(&above);
+            inside = middle;
+        }
+        if inside.is_empty() {
+            return;
+        }
+        let (level, [low, high]) = self.covering(inside.place_bounds());
+        let finest = level.saturating_sub(FINEST);
+        let mut rows = inside;
+        for y in low[1]..=high[1] {
+            let [mut row, above] = rows.split(Axis::Y, self.edge(Axis::Y, level, y + 1));
+            rows = above;
+            for x in low[0]..=high[0] {
+                let [part, right] = row.split(Axis::X, self.edge(Axis::X, level, x + 1));
+                row = right;
+                let index = [x, y];
+                self.block(Block { level, index }, finest, &part);
+            }
+        }
+    }
+
+    /// The lower edge of a block.
+    fn edge(&self, axis: Axis, level: u32, index: i64) -> f64 {
+        index as f64 * (1u64 << level) as f64 / self.blocks.count(axis)
+    }
+
+    /// The finest level of which at most two blocks along each axis cover a rectangle, with the first and the last of them.
+    fn covering(&self, [min, max]: [DVec2; 2]) -> (u32, [[i64; 2]; 2]) {
+        let index = |p: DVec2| Axis::BOTH.map(|axis| whole(axis.of(p) * self.blocks.count(axis)));
+        let (mut low, mut high) = (index(min), index(max));
+        let mut level = 0;
+        while (0..2).any(|i| high[i] - low[i] > 1) {
+            (low, high) = (low.map(|i| i >> 1), high.map(|i| i >> 1));
+            level += 1;
+        }
+        (level, [low, high])
+    }
+
+    /// Adds what a block holds of the polygon; `part` lies in it.
+    fn block(&mut self, block: Block, finest: u32, part: &UvPolygon) {
+        if part.is_empty() {
+            return;
+        }
+        let Block { level, index } = block;
+        if let Some(mean) = self.blocks.mean(block, self.shown.wrap) {
+            let side = |axis: Axis| {
+                let edge = |i| self.edge(axis, level, index[axis as usize] + i);
+                // Of the last block there may be no more than the image.
+                let [low, high] = [edge(0), edge(1)];
+                if self.ends(axis) {
+                    high.min(1.0) - low
+                } else {
+                    high - low
+                }
+            };
+            let area = side(Axis::X) * side(Axis::Y);
+            let is_covered = part.place_area() >= (1.0 - 1e-9) * area;
+            if (is_covered && self.is_even(part)) || (level > 0 && level <= finest) {
+                let weight = self.weight(part);
+                self.sum += mean * weight;
+                self.total += weight;
+                return;
+            }
+        }
+        if level == 0 {
+            return self.cells(part);
+        }
+        let [x, y] = index.map(|i| 2 * i);
+        let level = level - 1;
+        let middle = [
+            self.edge(Axis::X, level, x + 1),
+            self.edge(Axis::Y, level, y + 1),
+        ];
+        for (dy, row) in (0..).zip(part.split(Axis::Y, middle[1])) {
+            let columns = row.split(Axis::X, middle[0]);
+            for (dx, child) in (0..).zip(columns) {
+                let index = [x + dx, y + dy];
+                self.block(Block { level, index }, finest, &child);
+            }
+        }
+    }
+
+    /// Adds a polygon that lies anywhere, piece by piece between the bends of the colour.
+    fn cells(&mut self, polygon: &UvPolygon) {
+        let shown = self.shown;
+        each_strip(shown, Axis::X, polygon, |x, column| {
+            each_strip(shown, Axis::Y, column, |y, piece| {
+                self.piece(&shown.cell([x, y]), piece);
+            });
+        });
+    }
+
+    /// Adds a polygon within which the colour is a polynomial.
+    fn piece(&mut self, cell: &ShownCell, piece: &UvPolygon) {
+        for corners in piece.triangles() {
+            let area = 0.5 * doubled_area(corners);
+            for ([a, b, c], share) in self.rule() {
+                let [p, q, r] = corners;
+                let at = |of: fn(&Corner) -> DVec2| of(&p) * a + of(&q) * b + of(&r) * c;
+                let weight = share * area * self.density.at(at(|corner| corner.uv));
+                let place = at(|corner| corner.place);
+                self.sum += cell.at(place.x, place.y) * weight;
+                self.total += weight;
+            }
+        }
+    }
+
+    /// Barycentric coordinates and weights of a quadrature over triangles that is exact for what is shown.
+    fn rule(&self) -> impl Iterator<Item = ([f64; 3], f64)> + use<> {
+        let is_square = self.shown.alpha.is_none() && self.density == UvDensity::Even;
+        let rule: &[_] = if is_square { &DEGREE_2 } else { &DEGREE_5 };
+        rule.iter().copied()
+    }
+
+    /// The area of a polygon, by the density.
+    fn weight(&self, polygon: &UvPolygon) -> f64 {
+        let triangles = polygon.triangles();
+        let even = |corners| 0.5 * doubled_area(corners);
+        if self.density == UvDensity::Even {
+            return triangles.map(even).sum();
+        }
+        let triangles = triangles.map(|corners| {
+            let [p, q, r] = corners.map(|corner| corner.uv);
+            let density = DEGREE_5
+                .iter()
+                .map(|([a, b, c], share)| share * self.density.at(p * *a + q * *b + r * *c));
+            even(corners) * density.sum::<f64>()
+        });
+        triangles.sum()
+    }
+
+    /// Whether the density hardly changes over a polygon.
+    fn is_even(&self, polygon: &UvPolygon) -> bool {
+        let uvs = || polygon.corners().iter().map(|corner| corner.uv);
+        let min = uvs().fold(DVec2::INFINITY, DVec2::min);
+        let max = uvs().fold(DVec2::NEG_INFINITY, DVec2::max);
+        self.density == UvDensity::Even || (max - min).max_element() <= EVEN
+    }
+
+    /// What the texels nearby show together: above 0 if a lookup by single precision in the polygon may find any light.
+    fn near(&self, polygon: &UvPolygon) -> DVec3 {
+        let [min, max] = polygon.place_bounds();
+        let size = Axis::BOTH.map(|axis| f64::from(self.shown.texels(axis)));
+        let reach = 1.0 / DVec2::from_array(size) + 1e-6 * (1.0 + min.abs().max(max.abs()));
+        let bounds = [min - reach, max + reach];
+        let is_beyond = |axis: Axis| {
+            let [min, max] = bounds.map(|p| axis.of(p));
+            self.shown.wrap[axis as usize] == Wrap::Black
+                && (min > 1.0 + axis.of(reach) || max < -axis.of(reach))
+        };
+        if Axis::BOTH.into_iter().any(is_beyond) {
+            return DVec3::ZERO;
+        }
+        let (level, [low, high]) = self.covering(bounds);
+        let mut sum = DVec3::ZERO;
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                let index = [x, y];
+                sum += self.blocks.stored(Block { level, index }, self.shown.wrap);
+            }
+        }
+        sum
+    }
+}
+
+/// The parts of a polygon between the bends of the colour along an axis, each with a place between them.
+fn each_strip(
+    shown: &Shown<'_>,
+    axis: Axis,
+    polygon: &UvPolygon,
+    mut each: impl FnMut(f64, &UvPolygon),
+) {
+    if polygon.is_empty() {
+        return;
+    }
+    let [mut start, end] = polygon.place_bounds().map(|p| axis.of(p));
+    let mut rest = *polygon;
+    loop {
+        let bend = shown.next_bend(axis, start);
+        if bend >= end {
+            return each(0.5 * (start + end), &rest);
+        }
+        let [strip, above] = rest.split(axis, bend);
+        if !strip.is_empty() {
+            each(0.5 * (start + bend), &strip);
+        }
+        (start, rest) = (bend, above);
+        if rest.is_empty() {
+            return;
+        }
+    }
+}
+
+/// The whole number at or below a place that is not far from the origin.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "saturates where there is nothing any more"
+)]
+fn whole(x: f64) -> i64 {
+    floor(x) as i64
+}
+
+/// Exact for polynomials up to degree 2: the middles of the sides.
+const DEGREE_2: [([f64; 3], f64); 3] = [
+    ([0.5, 0.5, 0.0], 1.0 / 3.0),
+    ([0.0, 0.5, 0.5], 1.0 / 3.0),
+    ([0.5, 0.0, 0.5], 1.0 / 3.0),
+];
+
+/// Exact for polynomials up to degree 5.
+///
+/// # Source
+/// `[Radon1948]`: the centroid, and two triples on the medians.
+const DEGREE_5: [([f64; 3], f64); 7] = {
+    const A: f64 = 0.101_286_507_323_456_34;
+    const B: f64 = 0.470_142_064_105_115_1;
+    const WEIGHT_A: f64 = 0.125_939_180_544_827_17;
+    const WEIGHT_B: f64 = 0.132_394_152_788_506_16;
+    [
+        ([1.0 / 3.0; 3], 0.225),
+        ([1.0 - 2.0 * A, A, A], WEIGHT_A),
+        ([A, 1.0 - 2.0 * A, A], WEIGHT_A),
+        ([A, A, 1.0 - 2.0 * A], WEIGHT_A),
+        ([1.0 - 2.0 * B, B, B], WEIGHT_B),
+        ([B, 1.0 - 2.0 * B, B], WEIGHT_B),
+        ([B, B, 1.0 - 2.0 * B], WEIGHT_B),
+    ]
+};
+
+#[cfg(test)]
+mod tests;
