@@ -17,6 +17,9 @@ pub(super) enum Target {
     Texture,
 }
 
+/// How many may be in force: each directive looks through all of them.
+pub(super) const MOST_ATTRIBUTES: usize = 256;
+
 /// The `Attribute` directives in force, the last one at the end.
 pub(super) type Attributes = Vec<(Target, Rc<Parameters>)>;
 
@@ -58,7 +61,7 @@ impl Reader {
             line: tokens.line(),
         };
         let mut parameters = Parameters::read(tokens)?;
-        parameters.load_spectra(path, &self.root, self.files)?;
+        parameters.load_spectra(&self.root, self.files)?;
         let target = Target::of_directive(directive);
         let attributes = self.state.attributes.iter().rev();
         let spoken_to = attributes.filter(|(to, _)| Some(*to) == target);
@@ -79,6 +82,10 @@ impl Reader {
                 .at
                 .diagnostic(format!("{expected}, found \"{found}\""))
         })?;
+        if self.state.attributes.len() == MOST_ATTRIBUTES {
+            let message = format!("expected at most {MOST_ATTRIBUTES} `Attribute`s in force");
+            return Err(typed.at.diagnostic(message));
+        }
         let said = Rc::new(typed.parameters);
         self.attributes
             .push((typed.at.path.to_path_buf(), Rc::clone(&said)));

@@ -1,14 +1,10 @@
 use std::path::Path;
 
-use super::state::{At, Reader};
+use super::state::{At, Reader, Typed};
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
-use crate::glam::{Mat4, Vec3};
-use crate::gunzip::gunzipped;
-use crate::text::{shown, text_of};
-
-/// Files that include each other deeper than this include themselves.
-const DEEPEST: usize = 32;
+use crate::glam::{Mat4, Vec3, Vec4};
+use crate::text::shown;
 
 impl Reader {
     /// Carries out all directives of a file.
@@ -18,21 +14,10 @@ impl Reader {
             let Token::Word(directive) = token else {
                 return Err(tokens.expected("a directive", Some(&token)));
             };
-            if matches!(directive, "Include" | "Import") {
-                let name = tokens.quoted("a file name")?.into_owned();
-                if depth == DEEPEST {
-                    return Err(tokens.diagnostic("expected a file that does not include itself"));
-                }
-                let file = self.beside(&name);
-                let refuse = |error: Diagnostic| tokens.diagnostic(error.to_string());
-                let bytes = self.files.read(&file).map_err(refuse)?;
-                let plain = gunzipped(&file, &bytes).map_err(refuse)?;
-                // What an imported file does to the state ends with it.
-                let before = (directive == "Import").then(|| self.state.clone());
-                self.file(&file, &text_of(&plain), depth + 1)?;
-                self.state = before.unwrap_or_else(|| core::mem::take(&mut self.state));
-            } else {
-                self.directive(path, &mut tokens, directive)?;
+            match directive {
+                "Include" => self.include(&mut tokens, depth)?,
+                "Import" => self.import(&mut tokens, depth)?,
+                _ => self.directive(path, &mut tokens, directive)?,
             }
         }
         Ok(())
@@ -49,15 +34,18 @@ impl Reader {
             line: tokens.line(),
         };
         match directive {
-            "AttributeBegin" => self.saved.push(self.state.clone()),
+            "AttributeBegin" => {
+                self.save_state(at, "expected `AttributeEnd` after `AttributeBegin`")?;
+            }
             "AttributeEnd" => {
                 let saved = self.saved_state();
                 self.state = saved.ok_or_else(|| at.unmatched("AttributeBegin"))?;
             }
-            "TransformBegin" => self.saved_transforms.push(self.state.transform),
+            "TransformBegin" => self.save_transform(at)?,
             "TransformEnd" => {
                 let saved = self.saved_transforms.pop();
-                self.state.transform = saved.ok_or_else(|| at.unmatched("TransformBegin"))?;
+                let saved = saved.ok_or_else(|| at.unmatched("TransformBegin"))?;
+                self.state.transform = saved.state;
             }
             "WorldBegin" => {
                 self.in_world = true;
@@ -134,10 +122,14 @@ impl Reader {
             }
             _ => return Ok(false),
         };
-        if self.state.transform.is_finite() && self.state.transform.determinant() != 0.0 {
-            return Ok(true);
+        let transform = self.state.transform;
+        if !(transform.is_finite() && transform.determinant() != 0.0) {
+            return Err(at.diagnostic("expected a transform that can be inverted"));
         }
-        Err(at.diagnostic("expected a transform that can be inverted"))
+        if transform.row(3) != Vec4::W {
+            return Err(at.diagnostic("expected a transform whose last row is 0 0 0 1"));
+        }
+        Ok(true)
     }
 
     /// The directives with a type in quotes and parameters.
@@ -157,37 +149,43 @@ impl Reader {
             }
         }
         let typed = self.typed(path, tokens, directive)?;
-        let at = typed.at;
+        if directive == "Attribute" {
+            return self.attribute(typed);
+        }
+        let done = self.carry_out(&typed, directive);
+        // What is wrong with a parameter explains what goes wrong then.
+        typed.parameters.check()?;
+        done
+    }
+
+    fn carry_out(&mut self, typed: &Typed<'_>, directive: &str) -> Result<(), Diagnostic> {
         match directive {
-            "Camera" => self.set_camera(&typed)?,
-            "Film" => self.film(&typed)?,
-            "PixelFilter" => self.pixel_filter(&typed),
-            "Shape" => self.shape(&typed)?,
-            "LightSource" => self.light(&typed)?,
-            "AreaLightSource" => self.area_light(&typed)?,
+            "Camera" => self.set_camera(typed)?,
+            "Film" => self.film(typed)?,
+            "PixelFilter" => self.pixel_filter(typed),
+            "Shape" => self.shape(typed)?,
+            "LightSource" => self.light(typed)?,
+            "AreaLightSource" => self.area_light(typed)?,
             "Material" => {
-                let material = self.make_material(&typed.kind, &typed)?;
+                let material = self.make_material(&typed.kind, typed)?;
                 self.state.material = Some(material);
             }
             "MakeNamedMaterial" => {
-                let kind = typed
-                    .parameters
-                    .string("type")
-                    .unwrap_or("diffuse")
-                    .to_owned();
-                let material = self.make_material(&kind, &typed)?;
-                return self.name_material(typed.kind, material);
+                let kind = typed.parameters.string("type").map(str::to_owned);
+                let message = "expected \"string type\" of a named material";
+                let kind = kind.ok_or_else(|| typed.at.diagnostic(message))?;
+                let material = self.make_material(&kind, typed)?;
+                return self.name_material(typed.kind.clone(), material);
             }
-            "MakeNamedMedium" => self.make_medium(&typed)?,
-            "Attribute" => return self.attribute(typed),
+            "MakeNamedMedium" => self.make_medium(typed)?,
             "ColorSpace" if typed.kind == "srgb" => {}
             _ => {
-                self.warn(at, &format!("`{directive}`"), "was ignored");
+                self.warn(typed.at, &format!("`{directive}`"), "was ignored");
                 return Ok(());
             }
         }
         let name = format!("{directive} \"{}\"", typed.kind);
-        self.warn_unused(at, &name, &typed.parameters);
+        self.warn_unused(typed.at, &name, &typed.parameters);
         Ok(())
     }
 }

@@ -133,3 +133,57 @@ fn the_world_and_the_camera_are_coordinate_systems() {
         "where they are"
     );
 }
+
+/// Each file includes the next one twice: at a depth of 30 they are 2^30.
+#[test]
+fn files_that_double_are_refused_by_a_limit() {
+    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let depth: u32 = name.and_then(|name| name.parse().ok()).unwrap_or_default();
+        let next = format!("Include \"{}\"\n", depth + 1);
+        Ok(if depth < 30 {
+            next.repeat(2).into()
+        } else {
+            Vec::new()
+        })
+    }
+    let scene = parse_pbrt(
+        Path::new("a"),
+        "WorldBegin Include \"1\"",
+        Files::new(&beside),
+    );
+    let error = scene.map(|_| ()).expect_err("too many").to_string();
+    assert!(
+        error.ends_with(": expected at most 65536 included files"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_imported_file_ends_what_it_begins() {
+    for text in ["AttributeBegin", "TransformBegin", "AttributeEnd"] {
+        let files = |_: &Path| Ok(text.as_bytes().to_vec());
+        // One file of that text, however it is named.
+        let files: &'static dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic> =
+            Box::leak(Box::new(files));
+        let scene = "WorldBegin AttributeBegin\nImport \"b\"\nAttributeEnd";
+        let scene = parse_pbrt(Path::new("a"), scene, Files::new(files));
+        let error = scene.map(|_| ()).expect_err(text).to_string();
+        let expected = "a:2: expected a file that ends what it begins, and nothing else";
+        assert_eq!(error, expected, "{text}");
+    }
+}
+
+#[test]
+fn blocks_and_attributes_have_limits() {
+    let refusal = |text: &str| {
+        let scene = parse_pbrt(Path::new("a"), text, Files::NONE);
+        scene.map(|_| ()).expect_err("too many").to_string()
+    };
+    let blocks = "AttributeBegin ".repeat((1 << 16) + 1);
+    let error = "a:1: expected at most 65536 blocks in each other";
+    assert_eq!(refusal(&blocks), error, "blocks");
+    let attributes = "Attribute \"shape\" \"float alpha\" 1 ".repeat(257);
+    let error = "a:1: expected at most 256 `Attribute`s in force";
+    assert_eq!(refusal(&attributes), error, "attributes");
+}

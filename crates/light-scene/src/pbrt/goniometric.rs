@@ -46,7 +46,7 @@ impl Reader {
             .collect();
         let distribution = Image::from_f32([width, height], Channels::Gray, gray);
         let distribution = distribution.map_err(|error| typed.at.diagnostic(error.to_string()))?;
-        let scale = match typed.parameters.number("power") {
+        let scale = match typed.parameters.positive("power") {
             Some(power) => {
                 scale * power / (4.0 * PI * distribution.mean().x * luminance(typed, "I"))
             }
@@ -78,7 +78,10 @@ impl Reader {
         let luminaire = read.and_then(|bytes| parse_luminaire(&path, &text_of(&bytes)));
         let luminaire = luminaire.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(luminaire.warnings);
-        let power = typed.parameters.number("power").map(|watts| watts * 683.0);
+        let power = typed
+            .parameters
+            .positive("power")
+            .map(|watts| watts * 683.0);
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
         let mut light = luminaire
             .web

@@ -68,7 +68,7 @@ impl Reader {
         let file = parameters.string("filename");
         let file = file.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
         let path = self.beside(file);
-        let scale = parameters.number_or("scale", 1.0);
+        let scale = parameters.amount_or("scale", 1.0);
         let mapping = self.texture_mapping(typed);
         self.filter(typed);
         if !is_image_name(&path) {

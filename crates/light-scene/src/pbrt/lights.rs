@@ -27,7 +27,7 @@ impl Reader {
         let place = Affine3A::from_mat4(self.state.transform);
         let from = place.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
         let to = place.transform_point3(parameters.vec3_or("to", Vec3::Z));
-        let scale = parameters.number_or("scale", 1.0);
+        let scale = parameters.amount_or("scale", 1.0);
         let media = self.light_media();
         let light = match kind.as_str() {
             "point" => LightDesc::Point(PointLightDesc {
@@ -37,8 +37,14 @@ impl Reader {
                 media,
             }),
             "spot" => {
-                let angle = parameters.number_or("coneangle", 30.0);
-                let delta = parameters.number_or("conedeltaangle", 5.0);
+                let up_to = |most: f32| move |angle: f32| (0.0..=most).contains(&angle);
+                let domain = "above 0, and up to 180 degrees";
+                let is_cone = |angle: f32| angle > 0.0 && angle <= 180.0;
+                let angle = parameters.number_where("coneangle", is_cone, domain);
+                let angle = angle.unwrap_or(30.0);
+                let domain = "from 0 to `coneangle`";
+                let delta = parameters.number_where("conedeltaangle", up_to(angle), domain);
+                let delta = delta.unwrap_or(5.0).min(angle);
                 let (angle, start) = (angle.to_radians(), (angle - delta).to_radians());
                 let axis = (to - from).try_normalize();
                 let axis = axis.ok_or_else(|| at.diagnostic("expected `from` and `to` apart"))?;
@@ -55,6 +61,7 @@ impl Reader {
                     media,
                 })
             }
+            "distant" if from == to => return Err(at.diagnostic("expected `from` and `to` apart")),
             "distant" => LightDesc::Distant(DistantLightDesc {
                 direction: from - to,
                 emission: self.emission(typed, "L") * with_illuminance(typed, scale, 1.0),
@@ -64,8 +71,8 @@ impl Reader {
                 // Rows run downward where y runs upward.
                 transform: place * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
                 image: self.light_image(typed)?,
-                fov: parameters.number_or("fov", 90.0).to_radians(),
-                amount: match parameters.number("power") {
+                fov: fov(typed).to_radians(),
+                amount: match parameters.positive("power") {
                     Some(watts) => IntensityAmount::LuminousPower(Lumen(scale * watts * K_M)),
                     None => IntensityAmount::Radiometric(scale),
                 },
@@ -115,7 +122,7 @@ impl Reader {
             let message = "expected a square, equal-area image for an infinite light";
             return Err(typed.at.diagnostic(message));
         }
-        let asked = parameters.number("illuminance");
+        let asked = parameters.positive("illuminance");
         let of_one = asked.map(|asked| asked / upward_illuminance(&image));
         let map = EnvironmentMap::EqualArea(image);
         let amount = RadianceAmount::Radiometric(scale * of_one.unwrap_or(1.0));
@@ -148,7 +155,7 @@ impl Reader {
             let what = format!("AreaLightSource \"{kind}\"");
             self.warn(*at, &what, "was taken as diffuse");
         }
-        let scale = Vec3::splat(parameters.number_or("scale", 1.0));
+        let scale = Vec3::splat(parameters.amount_or("scale", 1.0));
         let radiance = match parameters.string("filename") {
             // An image that does not repeat.
             Some(file) => Color::Image(ColorImage {
@@ -161,7 +168,7 @@ impl Reader {
         self.state.area_light = Some(AreaLight {
             radiance,
             two_sided: parameters.is_true("twosided", false),
-            power: parameters.number("power"),
+            power: parameters.positive("power"),
         });
         Ok(())
     }
@@ -185,6 +192,15 @@ impl Reader {
         let image = file.image.to_light();
         image.map_err(|error| typed.at.diagnostic(error.to_string()))
     }
+}
+
+/// The angle of view in degrees.
+pub(super) fn fov(typed: &Typed<'_>) -> f32 {
+    let is_angle = |fov: f32| fov > 0.0 && fov < 180.0;
+    let fov = typed
+        .parameters
+        .number_where("fov", is_angle, "between 0 and 180 degrees");
+    fov.unwrap_or(90.0)
 }
 
 /// A sky of one colour, in as many texels as a portal's sums need.
@@ -211,7 +227,7 @@ fn upward_illuminance(map: &Image) -> f32 {
 
 /// The factor of the emission that gives the stated power over this effective solid angle, or `scale`.
 fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
-    let power = typed.parameters.number("power");
+    let power = typed.parameters.positive("power");
     power.map_or(scale, |power| {
         scale * power / (solid_angle * luminance(typed, "I"))
     })
@@ -219,7 +235,7 @@ fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
 
 /// The factor of the emission that gives the stated illuminance, where emission 1 gives `of_one`, or `scale`.
 fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
-    let asked = typed.parameters.number("illuminance");
+    let asked = typed.parameters.positive("illuminance");
     asked.map_or(scale, |asked| {
         scale * asked / (of_one * luminance(typed, "L"))
     })

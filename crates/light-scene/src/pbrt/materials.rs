@@ -1,9 +1,13 @@
+use super::parameter::ParameterType;
 use super::state::{Reader, Typed};
 use crate::glam::{Vec2, Vec3};
 use crate::{Color, Diagnostic, Material, MaterialId, Surface};
 
+/// Name, index of refraction and absorption.
+type Metal = (&'static str, [f32; 3], [f32; 3]);
+
 /// Metals by the names of their spectra: index of refraction and absorption for red, green and blue light.
-const METALS: [(&str, [f32; 3], [f32; 3]); 5] = [
+const METALS: [Metal; 5] = [
     ("metal-Ag", [0.155, 0.117, 0.138], [4.828, 3.122, 2.147]),
     ("metal-Al", [1.657, 0.880, 0.521], [9.224, 6.270, 4.837]),
     ("metal-Au", [0.143, 0.375, 1.442], [3.983, 2.386, 1.603]),
@@ -70,20 +74,23 @@ impl Reader {
         if !parameters.has("eta") {
             return DEFAULT;
         }
-        let glass = parameters.string("eta");
-        let known = glass.and_then(named_glass);
-        let table = || {
-            parameters
-                .unbounded("eta")
-                .map(|rgb| rgb.element_sum() / 3.0)
-        };
-        let plain = || parameters.numbers("eta").flatten().map(|[eta]| eta);
-        let eta = known.or_else(table).or_else(plain);
-        eta.unwrap_or_else(|| {
-            let what = format!("the glass \"{}\"", glass.unwrap_or_default());
-            self.warn(typed.at, &what, "is not known; an index of 1.5 was taken");
-            DEFAULT
-        })
+        if parameters.kind("eta") == Some(ParameterType::Float) {
+            return parameters.positive_or("eta", DEFAULT);
+        }
+        if let Some(glass) = parameters.spectrum_name("eta") {
+            return named_glass(glass).unwrap_or_else(|| {
+                let what = format!("the glass \"{glass}\"");
+                self.warn(typed.at, &what, "is not known; an index of 1.5 was taken");
+                DEFAULT
+            });
+        }
+        let mean = parameters
+            .unbounded("eta")
+            .map(|rgb| rgb.element_sum() / 3.0);
+        if mean == Some(0.0) {
+            parameters.refuse("eta", "expected `eta` above 0".to_owned());
+        }
+        mean.unwrap_or(DEFAULT)
     }
 
     /// A mixture of two named materials; the amount is that of the second.
@@ -111,24 +118,26 @@ impl Reader {
             }
             return Surface::conductor_of_reflectance(self.scene.mean(&reflectance), alpha);
         }
-        let [eta, k] = ["eta", "k"].map(|name| format!("{prefix}{name}"));
-        let names = [parameters.string(&eta), parameters.string(&k)];
-        let numbers = [parameters.unbounded(&eta), parameters.unbounded(&k)];
-        if let [Some(eta), Some(k)] = numbers {
-            return Surface::Conductor { eta, k, alpha };
-        }
-        let name = names[0].unwrap_or("metal-Cu-eta");
-        let metal = METALS.iter().find(|(metal, ..)| name.starts_with(metal));
-        let (_, eta, k) = metal.unwrap_or(&METALS[4]);
-        if metal.is_none() {
-            let what = format!("the metal \"{name}\"");
-            self.warn(typed.at, &what, "is not known and was taken as copper");
-        }
-        Surface::Conductor {
-            eta: Vec3::from(*eta),
-            k: Vec3::from(*k),
-            alpha,
-        }
+        let eta = self.of_metal(typed, &format!("{prefix}eta"), |(_, eta, _)| *eta);
+        let k = self.of_metal(typed, &format!("{prefix}k"), |(_, _, k)| *k);
+        Surface::Conductor { eta, k, alpha }
+    }
+
+    /// What a parameter says of a metal, in numbers or by the metal's name; of copper if it is not given.
+    fn of_metal(&mut self, typed: &Typed<'_>, name: &str, of: impl Fn(&Metal) -> [f32; 3]) -> Vec3 {
+        let copper = Vec3::from(of(&METALS[4]));
+        let Some(metal) = typed.parameters.spectrum_name(name) else {
+            return typed.parameters.unbounded(name).unwrap_or(copper);
+        };
+        let known = METALS.iter().find(|(known, ..)| metal.starts_with(known));
+        known.map_or_else(
+            || {
+                let what = format!("the metal \"{metal}\"");
+                self.warn(typed.at, &what, "is not known and was taken as copper");
+                copper
+            },
+            |known| Vec3::from(of(known)),
+        )
     }
 
     /// The widths of the microfacet distribution; `prefix` stands before the names of its parameters.

@@ -116,14 +116,16 @@ impl Reader {
     }
 
     fn medium_id(&mut self, at: At<'_>, name: &str) -> MediumId {
-        let known = self.media.iter().position(|slot| slot.name == name);
+        let known = self.media_by_name.get(name).copied();
         let index = known.unwrap_or_else(|| {
+            let index = self.media.len();
+            self.media_by_name.insert(name.to_owned(), index);
             self.media.push(MediumSlot {
                 name: name.to_owned(),
                 first_use: (at.path.to_path_buf(), at.line),
                 medium: None,
             });
-            self.media.len() - 1
+            index
         });
         let id = u32::try_from(index).ok().and_then(MediumId::new);
         id.expect("fewer than 2^32 - 1 media")
@@ -134,8 +136,8 @@ impl Reader {
             Some(measured) => measured,
             None => ["sigma_s", "sigma_a"].map(|name| self.coefficient(typed, name, Vec3::ONE)),
         };
-        let le = self.glow(typed) * typed.parameters.number_or("Lescale", 1.0);
-        let scale = typed.parameters.number_or("scale", 1.0);
+        let le = self.glow(typed) * typed.parameters.amount_or("Lescale", 1.0);
+        let scale = typed.parameters.amount_or("scale", 1.0);
         everywhere(typed, [sigma_a, sigma_s], scale, le)
     }
 

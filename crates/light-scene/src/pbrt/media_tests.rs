@@ -130,19 +130,19 @@ fn bad_media_are_refused_with_the_line() {
     let cases = [
         (
             homogeneous("\"rgb sigma_a\" [ 1 -1 1 ]"),
-            "medium \"m\": sigma_a must be finite and nowhere negative",
+            "expected a colour of at least 0 for `sigma_a`",
         ),
         (
             homogeneous("\"float scale\" -1"),
-            "medium \"m\": sigma_a must be finite and nowhere negative",
+            "expected `scale` of at least 0, found -1",
         ),
         (
             homogeneous("\"rgb Le\" [ 0 0 -1 ]"),
-            "medium \"m\": the emission of a medium must be finite and nowhere negative",
+            "expected a colour of at least 0 for `Le`",
         ),
         (
             homogeneous("\"rgb sigma_s\" [ 1 nan 1 ]"),
-            "expected a value of `sigma_s`, found `nan`",
+            "expected a number as a value of `sigma_s`, found `nan`",
         ),
         (
             homogeneous("\"float g\" 1.5"),
@@ -159,7 +159,7 @@ fn bad_media_are_refused_with_the_line() {
         (grid(""), "medium \"m\": expected values of `density`"),
         (
             grid("\"integer nz\" 0 \"float density\" [ 1 2 ]"),
-            "medium \"m\": expected `nz` from 1 to 65536",
+            "expected `nz` from 1 to 65536, found 0",
         ),
         (
             grid("\"float density\" [ 1 2 ] \"point3 p1\" [ 0 0 0 ]"),

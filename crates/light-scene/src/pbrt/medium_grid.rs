@@ -8,6 +8,7 @@ use lights::sources::Rgb;
 
 use super::cloud::Cloud;
 use super::media::{phase, refused, substance};
+use super::parameter::ParameterType::{self, Float, Rgb as Colors};
 use super::state::{Reader, Typed};
 use crate::Diagnostic;
 use crate::glam::Vec3;
@@ -20,13 +21,13 @@ impl Reader {
     pub(super) fn uniform_grid(&mut self, typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
         let parameters = &typed.parameters;
         let size = size(typed)?;
-        let density = values(typed, "density", size, 1)?
+        let density = values(typed, "density", size, Float)?
             .ok_or_else(|| refused(typed, "expected values of `density`"))?;
         let density = DensityGrid::new(size, density);
         let density = density.map_err(|error| bad_values(typed, "density", error))?;
 
         let mut glow = Glow::uniform();
-        if let Some(scale) = values(typed, "Lescale", size, 1)? {
+        if let Some(scale) = values(typed, "Lescale", size, Float)? {
             let grid = Grid::new(size, scale);
             glow.scale = Some(grid.map_err(|error| bad_values(typed, "Lescale", error))?);
         }
@@ -35,7 +36,7 @@ impl Reader {
         let offset = parameters.number_or("temperatureoffset", offset);
         let scale = parameters.number_or("temperaturescale", 1.0);
         let mut le = self.glow(typed);
-        if let Some(mut kelvin) = values(typed, "temperature", size, 1)? {
+        if let Some(mut kelvin) = values(typed, "temperature", size, Float)? {
             if le != Vec3::ZERO {
                 return Err(refused(typed, "expected `Le` or `temperature`, found both"));
             }
@@ -51,7 +52,7 @@ impl Reader {
 
         let sigma_a = self.coefficient(typed, "sigma_a", Vec3::ONE);
         let sigma_s = self.coefficient(typed, "sigma_s", Vec3::ONE);
-        let scale = parameters.number_or("scale", 1.0);
+        let scale = parameters.amount_or("scale", 1.0);
         let substance = substance(typed, [sigma_a, sigma_s], scale, le)?;
         let place = self.medium_to_scene();
         let medium = GridMedium::new(
@@ -68,10 +69,10 @@ impl Reader {
     /// A medium of type "rgbgrid".
     pub(super) fn rgb_grid(&mut self, typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
         let size = size(typed)?;
-        let scale = typed.parameters.number_or("scale", 1.0);
-        let le_scale = typed.parameters.number_or("Lescale", 1.0);
+        let scale = typed.parameters.amount_or("scale", 1.0);
+        let le_scale = typed.parameters.amount_or("Lescale", 1.0);
         let grid = |name, scale: f32| -> Result<Option<ColorGrid<Rgb, Vec<f32>>>, Diagnostic> {
-            let Some(values) = values(typed, name, size, 3)? else {
+            let Some(values) = values(typed, name, size, Colors)? else {
                 return Ok(None);
             };
             let grid = Grid::new(size, values).map_err(|error| bad_values(typed, name, error))?;
@@ -125,7 +126,8 @@ impl Reader {
 /// The box of a medium.
 fn bounds(typed: &Typed<'_>) -> Aabb {
     let p0 = typed.parameters.vec3_or("p0", Vec3::ZERO);
-    Aabb::new(p0, typed.parameters.vec3_or("p1", Vec3::ONE))
+    let p1 = typed.parameters.vec3_or("p1", Vec3::ONE);
+    Aabb::new(p0.min(p1), p0.max(p1))
 }
 
 /// Samples on each axis.
@@ -134,13 +136,10 @@ fn size(typed: &Typed<'_>) -> Result<[u32; 3], Diagnostic> {
     const MOST: u32 = 1 << 16;
     let mut size = [1; 3];
     for (n, name) in size.iter_mut().zip(["nx", "ny", "nz"]) {
-        if typed.parameters.has(name) {
-            let given = typed.parameters.indices(name).unwrap_or_default();
-            let given = given.first().copied().filter(|n| (1..=MOST).contains(n));
-            let message = || refused(typed, format!("expected `{name}` from 1 to {MOST}"));
-            *n = given.ok_or_else(message)?;
-        }
+        *n = typed.parameters.count(name, MOST).unwrap_or(1);
     }
+    // Before the numbers of values are compared.
+    typed.parameters.check()?;
     Ok(size)
 }
 
@@ -153,11 +152,12 @@ fn values(
     typed: &Typed<'_>,
     name: &str,
     size: [u32; 3],
-    channels: usize,
+    kind: ParameterType,
 ) -> Result<Option<Vec<f32>>, Diagnostic> {
-    let Some(values) = typed.parameters.list(name) else {
+    let Some(values) = typed.parameters.list(name, kind) else {
         return Ok(None);
     };
+    let channels = if kind == Colors { 3 } else { 1 };
     let expected = channels * samples(size);
     if values.len() == expected {
         return Ok(Some(values));

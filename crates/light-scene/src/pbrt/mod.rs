@@ -2,6 +2,7 @@
 
 mod attributes;
 mod cloud;
+mod colors;
 mod directives;
 #[cfg(test)]
 mod files_tests;
@@ -9,6 +10,7 @@ mod files_tests;
 mod frames_tests;
 mod goniometric;
 mod image_map;
+mod includes;
 mod lights;
 #[cfg(test)]
 mod lights_tests;
@@ -21,7 +23,10 @@ mod named_materials;
 mod objects;
 #[cfg(test)]
 mod objects_tests;
+mod parameter;
 mod parameters;
+#[cfg(test)]
+mod parameters_tests;
 mod ply;
 mod quadrics;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::state::{At, Reader};
 use crate::glam::Vec3;
@@ -11,6 +11,7 @@ pub(super) struct NamedMaterials {
     by_name: HashMap<String, MaterialId>,
     /// Named but not described so far, with what to say if that stays so.
     awaited: HashMap<String, (MaterialId, Diagnostic)>,
+    awaited_ids: HashSet<MaterialId>,
     /// Materials that have taken their surface from another one, each with the other.
     twins: Vec<(MaterialId, MaterialId)>,
 }
@@ -18,7 +19,7 @@ pub(super) struct NamedMaterials {
 impl NamedMaterials {
     /// Whether the material was named and will be described later.
     pub(super) fn awaits(&self, material: MaterialId) -> bool {
-        self.awaited.values().any(|(id, _)| *id == material)
+        self.awaited_ids.contains(&material)
     }
 }
 
@@ -36,6 +37,7 @@ impl Reader {
             let empty = Material::diffuse(name, Vec3::ZERO);
             (scene.add_material(empty), at.diagnostic(message))
         });
+        materials.awaited_ids.insert(*id);
         *id
     }
 
@@ -47,6 +49,7 @@ impl Reader {
     ) -> Result<(), Diagnostic> {
         let id = match self.materials.awaited.remove(&name) {
             Some((id, first_use)) => {
+                self.materials.awaited_ids.remove(&id);
                 let uses_later = match self.scene.material(described).surface {
                     Surface::Mix { materials, .. } => materials.into_iter().any(|part| part > id),
                     _ => false,

@@ -34,8 +34,6 @@ struct OpenObject {
     prototype: Prototype,
     /// How many states are saved, its own included.
     depth: usize,
-    /// What to say if nobody ends it.
-    unclosed: Diagnostic,
 }
 
 impl Objects {
@@ -67,12 +65,11 @@ impl Reader {
             let message = format!("expected one object \"{}\", found another", shown(name));
             return Err(at.diagnostic(message));
         }
-        self.saved.push(self.state.clone());
+        self.save_state(at, "expected `ObjectEnd` after `ObjectBegin`")?;
         self.objects.open = Some(OpenObject {
             id,
             prototype: Prototype::new(name, Vec::new()),
             depth: self.saved.len(),
-            unclosed: at.diagnostic("expected `ObjectEnd` after `ObjectBegin`"),
         });
         Ok(())
     }
@@ -89,10 +86,8 @@ impl Reader {
         let (shining, places) = (slot.shining, slot.places);
         let copies = self.objects.copies.add(shining, places);
         copies.map_err(|message| at.diagnostic(message))?;
-        self.state = self
-            .saved
-            .pop()
-            .ok_or_else(|| at.unmatched("ObjectBegin"))?;
+        let saved = self.saved.pop();
+        self.state = saved.ok_or_else(|| at.unmatched("ObjectBegin"))?.state;
         Ok(())
     }
 
@@ -116,7 +111,8 @@ impl Reader {
     pub(super) fn saved_state(&mut self) -> Option<State> {
         let open = self.objects.open.as_ref();
         let kept = open.map_or(0, |open| open.depth);
-        (self.saved.len() > kept).then(|| self.saved.pop())?
+        let saved = (self.saved.len() > kept).then(|| self.saved.pop())?;
+        saved.map(|saved| saved.state)
     }
 
     /// A mesh of the world, or of the object that is being described.
@@ -137,10 +133,7 @@ impl Reader {
 
     /// All objects, in the order of their ids, once everything is read.
     pub(super) fn finished_objects(&mut self) -> Result<Vec<Prototype>, Diagnostic> {
-        let Objects { slots, open, .. } = core::mem::take(&mut self.objects);
-        if let Some(open) = open {
-            return Err(open.unclosed);
-        }
+        let Objects { slots, .. } = core::mem::take(&mut self.objects);
         let described = |slot: ObjectSlot| slot.prototype.ok_or(slot.unknown);
         slots.into_iter().map(described).collect()
     }

@@ -1,68 +1,50 @@
 use alloc::rc::Rc;
-use core::cell::Cell;
+use core::cell::RefCell;
+use std::collections::HashSet;
 use std::path::Path;
 
+use super::parameter::{Parameter, ParameterType};
 use super::spectrum;
-use super::tokens::{Token, Tokens, number_of};
+use super::tokens::{Token, Tokens};
 use crate::glam::{Vec2, Vec3};
 use crate::text::{shown, text_of};
 use crate::{Diagnostic, Files, Place};
 
-/// The parameter list of a directive, which remembers what was asked for.
+/// The parameter list of a directive, which remembers what was asked for and what made no sense.
+///
+/// Who asks for a parameter of another type, of another number of values or outside of its domain gets what he would get without
+/// it; [`check`](Self::check) then refuses the directive.
 #[derive(Debug)]
 pub(super) struct Parameters {
+    path: Rc<Path>,
     list: Vec<Parameter>,
     /// What `Attribute` directives have said before, the last one first.
     inherited: Vec<Rc<Self>>,
-}
-
-#[derive(Debug)]
-struct Parameter {
-    kind: String,
-    name: String,
-    line: usize,
-    numbers: Vec<f64>,
-    words: Vec<String>,
-    used: Cell<bool>,
+    /// The first thing that made no sense.
+    fault: RefCell<Option<Diagnostic>>,
 }
 
 impl Parameters {
     /// Takes all parameters that follow.
     pub(super) fn read(tokens: &mut Tokens<'_>) -> Result<Self, Diagnostic> {
         let mut list = Vec::new();
+        let mut names = HashSet::new();
         while let Some(Token::Quoted(declaration)) = tokens.peek()? {
             tokens.next()?;
-            let mut words = declaration.split_whitespace();
-            let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
-                let declaration = shown(&declaration);
-                let message = format!("expected \"TYPE NAME\", found \"{declaration}\"");
-                return Err(tokens.diagnostic(message));
-            };
-            let mut parameter = Parameter {
-                kind: kind.to_owned(),
-                name: name.to_owned(),
-                line: tokens.line(),
-                numbers: Vec::new(),
-                words: Vec::new(),
-                used: Cell::new(false),
-            };
-            if tokens.peek()? == Some(Token::Open) {
-                tokens.next()?;
-                loop {
-                    let value = tokens.next()?;
-                    if value == Some(Token::Close) {
-                        break;
-                    }
-                    parameter.push(tokens, value)?;
-                }
-            } else {
-                let value = tokens.next()?;
-                parameter.push(tokens, value)?;
+            let parameter = Parameter::read(tokens, &declaration)?;
+            if !names.insert(parameter.name.clone()) {
+                let message = format!("expected one `{}`, found another", parameter.shown());
+                let place = Place::Line(parameter.line);
+                return Err(Diagnostic::at(tokens.path(), place, message));
             }
             list.push(parameter);
         }
-        let inherited = Vec::new();
-        Ok(Self { list, inherited })
+        Ok(Self {
+            path: tokens.path().into(),
+            list,
+            inherited: Vec::new(),
+            fault: RefCell::default(),
+        })
     }
 
     /// Takes over what the directive itself does not say.
@@ -71,13 +53,9 @@ impl Parameters {
     }
 
     /// Reads the files that spectra are in, whose names start from `root`; a word without an ending is the name of a spectrum.
-    pub(super) fn load_spectra(
-        &mut self,
-        path: &Path,
-        root: &Path,
-        files: Files<'_>,
-    ) -> Result<(), Diagnostic> {
-        for parameter in self.list.iter_mut().filter(|p| p.kind == "spectrum") {
+    pub(super) fn load_spectra(&mut self, root: &Path, files: Files<'_>) -> Result<(), Diagnostic> {
+        let spectra = |p: &&mut Parameter| p.kind == ParameterType::Spectrum;
+        for parameter in self.list.iter_mut().filter(spectra) {
             let Some(file) = parameter.words.first() else {
                 continue;
             };
@@ -85,8 +63,8 @@ impl Parameters {
             if file.extension().is_none() {
                 continue;
             }
-            let refuse =
-                |message: String| Diagnostic::at(path, Place::Line(parameter.line), message);
+            let place = Place::Line(parameter.line);
+            let refuse = |message: String| Diagnostic::at(&self.path, place, message);
             let bytes = files
                 .read(&file)
                 .map_err(|error| refuse(error.to_string()))?;
@@ -96,9 +74,15 @@ impl Parameters {
                     "{file}: expected pairs of a wavelength and a value"
                 ))
             })?;
+            parameter.words.clear();
             parameter.numbers = pairs;
         }
         Ok(())
+    }
+
+    /// Refuses the list if a parameter that was asked for makes no sense.
+    pub(super) fn check(&self) -> Result<(), Diagnostic> {
+        self.fault.borrow().clone().map_or(Ok(()), Err)
     }
 
     /// Names and lines of the parameters that nobody asked for.
@@ -111,179 +95,199 @@ impl Parameters {
         self.find(name).is_some()
     }
 
+    pub(super) fn kind(&self, name: &str) -> Option<ParameterType> {
+        self.find(name).map(|(parameter, _)| parameter.kind)
+    }
+
     /// Marks a parameter as known, though it has no say here.
     pub(super) fn accept(&self, name: &str) {
-        self.value(name, Some);
+        if let Some((parameter, _)) = self.find(name) {
+            parameter.used.set(true);
+        }
     }
 
     pub(super) fn number(&self, name: &str) -> Option<f32> {
-        self.value(name, |p| p.numbers.first().map(|&n| single(n)))
+        self.number_where(name, |_| true, "")
     }
 
     pub(super) fn number_or(&self, name: &str, default: f32) -> f32 {
         self.number(name).unwrap_or(default)
     }
 
-    /// All numbers; outside `None` if there is no such parameter, inside if there are not `N`.
-    pub(super) fn numbers<const N: usize>(&self, name: &str) -> Option<Option<[f32; N]>> {
-        self.value(name, |p| Some(p.singles().try_into().ok()))
+    /// A number above 0.
+    pub(super) fn positive(&self, name: &str) -> Option<f32> {
+        self.number_where(name, |n| n > 0.0, "above 0")
+    }
+
+    pub(super) fn positive_or(&self, name: &str, default: f32) -> f32 {
+        self.positive(name).unwrap_or(default)
+    }
+
+    /// A number of at least 0.
+    pub(super) fn amount_or(&self, name: &str, default: f32) -> f32 {
+        let amount = self.number_where(name, |n| n >= 0.0, "of at least 0");
+        amount.unwrap_or(default)
+    }
+
+    /// A number for which `fits` holds, as `domain` says in words.
+    pub(super) fn number_where(
+        &self,
+        name: &str,
+        fits: impl Fn(f32) -> bool,
+        domain: &str,
+    ) -> Option<f32> {
+        self.value(name, &[ParameterType::Float], |p| {
+            let [number] = p.exactly()?;
+            let message = || format!("expected `{}` {domain}, found {number}", p.shown());
+            fits(number).then_some(number).ok_or_else(message)
+        })
+    }
+
+    /// `N` numbers.
+    pub(super) fn numbers<const N: usize>(
+        &self,
+        name: &str,
+        kind: ParameterType,
+    ) -> Option<[f32; N]> {
+        self.value(name, &[kind], Parameter::exactly)
+    }
+
+    /// A whole number from 1 to `most`.
+    pub(super) fn count(&self, name: &str, most: u32) -> Option<u32> {
+        self.value(name, &[ParameterType::Integer], |p| {
+            let [_] = p.exactly()?;
+            let number = whole(p.numbers[0]).filter(|n| (1..=most).contains(n));
+            let found = p.numbers[0];
+            number.ok_or_else(|| format!("expected `{name}` from 1 to {most}, found {found}"))
+        })
     }
 
     pub(super) fn string(&self, name: &str) -> Option<&str> {
-        self.value(name, |p| p.words.first().map(String::as_str))
+        self.value(name, &[ParameterType::String], Parameter::word)
     }
 
     /// All words.
     pub(super) fn strings(&self, name: &str) -> &[String] {
-        self.value(name, |p| Some(&p.words[..])).unwrap_or_default()
+        let words = self.value(name, &[ParameterType::String], |p| Ok(&p.words[..]));
+        words.unwrap_or_default()
+    }
+
+    /// The name of a spectrum, if one is named.
+    pub(super) fn spectrum_name(&self, name: &str) -> Option<&str> {
+        let (parameter, _) = self.find(name)?;
+        if parameter.kind != ParameterType::Spectrum || parameter.words.is_empty() {
+            return None;
+        }
+        self.value(name, &[ParameterType::Spectrum], Parameter::word)
     }
 
     /// Whether a parameter says `true` or, where it is not given, whether `default` does.
     pub(super) fn is_true(&self, name: &str, default: bool) -> bool {
-        self.value(name, |p| match p.words.first()?.as_str() {
-            "true" => Some(true),
-            "false" => Some(false),
-            _ => None,
-        })
-        .unwrap_or(default)
+        let truth = self.value(name, &[ParameterType::Bool], Parameter::word);
+        truth.map_or(default, |word| word == "true")
     }
 
-    /// The name of the texture that a parameter refers to.
+    /// The name of the texture that a parameter refers to; `None` if it is none.
     pub(super) fn texture(&self, name: &str) -> Option<&str> {
-        self.value(name, |p| {
-            let word = p.words.first().filter(|_| p.kind == "texture")?;
-            Some(word.as_str())
-        })
+        let (parameter, _) = self.find(name)?;
+        if parameter.kind != ParameterType::Texture {
+            return None;
+        }
+        self.value(name, &[ParameterType::Texture], Parameter::word)
     }
 
     /// Whole numbers of at least 0.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked to be whole and in range"
-    )]
     pub(super) fn indices(&self, name: &str) -> Option<Vec<u32>> {
-        let whole = |&n: &f64| {
-            (n >= 0.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0).then_some(n as u32)
-        };
-        self.value(name, |p| p.numbers.iter().map(whole).collect())
+        self.value(name, &[ParameterType::Integer], |p| {
+            let index = |&n: &f64| {
+                let message = || format!("expected `{}` of at least 0, found {n}", p.shown());
+                whole(n).ok_or_else(message)
+            };
+            p.numbers.iter().map(index).collect()
+        })
     }
 
     /// All numbers, however many.
-    pub(super) fn list(&self, name: &str) -> Option<Vec<f32>> {
-        self.value(name, |p| Some(p.singles()))
+    pub(super) fn list(&self, name: &str, kind: ParameterType) -> Option<Vec<f32>> {
+        self.value(name, &[kind], |p| Ok(p.singles()))
     }
 
-    /// A colour that may exceed 1: a coefficient per unit length.
-    pub(super) fn unbounded(&self, name: &str) -> Option<Vec3> {
-        self.value(name, |p| match p.kind.as_str() {
-            "rgb" => p.rgb(),
-            "spectrum" => spectrum::unbounded(&p.singles()),
-            _ => None,
-        })
-    }
-
-    /// Points of the plane; none if their coordinates do not come in twos.
+    /// Points of the plane.
     pub(super) fn vec2s(&self, name: &str) -> Option<Vec<Vec2>> {
-        self.value(name, |p| {
-            let vec2 = |c: &[f64]| Vec2::new(single(c[0]), single(c[1]));
-            let chunks = p.numbers.chunks_exact(2);
-            chunks
-                .remainder()
-                .is_empty()
-                .then(|| chunks.map(vec2).collect())
+        self.value(name, &[ParameterType::Pair], |p| {
+            let numbers = p.singles();
+            Ok(numbers.chunks_exact(2).map(Vec2::from_slice).collect())
         })
     }
 
-    /// Points; none if their coordinates do not come in threes.
+    /// Points.
     pub(super) fn vec3s(&self, name: &str) -> Option<Vec<Vec3>> {
-        self.value(name, |p| {
-            let vec3 = |c: &[f64]| Vec3::new(single(c[0]), single(c[1]), single(c[2]));
-            let chunks = p.numbers.chunks_exact(3);
-            chunks
-                .remainder()
-                .is_empty()
-                .then(|| chunks.map(vec3).collect())
+        self.value(name, &[ParameterType::Triple], |p| {
+            let numbers = p.singles();
+            Ok(numbers.chunks_exact(3).map(Vec3::from_slice).collect())
         })
     }
 
     pub(super) fn vec3_or(&self, name: &str, default: Vec3) -> Vec3 {
-        let all = self.vec3s(name).unwrap_or_default();
-        all.first().copied().unwrap_or(default)
+        let point = self.value(name, &[ParameterType::Triple], Parameter::exactly::<3>);
+        point.map_or(default, Vec3::from)
     }
 
-    /// A colour that light is multiplied with.
-    pub(super) fn reflectance(&self, name: &str) -> Option<Vec3> {
-        self.value(name, |p| match p.kind.as_str() {
-            "rgb" => p.rgb(),
-            "spectrum" => spectrum::reflectance(&p.singles()),
-            _ => p.numbers.first().map(|&n| Vec3::splat(single(n))),
-        })
-    }
-
-    /// The colour of a light, of luminance 1 unless it is given as RGB.
-    pub(super) fn emission(&self, name: &str) -> Option<Vec3> {
-        self.value(name, |p| match p.kind.as_str() {
-            "rgb" => p.rgb(),
-            "blackbody" => spectrum::blackbody(single(*p.numbers.first()?)),
-            "spectrum" => match p.words.first() {
-                Some(name) if p.numbers.is_empty() => spectrum::named_emission(name),
-                _ => spectrum::emission(&p.singles()),
-            },
-            _ => None,
-        })
-    }
-
-    /// What `value` makes of a parameter, which counts as used if that is something.
-    fn value<'a, T>(
+    /// What `value` makes of a parameter that is of one of these types.
+    pub(super) fn value<'a, T>(
         &'a self,
         name: &str,
-        value: impl FnOnce(&'a Parameter) -> Option<T>,
+        kinds: &[ParameterType],
+        value: impl FnOnce(&'a Parameter) -> Result<T, String>,
     ) -> Option<T> {
-        let found = self.find(name)?;
-        let value = value(found)?;
+        let (found, path) = self.find(name)?;
         found.used.set(true);
-        Some(value)
+        let made = if kinds.contains(&found.kind) {
+            value(found)
+        } else {
+            Err(wrong_type(found, kinds))
+        };
+        let refuse = |message| self.keep(path, found.line, message);
+        made.map_err(refuse).ok()
     }
 
-    fn find(&self, name: &str) -> Option<&Parameter> {
+    /// Refuses the directive for what a parameter says.
+    pub(super) fn refuse(&self, name: &str, message: String) {
+        if let Some((parameter, path)) = self.find(name) {
+            self.keep(path, parameter.line, message);
+        }
+    }
+
+    fn keep(&self, path: &Path, line: usize, message: String) {
+        let mut fault = self.fault.borrow_mut();
+        fault.get_or_insert_with(|| Diagnostic::at(path, Place::Line(line), message));
+    }
+
+    fn find(&self, name: &str) -> Option<(&Parameter, &Path)> {
         let own = self.list.iter().find(|p| p.name == name);
-        own.or_else(|| self.inherited.iter().find_map(|earlier| earlier.find(name)))
+        own.map(|p| (p, &*self.path))
+            .or_else(|| self.inherited.iter().find_map(|earlier| earlier.find(name)))
     }
 }
 
-impl Parameter {
-    fn push(&mut self, tokens: &Tokens<'_>, value: Option<Token<'_>>) -> Result<(), Diagnostic> {
-        match value {
-            Some(Token::Word(word @ ("true" | "false"))) => self.words.push(word.to_owned()),
-            Some(Token::Word(word)) if number_of(word).is_some() => {
-                self.numbers.extend(word.parse::<f64>().ok());
-            }
-            Some(Token::Quoted(text)) => self.words.push(text.into_owned()),
-            other => {
-                let what = format!("a value of `{}`", shown(&self.name));
-                return Err(tokens.expected(&what, other.as_ref()));
-            }
-        }
-        Ok(())
-    }
-
-    fn rgb(&self) -> Option<Vec3> {
-        let [r, g, b] = self.singles()[..] else {
-            return None;
-        };
-        Some(Vec3::new(r, g, b))
-    }
-
-    fn singles(&self) -> Vec<f32> {
-        self.numbers.iter().map(|&n| single(n)).collect()
-    }
+fn wrong_type(found: &Parameter, kinds: &[ParameterType]) -> String {
+    let name = shown(&found.name);
+    let kinds: Vec<String> = kinds
+        .iter()
+        .map(|kind| format!("\"{kind} {name}\""))
+        .collect();
+    format!(
+        "expected {}, found \"{} {name}\"",
+        kinds.join(" or "),
+        found.kind
+    )
 }
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "checked to be finite as f32"
+    clippy::cast_sign_loss,
+    reason = "checked to be whole and in range"
 )]
-const fn single(number: f64) -> f32 {
-    number as f32
+fn whole(n: f64) -> Option<u32> {
+    (n >= 0.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0).then_some(n as u32)
 }

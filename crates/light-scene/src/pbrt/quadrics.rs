@@ -64,11 +64,12 @@ struct Parts {
 impl Parts {
     fn of(typed: &Typed<'_>) -> Self {
         let parameters = &typed.parameters;
-        let radius = parameters.number_or("radius", 1.0);
+        let radius = parameters.positive_or("radius", 1.0);
         let z = [("zmin", -radius), ("zmax", radius)].map(|(name, all)| {
             let z = parameters.number_or(name, all);
             z.max(-radius).min(radius)
         });
+        let z = [z[0].min(z[1]), z[0].max(z[1])];
         let turn = turn(typed);
         Self { radius, z, turn }
     }
@@ -76,8 +77,8 @@ impl Parts {
 
 /// The part of a full turn that `phimax` says.
 fn turn(typed: &Typed<'_>) -> f32 {
-    let phi_max = typed.parameters.number_or("phimax", 360.0);
-    phi_max.clamp(0.0, 360.0) / 360.0
+    let phi_max = typed.parameters.positive_or("phimax", 360.0);
+    phi_max.min(360.0) / 360.0
 }
 
 /// A sphere, or a part of one.
@@ -94,9 +95,13 @@ pub(super) fn sphere(typed: &Typed<'_>) -> Mesh {
 }
 
 pub(super) fn disk(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
+    let radius = typed.parameters.positive_or("radius", 1.0);
     let height = typed.parameters.number_or("height", 0.0);
-    let inner = typed.parameters.number_or("innerradius", 0.0);
+    let is_inside = |inner: f32| (0.0..radius).contains(&inner);
+    let inner = typed
+        .parameters
+        .number_where("innerradius", is_inside, "from 0 to below `radius`");
+    let inner = inner.unwrap_or(0.0);
     let turn = turn(typed);
     Mesh::grid([AROUND, 1], |u, v| {
         let (sin, cos) = (u * turn * TAU).sin_cos();
@@ -106,9 +111,10 @@ pub(super) fn disk(typed: &Typed<'_>) -> Mesh {
 }
 
 pub(super) fn cylinder(typed: &Typed<'_>) -> Mesh {
-    let radius = typed.parameters.number_or("radius", 1.0);
+    let radius = typed.parameters.positive_or("radius", 1.0);
     let low = typed.parameters.number_or("zmin", -1.0);
     let high = typed.parameters.number_or("zmax", 1.0);
+    let (low, high) = (low.min(high), low.max(high));
     let turn = turn(typed);
     Mesh::grid([AROUND, 1], |u, v| {
         let (sin, cos) = (u * turn * TAU).sin_cos();

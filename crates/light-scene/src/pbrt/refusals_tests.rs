@@ -43,15 +43,15 @@ fn broken_files_give_one_clear_line() {
         ),
         (
             "Camera \"perspective\" \"float fov\" ]",
-            "a.pbrt:1: expected a value of `fov`, found `]`",
+            "a.pbrt:1: expected a number as a value of `fov`, found `]`",
         ),
         (
             "Camera \"perspective\" \"float fov\" [1",
-            "a.pbrt:1: expected a value of `fov`, found the end of the file",
+            "a.pbrt:1: expected a number as a value of `fov`, found the end of the file",
         ),
         (
             "Camera \"perspective\" \"float fov\" 200",
-            "a.pbrt:1: expected a fov between 0 and 180 degrees",
+            "a.pbrt:1: expected `fov` between 0 and 180 degrees, found 200",
         ),
         ("Shape \"trianglemesh\"", "a.pbrt:1: expected \"point3 P\""),
         (
@@ -84,7 +84,7 @@ fn broken_files_give_one_clear_line() {
         ),
         (
             "Include \"a.pbrt\"",
-            "a.pbrt:1: expected a file that does not include itself",
+            "a.pbrt:1: expected a file that does not include itself, or fewer than 32 in each other",
         ),
     ];
     for (text, expected) in cases {

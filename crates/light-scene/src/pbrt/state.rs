@@ -7,6 +7,7 @@ use lights::sources::MediumInterface;
 
 use super::attributes::Attributes;
 use super::image_map::ImageKey;
+use super::includes::Included;
 use super::media::MediumSlot;
 use super::named_materials::NamedMaterials;
 use super::objects::Objects;
@@ -16,6 +17,9 @@ use crate::glam::{Mat4, Vec3};
 use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
 
+/// Blocks of one kind that may be open at a time.
+pub(super) const MOST_BLOCKS: usize = 1 << 16;
+
 /// What the directives so far have built, and the state that the next one acts on.
 #[derive(Debug, Default)]
 pub(super) struct Reader {
@@ -24,14 +28,16 @@ pub(super) struct Reader {
     pub(super) root: PathBuf,
     pub(super) scene: Scene,
     pub(super) state: State,
-    pub(super) saved: Vec<State>,
-    pub(super) saved_transforms: Vec<Mat4>,
+    pub(super) saved: Vec<Saved<State>>,
+    pub(super) saved_transforms: Vec<Saved<Mat4>>,
+    pub(super) included: Included,
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: NamedMaterials,
     pub(super) textures: Textures,
     /// Each file read once.
     pub(super) images: HashMap<ImageKey, ImageId>,
     pub(super) media: Vec<MediumSlot>,
+    pub(super) media_by_name: HashMap<String, usize>,
     /// All that `Attribute` directives have said, and where.
     pub(super) attributes: Vec<(PathBuf, Rc<Parameters>)>,
     /// The twins of materials that bound media.
@@ -42,6 +48,14 @@ pub(super) struct Reader {
     pub(super) crop: Option<Crop>,
     pub(super) in_world: bool,
     warned: BTreeSet<String>,
+}
+
+/// What a directive has saved for the one that ends its block.
+#[derive(Debug)]
+pub(super) struct Saved<T> {
+    pub(super) state: T,
+    /// What to say if nothing ends it.
+    unclosed: Diagnostic,
 }
 
 /// What `AttributeBegin` saves.
@@ -95,6 +109,27 @@ impl Reader {
         *self.state.material.get_or_insert_with(make)
     }
 
+    /// Saves the state for a directive that ends the block, or what to say if there is none.
+    pub(super) fn save_state(&mut self, at: At<'_>, unclosed: &str) -> Result<(), Diagnostic> {
+        let state = self.state.clone();
+        save(&mut self.saved, at, state, unclosed)
+    }
+
+    pub(super) fn save_transform(&mut self, at: At<'_>) -> Result<(), Diagnostic> {
+        let unclosed = "expected `TransformEnd` after `TransformBegin`";
+        save(
+            &mut self.saved_transforms,
+            at,
+            self.state.transform,
+            unclosed,
+        )
+    }
+
+    /// How many blocks of both kinds are open.
+    pub(super) fn open_blocks(&self) -> [usize; 2] {
+        [self.saved.len(), self.saved_transforms.len()]
+    }
+
     /// Says something about a place in the file, once for each `what`.
     pub(super) fn warn(&mut self, at: At<'_>, what: &str, message: &str) {
         if self.warned.insert(what.to_owned()) {
@@ -122,6 +157,11 @@ impl Reader {
         if !self.in_world {
             return Err(Diagnostic::file(path, "expected `WorldBegin`"));
         }
+        let unclosed = self.saved.pop().map(|saved| saved.unclosed);
+        let transform = self.saved_transforms.pop().map(|saved| saved.unclosed);
+        if let Some(unclosed) = unclosed.or(transform) {
+            return Err(unclosed);
+        }
         self.scene.camera = self.camera.map(|camera| Camera {
             resolution: self.resolution,
             crop: self.crop,
@@ -133,6 +173,21 @@ impl Reader {
         self.scene.prototypes = self.finished_objects()?;
         Ok(self.scene)
     }
+}
+
+fn save<T>(
+    all: &mut Vec<Saved<T>>,
+    at: At<'_>,
+    state: T,
+    unclosed: &str,
+) -> Result<(), Diagnostic> {
+    if all.len() == MOST_BLOCKS {
+        let message = format!("expected at most {MOST_BLOCKS} blocks in each other");
+        return Err(at.diagnostic(message));
+    }
+    let unclosed = at.diagnostic(unclosed);
+    all.push(Saved { state, unclosed });
+    Ok(())
 }
 
 /// The directive that a parameter list belongs to, its type in quotes read already.

@@ -46,35 +46,47 @@ impl Reader {
         };
         let typed = self.typed(path, tokens, "Texture")?;
         let what = format!("Texture \"{}\"", typed.kind);
-        let color = match typed.kind.as_str() {
-            "constant" => self.lookup(&typed, "value", 1.0, kind),
-            "scale" => self.scale_texture(&typed, kind),
-            "mix" => self.mix_texture(&typed, kind),
-            "imagemap" => self.image_map(&typed, kind)?,
+        let color = self.texture_color(&typed, &what, kind);
+        typed.parameters.check()?;
+        self.warn_unused(typed.at, &what, &typed.parameters);
+        self.textures.insert((kind, name), color?);
+        Ok(())
+    }
+
+    fn texture_color(
+        &mut self,
+        typed: &Typed<'_>,
+        what: &str,
+        kind: TextureKind,
+    ) -> Result<Color, Diagnostic> {
+        Ok(match typed.kind.as_str() {
+            "constant" => self.lookup(typed, "value", 1.0, kind, f32::INFINITY),
+            "scale" => self.scale_texture(typed, kind),
+            "mix" => self.mix_texture(typed, kind),
+            "imagemap" => self.image_map(typed, kind)?,
             _ => {
-                self.warn(typed.at, &what, "was taken as grey");
+                self.warn(typed.at, what, "was taken as grey");
                 Color::Constant(Vec3::splat(0.5))
             }
-        };
-        self.warn_unused(typed.at, &what, &typed.parameters);
-        self.textures.insert((kind, name), color);
-        Ok(())
+        })
     }
 
     /// A parameter that is a colour or the name of a texture.
     pub(super) fn color(&mut self, typed: &Typed<'_>, name: &str, default: f32) -> Color {
-        self.lookup(typed, name, default, TextureKind::Spectrum)
+        self.lookup(typed, name, default, TextureKind::Spectrum, 1.0)
     }
 
     /// A parameter that is a number or the name of a texture: of a colour the first channel counts.
     pub(super) fn share(&mut self, typed: &Typed<'_>, name: &str, default: f32) -> Color {
-        self.lookup(typed, name, default, TextureKind::Float)
+        self.lookup(typed, name, default, TextureKind::Float, f32::INFINITY)
     }
 
     /// A number where there is no place for a texture.
     pub(super) fn plain_number(&mut self, typed: &Typed<'_>, name: &str) -> Option<f32> {
         if typed.parameters.texture(name).is_none() {
-            return typed.parameters.number(name);
+            return typed
+                .parameters
+                .number_where(name, |n| n >= 0.0, "of at least 0");
         }
         let what = format!("the texture of `{name}`");
         self.warn(typed.at, &what, "was taken as its mean");
@@ -82,7 +94,14 @@ impl Reader {
         Some(self.scene.mean(&color).x)
     }
 
-    fn lookup(&mut self, typed: &Typed<'_>, name: &str, default: f32, kind: TextureKind) -> Color {
+    fn lookup(
+        &mut self,
+        typed: &Typed<'_>,
+        name: &str,
+        default: f32,
+        kind: TextureKind,
+        most: f32,
+    ) -> Color {
         if let Some(texture) = typed.parameters.texture(name) {
             let known = |kind| self.textures.get(&(kind, texture.to_owned()));
             if let Some(color) = known(kind).or_else(|| known(kind.other())) {
@@ -92,7 +111,10 @@ impl Reader {
             self.warn(typed.at, &what, "is not defined and was taken as grey");
             return Color::Constant(Vec3::splat(0.5));
         }
-        let color = typed.parameters.reflectance(name);
+        if kind == TextureKind::Float {
+            return Color::Constant(Vec3::splat(typed.parameters.amount_or(name, default)));
+        }
+        let color = typed.parameters.reflectance(name, most);
         if color.is_none() && typed.parameters.has(name) {
             let what = format!("the spectrum of `{name}`");
             let message = "is not understood; the default was taken";
@@ -102,7 +124,7 @@ impl Reader {
     }
 
     fn scale_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
-        let color = self.lookup(typed, "tex", 1.0, kind);
+        let color = self.lookup(typed, "tex", 1.0, kind, f32::INFINITY);
         match (color, self.share(typed, "scale", 1.0)) {
             (color, Color::Constant(scale)) => scaled(color, scale),
             (Color::Constant(color), image) => scaled(image, color),
@@ -111,8 +133,8 @@ impl Reader {
     }
 
     fn mix_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
-        let first = self.lookup(typed, "tex1", 0.0, kind);
-        let second = self.lookup(typed, "tex2", 1.0, kind);
+        let first = self.lookup(typed, "tex1", 0.0, kind, f32::INFINITY);
+        let second = self.lookup(typed, "tex2", 1.0, kind, f32::INFINITY);
         let amount = self.share(typed, "amount", 0.5);
         self.baked(typed, [first, second, amount], |[first, second, amount]| {
             first.lerp(second, amount.x)

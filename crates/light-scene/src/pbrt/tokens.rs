@@ -31,6 +31,10 @@ impl<'a> Tokens<'a> {
         Self { path, rest, line }
     }
 
+    pub(super) const fn path(&self) -> &'a Path {
+        self.path
+    }
+
     /// The line of the token that came last.
     pub(super) const fn line(&self) -> usize {
         self.line

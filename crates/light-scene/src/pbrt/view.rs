@@ -1,11 +1,13 @@
 //! Who looks, and at how many pixels.
 
+use super::lights::fov;
+use super::parameter::ParameterType;
 use super::state::{Reader, Typed};
 use crate::glam::Vec3;
 use crate::{Camera, Crop, Diagnostic, Lens};
 
 /// An image has no more pixels a side than this.
-const LONGEST: f32 = 65536.0;
+const LONGEST: u32 = 65536;
 
 impl Reader {
     pub(super) fn set_camera(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -21,12 +23,9 @@ impl Reader {
         let to_world = self.state.transform.inverse();
         self.coordinates.insert("camera".to_owned(), to_world);
         self.scene.camera_medium = self.state.media.outside;
-        let fov = parameters.number_or("fov", 90.0).to_radians();
-        if !(fov > 0.0 && fov < core::f32::consts::PI) {
-            return Err(at.diagnostic("expected a fov between 0 and 180 degrees"));
-        }
-        let radius = parameters.number_or("lensradius", 0.0);
-        let focus_distance = parameters.number_or("focaldistance", 1e6);
+        let fov = fov(typed).to_radians();
+        let radius = parameters.amount_or("lensradius", 0.0);
+        let focus_distance = parameters.positive_or("focaldistance", 1e6);
         let axis = |v: Vec3| to_world.transform_vector3(v).normalize_or(v);
         self.camera = Some(Camera {
             position: to_world.transform_point3(Vec3::ZERO),
@@ -49,23 +48,26 @@ impl Reader {
         let Typed { at, parameters, .. } = typed;
         // Where the image goes is said on the command line.
         parameters.accept("filename");
-        let size = |name, default| whole(parameters.number_or(name, default).max(1.0));
-        let resolution = [size("xresolution", 1280.0), size("yresolution", 720.0)];
+        let size = |name, default| parameters.count(name, LONGEST).unwrap_or(default);
+        let resolution = [size("xresolution", 1280), size("yresolution", 720)];
         let [width, height] = resolution.map(|pixels| pixels as f32);
         // Both list the two ends in x, then the two ends in y.
         let bounds = match (
-            parameters.numbers("pixelbounds"),
-            parameters.numbers("cropwindow"),
+            parameters.numbers("pixelbounds", ParameterType::Integer),
+            parameters.numbers("cropwindow", ParameterType::Float),
         ) {
             (None, None) => None,
-            (Some(Some(pixels)), _) => Some(pixels),
-            (None, Some(Some([x0, x1, y0, y1]))) => {
+            (Some(pixels), _) => Some(pixels),
+            (None, Some([x0, x1, y0, y1])) => {
                 Some([x0 * width, x1 * width, y0 * height, y1 * height].map(f32::ceil))
             }
-            _ => return Err(at.diagnostic("expected four numbers: x0 x1 y0 y1")),
         };
+        parameters.check()?;
         self.crop = None;
         if let Some([x0, x1, y0, y1]) = bounds {
+            if x0 < 0.0 || y0 < 0.0 || x1 > width || y1 > height {
+                self.warn(*at, "what Film crops to", "ends at the edges of the image");
+            }
             let min = [whole(x0), whole(y0)];
             let max = [whole(x1.min(width)), whole(y1.min(height))];
             if !(min[0] < max[0] && min[1] < max[1]) {
@@ -105,7 +107,7 @@ impl Reader {
     reason = "clamped to what an image may have"
 )]
 const fn whole(pixels: f32) -> u32 {
-    pixels.clamp(0.0, LONGEST) as u32
+    pixels.clamp(0.0, LONGEST as f32) as u32
 }
 
 #[cfg(test)]
@@ -133,15 +135,27 @@ mod tests {
         };
         let window = "\"float cropwindow\" [.25 .505 .2 1]";
         assert_eq!(crop(window), Ok(Some(expected)), "in parts, rounded up");
-        let bounds = "\"integer pixelbounds\" [25 51 10 60]";
-        assert_eq!(crop(bounds), Ok(Some(expected)), "in pixels, of the image");
+        let bounds = "\"integer pixelbounds\" [25 51 10 50]";
+        assert_eq!(crop(bounds), Ok(Some(expected)), "in pixels");
         let error = "a:1: expected a crop with at least one pixel of the image";
         for empty in ["[.5 .5 0 1]", "[.6 .5 0 1]", "[2 3 0 1]"] {
             let film = format!("\"float cropwindow\" {empty}");
             assert_eq!(crop(&film), Err(error.to_owned()), "{empty}");
         }
-        let error = Err("a:1: expected four numbers: x0 x1 y0 y1".to_owned());
+        let error = Err("a:1: expected 4 numbers for `cropwindow`, found 2".to_owned());
         assert_eq!(crop("\"float cropwindow\" [0 1]"), error, "two are missing");
+    }
+
+    #[test]
+    fn crops_end_with_the_image_and_say_so() {
+        let film = "Film \"rgb\" \"integer yresolution\" 50 \"integer pixelbounds\" [25 51 -3 60]";
+        let text = format!("Camera \"perspective\" {film} WorldBegin");
+        let scene = parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene");
+        let rows = scene.camera.and_then(|camera| camera.crop).expect("a crop");
+        assert_eq!((rows.min[1], rows.max[1]), (0, 50), "rows of the image");
+        let expected = "a:1: what Film crops to ends at the edges of the image";
+        let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
+        assert_eq!(warnings, [expected], "named");
     }
 
     #[test]

@@ -1,0 +1,81 @@
+//! Files that a scene consists of.
+
+use super::state::Reader;
+use super::tokens::Tokens;
+use crate::Diagnostic;
+use crate::gunzip::gunzipped;
+use crate::text::text_of;
+
+/// Files that include each other deeper than this include themselves.
+const DEEPEST: usize = 32;
+
+/// Files that a scene may include, each as often as it is included.
+pub(super) const MOST_FILES: usize = 1 << 16;
+
+/// Bytes of text in all of them, 4 GiB.
+const MOST_BYTES: u64 = 1 << 32;
+
+/// What has been included so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Included {
+    files: usize,
+    bytes: u64,
+}
+
+impl Included {
+    /// Counts a file of so many bytes.
+    fn add(&mut self, bytes: usize) -> Result<(), String> {
+        self.files += 1;
+        self.bytes = self.bytes.saturating_add(bytes as u64);
+        if self.files > MOST_FILES {
+            return Err(format!("expected at most {MOST_FILES} included files"));
+        }
+        if self.bytes > MOST_BYTES {
+            return Err(format!(
+                "expected at most {MOST_BYTES} bytes in all included files"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Reader {
+    /// `Include "name"`: as if the text of the file stood there.
+    pub(super) fn include(
+        &mut self,
+        tokens: &mut Tokens<'_>,
+        depth: usize,
+    ) -> Result<(), Diagnostic> {
+        let name = tokens.quoted("a file name")?.into_owned();
+        if depth == DEEPEST {
+            let message = format!(
+                "expected a file that does not include itself, or fewer than {DEEPEST} in each other"
+            );
+            return Err(tokens.diagnostic(message));
+        }
+        let file = self.beside(&name);
+        let refuse = |error: Diagnostic| tokens.diagnostic(error.to_string());
+        let bytes = self.files.read(&file).map_err(refuse)?;
+        let plain = gunzipped(&file, &bytes).map_err(refuse)?;
+        let counted = self.included.add(plain.len());
+        counted.map_err(|message| tokens.diagnostic(message))?;
+        self.file(&file, &text_of(&plain), depth + 1)
+    }
+
+    /// `Import "name"`: what the file does to the state ends with it.
+    pub(super) fn import(
+        &mut self,
+        tokens: &mut Tokens<'_>,
+        depth: usize,
+    ) -> Result<(), Diagnostic> {
+        let before = self.state.clone();
+        let open = self.open_blocks();
+        self.include(tokens, depth)?;
+        if self.open_blocks() != open {
+            let message = "expected a file that ends what it begins, and nothing else";
+            return Err(tokens.diagnostic(message));
+        }
+        self.state = before;
+        Ok(())
+    }
+}
