@@ -82,11 +82,11 @@ fn check_choice(what: &str, pmf: &[f64], mut choose: impl FnMut(f64) -> SampledI
     }
     let expected: Vec<f64> = pmf.iter().map(|p| p * f64::from(SAMPLES)).collect();
     assert!(
-        chi_squared(&observed, &expected).passes(2),
+        chi_squared(&observed, &expected).passes(),
         "{what}: frequencies"
     );
     assert!(
-        kolmogorov_smirnov_uniform(&mut rests).passes(2),
+        kolmogorov_smirnov_uniform(&mut rests).passes(),
         "{what}: what is left of u"
     );
 }

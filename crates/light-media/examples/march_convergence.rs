@@ -18,8 +18,9 @@ fn main() {
         let bias = slope(fine.iter().map(|e| (e.step, e.bias)));
         println!("{name} slope-rms 0 {rms:.3}");
         println!("{name} slope-bias 0 {bias:.3}");
-        let (mean, error) = tracked(&medium);
-        println!("{name} tracked-off 0 {:e}", (mean - truth(&medium)).abs());
-        println!("{name} tracked-error 0 {error:e}");
+        let tracked = tracked(&medium);
+        let off = (tracked.mean - truth(&medium)).abs();
+        println!("{name} tracked-off 0 {off:e}");
+        println!("{name} tracked-error 0 {:e}", tracked.standard_error);
     }
 }

@@ -14,7 +14,7 @@ use light_samplers::UniformLightSampler;
 use light_sources::{
     IntensityAmount, LightDesc, LightSetBuilder, MediumInterface, PointLightDesc, Rgb, SceneSphere,
 };
-use light_testkit::Rng;
+use light_testkit::{Estimate, Rng};
 
 const RAY: Ray = Ray {
     o: Vec3::new(-0.2, 0.3, 0.4),
@@ -49,27 +49,23 @@ fn cloud(sigma_a: f32, sigma_s: f32, le: f32) -> GridMedium<Rgb, Vec<f32>> {
     .expect("valid")
 }
 
-/// The mean of `n` estimates and the standard error of that mean.
-fn mean(n: u32, mut estimate: impl FnMut(&mut Rng) -> Vec3) -> (Vec3, Vec3) {
+/// Means of `n` estimates, a channel.
+fn mean(n: u32, mut estimate: impl FnMut(&mut Rng) -> Vec3) -> [Estimate; 3] {
     let mut rng = Rng::new(7);
-    let (mut sum, mut sum_sq) = (Vec3::ZERO, Vec3::ZERO);
-    for _ in 0..n {
-        let x = estimate(&mut rng);
-        sum += x;
-        sum_sq += x * x;
-    }
-    let mean = sum / n as f32;
-    let variance = (sum_sq / n as f32 - mean * mean).max(Vec3::ZERO) / n as f32;
-    (mean, variance.map(f32::sqrt))
+    let all: Vec<Vec3> = (0..n).map(|_| estimate(&mut rng)).collect();
+    [0, 1, 2].map(|channel: usize| {
+        let mut one = all.iter();
+        Estimate::of(n, || one.next().map_or(f64::NAN, |x| f64::from(x[channel])))
+    })
 }
 
-fn assert_agree((mean, error): (Vec3, Vec3), expected: Vec3, what: &str) {
-    // Five standard errors, and the round-off of sums.
-    let slack = error * 5.0 + expected.abs() * 1e-4 + 1e-6;
-    assert!(
-        (mean - expected).abs().cmple(slack).all(),
-        "{what}: {mean} +- {error}, expected {expected}"
-    );
+fn assert_agree(means: [Estimate; 3], expected: Vec3, what: &str) {
+    for (mean, expected) in means.iter().zip(expected.to_array()) {
+        assert!(
+            mean.agrees_with(f64::from(expected)),
+            "{what}: {mean:?}, expected {expected}"
+        );
+    }
 }
 
 fn fine_transmittance(medium: &impl Medium<Rgb>, span: Span) -> Vec3 {
@@ -198,10 +194,9 @@ fn a_march_converges_to_tracking_with_the_square_of_its_step() {
     let tracked = mean(40_000, |rng| {
         delta_tracking::<Rgb, _>(&fog, &RAY, span(2.0), Vec3::ONE, &(), &mut || rng.f32()).emitted
     });
-    assert_agree(
-        tracked,
-        Vec3::new(fine, tracked.0.y, tracked.0.z),
-        "tracking",
+    assert!(
+        tracked[0].agrees_with(f64::from(fine)),
+        "tracking: {tracked:?}, {fine}"
     );
 }
 

@@ -187,14 +187,14 @@ impl DensityOutcome {
 
     /// Why the density is not that of the sampler; `None` when it is.
     #[must_use]
-    pub fn fault(&self, tests: usize) -> Option<&'static str> {
+    pub fn fault(&self) -> Option<&'static str> {
         if !(self.mass <= 1.0 + Self::MASS_TOLERANCE) {
             Some("the density integrates to more than one")
         } else if self.impossible > 0 {
             Some("a sample has no positive finite density")
         } else if self.outside > 0 {
             Some("a sample lies outside of the domain")
-        } else if !self.chi_squared.passes(tests) {
+        } else if !self.chi_squared.passes() {
             Some("the samples do not follow the density")
         } else {
             None
@@ -206,7 +206,7 @@ impl DensityOutcome {
     /// # Panics
     /// With `what`, the fault and the figures.
     pub fn assert(&self, what: &str) {
-        let fault = self.fault(1);
+        let fault = self.fault();
         assert!(fault.is_none(), "{what}: {}: {self:?}", fault.unwrap_or(""));
     }
 }
@@ -259,7 +259,7 @@ mod tests {
         let test = DensityTest::default();
         test.square(sample, |_| 0.5).assert("half of the mass");
         let outcome = test.square(sample, |_| 1.0);
-        assert!(outcome.fault(1).is_some(), "{outcome:?}");
+        assert!(outcome.fault().is_some(), "{outcome:?}");
     }
 
     #[test]
@@ -267,13 +267,13 @@ mod tests {
         let test = DensityTest::default();
         let wrong = test.sphere(cosine_sample, |w| if w.z > 0.0 { 0.5 / PI } else { 0.0 });
         assert_eq!(
-            wrong.fault(1),
+            wrong.fault(),
             Some("the samples do not follow the density"),
             "shape"
         );
         let heavy = test.square(|rng| Some(rng.vec2()), |_| 1.01);
         assert_eq!(
-            heavy.fault(1),
+            heavy.fault(),
             Some("the density integrates to more than one"),
             "mass"
         );
@@ -282,13 +282,13 @@ mod tests {
             |p| if p.x < 0.5 { 2.0 } else { 0.0 },
         );
         assert_eq!(
-            zero.fault(1),
+            zero.fault(),
             Some("a sample has no positive finite density"),
             "zero"
         );
         let outside = test.square(|rng| Some(rng.vec2() * 2.0), |_| 1.0);
         assert_eq!(
-            outside.fault(1),
+            outside.fault(),
             Some("a sample lies outside of the domain"),
             "outside"
         );

@@ -1,3 +1,5 @@
+use crate::significance;
+
 /// The mean of random numbers, and how far it may be from what it estimates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -8,14 +10,16 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// How many standard errors a mean may be off: a normal variable is further away once in 150,000 times.
-    pub const STANDARD_ERRORS: f64 = 4.5;
+    /// How many standard errors a mean may be off: a normal variable is further away with the chance
+    /// [`SIGNIFICANCE`](crate::SIGNIFICANCE).
+    pub const STANDARD_ERRORS: f64 = 6.12;
 
     /// Relative error that the arithmetic in `f32` may add.
     pub const ROUNDING: f64 = 1e-4;
 
     /// The mean of `n` independent numbers, at least two.
     pub fn of(n: u32, mut draw: impl FnMut() -> f64) -> Self {
+        significance::take();
         // Welford's update: no cancellation, however small the variance.
         let (mut mean, mut squares) = (0.0, 0.0);
         for i in 1..=n {
@@ -42,6 +46,18 @@ impl Estimate {
     pub fn agrees_with(&self, truth: f64) -> bool {
         (self.mean - truth).abs() <= self.margin(truth)
     }
+
+    /// Whether two independent estimates may have the same mean; never when one is NaN.
+    #[must_use]
+    pub fn agrees_with_estimate(&self, other: &Self) -> bool {
+        let standard_error = self.standard_error.hypot(other.standard_error);
+        let mean = other.mean;
+        let difference = Self {
+            standard_error,
+            ..*self
+        };
+        difference.agrees_with(mean)
+    }
 }
 
 #[cfg(test)]
@@ -59,9 +75,26 @@ mod tests {
             "{estimate:?}"
         );
         assert!(
-            estimate.agrees_with(0.5) && !estimate.agrees_with(0.52),
+            estimate.agrees_with(0.5) && !estimate.agrees_with(0.525),
             "{estimate:?}"
         );
+    }
+
+    #[test]
+    fn the_margin_is_that_of_the_level() {
+        let tail = |x: f64| crate::chi_squared_survival(1, x * x);
+        let errors = Estimate::STANDARD_ERRORS;
+        assert!(tail(errors) <= crate::SIGNIFICANCE, "{}", tail(errors));
+        assert!(tail(errors - 0.02) > crate::SIGNIFICANCE, "no larger");
+    }
+
+    #[test]
+    fn two_estimates_agree_or_not() {
+        let mut rng = Rng::new(7);
+        let [a, b] = [(); 2].map(|()| Estimate::of(10_000, || rng.f64()));
+        let shifted = Estimate::of(10_000, || rng.f64() + 0.03);
+        assert!(a.agrees_with_estimate(&b), "{a:?} {b:?}");
+        assert!(!a.agrees_with_estimate(&shifted), "{a:?} {shifted:?}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use crate::SIGNIFICANCE;
+use crate::{SIGNIFICANCE, significance};
 
 /// What the test of Kolmogorov and Smirnov says about a set of numbers.
 #[derive(Clone, Copy, Debug)]
@@ -10,10 +10,10 @@ pub struct KolmogorovSmirnov {
 }
 
 impl KolmogorovSmirnov {
-    /// Whether the numbers pass at [`SIGNIFICANCE`], divided by the number of tests that one check consists of.
+    /// Whether the numbers pass at [`SIGNIFICANCE`].
     #[must_use]
-    pub fn passes(&self, tests: usize) -> bool {
-        self.p_value >= SIGNIFICANCE / tests.max(1) as f64
+    pub fn passes(&self) -> bool {
+        self.p_value >= SIGNIFICANCE
     }
 }
 
@@ -23,6 +23,7 @@ impl KolmogorovSmirnov {
 /// `[Stephens1970]`: the correction that makes the limiting distribution accurate for few numbers.
 #[must_use]
 pub fn kolmogorov_smirnov_uniform(numbers: &mut [f64]) -> KolmogorovSmirnov {
+    significance::take();
     if !numbers.iter().all(|u| (0.0..1.0).contains(u)) {
         return KolmogorovSmirnov {
             distance: 1.0,
@@ -68,16 +69,13 @@ mod tests {
     #[test]
     fn uniform_numbers_pass_and_others_fail() {
         let mut rng = Rng::new(2);
-        let mut uniform: Vec<f64> = (0..5000).map(|_| rng.f64()).collect();
-        assert!(
-            kolmogorov_smirnov_uniform(&mut uniform).passes(1),
-            "uniform"
-        );
+        let mut uniform: Vec<f64> = (0..1 << 15).map(|_| rng.f64()).collect();
+        assert!(kolmogorov_smirnov_uniform(&mut uniform).passes(), "uniform");
         let mut bent: Vec<f64> = uniform.iter().map(|u| u * (0.9 + 0.1 * u)).collect();
-        assert!(!kolmogorov_smirnov_uniform(&mut bent).passes(1), "bent");
+        assert!(!kolmogorov_smirnov_uniform(&mut bent).passes(), "bent");
         let mut outside = [0.5, 1.0];
         assert!(
-            !kolmogorov_smirnov_uniform(&mut outside).passes(1),
+            !kolmogorov_smirnov_uniform(&mut outside).passes(),
             "1 is outside"
         );
     }

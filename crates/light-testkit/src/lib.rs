@@ -36,6 +36,7 @@ pub mod nasty;
 mod quadrature;
 mod real3;
 mod rng;
+mod significance;
 
 pub use cap::Cap;
 pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
@@ -49,9 +50,4 @@ pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 pub use light_set::LightSet;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
-
-/// The chance that one statistical check fails although the code is right.
-///
-/// Seeds are fixed, so a check that passes once passes forever; the level says how surprising a result has to be
-/// before it counts as a fault. A check that consists of several tests divides it by their number (Bonferroni).
-pub const SIGNIFICANCE: f64 = 1e-4;
+pub use significance::{FAMILY_ERROR, PROGRAMS, SIGNIFICANCE, TESTS_PER_PROGRAM, tests_taken};

@@ -8,7 +8,7 @@ use light_media::{
     StepSize, Substance, transmittance,
 };
 use light_sources::Rgb;
-use light_testkit::Rng;
+use light_testkit::{Estimate, Rng};
 
 /// The errors of marches with one step size, over all jitters.
 #[derive(Clone, Copy, Debug)]
@@ -101,21 +101,15 @@ pub(crate) fn march_errors(medium: &AnyMedium<Rgb>) -> Vec<MarchError> {
     (1..=6).map(of).collect()
 }
 
-/// The mean of ratio tracking and the standard error of that mean.
+/// The mean of ratio tracking.
 #[must_use]
-pub(crate) fn tracked(medium: &AnyMedium<Rgb>) -> (f64, f64) {
-    let n = 1 << 17;
+pub(crate) fn tracked(medium: &AnyMedium<Rgb>) -> Estimate {
     let mut rng = Rng::new(11);
-    let (mut sum, mut squares) = (0.0, 0.0);
-    for _ in 0..n {
+    Estimate::of(1 << 17, || {
         let left =
             transmittance::ratio_tracking::<Rgb, _>(medium, &RAY, SPAN, &(), &mut || rng.f32());
-        sum += f64::from(left.x);
-        squares += f64::from(left.x) * f64::from(left.x);
-    }
-    let n = f64::from(n);
-    let mean = sum / n;
-    (mean, ((squares / n - mean * mean) / n).sqrt())
+        left.x.into()
+    })
 }
 
 /// The slope of the straight line through the logarithms of steps and errors, by least squares.

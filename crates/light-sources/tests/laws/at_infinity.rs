@@ -7,6 +7,9 @@ use light_testkit::laws::light::*;
 
 use crate::{SCENE_RADIUS, scene};
 
+/// A sphere well inside of the scene, off its middle.
+const INNER: (Vec3, f32) = (Vec3::new(0.5, -1.0, 0.7), 3.0);
+
 #[test]
 fn distant() {
     let light = DistantLight::<Rgb>::new(
@@ -22,6 +25,7 @@ fn distant() {
     dirac_li_is(&case, |_| 2.5);
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
+    rays_and_samples_light_alike(&case, INNER.0, INNER.1);
     bounds_hold(&case);
     edges_are_survived(&case);
 }
@@ -52,6 +56,9 @@ fn sun() {
         li_adds_up(&case, cap, radiance);
         le_adds_up_to_phi(&case);
         le_has_no_variance(&case);
+        let travel = Cap::new(-direction, 1.05 * half);
+        le_directions_follow_their_density(&case, &travel, Vec3::ZERO);
+        rays_and_samples_light_alike(&case, INNER.0, INNER.1);
         bounds_hold(&case);
         edges_are_survived(&case);
     }
@@ -74,6 +81,8 @@ fn uniform_infinite() {
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
     infinite_flux_is_phi(&case, SCENE_RADIUS);
+    le_directions_follow_their_density(&case, &Cap::sphere(), Vec3::ZERO);
+    rays_and_samples_light_alike(&case, INNER.0, INNER.1);
     bounds_hold(&case);
     edges_are_survived(&case);
 }
@@ -103,6 +112,8 @@ fn image_infinite() {
     li_adds_up(&case, |_| Cap::sphere(), radiance);
     le_adds_up_to_phi(&case);
     infinite_flux_is_phi(&case, SCENE_RADIUS);
+    le_directions_follow_their_density(&case, &Cap::sphere(), Vec3::ZERO);
+    rays_and_samples_light_alike(&case, INNER.0, INNER.1);
     bounds_hold(&case);
     edges_are_survived(&case);
 }

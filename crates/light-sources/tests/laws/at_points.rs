@@ -2,8 +2,8 @@ use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
 use light_sources::light_bounds::LightSampleContext;
 use light_sources::light_math::equal_area::sphere_to_square;
 use light_sources::*;
-use light_testkit::Rng;
 use light_testkit::laws::light::*;
+use light_testkit::{Cap, Rng};
 
 #[test]
 fn point() {
@@ -20,6 +20,8 @@ fn point() {
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
     flux_is_phi(&case);
+    le_directions_follow_their_density(&case, &Cap::sphere(), position);
+    rays_and_samples_light_alike(&case, position, 1.0);
     bounds_hold(&case);
     edges_are_survived(&case);
 }
@@ -48,6 +50,12 @@ fn spot() {
         });
         le_adds_up_to_phi(&case);
         le_has_no_variance(&case);
+        let beam = Cap::new(
+            transform.transform_vector3(Vec3::Z),
+            1.02 * f64::from(angle),
+        );
+        le_directions_follow_their_density(&case, &beam, POSITION);
+        rays_and_samples_light_alike(&case, POSITION, 1.0);
         bounds_hold(&case);
         edges_are_survived(&case);
         if angle > 0.1 {
@@ -78,6 +86,8 @@ fn goniometric() {
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
     flux_is_phi(&case);
+    le_directions_follow_their_density(&case, &Cap::sphere(), POSITION);
+    rays_and_samples_light_alike(&case, POSITION, 1.0);
     bounds_hold(&case);
     edges_are_survived(&case);
 }
@@ -113,6 +123,11 @@ fn projection() {
         });
         le_adds_up_to_phi(&case);
         flux_is_phi(&case);
+        // The half diagonal of a picture that is half as wide again as it is high.
+        let corner = ((0.5 * f64::from(fov)).tan() * 1.5f64.hypot(1.0)).atan();
+        let beam = Cap::new(transform.transform_vector3(Vec3::Z), 1.02 * corner);
+        le_directions_follow_their_density(&case, &beam, POSITION);
+        rays_and_samples_light_alike(&case, POSITION, 1.0);
         bounds_hold(&case);
         edges_are_survived(&case);
     }

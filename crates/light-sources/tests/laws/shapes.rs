@@ -1,5 +1,6 @@
 use light_sources::glam::{Affine3A, Quat, Vec3};
 use light_sources::light_bounds::LightSampleContext;
+use light_sources::light_math::warp::uniform_triangle;
 use light_sources::shape::{AnyShape, BilinearPatch, Shape, ShapeDesc};
 use light_sources::*;
 use light_testkit::laws::light::*;
@@ -13,7 +14,11 @@ fn triangle() {
         Vec3::new(0.4, 1.5, 0.0),
     ];
     let hit = |p, wi| naive::hit_triangle(p, wi, corners);
-    check(ShapeDesc::Triangle(corners), &corners, hit);
+    let place = |p: Vec3| {
+        let u = uniform_triangle::invert(barycentric(p, corners));
+        u.to_array().map(f64::from)
+    };
+    check(ShapeDesc::Triangle(corners), &corners, hit, Some(&place));
 }
 
 #[test]
@@ -24,14 +29,19 @@ fn rectangle() {
         corner: Vec3::ONE,
         edges: [x, y],
     };
-    check(desc, &corners, |p, wi| hit_quad(p, wi, corners));
+    let place = |p: Vec3| {
+        let along = |edge: Vec3| f64::from((p - Vec3::ONE).dot(edge) / edge.length_squared());
+        [along(x), along(y)]
+    };
+    let hit = |p, wi| hit_quad(p, wi, corners);
+    check(desc, &corners, hit, Some(&place));
 }
 
 #[test]
 fn flat_quad() {
     let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.6, 1.2, 0.0), Vec3::Y];
     let desc = ShapeDesc::Quad([corners[0], corners[1], corners[3], corners[2]]);
-    check(desc, &corners, |p, wi| hit_quad(p, wi, corners));
+    check(desc, &corners, |p, wi| hit_quad(p, wi, corners), None);
 }
 
 /// Where nothing of a twisted patch hides another part of it, samples cover the solid angle that small flat pieces of it
@@ -86,7 +96,11 @@ fn sphere() {
         transform: tilted(),
         radius: 0.7,
     };
-    check(desc, &box_around(0.7, 0.7), |p, wi| {
+    let place = |p: Vec3| {
+        let ([x, y, z], _) = local(p, Vec3::X);
+        [turn(x, y), 0.5 + 0.5 * z / 0.7]
+    };
+    let hit = |p, wi| {
         let ([x, y, z], [a, b, c]) = local(p, wi);
         let nearest = x * a + y * b + z * c;
         let height_sq = nearest * nearest - (x * x + y * y + z * z - 0.49);
@@ -94,7 +108,8 @@ fn sphere() {
         let hits = [-nearest - half, -nearest + half];
         let t = hits.into_iter().find(|&t| t > 0.0 && height_sq > 0.0)?;
         Some(-(nearest + t))
-    });
+    };
+    check(desc, &box_around(0.7, 0.7), hit, Some(&place));
 }
 
 #[test]
@@ -105,12 +120,18 @@ fn disk_and_annulus() {
             radius: 0.8,
             inner_radius,
         };
-        check(desc, &box_around(0.8, 0.0), |p, wi| {
+        let hole = f64::from(inner_radius).powi(2);
+        let place = |p: Vec3| {
+            let ([x, y, _], _) = local(p, Vec3::X);
+            [turn(x, y), (x * x + y * y - hole) / (0.64 - hole)]
+        };
+        let hit = |p, wi| {
             let ([x, y, z], [a, b, c]) = local(p, wi);
             let t = -z / c;
             let r = (x + t * a).hypot(y + t * b);
             (t > 0.0 && (f64::from(inner_radius)..0.8).contains(&r)).then_some(-c)
-        });
+        };
+        check(desc, &box_around(0.8, 0.0), hit, Some(&place));
     }
 }
 
@@ -121,7 +142,11 @@ fn cylinder() {
         radius: 0.4,
         length: 1.4,
     };
-    check(desc, &box_around(0.4, 0.7), |p, wi| {
+    let place = |p: Vec3| {
+        let ([x, y, z], _) = local(p, Vec3::X);
+        [turn(x, y), 0.5 + z / 1.4]
+    };
+    let hit = |p, wi| {
         let ([x, y, z], [a, b, c]) = local(p, wi);
         let (speed_sq, along) = (a * a + b * b, x * a + y * b);
         let half_sq = along * along - speed_sq * (x * x + y * y - 0.16);
@@ -130,7 +155,8 @@ fn cylinder() {
         let is_wall = |t: &f64| *t > 0.0 && half_sq > 0.0 && (z + t * c).abs() < 0.7;
         let t = hits.into_iter().find(is_wall)?;
         Some(-(along + t * speed_sq))
-    });
+    };
+    check(desc, &box_around(0.4, 0.7), hit, Some(&place));
 }
 
 /// With an image and an alpha mask the power is that of what is left, and samples carry it.
@@ -187,8 +213,14 @@ fn textures() {
 }
 
 /// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the shape, as a number
-/// that is positive on its front and negative on its back; `corners` are those of something convex around it.
-fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f64>) {
+/// that is positive on its front and negative on its back; `corners` are those of something convex around it; `place`
+/// takes points of the shape evenly to the unit square.
+fn check(
+    desc: ShapeDesc,
+    corners: &[Vec3],
+    hit: impl Fn(Vec3, Vec3) -> Option<f64>,
+    place: Option<&dyn Fn(Vec3) -> [f64; 2]>,
+) {
     let shape = desc.build().expect("a shape");
     let (center, radius) = shape.bounds().bounding_sphere();
     for sides in [Sides::Front, Sides::Back, Sides::Both] {
@@ -222,6 +254,15 @@ fn check(desc: ShapeDesc, corners: &[Vec3], hit: impl Fn(Vec3, Vec3) -> Option<f
         }
         li_adds_up(&case, |p| cap_around(p, corners), radiance);
         le_adds_up_to_phi(&case);
+        le_directions_are_diffuse(&case);
+        let is_flat = is_convex || matches!(shape, AnyShape::BilinearPatch(_));
+        // Rays from the inside of a closed shape would meet it again.
+        if is_flat || sides == Sides::Front {
+            rays_and_samples_light_alike(&case, center, 1.3 * radius);
+        }
+        if let Some(place) = place {
+            le_origins_are_even(&case, place);
+        }
         if is_convex {
             le_has_no_variance(&case);
             flux_is_phi(&case);
@@ -247,6 +288,18 @@ fn local(p: Vec3, wi: Vec3) -> ([f64; 3], [f64; 3]) {
         doubles(inverse.transform_point3(p)),
         doubles(inverse.transform_vector3(wi)),
     )
+}
+
+/// The azimuth of a point as a fraction of a turn.
+fn turn(x: f64, y: f64) -> f64 {
+    (y.atan2(x) / core::f64::consts::TAU).rem_euclid(1.0)
+}
+
+/// The barycentric coordinates of a point of a triangle.
+fn barycentric(p: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
+    let normal = (b - a).cross(c - a);
+    let part = |v: Vec3, w: Vec3| (v - p).cross(w - p).dot(normal) / normal.length_squared();
+    Vec3::new(part(b, c), part(c, a), part(a, b))
 }
 
 /// The corners of a box of these half sizes across and along the axis z of the shape's own space.

@@ -25,6 +25,7 @@ fn an_incandescent_ceiling() {
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
     flux_is_phi(&case);
+    rays_and_samples_light_alike(&case, center, 1.2);
     bounds_hold(&case);
     edges_are_survived(&case);
 }
@@ -46,6 +47,7 @@ fn a_grey_sky() {
     le_adds_up_to_phi(&case);
     le_has_no_variance(&case);
     infinite_flux_is_phi(&case, SCENE_RADIUS);
+    rays_and_samples_light_alike(&case, Vec3::ZERO, 2.0);
     bounds_hold(&case);
     edges_are_survived(&case);
 }

@@ -6,6 +6,10 @@ pub mod light;
 pub mod sampler;
 #[cfg(feature = "samplers")]
 mod sampler_laws;
+#[cfg(feature = "samplers")]
+mod several_choices;
 
 #[cfg(feature = "samplers")]
 pub use sampler_laws::sampler_sets;
+#[cfg(feature = "samplers")]
+pub use several_choices::several_choices_follow_their_pmf;

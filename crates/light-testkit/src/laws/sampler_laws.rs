@@ -71,6 +71,11 @@ macro_rules! sampler_laws {
             }
 
             #[test]
+            fn several_choices_follow_their_pmf() {
+                check($crate::laws::several_choices_follow_their_pmf, build);
+            }
+
+            #[test]
             fn nonsense_is_survived() {
                 check($crate::laws::sampler::nonsense_is_survived, build);
             }

@@ -50,7 +50,7 @@ pub fn li_follows_its_density<C: ColorModel, L: Light<C>>(
                 "{at}: pdf_li disagrees with {strays} of the samples"
             );
             assert!(
-                outcome.chi_squared.passes(case.contexts.len()) && outcome.outside == 0,
+                outcome.chi_squared.passes() && outcome.outside == 0,
                 "{at}: the samples do not follow the density: {outcome:?}"
             );
             let mass = around.integrate(4e-3, |wi| f64::from(pdf(wi)));

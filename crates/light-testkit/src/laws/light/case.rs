@@ -84,6 +84,8 @@ pub(super) struct Le {
     pub(super) power: f64,
     /// Whether `pdf_le` answers the densities that the sample carries.
     pub(super) pdf_agrees: bool,
+    /// The ray; `None` where none leaves.
+    pub(super) ray: Option<EmittedRay>,
 }
 
 /// One ray; no power where none leaves.
@@ -92,6 +94,7 @@ pub(super) fn le<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>, u1: Vec
         return Le {
             power: 0.0,
             pdf_agrees: true,
+            ray: None,
         };
     };
     let asked = case.light.pdf_le(&sample.ray);
@@ -107,6 +110,7 @@ pub(super) fn le<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>, u1: Vec
         pdf_agrees: pairs
             .iter()
             .all(|&(pdf, asked)| (pdf == 1.0 && asked == 0.0) || same_density(pdf, asked)),
+        ray: Some(sample.ray),
     }
 }
 
