@@ -154,3 +154,92 @@ fn a_killed_rendering_goes_on() {
     ]);
     assert_eq!(bytes(&out), bytes(&whole), "{done} samples were kept");
 }
+
+/// Parts of pictures of other scenes, views and settings, one change each.
+#[test]
+fn parts_of_other_pictures_do_not_merge() {
+    let folder = Folder::new("other-parts");
+    let scene = folder.scene(LIT);
+    let obj = fs::read_to_string(&scene).expect("a scene");
+    let [a, b, out, env] = ["a.exr", "b.exr", "out.exr", "env.exr"].map(|name| folder.path(name));
+    let render = |out: &str, samples: &str, more: &[&str]| {
+        let args = ["render", &scene, "-o", out, "--samples", samples];
+        // A flag may be there only once.
+        let size = ["--width", "8"]
+            .into_iter()
+            .filter(|_| !more.contains(&"--width"));
+        stdout(&[&args[..], &size.collect::<Vec<_>>(), more].concat());
+    };
+    render(&a, "0..2", &[]);
+    let refuse = |aspect: &str, more: &[&str]| {
+        render(&b, "2..4", more);
+        assert_refused(&["merge", &a, &b, "-o", &out], &["same picture", aspect]);
+    };
+    for (aspect, mtl) in [
+        ("materials", LIT.replace("Ke 5 4 3", "Ke 5 4 2")),
+        ("materials", LIT.replace(".5 .5 .5", ".5 .5 .4")),
+    ] {
+        folder.file("scene.mtl", &mtl);
+        refuse(aspect, &[]);
+    }
+    folder.scene(LIT);
+    folder.file("scene.obj", &obj.replace("v -.2 1 -.2", "v -.2 1 -.21"));
+    refuse("geometry", &[]);
+    folder.file("scene.obj", &obj);
+    for texel in [1.0, 2.0] {
+        let texels = [1.0, texel].map(light_scene::glam::Vec3::splat).into();
+        let image = light_scene::Image::new(2, 1, texels).expect("an image");
+        light_scene::write_image(Path::new(&env), &image).expect("written");
+        refuse("lights", &["--env", &env]);
+        render(&a, "0..2", &["--env", &env]);
+    }
+    render(&a, "0..2", &[]);
+    for (aspect, more) in [
+        ("materials", ["--emit", "floor=1,1,1"]),
+        ("camera", ["--fov", "30"]),
+        ("camera", ["--look-at", "0,2,4,0,0,0,0,1,0"]),
+        ("size", ["--width", "9"]),
+        ("crop", ["--crop", "0,0.5,0,1"]),
+        ("seed", ["--seed", "1"]),
+        ("depth", ["--max-depth", "3"]),
+        ("estimator", ["--estimator", "light"]),
+        ("light samples", ["--light-samples", "3"]),
+        ("light sampler", ["--light-sampler", "power"]),
+        ("integrator", ["--integrator", "volpath"]),
+    ] {
+        refuse(aspect, &more);
+    }
+    render(&b, "2..4", &["--threads", "1", "--time", "100"]);
+    stdout(&["merge", &a, &b, "-o", &out]);
+}
+
+#[test]
+fn parts_and_checkpoints_with_flipped_bits_are_refused() {
+    let folder = Folder::new("flipped");
+    let scene = folder.scene(LIT);
+    let [part, out] = ["part.exr", "out.exr"].map(|name| folder.path(name));
+    let render = ["render", &scene, "-o", &out, "--width", "12", "--spp", "2"];
+    stdout(&[&render[..], &["--checkpoint", &part]].concat());
+    let whole = bytes(&part);
+    let path = Path::new(&part);
+    assert!(
+        PartialPicture::parse(path, &whole).is_ok(),
+        "as it was written"
+    );
+    let bits = 8 * whole.len();
+    // Bits all over the file, at places without a pattern.
+    for bit in (0..2000).map(|i| i * 7919 % bits) {
+        let mut broken = whole.clone();
+        broken[bit / 8] ^= 1 << (bit % 8);
+        let error = PartialPicture::parse(path, &broken);
+        assert!(error.is_err(), "bit {bit} of {bits}");
+    }
+    let mut broken = whole;
+    let middle = broken.len() / 2;
+    broken[middle] ^= 1;
+    fs::write(&part, broken).expect("a file");
+    let words = ["part.exr", "damaged"];
+    assert_refused(&["merge", &part, "-o", &out], &words);
+    let on = ["render", &scene, "-o", &out, "--width", "12", "--spp", "4"];
+    assert_refused(&[&on[..], &["--checkpoint", &part]].concat(), &words);
+}

@@ -1,10 +1,13 @@
 //! The program from outside: what it prints, how it ends, what it leaves behind.
 
 mod environments;
+mod extremes;
 mod folder;
 mod interrupted;
+mod outputs;
 mod refusals;
 mod samplers;
+mod watched;
 
 use std::fs;
 use std::path::Path;

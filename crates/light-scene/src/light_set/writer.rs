@@ -108,7 +108,10 @@ fn cannot_be_written(path: PathBuf, error: io::Error) -> LightSetError {
     LightSetError {
         path,
         line: 0,
-        problem: LightSetProblem::Io(error),
+        problem: LightSetProblem::Io(io::Error::new(
+            error.kind(),
+            format!("cannot be written: {error}"),
+        )),
     }
 }
 
