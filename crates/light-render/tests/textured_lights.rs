@@ -86,7 +86,8 @@ fn two_hundred_thousand_triangles_take_less_than_64_bytes_each() {
     let area = inventory(world.lights())[0].area / 500.0;
     let expected = (mean * scales).as_dvec3() * core::f64::consts::PI * area;
     let ratio = power / expected;
-    assert!((ratio - 1.0).abs().max_element() < 1e-4, "{ratio}");
+    // Waves make some triangles a little larger than others.
+    assert!((ratio - 1.0).abs().max_element() < 1e-3, "{ratio}");
 }
 
 /// The room of [`cornell`], its lamp a screen that shows the image so.
