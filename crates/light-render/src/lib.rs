@@ -32,6 +32,7 @@ mod scene_digest;
 mod scene_lights;
 mod sobol;
 mod surface;
+mod surface_emission;
 mod tone_map;
 mod view;
 mod world;

@@ -1,17 +1,16 @@
 use core::error::Error;
 use core::fmt;
-use std::collections::HashMap;
 
-use light_scene::{Color, EmissionSides, ImageId, Material, SphereFront};
+use light_scene::Material;
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, AreaLightDesc, DiffuseEmissionDesc, Image, Light, LightDesc, LightDescError,
-    LightSet, LightSetBuilder, LightType, MediumInterface, MeshLightDesc, RadianceAmount, Rgb,
-    SceneSphere, SceneSphereError, Sides, SurfaceColor, Texture, TextureMapping,
+    self as sources, Image, Light, LightDesc, LightDescError, LightSet, LightSetBuilder, LightType,
+    Rgb, SceneSphere, SceneSphereError,
 };
 
+use crate::surface_emission::{HoledLights, Textures};
 use crate::world::{WorldMesh, WorldSphere};
 
 /// The lights of a scene.
@@ -20,6 +19,8 @@ pub(crate) struct SceneLights {
     pub(crate) lights: LightSet<Rgb>,
     /// Those that rays find by leaving the scene.
     pub(crate) infinite: Vec<LightId>,
+    /// Those whose surfaces have holes, in the order of their ids.
+    pub(crate) holed: Vec<HoledLights>,
 }
 
 /// Why the lights of a scene cannot be built.
@@ -62,24 +63,21 @@ impl SceneLights {
             SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
         };
         let mut builder = LightSetBuilder::new(sphere.map_err(SceneLightsError::Bounds)?);
-        let mut textures = Textures {
-            images,
-            made: HashMap::new(),
-        };
+        let mut textures = Textures::new(images);
         let mut shining = Vec::new();
         for (index, mesh) in meshes.iter().enumerate() {
             let material = &materials[mesh.material];
-            if let Some(desc) = textures.mesh_light(mesh, material) {
+            if let Some((desc, holes)) = textures.mesh_light(mesh, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                shining.push((index, source));
+                shining.push((index, source, holes));
             }
         }
         let mut shining_spheres = Vec::new();
         for (index, sphere) in spheres.iter().enumerate() {
             let material = &materials[sphere.material];
-            if let Some(desc) = textures.sphere_light(sphere, material) {
+            if let Some((desc, holes)) = textures.sphere_light(sphere, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                shining_spheres.push((index, source));
+                shining_spheres.push((index, source, holes));
             }
         }
         for (number, light) in scene_lights.into_iter().enumerate() {
@@ -87,12 +85,29 @@ impl SceneLights {
             add(&mut builder, &name, light)?;
         }
         let lights = builder.build();
-        for (index, source) in shining {
-            meshes[index].first_light = lights.first_id(source);
+        let mut holed = Vec::new();
+        let mut note = |first: Option<LightId>, count, material, holes| {
+            if let Some((LightId(first), holes)) = first.zip(holes) {
+                let ids = first..first + count;
+                holed.push(HoledLights {
+                    ids,
+                    material,
+                    holes,
+                });
+            }
+        };
+        for (index, source, holes) in shining {
+            let mesh = &mut meshes[index];
+            mesh.first_light = lights.first_id(source);
+            let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
+            note(mesh.first_light, count, mesh.material, holes);
         }
-        for (index, source) in shining_spheres {
-            spheres[index].light = lights.first_id(source);
+        for (index, source, holes) in shining_spheres {
+            let sphere = &mut spheres[index];
+            sphere.light = lights.first_id(source);
+            note(sphere.light, 1, sphere.material, holes);
         }
+        holed.sort_by_key(|lights| lights.ids.start);
         let found_by_rays = |id: &LightId| {
             lights
                 .get(*id)
@@ -101,6 +116,7 @@ impl SceneLights {
         Ok(Self {
             infinite: lights.infinite_ids().filter(found_by_rays).collect(),
             lights,
+            holed,
         })
     }
 }
@@ -127,75 +143,6 @@ pub(crate) fn shown_images(
         })
     };
     images.into_iter().enumerate().map(shown).collect()
-}
-
-/// The textures of surfaces that shine, each made once.
-struct Textures<'a> {
-    images: &'a [Image],
-    made: HashMap<ImageId, Texture>,
-}
-
-impl Textures<'_> {
-    fn texture(&mut self, id: ImageId) -> Texture {
-        let make = || Texture::new(self.images[id.0 as usize].clone());
-        self.made.entry(id).or_insert_with(make).clone()
-    }
-
-    /// The light that a mesh is, if its material shines.
-    fn mesh_light(&mut self, mesh: &WorldMesh, material: &Material) -> Option<LightDesc<Rgb>> {
-        Some(LightDesc::Mesh(MeshLightDesc {
-            positions: mesh.positions.clone(),
-            indices: mesh.indices.clone(),
-            uvs: mesh.uvs.clone(),
-            emission: self.emission(material)?,
-        }))
-    }
-
-    /// The light that a sphere is, if its material shines; the front of the light is the outside.
-    fn sphere_light(
-        &mut self,
-        sphere: &WorldSphere,
-        material: &Material,
-    ) -> Option<LightDesc<Rgb>> {
-        let mut emission = self.emission(material)?;
-        if sphere.front == SphereFront::Inside {
-            if emission.sides == Sides::Front {
-                emission.sides = Sides::Back;
-            }
-            let MediumInterface { inside, outside } = emission.media;
-            emission.media = MediumInterface {
-                inside: outside,
-                outside: inside,
-            };
-        }
-        let shape = sphere.shape.into();
-        Some(LightDesc::Area(AreaLightDesc { shape, emission }))
-    }
-
-    /// How a material shines, if it does.
-    fn emission(&mut self, material: &Material) -> Option<DiffuseEmissionDesc<Rgb>> {
-        let emission = material.emission.as_ref()?;
-        let (color, mapping) = match &emission.radiance {
-            Color::Constant(radiance) => {
-                (SurfaceColor::Uniform(*radiance), TextureMapping::default())
-            }
-            Color::Image(shown) => {
-                let texture = self.texture(shown.image);
-                let tint = shown.scale;
-                (SurfaceColor::Image { texture, tint }, shown.mapping)
-            }
-        };
-        let sides = match emission.sides {
-            EmissionSides::Front => Sides::Front,
-            EmissionSides::Both => Sides::Both,
-        };
-        Some(DiffuseEmissionDesc {
-            sides,
-            mapping,
-            media: material.media,
-            ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
-        })
-    }
 }
 
 impl fmt::Display for SceneLightsError {

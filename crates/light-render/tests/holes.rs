@@ -1,4 +1,4 @@
-//! Surfaces with holes: rays pass them, shadow rays too, and lamps with holes light the scene as if they had none.
+//! Surfaces with holes: rays pass them, shadow rays too, and lamps emit where they are.
 
 mod support;
 
@@ -125,7 +125,7 @@ fn a_lamp_that_is_not_seen_gives_all_its_light() {
         shot.mean(scene)
     };
     let hidden = lamps(Some(Alpha {
-        share: Color::Constant(Vec3::splat(0.3)),
+        share: Color::Constant(Vec3::ZERO),
         cutoff: None,
     }));
     let whole = of(&lamps(None), Estimator::Mis);
@@ -133,4 +133,6 @@ fn a_lamp_that_is_not_seen_gives_all_its_light() {
         let mean = of(&hidden, estimator);
         assert!(agree(mean, whole), "{estimator:?}: {mean:?} and {whole:?}");
     }
+    let missed = of(&hidden, Estimator::Bsdf).0;
+    assert_eq!(missed, DVec3::ZERO, "no ray meets it");
 }

@@ -95,8 +95,8 @@ pub enum Color {
 
 /// How much of a surface is there: 0 is a hole, 1 is all of it.
 ///
-/// Holes let rays pass; the light that a surface emits does not change. So a lamp whose share is 0 everywhere lights the
-/// scene and is not seen.
+/// Holes let rays pass and emit nothing. But a lamp whose share is the constant 0, without a cutoff, shines as a whole and is
+/// not seen.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Alpha {
     /// The share, in [0, 1]; of a colour the first channel counts.

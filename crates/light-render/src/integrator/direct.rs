@@ -3,7 +3,7 @@ use lights::bvh::prefetch_item;
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
 use lights::samplers::{LightLook, LightSampler};
-use lights::sources::{Light, LightType, PdfCoverage};
+use lights::sources::{Light, LightType};
 
 use super::chosen::ChosenLights;
 use super::{Estimator, Traced};
@@ -183,14 +183,8 @@ fn unshadowed<V: Scatters>(
 ) -> Option<Unshadowed> {
     let Vertex { scattering, wo, .. } = *vertex;
     let light = world.lights().get(choice.light)?;
-    // Rays find no more of a light with holes than is there, but it gives light as if it had none.
-    let has_holes = world.has_holes(choice.light);
-    let coverage = if has_holes {
-        PdfCoverage::Complete
-    } else {
-        estimator.coverage()
-    };
-    let sample = light.sample_li(&question.ctx, u_point, &(), coverage)?;
+    let coverage = estimator.coverage();
+    let sample = world.sample_light(choice.light, &question.ctx, u_point, coverage)?;
     if is_in_the_surface(&question.ctx, sample.p_light) {
         return None;
     }
@@ -200,7 +194,7 @@ fn unshadowed<V: Scatters>(
     }
     let density = question.count as f32 * choice.pmf * sample.pdf;
     let kind = light.light_type();
-    let weight = if kind.is_delta() || has_holes {
+    let weight = if kind.is_delta() {
         1.0
     } else {
         estimator.light_weight(density, scattering.pdf(wo, sample.wi))

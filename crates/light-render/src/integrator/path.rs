@@ -64,12 +64,6 @@ impl Origin {
     ) -> f32 {
         match self {
             Self::Dirac => 1.0,
-            // Light samples have found all of its light.
-            Self::Material { .. }
-                if direct.estimator.samples_lights() && direct.world.has_holes(light) =>
-            {
-                0.0
-            }
             Self::Material { question, pdf } => direct
                 .estimator
                 .bsdf_weight(pdf, || direct.density(&question, light, wi)),

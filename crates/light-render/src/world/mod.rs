@@ -9,8 +9,6 @@ mod primitives;
 mod rays;
 mod sphere;
 
-use core::ops::Range;
-
 use light_scene::{Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
 use lights::glam::Vec3;
@@ -19,6 +17,7 @@ use lights::sources::shape::Sphere;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
 use crate::scene_lights::{SceneLights, shown_images};
+use crate::surface_emission::HoledLights;
 use crate::world_media::WorldMedia;
 use crate::{Accel, Prototype, Ray, Surface};
 pub use error::WorldError;
@@ -47,8 +46,8 @@ pub struct World {
     media: WorldMedia,
     /// Whether any surface has holes.
     has_holes: bool,
-    /// The ids of the lights that have.
-    holed_lights: Vec<Range<u32>>,
+    /// The lights whose surfaces have, in the order of their ids.
+    holed_lights: Vec<HoledLights>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +78,11 @@ impl World {
         let media = WorldMedia::new(media, camera_medium, &materials);
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
         let mut spheres = world_spheres(spheres)?;
-        let SceneLights { lights, infinite } = SceneLights::new(
+        let SceneLights {
+            lights,
+            infinite,
+            holed: holed_lights,
+        } = SceneLights::new(
             &mut meshes,
             &mut spheres,
             &materials,
@@ -87,7 +90,6 @@ impl World {
             lights,
             &bounds,
         )?;
-        let holed_lights = holes::holed_lights(&meshes, &spheres, &materials);
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_spheres = shapes(&spheres);
         let mut prototypes = Vec::with_capacity(placed.len());

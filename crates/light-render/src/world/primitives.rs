@@ -109,7 +109,7 @@ impl World {
             uv: surface.uv,
         };
         let l = self.lights.get(id)?.l(&at, wo, &());
-        (l != Vec3::ZERO).then_some((id, l))
+        (l != Vec3::ZERO).then(|| (id, self.where_met(id, surface.uv, l)))
     }
 
     #[inline]
