@@ -2,7 +2,7 @@
 
 use crate::steps::Steps;
 use crate::tools::Install;
-use crate::{check, counts, dependencies, fuzz, no_std, oldest};
+use crate::{check, conformance, counts, dependencies, fuzz, no_std, oldest};
 
 /// Seconds that each fuzz target gets.
 const FUZZ_SECONDS: u32 = 5;
@@ -13,6 +13,7 @@ pub fn add_steps(steps: &mut Steps) {
     no_std::add_steps(steps);
     oldest::add_steps(steps);
     dependencies::add_steps(steps, Install::Forbidden);
+    steps.run("conformance", conformance::check_all);
     steps.run("fuzz targets, a few seconds each", || {
         fuzz::smoke(FUZZ_SECONDS)
     });

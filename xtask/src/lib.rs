@@ -34,6 +34,8 @@ usage: cargo xtask [COMMAND]
   (none)                      format, lints, tests over each feature set, documentation
   ci                          the same, bare targets, the oldest toolchain, fuzz smoke, instruction counts
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
+  conformance --self-test [DIR]
+                              change each of our answers and demand that its case fails
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
   bench --table [TABLE...]    measure light hierarchies for the first page of light-bvh: hierarchies, receivers, adversarial, drift
@@ -48,7 +50,6 @@ usage: cargo xtask [COMMAND]
   mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
-  thin-vectors FROM           remake testdata/pbrt from a full set of vectors
   uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
 
@@ -78,7 +79,6 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),
-        ("thin-vectors", rest) => conformance::thin::run(rest),
         ("uplift-table", []) => uplift::run(),
         ("help" | "--help" | "-h", _) => {
             print!("{USAGE}");

@@ -25,6 +25,9 @@ pub(crate) struct Portal {
 /// How far cosines of angles between the sides may lie from those of a rectangle: files write few digits.
 const TOLERANCE: f32 = 1e-3;
 
+/// The largest angle below a right angle.
+const UPRIGHT: f32 = f32::from_bits(FRAC_PI_2.to_bits() - 1);
+
 impl Portal {
     /// The portal with these corners, one after the other around it; `None` unless they are a planar rectangle with an
     /// area. Light comes from where the corners run clockwise.
@@ -63,7 +66,8 @@ impl Portal {
     /// # Source
     /// `[PBRT4]`, section 12.5.3: `pi^2 (1 - x^2) (1 - y^2) / z`.
     pub(crate) fn direction(&self, uv: Vec2) -> (Vec3, f32) {
-        let angles = (uv - 0.5) * PI;
+        // A right angle rounds to beyond a right angle, whose tangent has the other sign.
+        let angles = ((uv - 0.5) * PI).clamp(Vec2::splat(-UPRIGHT), Vec2::splat(UPRIGHT));
         let w = Vec3::new(tan(angles.x), tan(angles.y), 1.0).normalize();
         (self.frame.from_local(w), solid_angle_per_area(w))
     }
@@ -118,8 +122,10 @@ fn square(w: Vec3) -> Vec2 {
     (Vec2::new(atan2(w.x, w.z), atan2(w.y, w.z)) + FRAC_PI_2) * FRAC_1_PI
 }
 
+/// With `y^2 + z^2` for `1 - x^2`, which loses its digits near the edge of the half space.
 fn solid_angle_per_area(w: Vec3) -> f32 {
-    PI * PI * (1.0 - w.x * w.x) * (1.0 - w.y * w.y) / w.z
+    let sq = w * w;
+    PI * PI * (sq.y + sq.z) * (sq.x + sq.z) / w.z
 }
 
 #[cfg(test)]

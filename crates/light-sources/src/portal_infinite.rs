@@ -167,9 +167,16 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         pdf().unwrap_or(0.0)
     }
 
-    /// Density of a ray's origin on the portal, per area across the ray.
+    /// Density of a ray's origin on the portal, per area across the ray; 0 along the portal, which no ray passes.
     fn pdf_position(&self, direction: Vec3) -> f32 {
-        1.0 / (self.portal.area() * self.portal.frame().z.dot(direction).abs())
+        /// A smaller cosine is what rounding has left of it.
+        const ALONG: f32 = 8.0 * f32::EPSILON;
+        let cos_theta = self.portal.frame().z.dot(direction).abs();
+        if cos_theta > ALONG {
+            1.0 / (self.portal.area() * cos_theta)
+        } else {
+            0.0
+        }
     }
 }
 
@@ -215,15 +222,16 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>> {
         let (uv, wi, pdf) = self.sample_direction(u1, &Window::UNIT)?;
+        let pos = self.pdf_position(wi);
+        if pos == 0.0 {
+            return None;
+        }
         let on_portal = self.portal.point(u2);
         let away = self.scene.radius() + on_portal.distance(self.scene.center());
         Some(LightLeSample {
             l: self.radiance(uv, wavelengths),
             ray: EmittedRay::from_point(on_portal + wi * away, -wi),
-            pdf: LePdf {
-                pos: self.pdf_position(wi),
-                dir: pdf,
-            },
+            pdf: LePdf { pos, dir: pdf },
         })
     }
 

@@ -1,3 +1,5 @@
+use super::oracle::Certainty;
+use super::sabotage::{Answer, Sabotage};
 use lights::math::glam::{Vec2, Vec3};
 
 /// A named reason why a difference is no failure.
@@ -44,9 +46,25 @@ pub struct Findings {
     pub(super) holds: usize,
     pub(super) failures: Vec<String>,
     pub(super) exemptions: Vec<&'static Rule>,
+    pub(super) sabotage: Sabotage,
 }
 
 impl Findings {
+    /// Our answer on its way into the comparison, the only one: a self-test changes it here.
+    pub fn ours<T: Answer>(&mut self, name: &'static str, answer: T) -> T {
+        self.sabotage.pass(name, answer)
+    }
+
+    /// The same for whether there is an answer.
+    pub fn ours_if_any<T>(&mut self, name: &'static str, answer: Option<T>) -> Option<T> {
+        self.sabotage.pass_option(name, answer)
+    }
+
+    /// Notes that the answers since the last call have been compared, and whether the inputs determine them.
+    pub(super) fn settled(&mut self, certainty: Certainty) {
+        self.sabotage.settle(certainty == Certainty::Undetermined);
+    }
+
     /// Notes a failure.
     pub fn fail(&mut self, message: String) {
         self.failures.push(message);

@@ -18,6 +18,7 @@ mod pmf_range;
 mod sampler_answers;
 mod sampling;
 mod sampling_discrete;
+mod sampling_solid_angle;
 mod sampling_spherical;
 mod summed_area_table;
 mod tables;

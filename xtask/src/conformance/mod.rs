@@ -1,21 +1,29 @@
 //! Replays numbers that a reference renderer returned and compares them with ours.
 //!
-//! A folder of vectors holds one `KIND.jsonl` per kind, one JSON object a line. Each kind has a module here with one
-//! [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from the reference on purpose,
-//! or where the answer is not determined, the checker names a [`Rule`]: there is no number of allowed failures.
+//! A folder of vectors holds one file per kind, one JSON object a line. Each kind has a module here with one
+//! [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from the reference, an oracle in
+//! double precision computes the right answer from the published formula, without the library under test, and ours has
+//! to be that answer. Then the checker names a [`Rule`], the reason of the difference. There is no number of allowed
+//! failures. The self-test changes one answer of ours after the other and demands that its line fails.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::steps::{Outcome, StepResult};
+
 mod case;
-mod exact;
+mod comparison;
+
+mod files;
 mod findings;
 mod kinds;
+mod oracle;
 mod report;
-pub mod thin;
+mod sabotage;
+pub mod self_test;
 
 pub use case::{Case, Malformed};
+use files::VectorFile;
 pub use findings::{Findings, Rule, Tolerance};
 pub use report::Report;
 
@@ -41,22 +49,34 @@ pub fn default_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../testdata/pbrt")
 }
 
-/// `cargo xtask conformance [DIR]`.
+/// `cargo xtask conformance [--self-test] [DIR]`.
 #[must_use]
 pub fn run(arguments: &[String]) -> ExitCode {
-    let folder = match arguments {
+    let (is_self_test, rest) = match arguments {
+        [flag, rest @ ..] if flag == "--self-test" => (true, rest),
+        rest => (false, rest),
+    };
+    let folder = match rest {
         [] => default_folder(),
-        [folder] => PathBuf::from(folder),
+        [folder] if !folder.starts_with('-') => PathBuf::from(folder),
         _ => {
-            eprintln!("usage: cargo xtask conformance [DIR]");
+            eprintln!("usage: cargo xtask conformance [--self-test] [DIR]");
             return ExitCode::from(2);
         }
     };
-    match check_folder(&folder) {
-        Ok(reports) => {
+    let outcome = if is_self_test {
+        self_test::run_folder(&folder, &self_test::Selection::ALL).map(|table| {
+            print!("{table}");
+            table.is_complete()
+        })
+    } else {
+        check_folder(&folder).map(|reports| {
             reports.iter().for_each(|report| print!("{report}"));
-            ExitCode::from(u8::from(reports.iter().any(|r| r.failed > 0)))
-        }
+            reports.iter().all(|report| report.failed == 0)
+        })
+    };
+    match outcome {
+        Ok(is_good) => ExitCode::from(u8::from(!is_good)),
         Err(message) => {
             eprintln!("{message}");
             ExitCode::from(2)
@@ -64,38 +84,33 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
-/// Checks every `KIND.jsonl` in `folder`, in alphabetical order.
+/// The step of `cargo xtask ci`: all shipped vectors, and the self-test on a part of them.
+pub(crate) fn check_all() -> StepResult {
+    let reports = check_folder(&default_folder())?;
+    let failed: Vec<_> = reports.iter().filter(|report| report.failed > 0).collect();
+    failed.iter().for_each(|report| print!("{report}"));
+    if !failed.is_empty() {
+        return Err(format!("{} kinds fail", failed.len()));
+    }
+    Ok(Outcome::Passed)
+}
+
+/// Checks every vector file in `folder`, in alphabetical order.
 ///
 /// # Errors
 /// One line that says why the folder or a file cannot be read.
 pub fn check_folder(folder: &Path) -> Result<Vec<Report>, String> {
-    let files = vector_files(folder)?;
-    files.iter().map(|file| check_file(file)).collect()
+    let files = files::read_folder(folder)?;
+    Ok(files.iter().map(check_file).collect())
 }
 
-/// The vector files of `folder`, in alphabetical order, at least one.
-fn vector_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| entry.ok().map(|e| e.path()))
-        .filter(|path| path.extension().is_some_and(|e| e == "jsonl"))
-        .collect();
-    files.sort();
-    if files.is_empty() {
-        return Err(format!("{}: no .jsonl file in it", folder.display()));
-    }
-    Ok(files)
-}
-
-fn check_file(file: &Path) -> Result<Report, String> {
-    let text = fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
-    let kind = kind_of(file);
-    let mut report = Report::new(&kind);
-    let Some(mut checker) = kinds::checker(&kind) else {
-        report.unchecked = text.lines().count();
-        return Ok(report);
+fn check_file(file: &VectorFile) -> Report {
+    let mut report = Report::new(&file.kind);
+    let Some(mut checker) = kinds::checker(&file.kind) else {
+        report.unchecked = file.text.lines().count();
+        return report;
     };
-    for (number, line) in text.lines().enumerate() {
+    for (number, line) in file.text.lines().enumerate() {
         let mut findings = Findings::default();
         let outcome = serde_json::from_str(line)
             .map_err(|e| Malformed(e.to_string()))
@@ -105,13 +120,5 @@ fn check_file(file: &Path) -> Result<Report, String> {
         }
         report.add(number + 1, findings);
     }
-    Ok(report)
-}
-
-/// The kind of vectors that `file` holds: its name without the ending.
-fn kind_of(file: &Path) -> String {
-    file.file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
+    report
 }

@@ -2,6 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::flat_quad::FlatQuad;
+use super::patch_area;
 use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -63,7 +64,7 @@ impl BilinearPatch {
             area: 0.0,
             bend: Bend::Twisted,
         };
-        patch.area = patch.integrate_area();
+        patch.area = patch_area::integrate(|uv| patch.scaled_normal(uv));
         patch.bend = patch.measure_bend();
         if !(patch.area > 0.0 && patch.area.is_finite()) {
             return Err(BilinearPatchError::Area);
@@ -124,17 +125,6 @@ impl BilinearPatch {
             Bend::Flat => FlatQuad::new(ctx, self.corners()),
             Bend::Twisted => None,
         }
-    }
-
-    /// The integral of the normal's length.
-    fn integrate_area(&self) -> f32 {
-        let mut area = 0.0;
-        for (x, wx) in GAUSS {
-            for (y, wy) in GAUSS {
-                area += self.scaled_normal(Vec2::new(x, y)).length() * (wx * wy);
-            }
-        }
-        area
     }
 
     /// Parameters and distance of the ray's first meeting with the patch.
@@ -260,19 +250,6 @@ impl Shape for BilinearPatch {
 
 /// The corners in the order of the weights of [`bilinear`].
 const CORNERS: [Vec2; 4] = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
-
-/// Nodes and weights on [0, 1] that integrate polynomials up to degree 11 exactly.
-///
-/// # Source
-/// `[DLMF]`, table 3.5.2, moved from [-1, 1].
-const GAUSS: [(f32, f32); 6] = [
-    (0.033_765_243, 0.085_662_246),
-    (0.169_395_307, 0.180_380_787),
-    (0.380_690_407, 0.233_956_967),
-    (0.619_309_593, 0.233_956_967),
-    (0.830_604_693, 0.180_380_787),
-    (0.966_234_757, 0.085_662_246),
-];
 
 impl fmt::Display for BilinearPatchError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -6,6 +6,7 @@ mod cylinder;
 mod cylinder_view;
 mod disk;
 mod flat_quad;
+mod patch_area;
 mod receiver_cosine;
 mod rectangle;
 mod sphere;

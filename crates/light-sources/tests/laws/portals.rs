@@ -65,11 +65,19 @@ fn portal() {
 /// Through a window in front of a uniform sky comes pi L A, and every ray passes the window.
 #[test]
 fn power_is_that_of_the_window() {
-    let image = Image::from_f32([64, 64], Channels::Gray, vec![1.0; 64 * 64]);
-    let light = light(EnvironmentMap::EqualArea(image.expect("an image")));
-    let phi = light.phi(&()).x;
+    let sky = |n: u32| {
+        let image = Image::from_f32([n, n], Channels::Gray, vec![1.0; (n * n) as usize]);
+        light(EnvironmentMap::EqualArea(image.expect("an image")))
+    };
     let expected = core::f32::consts::PI * 2.0 * 2.0;
-    assert!((phi / expected - 1.0).abs() < 1e-3, "{phi}, {expected}");
+    for n in [1, 2, 5, 64] {
+        let phi = sky(n).phi(&()).x;
+        assert!(
+            (phi / expected - 1.0).abs() < 1e-5,
+            "{n}: {phi}, {expected}"
+        );
+    }
+    let light = sky(64);
     let mut rng = Rng::new(5);
     for _ in 0..1000 {
         let sample = light.sample_le(rng.vec2(), rng.vec2(), &()).expect("a ray");
@@ -83,6 +91,28 @@ fn power_is_that_of_the_window() {
             ray.direction.x < 0.0 && ray.origin.length() > 5.0,
             "from outside: {ray:?}"
         );
+    }
+}
+
+/// Rays along the portal pass it nowhere, and the first and the last random number are no exception.
+#[test]
+fn rays_along_the_portal() {
+    let image = Image::from_f32([4, 4], Channels::Gray, vec![1.0; 16]).expect("an image");
+    let light = light(EnvironmentMap::EqualArea(image));
+    let ray = EmittedRay::from_point(Vec3::new(1.0, 3.0, 0.5), Vec3::NEG_Y);
+    assert_eq!(light.pdf_le(&ray).pos, 0.0, "along the portal");
+    let ends = [0.0, 0.5, 1.0 - 0.5 * f32::EPSILON];
+    for u1 in ends.map(|y| ends.map(|x| Vec2::new(x, y))).concat() {
+        let Some(sample) = light.sample_le(u1, Vec2::splat(0.5), &()) else {
+            continue;
+        };
+        assert!(sample.pdf.pos.is_finite(), "{u1}: {sample:?}");
+        // The light is at +x, the map's x along y and its y along z.
+        let side = |u: f32| if u == 0.5 { 0.0 } else { (u - 0.5).signum() };
+        let to_light = -sample.ray.direction;
+        let [y, z] =
+            [to_light.y, to_light.z].map(|x| if x.abs() < 1e-6 { 0.0 } else { x.signum() });
+        assert!([y, z] == [side(u1.x), side(u1.y)], "{u1}: {sample:?}");
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{sampling_discrete, sampling_spherical};
+use super::{sampling_discrete, sampling_solid_angle, sampling_spherical};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
 use lights::math::glam::{Vec2, Vec3};
 use lights::math::warp::{
@@ -86,8 +86,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         Some("discrete") => sampling_discrete::check(case, findings)?,
         Some("spherical_triangle") => sampling_spherical::triangle(case, findings)?,
         Some("spherical_rectangle") => sampling_spherical::rectangle(case, findings)?,
-        Some("spherical_triangle_area") => sampling_spherical::triangle_area(case, findings)?,
-        Some("spherical_quad_area") => sampling_spherical::quad_area(case, findings)?,
+        Some("spherical_triangle_area") => sampling_solid_angle::triangle_area(case, findings)?,
+        Some("spherical_quad_area") => sampling_solid_angle::quad_area(case, findings)?,
         _ => return Err(Malformed("unknown `op`".to_owned())),
     }
     Ok(())

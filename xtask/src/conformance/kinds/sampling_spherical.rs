@@ -1,27 +1,21 @@
 //! Triangles and rectangles seen from a point.
 
-use crate::conformance::exact::{ExactRectangle, ExactTriangle};
+use crate::conformance::comparison::Comparison;
+use crate::conformance::oracle::{ExactRectangle, ExactTriangle, Jitter};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
-use lights::math::glam::{Vec2, Vec3};
-use lights::math::solid_angle;
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use lights::math::warp::{SphericalRectangle, SphericalTriangle};
 
-const CLOSER: Rule = Rule {
-    name: "closer_to_double_precision",
-    reason: "the reference adds and subtracts angles and cosines in single precision; computed in double precision, \
-             the answer is at least as near to ours as to the reference",
-};
-
-const ROUNDED_CORNERS: Rule = Rule {
-    name: "rounded_corners",
-    reason: "where the point is almost in the plane, or the shape is a sliver, moving the corners or u by 4 ulps moves \
-             the answer in double precision by as much as ours is off",
+const SINGLE: Rule = Rule {
+    name: "single_precision",
+    reason: "the reference adds and subtracts angles and cosines in single precision; ours is the answer in double \
+             precision",
 };
 
 const AREA_SAMPLING: Rule = Rule {
     name: "area_sampling_below_1e-3",
-    reason: "the reference samples the area of small rectangles, which is not what its density says; ours agrees \
-             with double precision",
+    reason: "the reference samples the area of small rectangles, which is not what its density says; ours is the \
+             answer in double precision",
 };
 
 const SINGULAR: Rule = Rule {
@@ -31,64 +25,135 @@ const SINGULAR: Rule = Rule {
 
 const DEGENERATE: Rule = Rule {
     name: "degenerate",
-    reason: "the reference found no solid angle to sample and answers with density 0, or ours found none",
+    reason: "the point lies in the plane up to rounding: there is no solid angle to sample",
 };
 
-const OPPOSITE: Rule = Rule {
-    name: "opposite_corners",
-    reason: "two neighbouring corners are opposite directions, so the side between them is not determined",
-};
+const RELATIVE: Tolerance = Tolerance::new(1e-5, 0.0);
 
-const REPEATED: Rule = Rule {
-    name: "repeated_corner",
-    reason: "two corners are the same: the reference answers 0, ours is the triangle that is left",
-};
+/// The answers of a triangle or a rectangle, and the reference's.
+struct Answers {
+    omega: f32,
+    pdf: f32,
+    place: Vec3,
+    u: Vec2,
+}
 
-const IN_PLANE: Rule = Rule {
-    name: "in_plane",
-    reason: "all directions lie in one plane through the point: the reference answers half of the sphere, ours 0",
-};
+/// What the oracle says of the same, for moved corners.
+struct Truths<'a> {
+    omega: &'a dyn Fn(&mut Jitter) -> f64,
+    place: &'a dyn Fn(&mut Jitter) -> DVec3,
+    u: &'a dyn Fn(&mut Jitter) -> DVec2,
+}
 
-const NOT_CONVEX: Rule = Rule {
-    name: "not_convex",
-    reason: "the reference adds four angles below pi each, which is an area only if no corner is re-entrant and no \
-             sides cross",
-};
+/// Compares all but what is not determined: the first number of the inverse at a singularity.
+fn compare(
+    ours: &Answers,
+    theirs: &Answers,
+    truths: &Truths<'_>,
+    [place_rule, inverse_rule]: [&'static Rule; 2],
+    is_singular: bool,
+    findings: &mut Findings,
+) {
+    // Where the reference finds nothing to sample, it says nothing.
+    let said = (theirs.pdf > 0.0).then_some(theirs);
+    let mut comparison = Comparison::default();
+    let omega = findings.ours("solid angle", ours.omega);
+    comparison.number("solid angle", omega, said.map(|t| t.omega), RELATIVE);
+    comparison.ill_conditioned();
+    let exact = |jitter: &mut Jitter| DVec3::X * (truths.omega)(jitter);
+    comparison.settle(findings, || &SINGLE, |jitter| Some(vec![exact(jitter)]));
+
+    // One over that solid angle.
+    let mut pdf = Comparison::default();
+    let answer = findings.ours("pdf", ours.pdf);
+    pdf.number("pdf", answer, said.map(|t| t.pdf), Tolerance::GENERAL);
+    let exact = DVec3::X / f64::from(omega);
+    pdf.settle(findings, || &SINGLE, |_| Some(vec![exact]));
+
+    let mut place = Comparison::default();
+    let answer = findings.ours("place", ours.place);
+    place.vec3("place", answer, said.map(|t| t.place), Tolerance::GENERAL);
+    place.ill_conditioned();
+    let exact = |jitter: &mut Jitter| Some(vec![(truths.place)(jitter)]);
+    place.settle(findings, || place_rule, exact);
+
+    let mut u = Comparison::default();
+    let (mut answer, mut said) = (ours.u, said.map(|t| t.u));
+    if is_singular {
+        findings.exempt(&SINGULAR);
+        answer.x = 0.0;
+        said = said.map(|u| Vec2::new(0.0, u.y));
+    }
+    let answer = findings.ours("inverse", answer);
+    u.vec2("inverse", answer, said, Tolerance::GENERAL);
+    u.ill_conditioned();
+    let exact = |jitter: &mut Jitter| {
+        let mut u = (truths.u)(jitter).clamp(DVec2::ZERO, DVec2::ONE);
+        if is_singular {
+            u.x = 0.0;
+        }
+        Some(vec![u.extend(0.0)])
+    };
+    u.settle(findings, || inverse_rule, exact);
+}
+
+/// How near to the plane of a shape, over its distance, a point is in it up to rounding.
+const IN_PLANE: f64 = 8.0 * f32::EPSILON as f64;
+
+/// Where the point is in the plane up to rounding there is nothing to sample, or next to nothing.
+fn check_degenerate(ours: Option<(f32, f32, Vec3)>, findings: &mut Findings) {
+    findings.exempt(&DEGENERATE);
+    let Some((omega, pdf, place)) = ours else {
+        return findings.check(true, String::new);
+    };
+    let pdf = findings.ours("degenerate pdf", pdf);
+    let is_usable = (pdf * omega - 1.0).abs() < 1e-5
+        && place.cmpge(Vec3::ZERO).all()
+        && place.cmple(Vec3::ONE).all();
+    findings.check(is_usable, || {
+        format!("solid angle {omega}, pdf {pdf}, {place}")
+    });
+}
 
 /// Solid angle, barycentric coordinates, density and inverse.
 pub(super) fn triangle(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
     let v = case.get("v")?;
     let v = [v.at(0)?.vec3()?, v.at(1)?.vec3()?, v.at(2)?.vec3()?];
     let (p, u) = (case.get("p")?.vec3()?, case.get("u")?.vec2()?);
-    let pdf = case.get("pdf")?.float()?;
-    let Some(ours) = SphericalTriangle::new(v, p).filter(|_| pdf > 0.0) else {
-        findings.exempt(&DEGENERATE);
-        return Ok(());
-    };
-    let exact = |step: usize| ExactTriangle::new(moved(v, step), p);
-    let omega = case.get("solid_angle")?.float()?;
-    let mut judge = Judge {
-        rule: &CLOSER,
-        findings,
-    };
-    judge.compare("solid angle", [ours.solid_angle()], [omega], |i| {
-        [exact(i).solid_angle() as f32]
-    });
-    judge.compare("pdf", [ours.pdf()], [pdf], |i| {
-        [1.0 / exact(i).solid_angle() as f32]
-    });
-    let b = case.get("b")?.vec3()?;
-    judge.compare("b", ours.sample(u).to_array(), b.to_array(), |i| {
-        exact(i).sample(moved_u(u, i)).to_array()
-    });
-    if u.y < 1e-6 {
-        findings.exempt(&SINGULAR);
+    let exact = |jitter: &mut Jitter| moved_triangle(v, p, jitter);
+    let omega = |jitter: &mut Jitter| exact(jitter).solid_angle();
+    let seen = SphericalTriangle::new(v, p);
+    let [a, b, c] = v.map(|v| (v - p).as_dvec3().normalize());
+    let edges = (b - a).length().min((c - a).length());
+    if a.dot((b - a).cross(c - a)).abs() <= IN_PLANE * edges {
+        let ours = seen.map(|s| (s.solid_angle(), s.pdf(), s.sample(u)));
+        check_degenerate(ours, findings);
         return Ok(());
     }
-    let inv = case.get("inv")?.vec2()?;
-    judge.compare("inv", ours.invert(b).to_array(), inv.to_array(), |i| {
-        exact(i).invert(b).clamp(Vec2::ZERO, Vec2::ONE).to_array()
-    });
+    let Some(seen) = findings.ours_if_any("triangle", seen) else {
+        findings.fail("no triangle".to_owned());
+        return Ok(());
+    };
+    let theirs = answers(case, case.find("b").map(|b| b.vec3()).transpose()?)?;
+    // The inverse of the reference's own place, or of ours.
+    let b = if theirs.pdf > 0.0 {
+        theirs.place
+    } else {
+        seen.sample(u)
+    };
+    let ours = Answers {
+        omega: seen.solid_angle(),
+        pdf: seen.pdf(),
+        place: seen.sample(u),
+        u: seen.invert(b),
+    };
+    let truths = Truths {
+        omega: &omega,
+        place: &|jitter| exact(jitter).sample(jitter.numbers(u.as_dvec2())),
+        u: &|jitter| exact(jitter).invert(b.as_dvec3()),
+    };
+    let is_singular = u.y < 1e-6 || b.x + b.z < 1e-6;
+    compare(&ours, &theirs, &truths, [&SINGLE; 2], is_singular, findings);
     Ok(())
 }
 
@@ -96,159 +161,82 @@ pub(super) fn triangle(case: &Case<'_>, findings: &mut Findings) -> Result<(), M
 pub(super) fn rectangle(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
     let [s, ex, ey, p] = ["s", "ex", "ey", "p"].map(|name| case.get(name)?.vec3());
     let (s, ex, ey, p) = (s?, ex?, ey?, p?);
-    let (u, pdf) = (case.get("u")?.vec2()?, case.get("pdf")?.float()?);
-    let Some(ours) = SphericalRectangle::new(s, ex, ey, p).filter(|_| pdf > 0.0) else {
-        findings.exempt(&DEGENERATE);
-        return Ok(());
+    let u = case.get("u")?.vec2()?;
+    let exact = |jitter: &mut Jitter| {
+        let [s, p] = [s, p].map(|v| moved(v, s.abs().max(p.abs()).max_element(), jitter));
+        let [ex, ey] = [ex, ey].map(|v| moved(v, v.length(), jitter));
+        ExactRectangle::new(s, ex, ey.reject_from(ex), p)
     };
-    let exact = |step: usize| {
-        let [s, ex, ey] = moved([s, ex, ey], step);
-        ExactRectangle::new(s, ex, ey, p)
-    };
-    let omega = case.get("solid_angle")?.float()?;
-    let mut judge = Judge {
-        rule: &CLOSER,
-        findings,
-    };
-    judge.compare("solid angle", [ours.solid_angle()], [omega], |i| {
-        [exact(i).solid_angle() as f32]
-    });
-    judge.compare("pdf", [ours.pdf()], [pdf], |i| {
-        [1.0 / exact(i).solid_angle() as f32]
-    });
-    if omega < 1e-3 {
-        judge.rule = &AREA_SAMPLING;
-    }
-    let q = case.get("q")?.vec3()? - s;
-    let place = Vec2::new(
-        q.dot(ex) / ex.length_squared(),
-        q.dot(ey) / ey.length_squared(),
-    );
-    judge.compare("q", ours.sample(u).to_array(), place.to_array(), |i| {
-        exact(i).sample(moved_u(u, i)).to_array()
-    });
-    let inv = case.get("inv")?.vec2()?;
-    judge.compare("inv", ours.invert(place).to_array(), inv.to_array(), |i| {
-        exact(i)
-            .invert(place)
-            .clamp(Vec2::ZERO, Vec2::ONE)
-            .to_array()
-    });
-    Ok(())
-}
-
-/// The solid angle of three directions.
-pub(super) fn triangle_area(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-    let [a, b, c] = ["a", "b", "c"].map(|name| case.get(name)?.vec3());
-    let v = [a?, b?, c?];
-    if (0..3).any(|i| are_opposite(v[i], v[(i + 1) % 3])) {
-        findings.exempt(&OPPOSITE);
+    let omega = |jitter: &mut Jitter| exact(jitter).solid_angle();
+    let seen = SphericalRectangle::new(s, ex, ey, p);
+    let normal = ex.as_dvec3().cross(ey.as_dvec3()).normalize();
+    let corners = [s, s + ex, s + ey, s + ex + ey].map(|v| v.distance(p));
+    let nearest = corners.into_iter().fold(f32::INFINITY, f32::min);
+    if (s - p).as_dvec3().dot(normal).abs() <= IN_PLANE * f64::from(nearest) {
+        let ours = seen.map(|s| (s.solid_angle(), s.pdf(), s.sample(u).extend(0.0)));
+        check_degenerate(ours, findings);
         return Ok(());
     }
-    let ours = solid_angle::triangle(v, Vec3::ZERO);
-    let exact = |i| [ExactTriangle::new(moved(v, i), Vec3::ZERO).solid_angle() as f32];
-    let area = case.get("area")?.float()?;
-    Judge {
-        rule: &CLOSER,
-        findings,
-    }
-    .compare("area", [ours], [area], exact);
-    Ok(())
-}
-
-/// The solid angle of four directions.
-pub(super) fn quad_area(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-    let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| case.get(name)?.vec3());
-    let v = [a?, b?, c?, d?];
-    let sides = [0, 1, 2, 3].map(|i| (v[i], v[(i + 1) % 4]));
-    let turns = [0, 1, 2, 3].map(|i| v[i].cross(v[(i + 1) % 4]).dot(v[(i + 2) % 4]));
-    let rule = if sides.iter().any(|&(a, b)| are_opposite(a, b)) {
-        Some(&OPPOSITE)
-    } else if sides.iter().any(|&(a, b)| a == b) {
-        Some(&REPEATED)
-    } else if turns.iter().all(|&t| t.abs() < 4.0 * f32::EPSILON) {
-        Some(&IN_PLANE)
-    } else if turns.iter().any(|&t| t > 0.0) && turns.iter().any(|&t| t < 0.0) {
-        Some(&NOT_CONVEX)
+    let Some(seen) = findings.ours_if_any("rectangle", seen) else {
+        findings.fail("no rectangle".to_owned());
+        return Ok(());
+    };
+    let place = |q: Vec3| {
+        let along = |edge: Vec3| (q - s).dot(edge) / edge.length_squared();
+        Vec3::new(along(ex), along(ey), 0.0)
+    };
+    let q = case.find("q").map(|q| q.vec3()).transpose()?;
+    let theirs = answers(case, q.map(place))?;
+    let at = if theirs.pdf > 0.0 {
+        theirs.place.truncate()
     } else {
-        None
+        seen.sample(u)
     };
-    if let Some(rule) = rule {
-        findings.exempt(rule);
-        return Ok(());
-    }
-    let ours = solid_angle::quad(v, Vec3::ZERO);
-    findings.near("area", ours, case.get("area")?.float()?, Tolerance::GENERAL);
+    let ours = Answers {
+        omega: seen.solid_angle(),
+        pdf: seen.pdf(),
+        place: seen.sample(u).extend(0.0),
+        u: seen.invert(at),
+    };
+    let truths = Truths {
+        omega: &omega,
+        place: &|jitter| {
+            let at = exact(jitter).sample(jitter.numbers(u.as_dvec2()));
+            at.extend(0.0)
+        },
+        u: &|jitter| {
+            let at = at.as_dvec2().clamp(DVec2::ZERO, DVec2::ONE);
+            exact(jitter).invert(at)
+        },
+    };
+    let rule = if theirs.omega < 1e-3 {
+        &AREA_SAMPLING
+    } else {
+        &SINGLE
+    };
+    compare(&ours, &theirs, &truths, [rule; 2], false, findings);
     Ok(())
 }
 
-/// Compares numbers; where they differ, double precision decides.
-struct Judge<'a> {
-    rule: &'static Rule,
-    findings: &'a mut Findings,
-}
-
-impl Judge<'_> {
-    /// `exact` answers in double precision for the corners, and for corners moved in the way of a step above 0.
-    fn compare<const N: usize>(
-        &mut self,
-        what: &str,
-        ours: [f32; N],
-        theirs: [f32; N],
-        exact: impl Fn(usize) -> [f32; N],
-    ) {
-        let mut pairs = ours.iter().zip(&theirs);
-        if pairs.all(|(&ours, &theirs)| Tolerance::GENERAL.accepts(ours, theirs)) {
-            self.findings.check(true, String::new);
-            return;
-        }
-        let truth = exact(0);
-        let largest = truth.iter().fold(1.0, |m: f32, x| m.max(x.abs()));
-        let rounding = 16.0 * f32::EPSILON * largest;
-        let error = |x: [f32; N]| {
-            let errors = x.iter().zip(&truth).map(|(x, truth)| (x - truth).abs());
-            errors.fold(
-                0.0,
-                |m: f32, e| if e.is_nan() { f32::INFINITY } else { m.max(e) },
-            )
-        };
-        let (our_error, their_error) = (error(ours), error(theirs));
-        if our_error <= their_error + rounding {
-            self.findings.exempt(self.rule);
-            return;
-        }
-        let spread = (1..=STEPS).map(|i| error(exact(i))).fold(0.0, f32::max);
-        self.findings.check(our_error <= spread + rounding, || {
-            format!("{what}: {ours:?} ({our_error}), reference {theirs:?} ({their_error}), exact {truth:?} ({spread})")
-        });
-        self.findings.exempt(&ROUNDED_CORNERS);
-    }
-}
-
-/// Whether two unit vectors point opposite ways up to rounding.
-fn are_opposite(a: Vec3, b: Vec3) -> bool {
-    (a + b).abs().max_element() < 4.0 * f32::EPSILON
-}
-
-/// `u` with every coordinate moved by 4 ulps, differently for each `step` above 0.
-fn moved_u(u: Vec2, step: usize) -> Vec2 {
-    let [u, ..] = moved([u.extend(0.0); 3], step);
-    u.truncate()
-}
-
-/// How many ways there are to move corners.
-const STEPS: usize = 16;
-
-/// The corners with every coordinate moved by 4 ulps up or down, differently for each `step` above 0.
-fn moved(v: [Vec3; 3], step: usize) -> [Vec3; 3] {
-    if step == 0 {
-        return v;
-    }
-    core::array::from_fn(|i| {
-        let signs = Vec3::from_array(core::array::from_fn(|k| {
-            let bit = (step * 0x9e37_79b9) >> (3 * i + k + 8) & 1;
-            if bit == 0 { -1.0 } else { 1.0 }
-        }));
-        v[i] + v[i] * signs * (4.0 * f32::EPSILON)
+/// The reference's answers; those that it lacks are of density 0.
+fn answers(case: &Case<'_>, place: Option<Vec3>) -> Result<Answers, Malformed> {
+    let number = |name| case.find(name).map_or(Ok(0.0), |x| x.float());
+    let u = case.find("inv").map(|u| u.vec2()).transpose()?;
+    let is_said = place.is_some() && u.is_some();
+    Ok(Answers {
+        omega: number("solid_angle")?,
+        pdf: if is_said { number("pdf")? } else { 0.0 },
+        place: place.unwrap_or_default(),
+        u: u.unwrap_or_default(),
     })
+}
+
+pub(super) fn moved(v: Vec3, magnitude: f32, jitter: &mut Jitter) -> DVec3 {
+    jitter.vector(v.as_dvec3(), f64::from(magnitude))
+}
+
+fn moved_triangle(v: [Vec3; 3], p: Vec3, jitter: &mut Jitter) -> ExactTriangle {
+    let magnitude = |v: Vec3| v.abs().max(p.abs()).max_element();
+    let v = v.map(|v| moved(v, magnitude(v), jitter));
+    ExactTriangle::new(v, p.as_dvec3())
 }

@@ -142,11 +142,6 @@ fn transform(matrix: Case<'_>) -> Result<Affine3A, Malformed> {
     Ok(Affine3A::from_mat3_translation(linear, column(3)))
 }
 
-/// The rotation from light space to the scene.
-pub(super) fn rotation(case: &Case<'_>) -> Result<Mat3, Malformed> {
-    Ok(transform(case.get("render_from_light")?)?.matrix3.into())
-}
-
 fn image(case: &Case<'_>) -> Result<Image, Malformed> {
     let image = case.get("image")?;
     let side = |name| {

@@ -1,11 +1,11 @@
-use super::LightCase;
-use super::differences::Differences;
-use super::portal;
-use super::projection;
-use super::rules::{COLORS, LOOSE_BOX, PATCH_AREA, PICTURE_POWER, PORTAL_POWER, WIDE_NORMALS};
-use crate::conformance::{Case, Findings, Malformed, Tolerance};
+use super::rules::{LOOSE_BOX, PATCH_AREA, PICTURE_POWER, PORTAL_POWER, SINGLE, WIDE_NORMALS};
+use super::{LightCase, number};
+use crate::conformance::comparison::Comparison;
+use crate::conformance::oracle::lights::ExactBounds;
+use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
 use lights::bounds::LightBounds;
-use lights::sources::{Light, LightType, Radiance};
+use lights::math::glam::Vec3;
+use lights::sources::{Light, LightType};
 
 const CLOSE: Tolerance = Tolerance::new(1e-5, 1e-5);
 const POWER: Tolerance = Tolerance::new(1e-4, 1e-6);
@@ -25,9 +25,12 @@ impl LightCase<'_> {
         };
         findings.equal("type", Some(kind), self.case.get("light_type")?.text());
         self.check_power(white, findings)?;
-        match (self.light.bounds(), self.case.find("bounds")) {
-            (Some(ours), Some(theirs)) => self.check_bounds(&ours, theirs, findings),
-            (ours, theirs) => {
+        let ours = findings.ours_if_any("bounds", self.light.bounds());
+        match (ours, self.case.find("bounds"), self.exact.bounds()) {
+            (Some(ours), Some(theirs), Some(exact)) => {
+                self.check_bounds(&ours, theirs, &exact, findings)
+            }
+            (ours, theirs, _) => {
                 findings.equal("bounded", ours.is_some(), theirs.is_some());
                 Ok(())
             }
@@ -35,89 +38,101 @@ impl LightCase<'_> {
     }
 
     fn check_power(&self, white: &[f32], findings: &mut Findings) -> Result<(), Malformed> {
-        let ours = self.light.phi(&());
-        let theirs = self.case.get("phi")?;
-        if self.is_colored()? {
-            findings.exempt(&COLORS);
-        } else if self.kind == "portal_infinite" {
-            let power = portal::reference_power(&self.case)?;
-            for (theirs, white) in theirs.floats()?.into_iter().zip(white) {
-                findings.near("phi", power * white, theirs, POWER);
-            }
-            findings.exempt(&PORTAL_POWER);
-        } else if self.kind == "projection" {
-            let [centers, exact] = projection::powers(&self.case)?;
-            for (theirs, white) in theirs.floats()?.into_iter().zip(white) {
-                findings.near("phi by centres", centers * white, theirs, POWER);
-            }
-            findings.near("phi", ours.average(), exact, POWER);
-            findings.exempt(&PICTURE_POWER);
-        } else if let Ok(theirs) = theirs.float() {
-            let mut differences = Differences::default();
-            differences.near("phi", ours.average(), theirs, POWER);
-            differences.settle(findings, || self.patch_area(ours.average(), theirs));
-        } else {
-            for (theirs, white) in theirs.floats()?.into_iter().zip(white) {
-                findings.near("phi", ours.average() * white, theirs, POWER);
-            }
-        }
+        let ours = findings.ours("phi", self.light.phi(&()));
+        let mut comparison = Comparison::default();
+        let theirs = self.reference_power(white)?;
+        comparison.vec3("phi", ours, theirs.map(Vec3::splat), POWER);
+        let rule = || match self.kind {
+            "portal_infinite" => &PORTAL_POWER,
+            _ if self.has_texels() => &PICTURE_POWER,
+            _ => self.power_rule(),
+        };
+        let exact = self.exact.phi();
+        comparison.settle(findings, rule, |_| Some(vec![exact]));
         Ok(())
+    }
+
+    /// The reference's power for a white of 1; none of coloured pictures, which it gives at four wavelengths.
+    fn reference_power(&self, white: &[f32]) -> Result<Option<f32>, Malformed> {
+        let phi = self.case.get("phi")?;
+        if let Ok(phi) = phi.float() {
+            return Ok(Some(phi));
+        }
+        if self.is_colored()? {
+            return Ok(None);
+        }
+        let grey = phi.floats()?.into_iter().zip(white).map(|(phi, w)| phi / w);
+        Ok(Some(grey.sum::<f32>() / white.len() as f32))
+    }
+
+    fn power_rule(&self) -> &'static Rule {
+        if self.kind == "area_patch" {
+            &PATCH_AREA
+        } else {
+            &SINGLE
+        }
     }
 
     fn check_bounds(
         &self,
         ours: &LightBounds,
         theirs: Case<'_>,
+        exact: &ExactBounds,
         findings: &mut Findings,
     ) -> Result<(), Malformed> {
         let corner = |i| theirs.get("bounds")?.at(i)?.vec3();
-        let (min, max) = (corner(0)?, corner(1)?);
-        let mut differences = Differences::default();
-        differences.near3("bounds.min", ours.bounds.min, min, CLOSE);
-        differences.near3("bounds.max", ours.bounds.max, max, CLOSE);
-        let center = ours.bounds.center().distance(0.5 * (min + max));
-        let inside =
-            (min - 1e-5).cmple(ours.bounds.min).all() && ours.bounds.max.cmple(max + 1e-5).all();
-        let is_round = self.kind == "area_sphere" || self.kind == "area_disk";
-        differences.settle(findings, || {
-            (is_round && inside && center < 1e-5).then_some(&LOOSE_BOX)
-        });
-
         let float = |name| theirs.get(name)?.float();
-        let mut differences = Differences::default();
-        let w = theirs.get("w")?.vec3()?;
-        // The axis of two opposite sides has no direction.
-        let sign = if self.is_two_sided {
-            w.dot(ours.w).signum()
-        } else {
-            1.0
-        };
-        let cos_theta_o = float("cos_theta_o")?;
-        differences.near3("bounds.w", ours.w * sign, w, CLOSE);
-        differences.near("cos_theta_o", ours.cos_theta_o, cos_theta_o, CLOSE);
-        let is_wide = ours.cos_theta_o == -1.0 && cos_theta_o < 0.0;
-        differences.settle(findings, || is_wide.then_some(&WIDE_NORMALS));
+        let mut comparison = Comparison::default();
+        let min = findings.ours("bounds min", ours.bounds.min);
+        comparison.vec3("bounds min", min, Some(corner(0)?), CLOSE);
+        let max = findings.ours("bounds max", ours.bounds.max);
+        comparison.vec3("bounds max", max, Some(corner(1)?), CLOSE);
+        let truth = vec![exact.min, exact.max];
+        comparison.settle(findings, || &LOOSE_BOX, |_| Some(truth.clone()));
 
-        let phi = float("phi")?;
-        let mut differences = Differences::default();
-        differences.near("bounds.phi", ours.phi, phi, POWER);
-        differences.settle(findings, || self.patch_area(ours.phi, phi));
-        findings.near(
-            "cos_theta_e",
-            ours.cos_theta_e,
-            float("cos_theta_e")?,
+        // The axis of two opposite sides has no direction.
+        let their_w = theirs.get("w")?.vec3()?;
+        let toward_theirs = |v: Vec3| {
+            if self.is_two_sided && v.dot(their_w) < 0.0 {
+                -v
+            } else {
+                v
+            }
+        };
+        let w = findings.ours("bounds w", toward_theirs(ours.w));
+        let exact_w = toward_theirs(exact.w.as_vec3());
+        let mut comparison = Comparison::default();
+        comparison.vec3("w", w, Some(their_w), CLOSE);
+        let cos_theta_o = findings.ours("bounds cos_theta_o", ours.cos_theta_o);
+        comparison.number(
+            "cos_theta_o",
+            cos_theta_o,
+            Some(float("cos_theta_o")?),
             CLOSE,
         );
-        findings.equal(
-            "two_sided",
-            ours.two_sided,
-            theirs.get("two_sided")?.flag()?,
+        let cos_theta_e = findings.ours("bounds cos_theta_e", ours.cos_theta_e);
+        comparison.number(
+            "cos_theta_e",
+            cos_theta_e,
+            Some(float("cos_theta_e")?),
+            CLOSE,
         );
-        Ok(())
-    }
+        let truth = vec![
+            exact_w.as_dvec3(),
+            number(exact.cos_theta_o),
+            number(exact.cos_theta_e),
+        ];
+        comparison.settle(findings, || &WIDE_NORMALS, |_| Some(truth.clone()));
 
-    fn patch_area(&self, ours: f32, theirs: f32) -> Option<&'static crate::conformance::Rule> {
-        (self.kind == "area_patch" && (ours - theirs).abs() < 0.02 * theirs).then_some(&PATCH_AREA)
+        let mut comparison = Comparison::default();
+        let phi = findings.ours("bounds phi", ours.phi);
+        comparison.number("bounds phi", phi, Some(float("phi")?), POWER);
+        let truth = vec![number(exact.phi)];
+        comparison.settle(findings, || self.power_rule(), |_| Some(truth.clone()));
+        let two_sided = findings.ours("bounds two_sided", ours.two_sided);
+        findings.equal("two_sided", two_sided, theirs.get("two_sided")?.flag()?);
+        findings.equal("two_sided", two_sided, exact.two_sided);
+        Ok(())
     }
 
     /// Whether the light is a picture whose channels differ.

@@ -2,36 +2,33 @@
 
 mod build;
 mod description;
-mod differences;
-mod exact;
 mod outward;
-mod portal;
-mod projection;
+mod rectified;
 mod rules;
 mod toward;
 
+use crate::conformance::oracle::lights::{ExactLight, light};
 use crate::conformance::{Case, Checker, Findings, Malformed};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use lights::bounds::LightId;
-use lights::math::glam::{Vec2, Vec3};
 use lights::sources::{LightRef, LightSet, Rgb};
 
-/// Checks lights; the first line tells the spectrum of white.
+/// Checks lights; the first line holds the spectrum of white.
 #[derive(Debug, Default)]
 pub(super) struct Lights {
     white: Vec<f32>,
 }
 
-/// A light of ours and the line that describes it.
+/// A light of ours, the same in double precision, and the line that describes both.
 struct LightCase<'a> {
     light: LightRef<'a, Rgb>,
+    exact: Box<dyn ExactLight>,
     case: Case<'a>,
     kind: &'a str,
     /// 1, or -1 where the reference's normals are the opposite of ours.
     orientation: f32,
     is_two_sided: bool,
     is_annulus: bool,
-    /// Whether the reference's picture in portal space differs from ours.
-    is_wrapped: bool,
 }
 
 impl Checker for Lights {
@@ -42,8 +39,8 @@ impl Checker for Lights {
             return Ok(());
         }
         let set = build::light_set(case)?;
-        let mut light = LightCase::new(case, &set)?;
-        light.is_wrapped = light.check_rectified(findings)?;
+        let light = LightCase::new(case, &set)?;
+        light.check_rectified(findings)?;
         light.check_description(&self.white, findings)?;
         light.check_toward(findings)?;
         light.check_outward(findings)
@@ -58,6 +55,7 @@ impl<'a> LightCase<'a> {
             light: set
                 .get(LightId(0))
                 .ok_or(Malformed("no light".to_owned()))?,
+            exact: light(case)?,
             case: *case,
             kind: case.get("type")?.text().unwrap_or_default(),
             orientation: if is_reversed { -1.0 } else { 1.0 },
@@ -65,7 +63,6 @@ impl<'a> LightCase<'a> {
                 .find("two_sided")
                 .is_some_and(|f| f.flag().unwrap_or(false)),
             is_annulus: inner_radius.transpose()?.is_some_and(|r| r > 0.0),
-            is_wrapped: false,
         })
     }
 
@@ -74,16 +71,32 @@ impl<'a> LightCase<'a> {
         self.case.find("image").is_some()
     }
 
-    /// Whether `theirs` is the answer of some direction beside `w`, as far as the reference's inverse map is off.
-    fn is_beside(&self, w: Vec3, theirs: f32, ours: impl Fn(Vec3) -> f32) -> bool {
-        const OFF: f32 = 3e-4;
-        let steps =
-            (0..27).map(|i| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32) - 1.0);
-        let near = |answer: f32| (answer - theirs).abs() <= 2e-3 * theirs.abs();
-        self.has_texels()
-            && steps
-                .map(|s| (w + s * OFF).normalize())
-                .any(|w| near(ours(w)))
+    fn is_area(&self) -> bool {
+        self.kind.starts_with("area")
+    }
+
+    /// `uv` of the truth or the reference as it can be compared with `ours`: an angle around an axis is moved by a full
+    /// turn if that is nearer, and counts as right on the axis.
+    fn unwound(&self, uv: DVec2, ours: Vec2) -> DVec2 {
+        let x = f64::from(ours.x);
+        let on_axis = match self.kind {
+            "area_sphere" => uv.y.min(1.0 - uv.y) < 1e-6,
+            "area_disk" => !self.is_annulus && 1.0 - uv.y < 1e-6,
+            _ => return uv,
+        };
+        DVec2::new(
+            if on_axis {
+                x
+            } else {
+                uv.x + (x - uv.x).round()
+            },
+            uv.y,
+        )
+    }
+
+    /// A normal of ours as the reference turns it.
+    fn turned(&self, n: DVec3) -> DVec3 {
+        n * f64::from(self.orientation)
     }
 }
 
@@ -95,13 +108,24 @@ fn entries<'a>(case: &Case<'a>, name: &str) -> Result<Vec<Case<'a>>, Malformed> 
     }
 }
 
-/// A number, or the three of a colour, as a colour.
-fn color(case: Case<'_>) -> Result<Vec3, Malformed> {
-    case.float().map(Vec3::splat).or_else(|_| case.vec3())
+/// A number, or the three of a colour, as a colour; none for four wavelengths.
+fn color(case: Case<'_>) -> Option<Vec3> {
+    case.float().map(Vec3::splat).or_else(|_| case.vec3()).ok()
 }
 
-/// `uv` whose u, an angle, is moved by a full turn if that is nearer to `reference`.
-fn unwound(uv: Vec2, reference: Vec2) -> Vec2 {
-    let turns = (reference.x - uv.x).round();
-    Vec2::new(uv.x + turns, uv.y)
+/// A number as a part of an answer.
+fn number(x: f64) -> DVec3 {
+    DVec3::new(x, 0.0, 0.0)
+}
+
+/// A field as a vector, none if there is none.
+fn vec3_of(case: Option<Case<'_>>, name: &str) -> Result<Option<Vec3>, Malformed> {
+    let field = case.and_then(|case| case.find(name));
+    field.map(|v| v.vec3()).transpose()
+}
+
+/// A field as a number, none if there is none.
+fn number_of(case: Option<Case<'_>>, name: &str) -> Result<Option<f32>, Malformed> {
+    let field = case.and_then(|case| case.find(name));
+    field.map(|x| x.float()).transpose()
 }

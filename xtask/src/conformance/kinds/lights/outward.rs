@@ -1,11 +1,14 @@
-use super::differences::Differences;
-use super::rules::{ANNULUS, AXIS, HORIZON, NO_SIDES, PORTAL_RAYS, TEXEL_EDGE, WRAP};
-use super::{LightCase, color, entries, unwound};
+use super::rules::{ANNULUS, AXIS, HORIZON, NO_SAMPLE, NO_SIDES, PORTAL_RAYS, SINGLE, TEXEL_EDGE};
+use super::{LightCase, color, entries, number, number_of, vec3_of};
+use crate::conformance::comparison::{Comparison, settle_none};
+use crate::conformance::oracle::lights::Leaving;
+use crate::conformance::oracle::{Certainty, Jitter};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
-use lights::math::glam::{Vec2, Vec3};
-use lights::sources::{EmittedRay, LePdf, Light, LightLeSample, SurfacePoint};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use lights::sources::{EmittedRay, LePdf, Light, SurfacePoint};
 
 const PLACE: Tolerance = Tolerance::new(1e-5, 2e-5);
+const UV: Tolerance = Tolerance::new(1e-4, 1e-4);
 const VALUE: Tolerance = Tolerance::new(1e-4, 1e-6);
 
 impl LightCase<'_> {
@@ -15,7 +18,12 @@ impl LightCase<'_> {
             self.check_sample_le(query, findings)?;
         }
         for query in entries(&self.case, "pdf_le")? {
-            self.check_pdf_le(query, findings)?;
+            let [o, d] = [query.get("o")?.vec3()?, query.get("d")?.vec3()?];
+            let theirs = ["pdf_pos", "pdf_dir"].map(|name| number_of(Some(query), name));
+            let [pos, dir] = theirs;
+            let ray = EmittedRay::from_point(o, d);
+            let names = ["pdf_le pos", "pdf_le dir"];
+            self.check_pdf_le(names, &ray, [pos?, dir?], findings);
         }
         for query in entries(&self.case, "radiance")? {
             self.check_radiance(query, findings)?;
@@ -23,170 +31,172 @@ impl LightCase<'_> {
         Ok(())
     }
 
-    fn check_pdf_le(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        let [o, d] = [query.get("o")?.vec3()?, query.get("d")?.vec3()?];
-        let ours = self.light.pdf_le(&EmittedRay::from_point(o, d));
-        let theirs = LePdf {
-            pos: query.get("pdf_pos")?.float()?,
-            dir: query.get("pdf_dir")?.float()?,
-        };
-        self.compare_densities("pdf_le", ours, theirs, d, findings);
-        Ok(())
-    }
-
-    fn compare_densities(
+    fn check_pdf_le(
         &self,
-        what: &str,
-        ours: LePdf,
-        theirs: LePdf,
-        direction: Vec3,
+        [pos, dir]: [&'static str; 2],
+        ray: &EmittedRay,
+        theirs: [Option<f32>; 2],
         findings: &mut Findings,
     ) {
-        let mut differences = Differences::default();
-        differences.near(&format!("{what}, position"), ours.pos, theirs.pos, VALUE);
-        differences.settle(findings, || {
-            (self.kind == "portal_infinite").then_some(&PORTAL_RAYS)
-        });
-        let mut differences = Differences::default();
-        differences.near(&format!("{what}, direction"), ours.dir, theirs.dir, VALUE);
-        differences.settle(findings, || {
-            let dir = |d| {
-                self.light
-                    .pdf_le(&EmittedRay::from_point(Vec3::ZERO, d))
-                    .dir
-            };
-            if self.is_beside(direction, theirs.dir, dir) {
-                Some(&TEXEL_EDGE)
-            } else if self.kind.starts_with("area") && ours.dir.max(theirs.dir) < 3e-4 {
-                Some(&HORIZON)
-            } else {
-                self.is_wrapped.then_some(&WRAP)
-            }
-        });
+        let ours: LePdf = self.light.pdf_le(ray);
+        let mut comparison = Comparison::default();
+        comparison.number(pos, findings.ours(pos, ours.pos), theirs[0], VALUE);
+        if self.is_along_the_portal(ray.direction) {
+            comparison.ill_conditioned();
+        }
+        comparison.number(dir, findings.ours(dir, ours.dir), theirs[1], VALUE);
+        if self.is_along_the_portal(ray.direction) {
+            comparison.ill_conditioned();
+        }
+        comparison.settle(
+            findings,
+            || self.rule_outward(None),
+            |jitter| Some(self.exact.pdf_le(&leaving(ray), jitter).map(number).into()),
+        );
     }
 
     fn check_sample_le(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        if self.is_annulus {
-            findings.exempt(&ANNULUS);
-            return Ok(());
-        }
         let [u1, u2] = [query.get("u1")?.vec2()?, query.get("u2")?.vec2()?];
+        let exact = |jitter: &mut Jitter| {
+            let exact = self.exact.sample_le(u1.as_dvec2(), u2.as_dvec2(), jitter)?;
+            // No sample where no light is sent.
+            let (l, [_, dir]) = self.exact.sent(&exact, jitter);
+            (l != DVec3::ZERO && dir > 0.0).then_some(exact)
+        };
         let ours = self.light.sample_le(u1, u2, &());
-        let (ours, theirs) = match (ours, query.find("out")) {
-            (Some(ours), Some(theirs)) => (ours, theirs),
-            (Some(ours), None) if self.kind.starts_with("area") && ours.pdf.dir < 3e-4 => {
-                findings.exempt(&HORIZON);
-                return Ok(());
+        let theirs = query.find("out");
+        let Some(ours) = findings.ours_if_any("sample_le", ours) else {
+            if theirs.is_none() {
+                findings.settled(Certainty::Undetermined);
+                findings.check(true, String::new);
+            } else {
+                settle_none(findings, "sample_le", || &NO_SAMPLE, exact);
             }
-            (ours, theirs) => {
-                findings.equal("sample_le", ours.is_some(), theirs.is_some());
-                return Ok(());
-            }
+            return Ok(());
         };
-        let pdf = LePdf {
-            pos: theirs.get("pdf_pos")?.float()?,
-            dir: theirs.get("pdf_dir")?.float()?,
-        };
-        let mut differences = Differences::default();
-        differences.near3("d", ours.ray.direction, theirs.get("d")?.vec3()?, PLACE);
-        differences.near("sample_le, direction", ours.pdf.dir, pdf.dir, VALUE);
-        if let Some(l) = theirs.get("L")?.float().ok().filter(|_| !self.has_texels()) {
-            differences.near3("L", ours.l, Vec3::splat(l), VALUE);
+
+        let uv = findings.ours("sample_le uv", ours.ray.uv);
+        let d = findings.ours("sample_le d", ours.ray.direction);
+        let o = findings.ours("sample_le o", ours.ray.origin);
+        let n = findings.ours("sample_le n", ours.ray.normal);
+        let mut comparison = Comparison::default();
+        comparison.vec3("o", o, vec3_of(theirs, "o")?, PLACE);
+        let their_d = vec3_of(theirs, "d")?;
+        comparison.vec3("d", d, their_d, PLACE);
+        let their_n = vec3_of(theirs, "n_light")?;
+        comparison.vec3("n", n * self.orientation, their_n, PLACE);
+        let their_uv = theirs.and_then(|t| t.find("uv_light"));
+        let their_uv = their_uv.map(|uv| uv.vec2()).transpose()?;
+        let their_uv = their_uv.map(|v| self.unwound(v.as_dvec2(), uv).as_vec2());
+        comparison.vec2("uv", uv, their_uv, UV);
+        comparison.settle(
+            findings,
+            || self.rule_outward(theirs),
+            |jitter| {
+                let Leaving {
+                    o, d, n, uv: exact, ..
+                } = exact(jitter)?;
+                let exact = self.unwound(exact, uv).extend(0.0);
+                Some(vec![o, d, self.turned(n), exact])
+            },
+        );
+
+        // What our own ray carries, and its densities.
+        let ray = leaving(&ours.ray);
+        let mut comparison = Comparison::default();
+        let l = theirs.and_then(|t| color(t.find("L")?));
+        comparison.vec3("L", findings.ours("sample_le L", ours.l), l, VALUE);
+        let their_pos = number_of(theirs, "pdf_pos")?;
+        let pos = findings.ours("sample_le pos", ours.pdf.pos);
+        comparison.number("pos", pos, their_pos, VALUE);
+        if self.is_along_the_portal(ours.ray.direction) {
+            comparison.ill_conditioned();
         }
-        let excuse = self.excuse_direction(&ours, theirs, pdf)?;
-        differences.settle(findings, || excuse);
-        let is_portal = self.kind == "portal_infinite";
-        let mut differences = Differences::default();
-        differences.near3("o", ours.ray.origin, theirs.get("o")?.vec3()?, PLACE);
-        differences.near("sample_le, position", ours.pdf.pos, pdf.pos, VALUE);
-        if let Some(n) = theirs.find("n_light") {
-            let uv = theirs.get("uv_light")?.vec2()?;
-            differences.near3(
-                "n_light",
-                ours.ray.normal * self.orientation,
-                n.vec3()?,
-                PLACE,
-            );
-            differences.near2(
-                "uv",
-                unwound(ours.ray.uv, uv),
-                uv,
-                Tolerance::new(1e-4, 1e-4),
-            );
+        let their_dir = number_of(theirs, "pdf_dir")?;
+        let dir = findings.ours("sample_le dir", ours.pdf.dir);
+        comparison.number("dir", dir, their_dir, VALUE);
+        if self.is_along_the_portal(ours.ray.direction) {
+            comparison.ill_conditioned();
         }
-        differences.settle(findings, || is_portal.then_some(&PORTAL_RAYS));
+        comparison.settle(
+            findings,
+            || self.rule_outward(theirs),
+            |jitter| {
+                let (l, [pos, dir]) = self.exact.sent(&ray, jitter);
+                Some(vec![l, number(pos), number(dir)])
+            },
+        );
 
         // The densities of that ray, asked for.
-        let again = self.light.pdf_le(&ours.ray);
-        let theirs = theirs.get("pdf_le")?.float_array::<2>()?;
-        let theirs = LePdf {
-            pos: theirs[0],
-            dir: theirs[1],
-        };
-        if excuse != Some(&AXIS) {
-            self.compare_densities(
-                "pdf_le of the sample",
-                again,
-                theirs,
-                ours.ray.direction,
-                findings,
-            );
-        }
+        let asked = theirs.map(|t| t.get("pdf_le")?.float_array::<2>());
+        let asked = asked.transpose()?.map_or([None; 2], |pdf| pdf.map(Some));
+        let names = ["pdf_le of the sample pos", "pdf_le of the sample dir"];
+        self.check_pdf_le(names, &ours.ray, asked, findings);
         Ok(())
     }
 
-    /// Why the direction of a ray may differ.
-    fn excuse_direction(
-        &self,
-        ours: &LightLeSample<Vec3>,
-        theirs: Case<'_>,
-        pdf: LePdf,
-    ) -> Result<Option<&'static Rule>, Malformed> {
-        let apart = ours.ray.direction.distance(theirs.get("d")?.vec3()?);
-        let is_area = self.kind.starts_with("area");
-        let is_horizontal = ours.pdf.dir.max(pdf.dir) < 3e-4 && apart < 1e-3;
-        // What a rounded cosine does to the direction: its inverse.
-        let cosine = std::f32::consts::PI * pdf.dir;
-        Ok(if is_area && self.is_two_sided && self.orientation < 0.0 {
-            Some(&NO_SIDES)
-        } else if is_area && (is_horizontal || apart < 4.0 * f32::EPSILON / cosine) {
-            Some(&HORIZON)
-        } else if self.kind == "spot" && apart < 1e-3 {
-            Some(&AXIS)
-        } else {
-            self.is_wrapped.then_some(&WRAP)
-        })
+    /// Whether a ray runs along a portal: the cosine there is what rounding leaves of it.
+    fn is_along_the_portal(&self, d: Vec3) -> bool {
+        let frame = self.case.find("portal_frame");
+        let z = frame.and_then(|frame| frame.at(2).ok()?.vec3().ok());
+        z.is_some_and(|z| z.dot(d).abs() < 1e-4)
+    }
+
+    fn rule_outward(&self, theirs: Option<Case<'_>>) -> &'static Rule {
+        match self.kind {
+            "spot" => &AXIS,
+            "portal_infinite" => &PORTAL_RAYS,
+            "area_disk" if self.is_annulus => &ANNULUS,
+            _ if self.has_texels() => &TEXEL_EDGE,
+            _ if self.is_two_sided && self.orientation < 0.0 => &NO_SIDES,
+            _ if self.is_area() || theirs.is_none() => &HORIZON,
+            _ => &SINGLE,
+        }
     }
 
     fn check_radiance(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        let mut differences = Differences::default();
-        if let Some(w) = query.find("w") {
+        let (ours, theirs, ray) = if let Some(w) = query.find("w") {
             let at = SurfacePoint {
                 p: Vec3::ZERO,
                 n: query.get("n")?.vec3()? * self.orientation,
                 uv: Vec2::ZERO,
             };
-            let ours = self.light.l(&at, w.vec3()?, &());
-            differences.near3("radiance", ours, color(query.get("L")?)?, VALUE);
-            differences.settle(findings, || None);
-            return Ok(());
-        }
-        let [o, d] = [query.get("o")?.vec3()?, query.get("d")?.vec3()?];
-        let le = |d| self.light.le(o, d, &());
-        let theirs = query.get("L")?;
-        let is_dark = theirs
-            .items()
-            .is_ok_and(|mut l| l.all(|l| l.float().is_ok_and(|l| l == 0.0)));
-        let theirs = match query.find("rgb_unwindowed") {
-            _ if is_dark => Vec3::ZERO,
-            Some(rgb) => rgb.vec3()?,
-            None => color(theirs)?,
+            let ray = EmittedRay {
+                normal: at.n,
+                ..EmittedRay::from_point(at.p, w.vec3()?)
+            };
+            let ours = self.light.l(&at, ray.direction, &());
+            (ours, color(query.get("L")?), ray)
+        } else {
+            let ray = EmittedRay::from_point(query.get("o")?.vec3()?, query.get("d")?.vec3()?);
+            let theirs = query.get("L")?;
+            let is_dark = theirs
+                .items()
+                .is_ok_and(|mut l| l.all(|l| l.float().is_ok_and(|l| l == 0.0)));
+            let theirs = match query.find("rgb_unwindowed") {
+                _ if is_dark => Some(Vec3::ZERO),
+                Some(rgb) => Some(rgb.vec3()?),
+                None => color(theirs),
+            };
+            (self.light.le(ray.origin, ray.direction, &()), theirs, ray)
         };
-        differences.near3("radiance", le(d), theirs, VALUE);
-        differences.settle(findings, || {
-            let is_beside = self.is_beside(d, theirs.length(), |d| le(d).length());
-            is_beside.then_some(&TEXEL_EDGE)
-        });
+        let mut comparison = Comparison::default();
+        comparison.vec3("radiance", findings.ours("radiance", ours), theirs, VALUE);
+        comparison.settle(
+            findings,
+            || self.rule_outward(None),
+            |jitter| Some(vec![self.exact.radiance(&leaving(&ray), jitter)]),
+        );
         Ok(())
+    }
+}
+
+/// A ray of ours for the oracle.
+fn leaving(ray: &EmittedRay) -> Leaving {
+    Leaving {
+        o: ray.origin.as_dvec3(),
+        d: ray.direction.as_dvec3(),
+        n: ray.normal.as_dvec3(),
+        uv: DVec2::new(f64::from(ray.uv.x), f64::from(ray.uv.y)),
     }
 }

@@ -1,16 +1,25 @@
-use super::differences::Differences;
 use super::rules::{
-    ANNULUS, CLOSER, DARK, MISSED, OWN_SAMPLE, SILHOUETTE, TEXEL_EDGE, WINDOW, WRAP,
+    ANNULUS, DARK, MISSED, NO_SAMPLE, OWN_SAMPLE, SINGLE, SMALL_RECTANGLE, TEXEL_EDGE, WINDOW, WRAP,
 };
-use super::{LightCase, color, unwound};
+use super::{LightCase, color, number, number_of, vec3_of};
+use crate::conformance::comparison::{Comparison, settle_none};
+use crate::conformance::oracle::lights::Receiver;
+use crate::conformance::oracle::{Certainty, Jitter};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
+use glam::{DVec3, Vec2, Vec3};
 use lights::bounds::LightSampleContext;
-use lights::math::glam::Vec3;
-use lights::sources::{Light, LightLiSample, PdfCoverage};
-use std::f32::consts::TAU;
+use lights::sources::{Light, PdfCoverage};
 
 const PLACE: Tolerance = Tolerance::new(1e-5, 2e-5);
+const UV: Tolerance = Tolerance::new(1e-4, 1e-4);
 const VALUE: Tolerance = Tolerance::new(1e-4, 1e-6);
+
+/// Who asks, for us and for the oracle.
+struct Asker {
+    ctx: LightSampleContext,
+    coverage: PdfCoverage,
+    at: Receiver,
+}
 
 impl LightCase<'_> {
     /// Samples toward a point and their density.
@@ -19,167 +28,137 @@ impl LightCase<'_> {
             self.check_sample_li(query, findings)?;
         }
         for query in self.case.get("pdf_li")?.items()? {
-            self.check_pdf_li(query, findings)?;
+            let (asker, wi) = (Asker::read(query)?, query.get("wi")?.vec3()?);
+            let theirs = query.get("pdf")?.float()?;
+            self.check_pdf_li("pdf_li", &asker, wi, theirs, &MISSED, findings);
         }
         Ok(())
     }
 
-    fn check_pdf_li(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        let (ctx, coverage) = asker(query)?;
-        let wi = query.get("wi")?.vec3()?;
-        let pdf = |wi| self.light.pdf_li(&ctx, wi, coverage);
-        let (ours, theirs) = (pdf(wi), query.get("pdf")?.float()?);
-        let mut differences = Differences::default();
-        differences.near("pdf_li", ours, theirs, VALUE);
-        differences.settle(findings, || {
-            // One minus a cosine, rounded near 1.
-            let cancellation = TAU * theirs * f32::EPSILON * theirs;
-            if self.kind == "area_sphere" && (ours - theirs).abs() <= cancellation {
-                Some(&CLOSER)
-            } else if ours == 0.0 && self.kind.starts_with("area") {
-                Some(&MISSED)
-            } else if ours == 0.0 && self.kind == "portal_infinite" {
-                Some(&WINDOW)
-            } else if self.is_beside(wi, theirs, pdf) {
-                Some(&TEXEL_EDGE)
-            } else {
-                self.is_wrapped.then_some(&WRAP)
-            }
+    fn check_pdf_li(
+        &self,
+        name: &'static str,
+        Asker { ctx, coverage, at }: &Asker,
+        wi: Vec3,
+        theirs: f32,
+        rule: &'static Rule,
+        findings: &mut Findings,
+    ) {
+        let ours = findings.ours(name, self.light.pdf_li(ctx, wi, *coverage));
+        let mut comparison = Comparison::default();
+        comparison.number(name, ours, Some(theirs), VALUE);
+        let rule = || match self.kind {
+            "portal_infinite" if ours == 0.0 => &WINDOW,
+            "portal_infinite" => &WRAP,
+            "image_infinite" => &TEXEL_EDGE,
+            _ if ours == 0.0 || theirs == 0.0 => rule,
+            _ => &SINGLE,
+        };
+        comparison.settle(findings, rule, |jitter| {
+            Some(vec![number(self.exact.pdf_li(at, wi.as_dvec3(), jitter))])
         });
-        Ok(())
     }
 
     fn check_sample_li(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        if self.is_annulus {
-            findings.exempt(&ANNULUS);
-            return Ok(());
-        }
-        let (ctx, coverage) = asker(query)?;
+        let asker = Asker::read(query)?;
         let u = query.get("u")?.vec2()?;
-        let ours = self.light.sample_li(&ctx, u, &(), coverage);
-        let (ours, theirs) = match (ours, query.find("out")) {
-            (Some(ours), Some(theirs)) => (ours, theirs),
-            (None, Some(theirs)) => {
-                match excuse_of_none(theirs)? {
-                    Some(rule) => findings.exempt(rule),
-                    None => findings.fail(format!("sample_li: none at {ctx:?}, reference has one")),
-                }
+        let ours = self.light.sample_li(&asker.ctx, u, &(), asker.coverage);
+        let theirs = query.find("out");
+        let Some(ours) = findings.ours_if_any("sample_li", ours) else {
+            if theirs.is_none() {
+                findings.settled(Certainty::Undetermined);
+                findings.check(true, String::new);
                 return Ok(());
             }
-            (ours, theirs) => {
-                findings.equal("sample_li", ours.is_some(), theirs.is_some());
-                return Ok(());
-            }
+            let is_dark = theirs.and_then(|t| color(t.find("L")?)) == Some(Vec3::ZERO);
+            let rule = if is_dark { &DARK } else { &NO_SAMPLE };
+            let truth = |jitter: &mut Jitter| self.exact.sample_li(&asker.at, u.as_dvec2(), jitter);
+            settle_none(findings, "sample_li", || rule, truth);
+            return Ok(());
         };
-        let mut differences = Differences::default();
-        self.compare_sample(&ours, theirs, &mut differences)?;
-        let excuse = if self.is_wrapped {
-            Some(&WRAP)
-        } else if self.has_texels() {
-            let theirs = color(theirs.find("rgb").unwrap_or(theirs.get("L")?))?;
-            self.is_lit_beside(&ctx, &ours, theirs)
-                .then_some(&TEXEL_EDGE)
-        } else {
-            self.excuse_by_truth(&ctx, u, &ours, theirs)?
+
+        let wi = findings.ours("sample_li wi", ours.wi);
+        let uv = findings.ours("sample_li uv", ours.uv);
+        let mut comparison = Comparison::default();
+        let mut part = |name, ours, field| -> Result<(), Malformed> {
+            comparison.vec3(name, ours, vec3_of(theirs, field)?, PLACE);
+            Ok(())
         };
-        let is_excused = excuse.is_some();
-        differences.settle(findings, || excuse);
+        part("wi", wi, "wi")?;
+        part("p", findings.ours("sample_li p", ours.p_light), "p_light")?;
+        let n = findings.ours("sample_li n", ours.n_light);
+        // Lights without a surface have no normal in the vectors.
+        part("n", n * self.orientation, "n_light")?;
+        let their_uv = theirs.and_then(|t| t.find("uv_image").or(t.find("uv_light")));
+        let their_uv = their_uv.map(|uv| uv.vec2()).transpose()?;
+        let their_uv = their_uv.map(|v| self.unwound(v.as_dvec2(), uv).as_vec2());
+        comparison.vec2("uv", uv, their_uv, UV);
+        let pdf = findings.ours("sample_li pdf", ours.pdf);
+        comparison.number("pdf", pdf, number_of(theirs, "pdf")?, VALUE);
+        let l = theirs.and_then(|t| color(t.find("rgb").or(t.find("L"))?));
+        comparison.vec3("L", findings.ours("sample_li L", ours.l), l, VALUE);
+        comparison.settle(
+            findings,
+            || self.rule_toward(theirs, pdf),
+            |jitter| self.exact_sample(&asker.at, u, uv, jitter),
+        );
 
         // The density of that direction, asked for.
-        let again = self.light.pdf_li(&ctx, ours.wi, coverage);
-        let theirs_again = theirs.get("pdf_li")?.float()?;
-        let mut differences = Differences::default();
-        differences.near("pdf_li of the sample", again, theirs_again, VALUE);
-        let is_own = (again - ours.pdf).abs() <= 1e-3 * ours.pdf;
-        differences.settle(findings, || {
-            if theirs_again == 0.0 && is_own {
-                Some(&OWN_SAMPLE)
-            } else if self.is_beside(ours.wi, theirs_again, |wi| {
-                self.light.pdf_li(&ctx, wi, coverage)
-            }) {
-                Some(&TEXEL_EDGE)
+        let name = "pdf_li of the sample";
+        match number_of(theirs, "pdf_li")? {
+            Some(theirs) => self.check_pdf_li(name, &asker, ours.wi, theirs, &OWN_SAMPLE, findings),
+            None => self.check_pdf_li(name, &asker, ours.wi, f32::NAN, &OWN_SAMPLE, findings),
+        }
+        Ok(())
+    }
+
+    fn exact_sample(
+        &self,
+        at: &Receiver,
+        u: Vec2,
+        uv: Vec2,
+        jitter: &mut Jitter,
+    ) -> Option<Vec<DVec3>> {
+        let exact = self.exact.sample_li(at, u.as_dvec2(), jitter)?;
+        Some(vec![
+            exact.wi,
+            exact.p,
+            self.turned(exact.n),
+            self.unwound(exact.uv, uv).extend(0.0),
+            number(exact.pdf),
+            exact.l,
+        ])
+    }
+
+    fn rule_toward(&self, theirs: Option<Case<'_>>, pdf: f32) -> &'static Rule {
+        match self.kind {
+            "portal_infinite" => &WRAP,
+            _ if theirs.is_none() => &NO_SAMPLE,
+            _ if self.has_texels() => &TEXEL_EDGE,
+            "area_disk" if self.is_annulus => &ANNULUS,
+            "area_patch" if pdf > 1e3 => &SMALL_RECTANGLE,
+            _ => &SINGLE,
+        }
+    }
+}
+
+impl Asker {
+    fn read(query: Case<'_>) -> Result<Self, Malformed> {
+        let vec3 = |name| query.get(name)?.vec3();
+        let is_incomplete = query.get("incomplete")?.flag()?;
+        let (p, n, ns) = (vec3("p")?, vec3("n")?, vec3("ns")?);
+        Ok(Self {
+            ctx: LightSampleContext::surface(p, n, ns),
+            coverage: if is_incomplete {
+                PdfCoverage::Incomplete
             } else {
-                excuse.filter(|_| is_excused && is_own)
-            }
-        });
-        Ok(())
-    }
-
-    fn compare_sample(
-        &self,
-        ours: &LightLiSample<Vec3>,
-        theirs: Case<'_>,
-        differences: &mut Differences,
-    ) -> Result<(), Malformed> {
-        differences.near3("wi", ours.wi, theirs.get("wi")?.vec3()?, PLACE);
-        differences.near3(
-            "p_light",
-            ours.p_light,
-            theirs.get("p_light")?.vec3()?,
-            PLACE,
-        );
-        if let Some(n) = theirs.find("n_light") {
-            differences.near3("n_light", ours.n_light * self.orientation, n.vec3()?, PLACE);
-        }
-        if let Some(uv) = theirs.find("uv_image") {
-            differences.near2("uv", ours.uv, uv.vec2()?, PLACE);
-        }
-        // The reference leaves out the place on a sphere that is seen from outside.
-        if let Some(uv) = theirs.find("uv_light") {
-            let uv = uv.vec2()?;
-            differences.near2("uv", unwound(ours.uv, uv), uv, Tolerance::new(1e-4, 1e-4));
-        }
-        differences.near("pdf", ours.pdf, theirs.get("pdf")?.float()?, VALUE);
-        let l = color(theirs.find("rgb").unwrap_or(theirs.get("L")?))?;
-        differences.near3("L", ours.l, l, VALUE);
-        Ok(())
-    }
-
-    /// Whether a point beside the one that asks gets what the reference says.
-    fn is_lit_beside(
-        &self,
-        ctx: &LightSampleContext,
-        ours: &LightLiSample<Vec3>,
-        theirs: Vec3,
-    ) -> bool {
-        let distance = ours.p_light.distance(ctx.p);
-        self.is_beside(ours.wi, theirs.length(), |wi| {
-            let ctx = LightSampleContext::medium(ours.p_light - wi * distance);
-            match self.kind {
-                "projection" | "goniometric" => {
-                    let sample = self.light.sample_li(
-                        &ctx,
-                        lights::math::glam::Vec2::ZERO,
-                        &(),
-                        PdfCoverage::Complete,
-                    );
-                    sample.map_or(0.0, |s| s.l.length())
-                }
-                _ => self.light.le(ctx.p, wi, &()).length(),
-            }
+                PdfCoverage::Complete
+            },
+            at: Receiver {
+                p: p.as_dvec3(),
+                ns: ns.as_dvec3(),
+                is_incomplete,
+            },
         })
     }
-}
-
-/// Why the reference may have a sample where we have none.
-fn excuse_of_none(theirs: Case<'_>) -> Result<Option<&'static Rule>, Malformed> {
-    if color(theirs.get("L")?).is_ok_and(|l| l == Vec3::ZERO) {
-        return Ok(Some(&DARK));
-    }
-    let Some(n) = theirs.find("n_light") else {
-        return Ok(None);
-    };
-    let cosine = n.vec3()?.dot(theirs.get("wi")?.vec3()?);
-    Ok((cosine.abs() < 1e-3).then_some(&SILHOUETTE))
-}
-
-/// Who asks, and for what.
-fn asker(query: Case<'_>) -> Result<(LightSampleContext, PdfCoverage), Malformed> {
-    let vec3 = |name| query.get(name)?.vec3();
-    let coverage = match query.get("incomplete")?.flag()? {
-        true => PdfCoverage::Incomplete,
-        false => PdfCoverage::Complete,
-    };
-    let ctx = LightSampleContext::surface(vec3("p")?, vec3("n")?, vec3("ns")?);
-    Ok((ctx, coverage))
 }

@@ -1,0 +1,89 @@
+//! Piecewise-constant densities, by sums in double precision.
+
+use super::Jitter;
+use lights::math::glam::DVec2;
+
+/// How far running sums in single precision move the random numbers.
+const SUMS: f64 = 8.0 * f32::EPSILON as f64;
+
+/// A density on the unit square that is constant in each texel; zero everywhere if all weights are.
+#[derive(Clone, Debug)]
+pub(in crate::conformance) struct ExactTable {
+    pub(in crate::conformance) nx: usize,
+    pub(in crate::conformance) ny: usize,
+    pub(in crate::conformance) weights: Vec<f64>,
+}
+
+impl ExactTable {
+    /// The mean of all weights.
+    pub(in crate::conformance) fn mean(&self) -> f64 {
+        self.weights.iter().sum::<f64>() / self.weights.len() as f64
+    }
+
+    /// The texel of a point.
+    pub(in crate::conformance) fn texel(&self, p: DVec2) -> usize {
+        let index = |x: f64, n: usize| ((x * n as f64).max(0.0) as usize).min(n - 1);
+        index(p.x, self.nx) + self.nx * index(p.y, self.ny)
+    }
+
+    /// The density per area of the square.
+    pub(in crate::conformance) fn pdf(&self, p: DVec2) -> f64 {
+        let mean = self.mean();
+        if mean > 0.0 {
+            self.weights[self.texel(p)] / mean
+        } else {
+            0.0
+        }
+    }
+
+    /// The point for `u`: the second number picks the row, the first one the place in it.
+    pub(in crate::conformance) fn sample(&self, u: DVec2, jitter: &mut Jitter) -> Option<DVec2> {
+        let rows: Vec<f64> = self
+            .weights
+            .chunks(self.nx)
+            .map(|row| row.iter().sum())
+            .collect();
+        let y = place(&rows, jitter.by(u.y, SUMS))?;
+        let iy = ((y * self.ny as f64) as usize).min(self.ny - 1);
+        let row = &self.weights[iy * self.nx..][..self.nx];
+        Some(DVec2::new(place(row, jitter.by(u.x, SUMS))?, y))
+    }
+}
+
+/// The place in [0, 1] below which there is the part `u` of the weights; none if all are zero.
+pub(in crate::conformance) fn place(weights: &[f64], u: f64) -> Option<f64> {
+    let sum: f64 = weights.iter().sum();
+    if sum <= 0.0 {
+        return None;
+    }
+    let target = u.clamp(0.0, 1.0) * sum;
+    let mut before = 0.0;
+    let mut last = 0.0;
+    for (i, &weight) in weights.iter().enumerate() {
+        if weight > 0.0 {
+            last = (i + 1) as f64;
+            if before + weight > target {
+                return Some((i as f64 + (target - before) / weight) / weights.len() as f64);
+            }
+        }
+        before += weight;
+    }
+    Some(last / weights.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_by_hand() {
+        let weights = [0.0, 3.0, 0.0, 1.0];
+        let at = |u: f64| place(&weights, u).expect("not all zero");
+        assert_eq!(
+            [0.0, 0.375, 0.75, 0.875].map(at),
+            [0.25, 0.375, 0.75, 0.875],
+            "of [0, 3, 0, 1]"
+        );
+        assert_eq!(place(&[0.0; 3], 0.5), None, "nothing");
+    }
+}
