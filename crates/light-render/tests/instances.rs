@@ -368,6 +368,32 @@ fn a_forest_takes_the_memory_of_a_tree() {
     assert_eq!(forest.primitive(count), None, "no more");
 }
 
+/// Copies in exactly the same place are stored once, so that a ray does not visit all of them, unless each hides a share of
+/// what is behind: a long row of them and one place elsewhere.
+#[test]
+fn copies_in_the_same_place_are_one() {
+    let count = |crown: Material, copies: usize| {
+        let mut scene = grove(crown);
+        let first = scene.placements[0];
+        let others = scene.placements.len();
+        scene.placements.extend(vec![first; copies]);
+        let world = World::new(scene).expect("a world");
+        (world.placement_count(), others)
+    };
+    let (found, others) = count(green(), 20_000);
+    assert_eq!(found, others, "those that were there");
+    let half = Some(Alpha {
+        share: Color::Constant(Vec3::splat(0.5)),
+        cutoff: None,
+    });
+    let lace = || Material {
+        alpha: half,
+        ..green()
+    };
+    let (found, others) = count(lace(), 10);
+    assert_eq!(found, others + 10, "each of them");
+}
+
 #[test]
 fn no_ray_meets_the_plane_that_it_starts_on() {
     let mut scene = Scene::default();

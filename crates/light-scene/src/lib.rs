@@ -24,6 +24,7 @@ mod mesh;
 mod obj;
 mod pbrt;
 mod placement;
+mod polygon;
 mod scene;
 mod scene_file;
 mod shining_copies;

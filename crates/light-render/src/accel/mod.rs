@@ -1,3 +1,5 @@
+mod agglomerate;
+mod build;
 mod bvh_hit;
 mod place;
 mod placements;

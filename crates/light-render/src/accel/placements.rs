@@ -1,15 +1,13 @@
-use core::time::Duration;
-
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
 use lights::sources::shape::{Shape, Sphere};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 
 use super::Hit;
 use super::boxed;
+use super::build::over_boxes;
 use super::place::Place;
 use super::solids::{Numbers, Solids};
 use crate::{PrimitiveId, Ray};
@@ -82,7 +80,7 @@ impl Placements {
             max_prims_per_leaf: 1,
             ..BvhBuildParams::medium_build()
         };
-        this.top = build_bvh2(&boxes, params, &mut Duration::default());
+        this.top = over_boxes(&boxes, params);
         let slots = this.top.primitive_indices.iter();
         this.placements = slots.map(|&i| placements[i as usize]).collect();
         this

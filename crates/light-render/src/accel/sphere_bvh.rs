@@ -1,16 +1,13 @@
-use core::time::Duration;
-
 use lights::glam::{DVec3, Vec2, Vec3};
 use lights::math::octahedral;
 use lights::sources::shape::{Shape, Sphere};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 
 use super::boxed;
+use super::build::over_boxes;
 use super::bvh_hit::BvhHit;
-use super::triangle_bvh::pad;
 use crate::Ray;
 
 /// A binary hierarchy of boxes over spheres that are stored leaf by leaf.
@@ -45,8 +42,7 @@ impl SphereBvh {
         }
         let boxes: Vec<_> = spheres.iter().map(|s| boxed(&s.bounds())).collect();
         let params = BvhBuildParams::medium_build();
-        let mut bvh = build_bvh2(&boxes, params, &mut Duration::default());
-        pad(&mut bvh);
+        let bvh = over_boxes(&boxes, params);
         let leaf = |&i: &u32| {
             let sphere = &spheres[i as usize];
             Leaf {

@@ -1,13 +1,11 @@
-use core::time::Duration;
-
-use lights::glam::{Vec2, Vec3, Vec3A};
+use lights::glam::{Vec2, Vec3};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 use obvhs::rt_triangle::RtTriangle;
 use obvhs::triangle::Triangle;
 
+use super::build::over_triangles;
 use super::bvh_hit::BvhHit;
 use crate::Ray;
 
@@ -39,8 +37,7 @@ impl TriangleBvh {
         } else {
             BvhBuildParams::medium_build()
         };
-        let mut bvh = build_bvh2_from_tris(&triangles, params, &mut Duration::default());
-        pad(&mut bvh);
+        let bvh = over_triangles(&triangles, params);
         let leaves = bvh
             .primitive_indices
             .iter()
@@ -106,16 +103,5 @@ impl TriangleBvh {
             }
         }
         t
-    }
-}
-
-/// Enlarges each box by its rounding error, so that a ray along an edge of a box cannot slip past what is inside.
-pub(super) fn pad(bvh: &mut Bvh2) {
-    for node in &mut bvh.nodes {
-        let mut aabb = *node.aabb();
-        let margin = aabb.min.abs().max(aabb.max.abs()) * Vec3A::splat(2.0 * f32::EPSILON);
-        aabb.min -= margin;
-        aabb.max += margin;
-        node.set_aabb(aabb);
     }
 }

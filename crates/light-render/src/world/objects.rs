@@ -1,3 +1,5 @@
+use std::collections::HashSet;
+
 use light_scene::glam::Affine3A;
 use light_scene::{MOST_SHINING_COPIES, Mesh, Placement, Prototype, Scene, Sphere};
 
@@ -52,16 +54,28 @@ impl Objects {
                     name: name.clone(),
                     most: MOST_SHINING_COPIES,
                 })?;
-            let is_small = places.len() < 2 || placed.count() <= FEW;
-            if is_small && placed.stays_round(&places) {
-                copied.meshes.append(&mut placed.meshes);
-                copied.spheres.append(&mut placed.spheres);
+            let dark_places = if placed.is_sparse(scene) {
+                places.clone()
+            } else {
+                distinct(&places)
+            };
+            let is_small = dark_places.len() < 2 || placed.count() <= FEW;
+            if is_small && placed.stays_round(&dark_places) {
+                let small = core::mem::take(&mut placed);
+                if dark_places.len() == places.len() {
+                    copied.meshes.extend(small.meshes);
+                    copied.spheres.extend(small.spheres);
+                } else {
+                    for place in &dark_places {
+                        small.copy_to(scene, place);
+                    }
+                }
             }
             for place in &places {
                 copied.copy_to(scene, place);
             }
             if placed.count() > 0 {
-                let places: Option<_> = places.into_iter().map(Place::new).collect();
+                let places: Option<_> = dark_places.into_iter().map(Place::new).collect();
                 let places = places.ok_or(WorldError::Place { name })?;
                 objects.placed.push(PlacedObject {
                     meshes: placed.meshes,
@@ -74,7 +88,22 @@ impl Objects {
     }
 }
 
+/// The places, each once: what stands twice in exactly the same place looks as if it stood there once.
+fn distinct(places: &[Affine3A]) -> Vec<Affine3A> {
+    let mut known = HashSet::new();
+    let is_new = |place: &&Affine3A| known.insert(place.to_cols_array().map(f32::to_bits));
+    places.iter().filter(is_new).copied().collect()
+}
+
 impl Part {
+    /// Whether some of it is there for a share of the rays only, so that two of it hide more than one.
+    fn is_sparse(&self, scene: &Scene) -> bool {
+        let meshes = self.meshes.iter().map(|mesh| mesh.material);
+        let spheres = self.spheres.iter().map(|sphere| sphere.material);
+        let mut alphas = meshes.chain(spheres).map(|id| scene.material(id).alpha);
+        alphas.any(|alpha| alpha.is_some_and(|alpha| alpha.cutoff.is_none()))
+    }
+
     fn shining_and_dark(prototype: Prototype, scene: &Scene) -> (Self, Self) {
         let Prototype {
             meshes, spheres, ..

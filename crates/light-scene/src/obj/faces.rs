@@ -2,7 +2,7 @@ use std::collections::HashMap;
 
 use crate::glam::{Vec2, Vec3};
 use crate::text::{Line, shown};
-use crate::{Diagnostic, MaterialId, Mesh};
+use crate::{Diagnostic, MaterialId, Mesh, polygon};
 
 /// What the lines so far have defined, and the meshes that grow from their faces.
 #[derive(Debug, Default)]
@@ -39,7 +39,7 @@ struct GrowingMesh {
 }
 
 impl Faces {
-    /// Adds the polygon of an `f` line as a fan of triangles around its first corner.
+    /// Adds the polygon of an `f` line as triangles.
     pub(super) fn push_polygon(
         &mut self,
         material: MaterialId,
@@ -81,8 +81,10 @@ impl Faces {
                 index
             })
         };
-        let fan: Vec<u32> = corners.iter().map(vertex).collect();
-        let triangles = fan[1..].windows(2).map(|edge| [fan[0], edge[0], edge[1]]);
+        let around: Vec<u32> = corners.iter().map(vertex).collect();
+        let places: Vec<Vec3> = corners.iter().map(|c| positions[c.position]).collect();
+        let triangles = polygon::triangles(&places).map_err(|e| line.diagnostic(e.to_string()))?;
+        let triangles = triangles.into_iter().map(|t| t.map(|i| around[i as usize]));
         mesh.indices.extend(triangles);
         Ok(())
     }

@@ -10,7 +10,7 @@ use self::header::{Element, Format, Property};
 use crate::glam::{Vec2, Vec3};
 use crate::gunzip::gunzipped;
 use crate::text::shown;
-use crate::{Diagnostic, Files, MaterialId, Mesh};
+use crate::{Diagnostic, Files, MaterialId, Mesh, polygon};
 
 /// Reads a PLY file's vertices and faces.
 pub(super) fn read_ply(path: &Path, files: Files<'_>) -> Result<Mesh, Diagnostic> {
@@ -100,10 +100,13 @@ impl Body<'_> {
             if corners.len() < 3 {
                 return Err(self.error("expected at least three corners of a face"));
             }
-            let fan = corners[1..]
-                .windows(2)
-                .map(|edge| [corners[0], edge[0], edge[1]]);
-            mesh.indices.extend(fan);
+            let place = |&corner: &u32| mesh.positions[corner as usize];
+            let places: Vec<Vec3> = corners.iter().map(place).collect();
+            let triangles = polygon::triangles(&places).map_err(|e| self.error(e.to_string()))?;
+            let triangles = triangles
+                .into_iter()
+                .map(|t| t.map(|i| corners[i as usize]));
+            mesh.indices.extend(triangles);
         }
         Ok(())
     }

@@ -1,0 +1,152 @@
+use lights::glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ploc::morton::morton_encode_u64_unorm;
+
+/// So many neighbours in a row of which none is the nearest of the other are a chain.
+const CHAIN: usize = 256;
+
+/// Whether agglomeration of the nearest neighbours would merge only the ends of long rows: boxes that coincide, that stand in
+/// an even row, or of which each is larger than the one before. It then takes a pass over all boxes for each of them.
+pub(super) fn is_chained(boxes: &[Aabb]) -> bool {
+    if boxes.len() <= CHAIN {
+        return false;
+    }
+    let mut row: Vec<Aabb> = sorted(boxes).map(|i| boxes[i as usize]).collect();
+    while row.len() > CHAIN {
+        let pairs = mutual(&row);
+        if longest_gap(&pairs, row.len()) > CHAIN {
+            return true;
+        }
+        let count = row.len();
+        merge(&pairs, count, |to, from| {
+            row[to] = match from {
+                Merged::One(i) => row[i],
+                Merged::Pair(i) => row[i].union(&row[i + 1]),
+            };
+        });
+        row.truncate(count - pairs.len());
+    }
+    false
+}
+
+/// A hierarchy of nearest neighbours along a curve, in which rows without any are merged pair by pair: in a time of
+/// `n log n`, with a depth of a few `log n`, for any boxes.
+pub(super) fn agglomerate(boxes: &[Aabb]) -> Bvh2 {
+    let mut bvh = Bvh2::zeroed(boxes.len());
+    let count = u32::try_from(boxes.len()).expect("fewer than 2^32 boxes");
+    bvh.primitive_indices = (0..count).collect();
+    let mut row: Vec<Bvh2Node> = sorted(boxes)
+        .map(|i| Bvh2Node::new(boxes[i as usize], 1, i))
+        .collect();
+    // Children lie side by side, from the end on.
+    let mut free = bvh.nodes.len();
+    while row.len() > 1 {
+        let bounds: Vec<Aabb> = row.iter().map(|node| *node.aabb()).collect();
+        let pairs = without_gaps(&mutual(&bounds), row.len());
+        let count = row.len();
+        merge(&pairs, count, |to, from| {
+            row[to] = match from {
+                Merged::One(i) => row[i],
+                Merged::Pair(i) => {
+                    free -= 2;
+                    bvh.nodes[free..free + 2].copy_from_slice(&row[i..i + 2]);
+                    let first = u32::try_from(free).expect("fewer than 2^31 boxes");
+                    Bvh2Node::new(bounds[i].union(&bounds[i + 1]), 0, first)
+                }
+            };
+        });
+        row.truncate(count - pairs.len());
+    }
+    if let ([root], [node]) = (&mut bvh.nodes[..1], &row[..]) {
+        *root = *node;
+    }
+    bvh.children_are_ordered_after_parents = true;
+    bvh
+}
+
+/// What a place of the next row is made of.
+enum Merged {
+    One(usize),
+    Pair(usize),
+}
+
+/// The order of the boxes along a curve through their middles.
+fn sorted(boxes: &[Aabb]) -> impl Iterator<Item = u32> {
+    let middle = |b: &Aabb| 0.5 * b.min + 0.5 * b.max;
+    let mut around = Aabb::empty();
+    for b in boxes {
+        around.extend(middle(b));
+    }
+    let size = (around.max - around.min).max(Vec3A::splat(f32::MIN_POSITIVE));
+    let code = |b: &Aabb| {
+        // All that lies beyond the largest code has the largest one.
+        let place = (middle(b).as_dvec3() - around.min.as_dvec3()) / size.as_dvec3();
+        morton_encode_u64_unorm(place.min(DVec3::splat(1.0 - 1e-9)))
+    };
+    let mut order: Vec<(u64, u32)> = boxes.iter().map(code).zip(0..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, i)| i)
+}
+
+/// The first of each two neighbours of which either is nearer to the other than to its other neighbour.
+fn mutual(row: &[Aabb]) -> Vec<usize> {
+    let cost = |i: usize| row[i].union(&row[i + 1]).half_area();
+    let mut costs: Vec<f32> = (0..row.len().saturating_sub(1)).map(cost).collect();
+    costs.push(f32::INFINITY);
+    let mut pairs = Vec::new();
+    let mut before = f32::INFINITY;
+    for i in 0..row.len() - 1 {
+        // As the agglomeration that this foretells: of two alike the later one.
+        if before >= costs[i] && costs[i] < costs[i + 1] {
+            pairs.push(i);
+        }
+        before = costs[i];
+    }
+    pairs
+}
+
+/// How many neighbours in a row there are at most that are in none of the pairs.
+fn longest_gap(pairs: &[usize], count: usize) -> usize {
+    let ends = pairs.iter().map(|&i| i + 2);
+    let starts = pairs.iter().copied().chain([count]);
+    let gaps = core::iter::once(0).chain(ends).zip(starts);
+    gaps.map(|(end, start)| start - end).max().unwrap_or(0)
+}
+
+/// The pairs, and as many pairs of neighbours as have room between them.
+fn without_gaps(pairs: &[usize], count: usize) -> Vec<usize> {
+    let mut all = Vec::new();
+    let mut next = 0;
+    for &pair in pairs.iter().chain([&count]) {
+        // A single one, or two, may find a nearer neighbour later.
+        if pair - next > 2 {
+            all.extend((next..pair - 1).step_by(2));
+        }
+        if pair < count {
+            all.push(pair);
+        }
+        next = pair + 2;
+    }
+    if all.is_empty() {
+        all.push(0);
+    }
+    all
+}
+
+/// Says of each place of the next row what it is made of.
+fn merge(pairs: &[usize], count: usize, mut each: impl FnMut(usize, Merged)) {
+    let (mut to, mut from) = (0, 0);
+    let mut pairs = pairs.iter().copied().peekable();
+    while from < count {
+        if pairs.next_if_eq(&from).is_some() {
+            each(to, Merged::Pair(from));
+            from += 2;
+        } else {
+            each(to, Merged::One(from));
+            from += 1;
+        }
+        to += 1;
+    }
+}
