@@ -66,16 +66,17 @@ fn flattened(corners: &[Vec3]) -> Vec<DVec2> {
         .map(|edge| from_first(&edge[0]).cross(from_first(&edge[1])))
         .sum();
     let size = normal.abs();
-    let (u, v, up): (fn(DVec3) -> f64, fn(DVec3) -> f64, f64) = if size.x >= size.max_element() {
-        (|p| p.y, |p| p.z, normal.x)
+    // The axes of the plane, in the order that keeps its front for an axis that points up.
+    let (u, v, up) = if size.x >= size.max_element() {
+        (DVec3::Y, DVec3::Z, normal.x)
     } else if size.y >= size.max_element() {
-        (|p| p.z, |p| p.x, normal.y)
+        (DVec3::Z, DVec3::X, normal.y)
     } else {
-        (|p| p.x, |p| p.y, normal.z)
+        (DVec3::X, DVec3::Y, normal.z)
     };
     let place = |corner: &Vec3| {
         let p = from_first(corner);
-        DVec2::new(u(p), v(p) * 1f64.copysign(up))
+        DVec2::new(u.dot(p), v.dot(p) * 1f64.copysign(up))
     };
     corners.iter().map(place).collect()
 }

@@ -32,7 +32,13 @@ pub(crate) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, 
         let mut whole = Cow::Borrowed(without_comment(first));
         while let Some(begun) = whole.strip_suffix('\\') {
             let next = lines.next().map_or("", |(_, line)| without_comment(line));
-            whole = Cow::Owned(format!("{begun} {next}"));
+            // Into the same text, which many lines may make long.
+            let length = begun.len();
+            let mut joined = whole.into_owned();
+            joined.truncate(length);
+            joined.push(' ');
+            joined.push_str(next);
+            whole = Cow::Owned(joined);
         }
         Some((index + 1, whole))
     })

@@ -147,6 +147,15 @@ impl<'a> Item<'a> {
         Ok(number)
     }
 
+    /// A member that is a number from 0 to 1.
+    pub(super) fn share_or(&self, name: &str, default: f32) -> Result<f32, Diagnostic> {
+        let Some(member) = self.get(name)? else {
+            return Ok(default);
+        };
+        let number = member.number()?;
+        share(number).ok_or_else(|| member.expected("a number from 0 to 1"))
+    }
+
     pub(super) fn numbers_or<const N: usize>(
         &self,
         name: &str,
@@ -183,6 +192,13 @@ impl<'a> Item<'a> {
 fn number(value: &Value) -> Option<f32> {
     let number = value.as_f64()? as f32;
     number.is_finite().then_some(number)
+}
+
+/// A number from 0 to 1, but for what exporters round.
+pub(super) fn share(number: f32) -> Option<f32> {
+    const ROUNDING: f32 = 1e-3;
+    let is_near = (-ROUNDING..=1.0 + ROUNDING).contains(&number);
+    is_near.then_some(number.clamp(0.0, 1.0))
 }
 
 /// The path of a member.

@@ -2,7 +2,7 @@ use std::collections::HashMap;
 
 use lights::math::spectrum::photometric::K_M;
 
-use super::item::Item;
+use super::item::{Item, share};
 use super::reader::Reader;
 use super::textures::Texture;
 use crate::glam::{Vec2, Vec3};
@@ -60,14 +60,20 @@ impl<'a> Reader<'a> {
             finish.eta = ior.amount_or("ior", 1.5)?;
         }
         if let Some(specular) = item.extension("KHR_materials_specular")? {
-            let factor = specular.amount_or("specularFactor", 1.0)?;
+            let factor = specular.share_or("specularFactor", 1.0)?;
             finish.specular = factor >= 0.5;
             if factor != 0.0 && factor != 1.0 {
                 self.warn(&specular, "was rounded to a `specularFactor` of 0 or 1");
             }
         }
         if let Some(transmission) = item.extension("KHR_materials_transmission")? {
-            finish.transmission = transmission.amount_or("transmissionFactor", 0.0)?;
+            finish.transmission = transmission.share_or("transmissionFactor", 0.0)?;
+            if finish.transmission != 0.0 && finish.transmission != 1.0 {
+                self.warn(
+                    &transmission,
+                    "was rounded to a `transmissionFactor` of 0 or 1",
+                );
+            }
         }
         let surface = self.surface(item, &finish);
         let material = Material {
@@ -91,15 +97,18 @@ impl<'a> Reader<'a> {
         let Some(pbr) = item.get("pbrMetallicRoughness")? else {
             return Ok((finish, None, 1.0));
         };
-        let [r, g, b, opacity] = pbr.numbers_or("baseColorFactor", [1.0; 4])?;
-        let factor = Vec3::new(r, g, b).clamp(Vec3::ZERO, Vec3::ONE);
+        let factor = pbr.numbers_or("baseColorFactor", [1.0; 4])?.map(share);
+        let [Some(r), Some(g), Some(b), Some(opacity)] = factor else {
+            return Err(pbr.error("expected a `baseColorFactor` from 0 to 1"));
+        };
+        let factor = Vec3::new(r, g, b);
         let base = self.texture(&pbr, "baseColorTexture")?;
         finish.base = match base {
             None => Color::Constant(factor),
             Some(texture) => Color::Image(self.color_image(texture, factor)),
         };
-        finish.metallic = pbr.amount_or("metallicFactor", 1.0)?.min(1.0);
-        finish.roughness = pbr.amount_or("roughnessFactor", 1.0)?.min(1.0);
+        finish.metallic = pbr.share_or("metallicFactor", 1.0)?;
+        finish.roughness = pbr.share_or("roughnessFactor", 1.0)?;
         if let Some(texture) = self.texture(&pbr, "metallicRoughnessTexture")? {
             // Roughness is in green, metalness in blue.
             let mean = self.mean_of_data(texture);
@@ -109,7 +118,7 @@ impl<'a> Reader<'a> {
                 self.warn(&member, "was taken as its mean");
             }
         }
-        Ok((finish, base, opacity.clamp(0.0, 1.0)))
+        Ok((finish, base, opacity))
     }
 
     /// The nearest thing to a mixture of metal, glass and lacquer.

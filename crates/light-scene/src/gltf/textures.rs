@@ -14,6 +14,20 @@ pub(super) struct Textures {
     decoded: HashMap<usize, EncodedImage>,
     colors: HashMap<usize, ImageId>,
     alphas: HashMap<usize, Option<ImageId>>,
+    /// The first image of each source: lists may name the same one over and over.
+    by_source: HashMap<String, usize>,
+}
+
+impl Textures {
+    /// The first image that has the same source.
+    fn first_alike(&mut self, image: usize, item: &Item<'_>) -> Result<usize, Diagnostic> {
+        let source = match item.get("uri")? {
+            Some(uri) => uri.text()?.to_owned(),
+            // No file's name holds a line break.
+            None => format!("\n{}", item.require("bufferView")?.whole()?),
+        };
+        Ok(*self.by_source.entry(source).or_insert(image))
+    }
 }
 
 /// A texture that a material names.
@@ -51,6 +65,7 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         let (image, item) = source.target("images")?;
+        let image = self.textures.first_alike(image, &item)?;
         if !self.textures.decoded.contains_key(&image) {
             let bytes = match item.get("uri")? {
                 Some(uri) => self.buffers.load(&uri)?,

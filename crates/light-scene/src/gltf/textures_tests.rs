@@ -152,3 +152,62 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
         assert!(messages.contains(&message), "{message} in {messages:?}");
     }
 }
+
+#[test]
+fn an_image_that_is_listed_twice_is_decoded_once() {
+    let image = data_uri(&png(image::GrayImage::new(1, 1)));
+    let primitive = |material: u32| {
+        format!(
+            r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2, "material": {material}}}"#
+        )
+    };
+    let material = |texture: u32| {
+        format!(
+            r#"{{"pbrMetallicRoughness": {{"metallicFactor": 0, "baseColorTexture": {{"index": {texture}}}}}}}"#
+        )
+    };
+    let scene = read(&format!(
+        r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{}, {}]}}],
+        "materials": [{}, {}], "textures": [{{"source": 0}}, {{"source": 1}}],
+        "images": [{{"uri": "{image}"}}, {{"uri": "{image}"}}]"#,
+        primitive(0),
+        primitive(1),
+        material(0),
+        material(1)
+    ))
+    .expect("a scene");
+    assert_eq!(
+        (scene.materials.len(), scene.images.len()),
+        (2, 1),
+        "shared"
+    );
+}
+
+#[test]
+fn shares_lie_between_0_and_1() {
+    let refusal = |material: &str| {
+        let scene = read(&format!(
+            r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
+                {{"attributes": {{"POSITION": 0}}, "indices": 2, "material": 0}}]}}],
+            "materials": [{{{material}}}]"#
+        ));
+        scene.map(|_| ()).expect_err(material)
+    };
+    for (material, expected) in [
+        (
+            r#""pbrMetallicRoughness": {"metallicFactor": 1.5}"#,
+            "materials[0].pbrMetallicRoughness.metallicFactor: expected a number from 0 to 1, found 1.5",
+        ),
+        (
+            r#""pbrMetallicRoughness": {"baseColorFactor": [1, 1, 2, 1]}"#,
+            "materials[0].pbrMetallicRoughness: expected a `baseColorFactor` from 0 to 1",
+        ),
+        (
+            r#""extensions": {"KHR_materials_transmission": {"transmissionFactor": -1}}"#,
+            "materials[0].extensions.KHR_materials_transmission.transmissionFactor: expected a number from 0 to 1, found -1",
+        ),
+    ] {
+        let found = refusal(material);
+        assert!(found.ends_with(expected), "{found}");
+    }
+}

@@ -149,3 +149,36 @@ fn exr_without_colour_channels_names_what_it_has() {
     assert_eq!(grey.image.texels(), expected, "luminance, clamped");
     assert!(grey.warning.is_some(), "one was negative");
 }
+
+/// Files of a few bytes that say they are too large for any memory: refused before any of it is taken.
+#[test]
+fn sizes_are_checked_before_memory_is_taken() {
+    let huge = 0x7fff_ffffu32.to_be_bytes();
+    let mut png = png(::image::GrayImage::new(2, 2));
+    png[16..20].copy_from_slice(&huge);
+    png[20..24].copy_from_slice(&huge);
+    // The check sum of the header.
+    let sum = crc(&png[12..29]).to_be_bytes();
+    png[29..33].copy_from_slice(&sum);
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n".to_vec();
+    let tga = [
+        &[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0][..],
+        &[255; 4],
+        &[32, 0],
+    ]
+    .concat();
+    for (name, bytes) in [("a.png", png), ("a.hdr", hdr), ("a.tga", tga)] {
+        let error = parse_image(Path::new(name), &bytes).expect_err(name);
+        let shown = error.to_string();
+        assert!(shown.contains("emory") || shown.contains("imit"), "{shown}");
+    }
+}
+
+/// The check sum of a part of a PNG file.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |sum, &byte| {
+        (0..8).fold(sum ^ u32::from(byte), |sum, _| {
+            sum >> 1 ^ (0xedb8_8320 * (sum & 1))
+        })
+    })
+}

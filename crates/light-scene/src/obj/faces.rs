@@ -10,11 +10,14 @@ pub(super) struct Faces {
     pub(super) positions: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
-    pub(super) group: String,
+    /// Names of groups by their numbers, the numbers by their names, and the one in force.
+    names: Vec<String>,
+    groups: HashMap<String, usize>,
+    group: Option<usize>,
     pub(super) material: Option<MaterialId>,
     meshes: Vec<GrowingMesh>,
     /// Which mesh takes faces of a group, a material and a set of attributes.
-    by_key: HashMap<(String, MaterialId, Attributes), usize>,
+    by_key: HashMap<(Option<usize>, MaterialId, Attributes), usize>,
 }
 
 /// What a corner has besides its position.
@@ -89,6 +92,15 @@ impl Faces {
         Ok(())
     }
 
+    /// What follows belongs to the group of this name.
+    pub(super) fn begin_group(&mut self, name: String) {
+        let number = *self.groups.entry(name).or_insert_with_key(|name| {
+            self.names.push(name.clone());
+            self.names.len() - 1
+        });
+        self.group = Some(number);
+    }
+
     /// The meshes, in the order of their first faces.
     pub(super) fn into_meshes(self) -> Vec<Mesh> {
         let finished = self.meshes.into_iter().map(|GrowingMesh { mut mesh, .. }| {
@@ -99,15 +111,17 @@ impl Faces {
     }
 
     fn mesh(&mut self, material: MaterialId, attributes: Attributes) -> usize {
-        let key = (self.group.clone(), material, attributes);
+        let key = (self.group, material, attributes);
         let Self {
             meshes,
             by_key,
+            names,
             group,
             ..
         } = self;
         *by_key.entry(key).or_insert_with(|| {
-            let mut mesh = Mesh::new(group.clone(), material);
+            let name = group.map(|group| names[group].clone());
+            let mut mesh = Mesh::new(name.unwrap_or_default(), material);
             mesh.uvs = attributes.uv.then(Vec::new);
             mesh.normals = attributes.normal.then(Vec::new);
             let vertices = HashMap::new();

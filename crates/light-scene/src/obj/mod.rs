@@ -71,7 +71,9 @@ impl Reader<'_> {
                 let material = self.current_material();
                 self.faces.push_polygon(material, &mut line)?;
             }
-            "o" | "g" => self.faces.group = line.rest("a name").unwrap_or_default(),
+            "o" | "g" => self
+                .faces
+                .begin_group(line.rest("a name").unwrap_or_default()),
             "usemtl" => {
                 let name = line.rest("a material's name")?;
                 self.faces.material = Some(self.material(name, &line)?);

@@ -186,11 +186,17 @@ impl Reader {
     pub(super) fn light_image(&mut self, typed: &Typed<'_>) -> Result<Image, Diagnostic> {
         let name = typed.parameters.string("filename");
         let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-        let file = read_image_from(&self.beside(name), self.files);
+        let path = self.beside(name);
+        if let Some(known) = self.light_images.get(&path) {
+            return Ok(known.clone());
+        }
+        let file = read_image_from(&path, self.files);
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
         let image = file.image.to_light();
-        image.map_err(|error| typed.at.diagnostic(error.to_string()))
+        let image = image.map_err(|error| typed.at.diagnostic(error.to_string()))?;
+        self.light_images.insert(path, image.clone());
+        Ok(image)
     }
 }
 

@@ -6,6 +6,9 @@ use crate::shining_copies::ShiningCopies;
 use crate::text::shown;
 use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId, Sphere};
 
+/// Triangles that a scene may hold, however often it names the same files.
+const MOST_TRIANGLES: usize = 1 << 27;
+
 /// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they describe it.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
@@ -116,11 +119,17 @@ impl Reader {
     }
 
     /// A mesh of the world, or of the object that is being described.
-    pub(super) fn add_mesh(&mut self, mesh: Mesh) {
+    pub(super) fn add_mesh(&mut self, at: At<'_>, mesh: Mesh) -> Result<(), Diagnostic> {
+        self.triangles = self.triangles.saturating_add(mesh.indices.len());
+        if self.triangles > MOST_TRIANGLES {
+            let message = format!("expected at most {MOST_TRIANGLES} triangles in all");
+            return Err(at.diagnostic(message));
+        }
         match &mut self.objects.open {
             Some(open) => open.prototype.meshes.push(mesh),
             None => self.scene.meshes.push(mesh),
         }
+        Ok(())
     }
 
     /// A sphere of the world, or of the object that is being described.

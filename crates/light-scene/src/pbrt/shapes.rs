@@ -65,8 +65,7 @@ impl Reader {
             mesh.turn_over();
         }
         mesh.material = self.shape_material(typed, || mesh.area());
-        self.add_mesh(mesh);
-        Ok(())
+        self.add_mesh(at, mesh)
     }
 
     /// The material of a shape of this area: the one in force, with the media, the light and the holes of the shape.

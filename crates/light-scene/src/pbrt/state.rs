@@ -3,7 +3,7 @@ use alloc::rc::Rc;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use lights::sources::MediumInterface;
+use lights::sources::{Image as LightImage, MediumInterface};
 
 use super::attributes::Attributes;
 use super::image_map::ImageKey;
@@ -31,6 +31,10 @@ pub(super) struct Reader {
     pub(super) saved: Vec<Saved<State>>,
     pub(super) saved_transforms: Vec<Saved<Mat4>>,
     pub(super) included: Included,
+    /// How many there are so far.
+    pub(super) triangles: usize,
+    /// The images of lights, each file read once.
+    pub(super) light_images: HashMap<PathBuf, LightImage>,
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: NamedMaterials,
     pub(super) textures: Textures,

@@ -30,6 +30,16 @@ pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
         format: Format::Text,
     };
     let elements = body.header()?;
+    for name in ["x", "y", "z"] {
+        let has = |p: &Property| matches!(p, Property::One(own, _) if own == name);
+        let vertices = elements.iter().filter(|element| element.name == "vertex");
+        if !vertices
+            .clone()
+            .all(|element| element.properties.iter().any(has))
+        {
+            return Err(body.error(format!("expected a property `{name}` of vertices")));
+        }
+    }
     let mut mesh = Mesh::new("", MaterialId(0));
     // An element without properties takes no data, however many it says there are.
     for element in elements.iter().filter(|e| !e.properties.is_empty()) {
@@ -43,6 +53,9 @@ pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
                     .try_for_each(|p| body.property(p).map(drop))?,
             }
         }
+    }
+    if mesh.indices.is_empty() {
+        return Err(body.error("expected at least one face"));
     }
     Ok(mesh)
 }
@@ -82,6 +95,7 @@ impl Body<'_> {
     }
 
     fn face(&mut self, element: &Element, mesh: &mut Mesh) -> Result<(), Diagnostic> {
+        let mut has_corners = false;
         for property in &element.properties {
             let values = self.property(property)?;
             let Property::List(name, ..) = property else {
@@ -90,6 +104,7 @@ impl Body<'_> {
             if !matches!(name.as_str(), "vertex_indices" | "vertex_index") {
                 continue;
             }
+            has_corners = true;
             let mut corners = Vec::with_capacity(values.len());
             for value in values {
                 let count = mesh.positions.len();
@@ -107,6 +122,9 @@ impl Body<'_> {
                 .into_iter()
                 .map(|t| t.map(|i| corners[i as usize]));
             mesh.indices.extend(triangles);
+        }
+        if !has_corners {
+            return Err(self.error("expected a list `vertex_indices` of faces"));
         }
         Ok(())
     }

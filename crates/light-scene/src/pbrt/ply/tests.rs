@@ -52,6 +52,22 @@ fn ply_in_text_and_binary() {
             "a.ply:2: expected a line of a PLY header, found `foo`",
         ),
         ("ply\nend_header\n", "a.ply:3: expected a `format` line"),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+            "a.ply:7: expected a property `z` of vertices",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int corners\nend_header\n3 0 0 0\n",
+            "a.ply:6: expected a list `vertex_indices` of faces",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n0\n",
+            "a.ply:6: expected at least one face",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+            "a.ply:9: expected a number, found ``",
+        ),
     ];
     for (text, expected) in broken {
         let error = parse_ply(path, text.as_bytes()).expect_err(text);
