@@ -12,7 +12,6 @@ use crate::shape::{Shape, ShapeSample};
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;
 use light_bounds::{LightBounds, LightExtent, LightSampleContext};
-use light_math::float::ONE_MINUS_EPSILON;
 use light_math::warp::cosine_hemisphere;
 use light_math::{DirectionCone, Frame};
 
@@ -126,7 +125,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
                 } else {
                     (u2.x - 0.5, -1.0)
                 };
-                let u = Vec2::new((2.0 * x).min(ONE_MINUS_EPSILON), u2.y);
+                let u = Vec2::new(2.0 * x, u2.y);
                 let w = cosine_hemisphere::sample(u) * Vec3::new(1.0, 1.0, side);
                 Frame::from_z(at.n).from_local(w)
             }

@@ -266,3 +266,44 @@ impl From<RigidTransformError> for ImageInfiniteLightError {
         Self::Transform(error)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Channels;
+    use crate::rgb::Rgb;
+
+    #[test]
+    fn compensation_leaves_what_is_above_the_mean() {
+        assert_eq!(
+            compensate(&[1.0, 2.0, 3.0, 6.0]),
+            [0.0, 0.0, 0.0, 3.0],
+            "above 3"
+        );
+        assert_eq!(compensate(&[5.0; 4]), [1.0; 4], "the same everywhere");
+        assert_eq!(compensate(&[0.0; 4]), [0.0; 4], "black stays black");
+    }
+
+    #[test]
+    fn a_constant_sky_is_sampled_evenly_when_samples_may_leave_out_directions() {
+        let texels = alloc::vec![0.3; 16];
+        let image = Image::from_f32([4, 4], Channels::Gray, texels).expect("an image");
+        let light = ImageInfiniteLight::<Rgb>::new(
+            ImageInfiniteLightDesc {
+                map: EnvironmentMap::EqualArea(image),
+                transform: Affine3A::IDENTITY,
+                amount: RadianceAmount::default(),
+            },
+            SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"),
+        )
+        .expect("a sky");
+        let ctx = LightSampleContext::medium(Vec3::ZERO);
+        for coverage in [PdfCoverage::Complete, PdfCoverage::Incomplete] {
+            for u in [Vec2::ZERO, Vec2::splat(0.3), Vec2::splat(0.99)] {
+                let sample = light.sample_li(&ctx, u, &(), coverage).expect("a sample");
+                assert!((sample.pdf * 4.0 * PI - 1.0).abs() < 1e-5, "{sample:?}");
+                assert_eq!(light.pdf_li(&ctx, sample.wi, coverage), sample.pdf, "{u}");
+            }
+        }
+    }
+}

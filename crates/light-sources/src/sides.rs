@@ -43,3 +43,26 @@ impl Sides {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_side_emits_to_its_own() {
+        let (n, up, down) = (Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.6, 0.0, -0.8));
+        for (sides, count, to, normal) in [
+            (Sides::Front, 1.0, [true, false], n),
+            (Sides::Back, 1.0, [false, true], -n),
+            (Sides::Both, 2.0, [true, true], n),
+        ] {
+            assert_eq!(sides.count(), count, "{sides:?}");
+            let emits = [up, down].map(|w| sides.emit_toward(n, w));
+            assert_eq!(emits, to, "{sides:?}");
+            assert_eq!(sides.emitting_normal(n), normal, "{sides:?}");
+        }
+        let along = Vec3::X;
+        assert!(!Sides::Front.emit_toward(n, along), "not along the surface");
+        assert!(!Sides::Back.emit_toward(n, along), "not along the surface");
+    }
+}

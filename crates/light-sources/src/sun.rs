@@ -252,6 +252,34 @@ mod tests {
         assert!((radiance * 6.7929e-5 - 1.0).abs() < 1e-4, "{radiance}");
     }
 
+    /// Directions to the very rim are directions to the sun, however small it is.
+    #[test]
+    fn the_rim_is_met() {
+        for diameter in [1e-4, 0.0093, 0.5] {
+            for x in [Vec3::new(0.3, 0.8, -0.2), Vec3::new(1.0, 2.0, 3.0), Vec3::Y] {
+                let sun = SunLight::<Rgb>::new(
+                    SunLightDesc {
+                        direction: x,
+                        angular_diameter: diameter,
+                        emission: Vec3::ONE,
+                        amount: SunAmount::Radiance(RadianceAmount::default()),
+                    },
+                    SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"),
+                )
+                .expect("a sun");
+                for i in 0..64u8 {
+                    let u = Vec2::new(light_math::float::ONE_MINUS_EPSILON, f32::from(i) / 64.0);
+                    assert!(sun.contains(sun.sample(u)), "{diameter}, {x}, {u}");
+                }
+                let beside = sun
+                    .frame
+                    .from_local(Vec3::new(sin(0.55 * diameter), 0.0, 1.0));
+                assert!(!sun.contains(beside.normalize()), "{diameter}: beside");
+                assert!(!sun.contains(-sun.frame.z), "{diameter}: opposite");
+            }
+        }
+    }
+
     #[test]
     fn refuses_nonsense_by_field() {
         let amount = SunAmount::Radiance(RadianceAmount::Radiometric(1.0));

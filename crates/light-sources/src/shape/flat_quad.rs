@@ -2,7 +2,6 @@ use super::receiver_cosine::ReceiverCosine;
 use super::{DirectionSample, SMALL, Shape, Triangle};
 use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
-use light_math::float::ONE_MINUS_EPSILON;
 use light_math::solid_angle;
 
 /// A flat convex quadrilateral as it is seen from a point: the two triangles on both sides of a diagonal.
@@ -41,8 +40,8 @@ impl FlatQuad {
         } else {
             (&self.triangles[1], self.first, 1.0 - self.first)
         };
-        // What is left of the number is uniform again.
-        let x = ((u.x - start) / chance).min(ONE_MINUS_EPSILON);
+        // What is left of the number is uniform again: by at least 2^-24 below `chance`, so below 1.
+        let x = (u.x - start) / chance;
         let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;
         Some(DirectionSample {
             pdf: sample.pdf * chance,

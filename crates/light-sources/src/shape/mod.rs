@@ -139,3 +139,38 @@ pub(crate) fn azimuth(p: Vec3) -> f32 {
     let turn = if turn < 0.0 { turn + 1.0 } else { turn };
     turn.min(ONE_MINUS_EPSILON)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn azimuths_stay_below_a_full_turn() {
+        let turns = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].map(azimuth);
+        assert_eq!(turns, [0.0, 0.25, 0.5, 0.75], "quarters");
+        // Less below the axis x than a turn can tell from 1.
+        for y in [1e-9, 1e-20, f32::MIN_POSITIVE] {
+            assert_eq!(azimuth(Vec3::new(1.0, -y, 0.0)), ONE_MINUS_EPSILON, "{y}");
+        }
+    }
+
+    #[test]
+    fn areas_seen_from_their_edge_have_no_density() {
+        let seen = |to| area_to_solid_angle(0.5, to, Vec3::Z);
+        assert_eq!(seen(Vec3::Z * 2.0), Some((Vec3::Z, 2.0)), "d^2 / A");
+        assert_eq!(
+            seen(Vec3::NEG_Z * 2.0),
+            Some((Vec3::NEG_Z, 2.0)),
+            "from behind"
+        );
+        for none in [
+            Vec3::X,
+            Vec3::ZERO,
+            Vec3::NAN,
+            Vec3::Z * 1e-30,
+            Vec3::Z * 1e30,
+        ] {
+            assert_eq!(seen(none), None, "{none}");
+        }
+    }
+}

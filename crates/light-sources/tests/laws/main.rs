@@ -7,6 +7,7 @@
 
 mod at_infinity;
 mod at_points;
+mod edges;
 mod extremes;
 mod portals;
 mod powers;

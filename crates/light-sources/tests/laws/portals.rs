@@ -56,6 +56,7 @@ fn portal() {
     li_follows_its_density(&case, cap, radiance);
     li_adds_up(&case, cap, radiance);
     le_adds_up_to_phi(&case);
+    le_follows_its_density(&case, &Cap::sphere());
     // Behind the window, where its light goes.
     rays_and_samples_light_alike(&case, Vec3::new(-0.5, 0.2, 0.3), 2.0);
     bounds_hold(&case);

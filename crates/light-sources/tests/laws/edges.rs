@@ -1,0 +1,63 @@
+//! What a direction toward the edge of a shape rounds off does not make it miss.
+
+use light_sources::light_bounds::LightSampleContext;
+use light_sources::shape::{Shape, ShapeDesc};
+use light_testkit::{Rng, nasty};
+
+use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
+
+/// Samples on all edges and corners of the square of random numbers: of those seen well from the front hardly one misses.
+#[test]
+fn samples_on_edges_hit() {
+    let transform = Affine3A::from_rotation_translation(
+        Quat::from_rotation_x(0.7) * Quat::from_rotation_y(-1.9),
+        Vec3::new(1.0, 20.0, -3.0),
+    );
+    let [x, y] = [Vec3::X, Vec3::Y].map(|v| transform.transform_vector3(v));
+    let corner = transform.transform_point3(Vec3::ZERO);
+    let shapes = [
+        ShapeDesc::Triangle([corner, corner + x, corner + y * 1.3]),
+        ShapeDesc::Rectangle {
+            corner,
+            edges: [x, y * 2.0],
+        },
+        ShapeDesc::Quad([corner, corner + x, corner + y, corner + x * 1.6 + y * 1.2]),
+        ShapeDesc::Disk {
+            transform,
+            radius: 0.8,
+            inner_radius: 0.4,
+        },
+        ShapeDesc::Cylinder {
+            transform,
+            radius: 0.4,
+            length: 1.4,
+        },
+    ];
+    let mut rng = Rng::new(81);
+    let mut failures = Vec::new();
+    for desc in shapes {
+        let shape = desc.build().expect("a shape");
+        let (mut taken, mut missed) = (0u32, 0u32);
+        for _ in 0..2000 {
+            let distance = rng.log_range(0.5, 300.0);
+            let p = shape.bounds().center() + rng.direction() * (1.0 + distance);
+            let ctx = LightSampleContext::medium(p);
+            let edge = [0.0, nasty::BELOW_ONE][rng.below(2)];
+            let along = rng.f32();
+            let u = [Vec2::new(edge, along), Vec2::new(along, edge)][rng.below(2)];
+            let Some(sample) = shape.sample_toward(&ctx, u) else {
+                continue;
+            };
+            if sample.at.n.dot(sample.wi).abs() < 0.1 {
+                continue;
+            }
+            taken += 1;
+            missed += u32::from(shape.pdf_toward(&ctx, sample.wi) == 0.0);
+        }
+        assert!(taken > 900, "{desc:?}: {taken}");
+        if missed * 200 > taken {
+            failures.push(format!("{desc:?}: {missed} of {taken} miss"));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
