@@ -18,7 +18,6 @@ fn point() {
     let case = LightCase::<Rgb, _>::around("point", &light, position, 1.0, 12);
     dirac_li_is(&case, |p| 3.0 / f64::from(p.distance_squared(position)));
     le_adds_up_to_phi(&case);
-    le_follows_its_density(&case, &Cap::sphere());
     le_has_no_variance(&case);
     flux_is_phi(&case);
     le_directions_follow_their_density(&case, &Cap::sphere(), position);
@@ -85,7 +84,6 @@ fn goniometric() {
         f64::from(intensity / w.length_squared())
     });
     le_adds_up_to_phi(&case);
-    le_follows_its_density(&case, &Cap::sphere());
     le_has_no_variance(&case);
     flux_is_phi(&case);
     le_directions_follow_their_density(&case, &Cap::sphere(), POSITION);

@@ -56,7 +56,7 @@ fn portal() {
     li_follows_its_density(&case, cap, radiance);
     li_adds_up(&case, cap, radiance);
     le_adds_up_to_phi(&case);
-    le_follows_its_density(&case, &Cap::sphere());
+    le_directions_follow_their_density(&case, &Cap::sphere(), Vec3::ZERO);
     // Behind the window, where its light goes.
     rays_and_samples_light_alike(&case, Vec3::new(-0.5, 0.2, 0.3), 2.0);
     bounds_hold(&case);
@@ -137,4 +137,31 @@ fn nothing_comes_from_beside() {
         let inside = (Vec3::new(2.0, 0.5, 0.5) - p).normalize();
         assert!(light.le(p, inside, &()).x > 0.0, "radiance inside");
     }
+}
+
+/// Samples on all edges of the square of random numbers have the density of what they chose.
+#[test]
+fn samples_on_the_edges_of_the_portal_pass_it() {
+    let image = Image::from_f32([8, 8], Channels::Gray, vec![1.0; 64]).expect("an image");
+    let light = light(EnvironmentMap::EqualArea(image));
+    let mut rng = Rng::new(82);
+    let (mut missed, mut rays_missed) = (0u32, 0u32);
+    const COUNT: u32 = 2000;
+    for _ in 0..COUNT {
+        let edge = [0.0, light_testkit::nasty::BELOW_ONE][rng.below(2)];
+        let along = rng.f32();
+        let u = [Vec2::new(edge, along), Vec2::new(along, edge)][rng.below(2)];
+        let p = Vec3::new(2.0 - rng.log_range(0.01, 30.0), 0.0, 0.5) + rng.direction() * 0.005;
+        let ctx = LightSampleContext::medium(p);
+        let sample = light.sample_li(&ctx, u, &(), PdfCoverage::Complete);
+        let sample = sample.expect("in front of the window");
+        missed += u32::from(light.pdf_li(&ctx, sample.wi, PdfCoverage::Complete) == 0.0);
+        let ray = light.sample_le(rng.vec2(), u, &()).expect("a ray").ray;
+        rays_missed += u32::from(light.pdf_le(&ray).pos == 0.0);
+    }
+    assert!(missed * 200 <= COUNT, "{missed} of {COUNT} directions miss");
+    assert!(
+        rays_missed * 200 <= COUNT,
+        "{rays_missed} of {COUNT} rays miss"
+    );
 }

@@ -264,7 +264,6 @@ fn check(
             le_origins_are_even(&case, place);
         }
         if is_convex {
-            le_follows_its_density(&case, &Cap::sphere());
             le_has_no_variance(&case);
             flux_is_phi(&case);
         }

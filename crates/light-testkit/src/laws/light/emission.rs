@@ -2,11 +2,11 @@ use core::f64::consts::PI;
 
 use light_bounds::LightSampleContext;
 use light_math::glam::Vec3;
-use light_sources::{ColorModel, EmittedRay, InfiniteLight, Light, PdfCoverage, Radiance};
+use light_sources::{ColorModel, InfiniteLight, Light, PdfCoverage, Radiance};
 
 use super::case::le;
 use super::{LightCase, SAMPLES, STRAY};
-use crate::{Cap, DensityTest, Estimate, Rng};
+use crate::{Cap, Estimate, Rng};
 
 /// The mean of what leaves over its density is `phi`, and `pdf_le` answers the densities that samples carry.
 ///
@@ -29,41 +29,6 @@ pub fn le_adds_up_to_phi<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>)
     assert!(
         estimate.agrees_with(phi),
         "{}: emits {phi}, rays that leave say {estimate:?}",
-        case.name
-    );
-}
-
-/// Directions of rays that leave follow the density that `pdf_le` answers, which integrates to one.
-///
-/// For lights whose density of directions is the same at all places: what stands in a point, lies in a plane or is far away.
-///
-/// # Panics
-/// If the law does not hold, or no ray leaves.
-pub fn le_follows_its_density<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>, cap: &Cap) {
-    let mut rng = Rng::new(49);
-    let sample = |rng: &mut Rng| {
-        let (u1, u2) = (rng.vec2(), rng.vec2());
-        case.light.sample_le(u1, u2, &case.wavelengths)
-    };
-    let some = (0..1000).find_map(|_| sample(&mut rng)).expect("a ray");
-    let pdf = |direction| {
-        let ray = EmittedRay {
-            direction,
-            ..some.ray
-        };
-        case.light.pdf_le(&ray).dir
-    };
-    let test = DensityTest::default();
-    let outcome = test.cap(cap, |rng| Some(sample(rng)?.ray.direction), pdf);
-    assert!(
-        outcome.chi_squared.passes() && outcome.outside == 0,
-        "{}: rays do not follow their density: {outcome:?}",
-        case.name
-    );
-    let mass = cap.integrate(1e-3, |w| f64::from(pdf(w)));
-    assert!(
-        (mass - 1.0).abs() < 5e-3,
-        "{}: the density of rays integrates to {mass}",
         case.name
     );
 }

@@ -10,10 +10,7 @@ mod rays;
 pub use arrival::{dirac_li_is, li_adds_up, li_follows_its_density};
 pub use bounds::{bounds_hold, edges_are_survived};
 pub use case::LightCase;
-pub use emission::{
-    flux_is_phi, infinite_flux_is_phi, le_adds_up_to_phi, le_follows_its_density,
-    le_has_no_variance,
-};
+pub use emission::{flux_is_phi, infinite_flux_is_phi, le_adds_up_to_phi, le_has_no_variance};
 pub use power::phi_is_exact;
 pub use rays::{
     le_directions_are_diffuse, le_directions_follow_their_density, le_origins_are_even,
