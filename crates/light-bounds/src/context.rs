@@ -1,9 +1,13 @@
 use crate::glam::Vec3;
+use light_math::direction;
 
 /// Who asks for light: a point on a surface, or a point in a medium.
 ///
 /// Lengths are in scene units. Both normals are unit vectors, or both zero in a medium. Samplers read [`ns`](Self::ns)
 /// and no other normal; lights read both, to move the point off the surface along [`n`](Self::n).
+///
+/// Samplers keep their laws for any numbers in here. A normal of another length counts by its direction, and one without a direction as none:
+/// see [`unit_ns`](Self::unit_ns). A position or a segment that is not finite is somewhere, and always in the same place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
     /// The point.
@@ -24,7 +28,8 @@ pub struct LightSampleContext {
 
 /// How a surface reflects more than a matt one: about `diffuse / pi + (1 - diffuse) D G / (4 cos cos)`, GGX microfacets.
 ///
-/// Only a hint for choosing lights: it may be rough, and no light is lost by it.
+/// Only a hint for choosing lights: it may be rough, and no light is lost by it. Numbers outside of their domain are moved into it; without a
+/// direction to the viewer the surface counts as matt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gloss {
     /// Unit vector to the viewer.
@@ -101,9 +106,19 @@ impl LightSampleContext {
         }
     }
 
-    /// Whether the point has no surface, so no normal.
+    /// The direction of the shading normal; `None` in a medium, and for a normal that has no direction: zero, infinite, or not a number.
+    ///
+    /// A unit vector to rounding comes back to the bit: see [`direction`].
+    #[inline]
+    #[must_use]
+    pub fn unit_ns(&self) -> Option<Vec3> {
+        direction(self.ns)
+    }
+
+    /// Whether the point has no surface, so no normal; or one without a direction.
+    #[inline]
     #[must_use]
     pub fn is_medium(&self) -> bool {
-        self.ns == Vec3::ZERO
+        self.unit_ns().is_none()
     }
 }

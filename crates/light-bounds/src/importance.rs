@@ -22,7 +22,7 @@ impl LightBounds {
     ///
     /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite bounds and any
     /// context: also at a box centre, on a point light, and at coordinates whose squares are no floats. Reads `ctx.p`
-    /// and `ctx.ns`. At a surface light counts from both sides.
+    /// and `ctx.unit_ns()`. At a surface light counts from both sides.
     ///
     /// Costs six square roots, seven at a surface, and no trigonometric function.
     ///
@@ -94,10 +94,10 @@ impl LightBounds {
 /// Cosine of the least angle between the normal's line and a direction to the box; 1 in a medium.
 #[inline(always)]
 fn cos_incidence(ctx: &LightSampleContext, from_light: Vec3, subtended: Angle) -> f32 {
-    if ctx.is_medium() {
+    let Some(ns) = ctx.unit_ns() else {
         return 1.0;
-    }
-    let to_normal = Angle::from_cos(ctx.ns.dot(from_light).abs().min(1.0));
+    };
+    let to_normal = Angle::from_cos(ns.dot(from_light).abs().min(1.0));
     (to_normal - subtended).cos
 }
 

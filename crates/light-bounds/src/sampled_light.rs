@@ -15,6 +15,17 @@ pub struct SampledLight {
 impl SampledLight {
     /// The largest `f64` below one: the upper end of `u`, which lies in `[0, 1)`.
     pub const MAX_U: f64 = 1.0 - f64::EPSILON / 2.0;
+
+    /// `u` moved into `[0, 1)`; 0 if it is not a number.
+    #[inline]
+    #[must_use]
+    pub const fn clamp_u(u: f64) -> f64 {
+        match u {
+            _ if u >= Self::MAX_U => Self::MAX_U,
+            _ if u > 0.0 => u,
+            _ => 0.0,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -25,5 +36,20 @@ mod tests {
     fn max_u_is_the_predecessor_of_one() {
         let next = f64::from_bits(SampledLight::MAX_U.to_bits() + 1);
         assert_eq!(next, 1.0, "neighbours");
+    }
+
+    #[test]
+    fn any_number_is_moved_into_range() {
+        for u in [0.0, f64::MIN_POSITIVE, 0.25, SampledLight::MAX_U] {
+            assert_eq!(SampledLight::clamp_u(u), u, "as it is");
+        }
+        for (u, moved) in [
+            (-1.0, 0.0),
+            (f64::NAN, 0.0),
+            (1.0, SampledLight::MAX_U),
+            (f64::INFINITY, SampledLight::MAX_U),
+        ] {
+            assert_eq!(SampledLight::clamp_u(u), moved, "{u}");
+        }
     }
 }

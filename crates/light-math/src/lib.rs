@@ -15,6 +15,7 @@ pub use glam;
 
 mod aabb;
 mod cone;
+mod direction;
 pub mod discrete;
 pub mod distribution;
 pub mod equal_area;
@@ -32,6 +33,7 @@ pub mod warp;
 
 pub use aabb::Aabb;
 pub use cone::DirectionCone;
+pub use direction::direction;
 pub use frame::Frame;
 pub use octahedral::OctahedralVector;
 pub use quantize::QuantizedBox;

@@ -3,7 +3,8 @@ use alloc::vec::Vec;
 use light_bounds::{
     InfiniteBounds, LightExtent, LightId, LightSampleContext, ReceiverSides, SampledLight,
 };
-use light_math::float;
+use light_math::glam::Vec3;
+use light_math::{direction, float};
 
 /// Cosine that is never taken for less while any light may arrive, and what a test for none of it leaves to round-off.
 const SLACK: f32 = 1e-5;
@@ -18,13 +19,19 @@ pub(crate) struct Sky {
 impl Sky {
     /// The infinite ones of `lights`.
     pub(crate) fn new(lights: &[LightExtent]) -> Self {
-        let lights = (0..)
+        let infinite = (0..)
             .map(LightId)
             .zip(lights)
             .filter_map(|(id, extent)| Some((id, *extent.infinite()?)))
-            .filter(|(_, bounds)| bounds.fluence > 0.0)
-            .collect();
-        Self { lights }
+            .filter(|(_, bounds)| bounds.fluence > 0.0);
+        // Valid bounds have an axis of about length one: too rough for the test against the horizon.
+        let with_unit_axis = |(id, mut bounds): (LightId, InfiniteBounds)| {
+            bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
+            (id, bounds)
+        };
+        Self {
+            lights: infinite.map(with_unit_axis).collect(),
+        }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -49,7 +56,7 @@ impl Sky {
         if target < in_tree {
             return FirstChoice::Tree {
                 pmf: share(in_tree, total),
-                u: (target / in_tree).clamp(0.0, SampledLight::MAX_U),
+                u: SampledLight::clamp_u(target / in_tree),
             };
         }
         let pmf = |weight| share(weight, total);
@@ -98,7 +105,7 @@ impl Sky {
         Some(SampledLight {
             light,
             pmf: pmf(weight),
-            u: ((target - start) / weight).clamp(0.0, SampledLight::MAX_U),
+            u: SampledLight::clamp_u((target - start) / weight),
         })
     }
 }
@@ -138,21 +145,23 @@ fn share(weight: f64, total: f64) -> f32 {
 }
 
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
-    if ctx.is_medium() {
+    let Some(ns) = ctx.unit_ns() else {
         return 1.0;
-    }
+    };
     if ctx.sides == ReceiverSides::Both {
-        let height = ctx.ns.dot(bounds.mean).abs();
+        let height = ns.dot(bounds.mean).abs();
         return height
             .max(0.5 * float::safe_sqrt(1.0 - bounds.mean.length_squared()))
             .max(SLACK);
     }
     let cone = &bounds.cone;
-    let sin = float::safe_sqrt(1.0 - cone.cos_theta * cone.cos_theta);
-    if cone.cos_theta >= 0.0 && ctx.ns.dot(cone.w) + sin < -SLACK {
-        return 0.0;
+    if cone.cos_theta >= 0.0 {
+        let sin = float::safe_sqrt((1.0 - cone.cos_theta) * (1.0 + cone.cos_theta));
+        if ns.dot(cone.w) + sin < -SLACK {
+            return 0.0;
+        }
     }
-    let height = ctx.ns.dot(bounds.mean);
+    let height = ns.dot(bounds.mean);
     let variance = (1.0 - bounds.mean.length_squared()).max(0.0);
     // Of a uniform sky a quarter arrives, of a distant light the cosine.
     let expected = 0.5 * (height + float::sqrt(height * height + 0.25 * variance));
@@ -162,7 +171,6 @@ fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_math::glam::Vec3;
 
     fn floor() -> LightSampleContext {
         LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)

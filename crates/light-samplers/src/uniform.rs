@@ -61,7 +61,7 @@ pub(crate) fn choose_uniformly(count: u32, u: f64) -> Option<(u32, f64)> {
     let last = count.checked_sub(1)?;
     let scaled = u * f64::from(count);
     let index = (scaled as u32).min(last);
-    let rest = (scaled - f64::from(index)).min(SampledLight::MAX_U);
+    let rest = SampledLight::clamp_u(scaled - f64::from(index));
     Some((index, rest))
 }
 

@@ -34,7 +34,7 @@ impl Fork {
         } else {
             return None;
         };
-        Some((side, rest.min(SampledLight::MAX_U)))
+        Some((side, SampledLight::clamp_u(rest)))
     }
 
     /// Probability of `side`; 0 only if its weight is 0.

@@ -47,13 +47,14 @@ impl Query for Grow<'_, '_> {
             }
             tree.prefetch_below(node);
             let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
-            let scale = node.gain() * zoom * zoom;
+            let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
             let mut lanes = weights.lanes;
             for weight in &mut lanes {
                 *weight = both(*weight, scale);
             }
             if index == 0 {
-                limit = detail.threshold * total(lanes);
+                // Not a number counts as 0.
+                limit = detail.threshold.max(0.0) * total(lanes);
             }
             let inner = usize::from(node.inner);
             let mut worth = [0.0; WIDTH];

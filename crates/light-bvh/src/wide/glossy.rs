@@ -1,6 +1,6 @@
 use light_bounds::Gloss;
-use light_math::float;
 use light_math::glam::Vec3;
+use light_math::{direction, float};
 
 use super::importance::{Receiver, SurfaceReceiver, at_least, at_most};
 use super::lane::{Lane, dist_sq};
@@ -38,19 +38,29 @@ pub struct GlossyReceiver {
 }
 
 impl GlossyReceiver {
-    /// The point `p` with the unit normal `n`, seen from its side of `n`. Values outside of their domain are moved into it.
+    /// The point `p` with the normal `n`, of any length, seen from its side of `n`. Values outside of their domain are moved into it; without
+    /// a direction to the viewer the surface is matt.
     #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3, gloss: &Gloss) -> Self {
+        Self::facing(p, direction(n).unwrap_or(Vec3::ZERO), gloss)
+    }
+
+    /// The same with the unit normal `n`.
+    #[inline(always)]
+    pub(crate) fn facing(p: Vec3, n: Vec3, gloss: &Gloss) -> Self {
         // Written so that NaN becomes the first bound.
         let within = |x: f32, low: f32| if x > low { x.min(1.0) } else { low };
+        let (wo, diffuse) = match direction(gloss.wo) {
+            Some(wo) => (wo, gloss.diffuse),
+            None => (n, 1.0),
+        };
         Self {
-            surface: SurfaceReceiver::new(p, n),
-
-            wo: gloss.wo,
-            cos_o: within(n.dot(gloss.wo), MIN_COS),
+            surface: SurfaceReceiver::facing(p, n),
+            wo,
+            cos_o: within(n.dot(wo), MIN_COS),
             alpha: within(gloss.alpha, MIN_ALPHA),
-            diffuse: within(gloss.diffuse, MIN_DIFFUSE),
+            diffuse: within(diffuse, MIN_DIFFUSE),
         }
     }
 

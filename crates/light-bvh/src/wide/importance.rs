@@ -1,5 +1,5 @@
-use light_math::float;
 use light_math::glam::Vec3;
+use light_math::{direction, float};
 
 use super::lane::{Lane, dist_sq};
 
@@ -48,10 +48,16 @@ pub struct SurfaceReceiver {
 }
 
 impl SurfaceReceiver {
-    /// The point `p` with the unit normal `n`.
+    /// The point `p` with the normal `n`, of any length; one without a direction has no horizon.
     #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3) -> Self {
+        Self::facing(p, direction(n).unwrap_or(Vec3::ZERO))
+    }
+
+    /// The point `p` with the unit normal `n`.
+    #[inline(always)]
+    pub(crate) fn facing(p: Vec3, n: Vec3) -> Self {
         Self {
             p: near(p),
             horizon: Horizon::new(n),
@@ -88,10 +94,16 @@ pub struct TwoSidedReceiver {
 }
 
 impl TwoSidedReceiver {
-    /// The point `p` with the unit normal `n`.
+    /// The point `p` with the normal `n`, of any length.
     #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3) -> Self {
+        Self::facing(p, direction(n).unwrap_or(Vec3::ZERO))
+    }
+
+    /// The point `p` with the unit normal `n`.
+    #[inline(always)]
+    pub(crate) fn facing(p: Vec3, n: Vec3) -> Self {
         Self {
             p: near(p),
             horizon: Horizon::new(n),
@@ -234,11 +246,12 @@ impl Lane {
         (beyond < 297.0 * (hx + hy + hz)) | (self.spread > 0.0)
     }
 
-    /// The same child from a place `offset` away from the receiver's position.
+    /// The same child from a place `offset` away from the receiver's position, and no nearer than the root of `least_sq`.
     #[inline(always)]
-    pub(crate) fn seen_from(&self, offset: Vec3) -> Self {
+    pub(crate) fn seen_from(&self, offset: Vec3, least_sq: f32) -> Self {
         let mean = (Vec3::from(self.mean) - offset).to_array();
         let dist_sq = dist_sq(mean, self.extent, DISTANCE, self.slack * self.slack);
+        let dist_sq = at_least(least_sq, dist_sq);
         Self {
             mean,
             dist_sq,

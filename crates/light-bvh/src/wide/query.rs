@@ -36,15 +36,16 @@ impl Asker for &LightSampleContext {
             return query.of(&SegmentReceiver::new(self.p, self.segment));
         }
         // Where coordinates had to be clamped, directions to lights mean nothing.
-        if self.is_medium() || is_far(self.p) {
+        let normal = self.unit_ns().filter(|_| !is_far(self.p));
+        let Some(ns) = normal else {
             return query.of(&MediumReceiver::new(self.p));
-        }
+        };
         match (self.sides, &self.gloss) {
-            (ReceiverSides::Front, None) => query.of(&SurfaceReceiver::new(self.p, self.ns)),
+            (ReceiverSides::Front, None) => query.of(&SurfaceReceiver::facing(self.p, ns)),
             (ReceiverSides::Front, Some(gloss)) => {
-                query.of(&GlossyReceiver::new(self.p, self.ns, gloss))
+                query.of(&GlossyReceiver::facing(self.p, ns, gloss))
             }
-            (ReceiverSides::Both, _) => query.of(&TwoSidedReceiver::new(self.p, self.ns)),
+            (ReceiverSides::Both, _) => query.of(&TwoSidedReceiver::facing(self.p, ns)),
         }
     }
 }

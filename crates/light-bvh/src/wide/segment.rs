@@ -9,6 +9,10 @@ use super::lane::Lane;
 /// Places along the segment at which the emission is looked at.
 const PLACES: usize = 4;
 
+/// How near a light may be to a segment, as a share of its length: nearer ones count as there, so that the weights of neighbours stay within what
+/// floats hold, whatever the length.
+const NEAREST: f32 = 1e-8;
+
 /// A ray segment in a medium: lights count by their mean fluence along it.
 ///
 /// The places are equally spaced in the angle under which the light sees the segment, so that a light close to it is not missed.
@@ -60,6 +64,8 @@ impl Receiver for SegmentReceiver {
         let aside = Vec3::from(lane.mean) - w * nearest;
         let blur_sq = DISTANCE * Vec3::from(lane.extent).length_squared();
         let height_sq = aside.length_squared() + 2.0 * blur_sq + lane.slack * lane.slack;
+        let least_sq = (NEAREST * length) * (NEAREST * length);
+        let height_sq = at_least(least_sq, height_sq);
         let height = float::sqrt(height_sq);
         let begin = angle(-nearest / height);
         let span = angle((length - nearest) / height) - begin;
@@ -70,7 +76,7 @@ impl Receiver for SegmentReceiver {
             let t = nearest + height * tangent(theta);
             let t = at_most(length, at_least(0.0, t));
             let from_nearest = t - nearest;
-            let here = lane.seen_from(w * t);
+            let here = lane.seen_from(w * t, least_sq);
             sum += here.fluence() * (height_sq + from_nearest * from_nearest);
         }
         sum * (span / (PLACES as f32 * height * length))

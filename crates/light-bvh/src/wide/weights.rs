@@ -22,7 +22,7 @@ impl Weights {
     #[inline(always)]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let weights = Self::in_frame(node, receiver, &Frame::in_codes(node, receiver), |_, _| ());
-        if weights.total >= LEAST_TOTAL {
+        if is_trusted(weights.total) {
             weights
         } else {
             Self::from_afar(node, receiver)
@@ -42,7 +42,7 @@ impl Weights {
             let width = hx + hy + hz;
             roughness[k] = width * width * (1.0 / lane.dist_sq);
         });
-        if weights.total >= LEAST_TOTAL {
+        if is_trusted(weights.total) {
             (weights, roughness)
         } else {
             // So far away, all are points.
@@ -84,6 +84,12 @@ impl Weights {
             inv_unit: frame.inv_unit,
         }
     }
+}
+
+/// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor infinite, nor not a number.
+#[inline(always)]
+fn is_trusted(total: f32) -> bool {
+    (LEAST_TOTAL..=f32::MAX).contains(&total)
 }
 
 /// The sum of all lanes, in pairs.

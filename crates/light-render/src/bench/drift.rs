@@ -12,7 +12,7 @@ use super::subject::Subject;
 use super::timing::unit;
 use super::variance::{self, Variance};
 use super::{BenchOptions, extents};
-use crate::SamplerKind;
+use crate::{AnyLightSamplerError, SamplerKind};
 
 /// How far lights go in the first step, as a share of the mean distance of neighbours; each step ends twice as far.
 const FIRST: f32 = 1.0 / 64.0;
@@ -38,8 +38,15 @@ pub struct DriftRow {
 
 /// A row for each hierarchy and step: lights fly straight, each in a direction of its own, twice as far in each step; the points stay. Samplers
 /// that do not follow lights have no rows.
-#[must_use]
-pub fn drift(name: &str, set: &LightSetFile, options: &BenchOptions, steps: u32) -> Vec<DriftRow> {
+///
+/// # Errors
+/// The first light that a sampler refuses, at the start or on its way.
+pub fn drift(
+    name: &str,
+    set: &LightSetFile,
+    options: &BenchOptions,
+    steps: u32,
+) -> Result<Vec<DriftRow>, AnyLightSamplerError> {
     let mut rng = Pcg64Mcg::seed_from_u64(0xD21F);
     let distance = mean_distance(set);
     let ways: Vec<Vec3> = set
@@ -50,7 +57,7 @@ pub fn drift(name: &str, set: &LightSetFile, options: &BenchOptions, steps: u32)
     let points = options.points_of(set);
     let mut rows = Vec::new();
     for &sampler in &options.samplers {
-        let mut following = Subject::new(sampler, &extents(set));
+        let mut following = Subject::new(sampler, &extents(set))?;
         let Some(at_first) = following.looseness() else {
             continue;
         };
@@ -64,7 +71,7 @@ pub fn drift(name: &str, set: &LightSetFile, options: &BenchOptions, steps: u32)
             };
             let question = Question::new(&set, options);
             let variance = |subject: &Subject| variance::exact(subject, &set, &question, points);
-            following.refit(&extents(&set));
+            following.refit(&extents(&set))?;
             rows.push(DriftRow {
                 set: name.to_owned(),
                 n_lights: set.lights.len(),
@@ -72,11 +79,11 @@ pub fn drift(name: &str, set: &LightSetFile, options: &BenchOptions, steps: u32)
                 moved,
                 looseness: following.looseness().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
-                built_anew: variance(&Subject::new(sampler, &extents(&set))),
+                built_anew: variance(&Subject::new(sampler, &extents(&set))?),
             });
         }
     }
-    rows
+    Ok(rows)
 }
 
 /// In mean distances of neighbours; 0 before the first step.
@@ -181,7 +188,7 @@ mod tests {
             receiver: ReceiverKind::Diffuse,
             occluders: 0,
         };
-        let rows = drift("uniform", &set, &options, 7);
+        let rows = drift("uniform", &set, &options, 7).expect("valid lights");
         assert_eq!(rows.len(), 8, "uniform sampling follows nothing");
         let (first, last) = (&rows[0], &rows[7]);
         assert_eq!(first.moved, 0.0, "where they were");

@@ -26,7 +26,7 @@ pub use variance::Variance;
 use light_scene::light_set::LightSetFile;
 use lights::bounds::LightExtent;
 
-use crate::SamplerKind;
+use crate::{AnyLightSamplerError, SamplerKind};
 use question::Question;
 use subject::Subject;
 
@@ -65,10 +65,16 @@ fn extents(set: &LightSetFile) -> Vec<LightExtent> {
 
 /// One row for each sampler, all measured in this run and in turns, so that their ratios mean something on a busy machine.
 ///
+/// # Errors
+/// The first light that a sampler refuses.
+///
 /// # Panics
 /// If the system refuses to start the threads.
-#[must_use]
-pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<BenchRow> {
+pub fn bench(
+    name: &str,
+    set: &LightSetFile,
+    options: &BenchOptions,
+) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
     let extents = extents(set);
     let question = Question::new(set, options);
     let var_points = options.points_of(set);
@@ -80,12 +86,15 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
     let built: Vec<(f64, Subject)> = options
         .samplers
         .iter()
-        .map(|&kind| pool.install(|| timing::build(|| Subject::new(kind, &extents))))
-        .collect();
+        .map(|&kind| {
+            let (ms, subject) = pool.install(|| timing::build(|| Subject::new(kind, &extents)));
+            Ok((ms, subject?))
+        })
+        .collect::<Result<_, AnyLightSamplerError>>()?;
     let subjects: Vec<&Subject> = built.iter().map(|(_, subject)| subject).collect();
     let times = timing::queries(&subjects, &question.contexts, options.k);
 
-    built
+    let rows = built
         .iter()
         .zip(times)
         .map(|((build_ms, subject), time)| {
@@ -112,7 +121,8 @@ pub fn bench(name: &str, set: &LightSetFile, options: &BenchOptions) -> Vec<Benc
                 laws,
             }
         })
-        .collect()
+        .collect();
+    Ok(rows)
 }
 
 #[cfg(test)]
@@ -135,7 +145,7 @@ mod tests {
     #[test]
     fn uniform_sampling_loses_nothing_and_its_pmf_adds_up() {
         let set = LightSetFile::generate(SetKind::Mixed, 50, 1);
-        let rows = bench("mixed", &set, &options(1));
+        let rows = bench("mixed", &set, &options(1)).expect("valid lights");
         let row = &rows[0];
         assert_eq!(row.variance.lost_energy, 0.0, "every light can be picked");
         assert_eq!(row.laws.pmf_mismatch, 0.0, "same bits");
@@ -146,8 +156,8 @@ mod tests {
     #[test]
     fn repeated_calls_agree_with_the_exact_variance() {
         let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
-        let exact = &bench("uniform", &set, &options(1))[0];
-        let repeated = &bench("uniform", &set, &options(2))[0];
+        let exact = &bench("uniform", &set, &options(1)).expect("valid lights")[0];
+        let repeated = &bench("uniform", &set, &options(2)).expect("valid lights")[0];
         // Two stratified samples are at most as noisy as two independent ones, up to the noise of the estimate.
         assert!(
             repeated.variance.mean < exact.variance.mean * 1.5,
@@ -156,5 +166,20 @@ mod tests {
             exact.variance.mean
         );
         assert!(repeated.variance.mean > 0.0, "but noisy");
+    }
+
+    /// A light that no sampler takes is named, not panicked at.
+    #[test]
+    fn a_light_that_is_refused_is_named() {
+        let mut set = LightSetFile::generate(SetKind::Uniform, 10, 1);
+        set.lights[7] = set.lights[7].moved(lights::math::glam::Vec3::splat(1e38));
+        let options = BenchOptions {
+            samplers: vec![SamplerKind::Bvh],
+            ..options(1)
+        };
+        let error = bench("uniform", &set, &options).expect_err("too far");
+        assert!(error.to_string().starts_with("light 7: "), "{error}");
+        let error = drift("uniform", &set, &options, 1).expect_err("too far");
+        assert!(error.to_string().starts_with("light 7: "), "{error}");
     }
 }

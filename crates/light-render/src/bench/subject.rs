@@ -2,7 +2,7 @@ use lights::bounds::LightExtent;
 use lights::samplers::LightSampler;
 
 use super::timing;
-use crate::{AnyLightSampler, SamplerKind};
+use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 
 /// A sampler under measurement.
 pub(super) struct Subject {
@@ -13,12 +13,18 @@ pub(super) struct Subject {
 
 impl Subject {
     /// Builds the sampler of the given kind.
-    pub(super) fn new(kind: SamplerKind, extents: &[LightExtent]) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// The first light that the sampler refuses.
+    pub(super) fn new(
+        kind: SamplerKind,
+        extents: &[LightExtent],
+    ) -> Result<Self, AnyLightSamplerError> {
+        Ok(Self {
             kind,
             n_lights: extents.len(),
-            sampler: AnyLightSampler::over(kind, extents).expect("a set's lights are valid"),
-        }
+            sampler: AnyLightSampler::over(kind, extents)?,
+        })
     }
 
     /// Milliseconds of the fastest of several refits to the same lights; `None` if the sampler knows none.
@@ -32,10 +38,14 @@ impl Subject {
     }
 
     /// Follows lights that moved, if the sampler can.
-    pub(super) fn refit(&mut self, extents: &[LightExtent]) {
+    ///
+    /// # Errors
+    /// The first light that has moved too far.
+    pub(super) fn refit(&mut self, extents: &[LightExtent]) -> Result<(), AnyLightSamplerError> {
         if let AnyLightSampler::Bvh(sampler) = &mut self.sampler {
-            sampler.refit(extents).expect("the same lights, moved");
+            sampler.refit(extents)?;
         }
+        Ok(())
     }
 
     /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that follow no lights.

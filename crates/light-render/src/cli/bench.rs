@@ -97,10 +97,10 @@ impl BenchArgs {
             occluders: self.occluders as usize,
         };
         if let Some(steps) = self.drift {
-            let rows = drift(&name, &set, &options, steps);
+            let rows = drift(&name, &set, &options, steps).map_err(Failure::input)?;
             self.print(&DriftRow::header(), &rows, DriftRow::json)
         } else {
-            let rows = bench(&name, &set, &options);
+            let rows = bench(&name, &set, &options).map_err(Failure::input)?;
             self.print(&BenchRow::header(), &rows, BenchRow::json)
         }
     }

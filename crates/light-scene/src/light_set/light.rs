@@ -2,7 +2,7 @@ use core::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
 use lights::bounds::LightBounds;
-use lights::math::{Aabb, float};
+use lights::math::Aabb;
 
 use super::SetPoint;
 
@@ -144,14 +144,20 @@ impl SetLight {
                 intensity,
                 cone_deg,
                 delta_deg,
-            } => LightBounds {
-                bounds: Aabb::from_point(p),
-                w: (target - p).normalize_or(Vec3::Z),
-                phi: 4.0 * core::f32::consts::PI * intensity,
-                cos_theta_o: float::cos((cone_deg - delta_deg).to_radians()),
-                cos_theta_e: float::cos(delta_deg.to_radians()),
-                two_sided: false,
-            },
+            } => {
+                // Rounded so that both angles together are no less than the cone.
+                let [start, end] = cone(cone_deg, delta_deg);
+                let cos_theta_o = rounded_down(start.cos());
+                let beyond = (end - f64::from(cos_theta_o).acos()).max(0.0);
+                LightBounds {
+                    bounds: Aabb::from_point(p),
+                    w: spot_axis(p, target).as_vec3(),
+                    phi: 4.0 * core::f32::consts::PI * intensity,
+                    cos_theta_o,
+                    cos_theta_e: rounded_down(beyond.cos()),
+                    two_sided: false,
+                }
+            }
         }
     }
 
@@ -180,15 +186,33 @@ impl SetLight {
                 cone_deg,
                 delta_deg,
             } => {
-                let axis = (target.as_dvec3() - p.as_dvec3()).normalize_or_zero();
-                let cos = axis.dot(direction.normalize_or_zero());
-                let cos_end = f64::from(cone_deg).to_radians().cos();
-                let cos_start = (f64::from(cone_deg) - f64::from(delta_deg))
-                    .to_radians()
-                    .cos();
+                let cos = spot_axis(p, target).dot(direction.normalize_or_zero());
+                let [cos_start, cos_end] = cone(cone_deg, delta_deg).map(f64::cos);
                 f64::from(intensity) * falloff(cos, cos_start, cos_end)
             }
         }
+    }
+}
+
+/// Where a spot at `p` shines. In doubles, so that squares of tiny lengths do not vanish; +z if the target is where the spot is.
+fn spot_axis(p: Vec3, target: Vec3) -> DVec3 {
+    (target.as_dvec3() - p.as_dvec3()).normalize_or(DVec3::Z)
+}
+
+/// The half angles up to which a spot shines fully, and at all, in radians.
+fn cone(cone_deg: f32, delta_deg: f32) -> [f64; 2] {
+    let end = f64::from(cone_deg);
+    [end - f64::from(delta_deg), end].map(f64::to_radians)
+}
+
+/// The largest float that is not above the cosine `x`.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+fn rounded_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x {
+        (nearest - 0.5 * f32::EPSILON * nearest.abs().max(f32::MIN_POSITIVE)).max(-1.0)
+    } else {
+        nearest
     }
 }
 
@@ -205,77 +229,4 @@ fn falloff(cos: f64, cos_start: f64, cos_end: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn floor() -> SetPoint {
-        SetPoint {
-            p: Vec3::ZERO,
-            n: Vec3::Z,
-        }
-    }
-
-    #[test]
-    fn triangle_shines_from_its_front_only_unless_two_sided() {
-        let facing_down = [Vec3::Z, Vec3::Z + Vec3::Y, Vec3::Z + Vec3::X];
-        let facing_up = [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y];
-        let f = |vertices, two_sided| {
-            SetLight::Triangle {
-                vertices,
-                radiance: 2.0,
-                two_sided,
-            }
-            .contribution(&floor())
-        };
-        let d2: f64 = 1.0 + 2.0 / 9.0;
-        assert!(
-            (f(facing_down, false) - 2.0 * 0.5 / (d2 * d2)).abs() < 1e-12,
-            "L A cos cos / d^2"
-        );
-        assert_eq!(f(facing_up, false), 0.0, "from behind");
-        assert_eq!(
-            f(facing_up, true),
-            f(facing_down, false),
-            "both sides alike"
-        );
-    }
-
-    #[test]
-    fn spot_is_one_inside_and_zero_outside() {
-        let spot = |target| {
-            SetLight::Spot {
-                p: Vec3::new(0.0, 0.0, 2.0),
-                target,
-                intensity: 8.0,
-                cone_deg: 30.0,
-                delta_deg: 10.0,
-            }
-            .contribution(&floor())
-        };
-        assert_eq!(spot(Vec3::ZERO), 2.0, "on the axis");
-        assert_eq!(spot(Vec3::new(5.0, 0.0, 2.0)), 0.0, "beside the cone");
-        let half = spot(Vec3::new(2.0 * 25f32.to_radians().tan(), 0.0, 0.0));
-        assert!(half > 0.0 && half < 2.0, "in the soft edge");
-    }
-
-    #[test]
-    fn bounds_tell_power_and_cone() {
-        let b = SetLight::Point {
-            p: Vec3::ONE,
-            intensity: 1.0,
-        }
-        .bounds();
-        assert_eq!(b.cos_theta_o, -1.0, "all directions");
-        let b = SetLight::Triangle {
-            vertices: [Vec3::ZERO, Vec3::X, Vec3::Y],
-            radiance: 1.0,
-            two_sided: true,
-        }
-        .bounds();
-        assert_eq!(b.w, Vec3::Z, "front side");
-        assert!(
-            (b.phi - core::f32::consts::FRAC_PI_2).abs() < 1e-6,
-            "pi A L, not doubled"
-        );
-    }
-}
+mod tests;

@@ -24,8 +24,8 @@ impl ReceiverCosine {
     /// The same, where they stand for points in these `directions`.
     #[inline]
     pub(super) fn toward(ctx: &LightSampleContext, directions: [Vec3; 4]) -> Self {
-        let cosine = |w: Vec3| w.dot(ctx.ns).abs().max(SMALLEST);
-        Self((!ctx.is_medium()).then(|| directions.map(cosine)))
+        let cosine = |ns: Vec3| directions.map(|w| w.dot(ns).abs().max(SMALLEST));
+        Self(ctx.unit_ns().map(cosine))
     }
 
     /// The mean cosine over the square, 1 in a medium.

@@ -5,6 +5,8 @@ pub mod light;
 #[cfg(feature = "samplers")]
 pub mod sampler;
 #[cfg(feature = "samplers")]
+pub mod sampler_contexts;
+#[cfg(feature = "samplers")]
 mod sampler_laws;
 #[cfg(feature = "samplers")]
 mod several_choices;

@@ -215,7 +215,8 @@ pub fn nonsense_is_survived(set: &LightSet, sampler: &impl LightSampler) {
             f64::INFINITY,
         ] {
             let chosen = sampler.sample(ctx, u);
-            let known = chosen.is_none_or(|c| c.light.index() < set.emitters.len());
+            let known = chosen
+                .is_none_or(|c| c.light.index() < set.emitters.len() && (0.0..1.0).contains(&c.u));
             assert!(known, "{}: {chosen:?} for u = {u} at {ctx:?}", set.name);
         }
         for id in set.ids() {

@@ -76,6 +76,19 @@ macro_rules! sampler_laws {
             }
 
             #[test]
+            fn laws_hold_at_any_context() {
+                check($crate::laws::sampler_contexts::laws_hold_at_any_context, build);
+            }
+
+            #[test]
+            fn contributing_lights_can_be_chosen_whatever_the_normal() {
+                check(
+                    $crate::laws::sampler_contexts::contributing_lights_can_be_chosen_whatever_the_normal,
+                    build,
+                );
+            }
+
+            #[test]
             fn nonsense_is_survived() {
                 check($crate::laws::sampler::nonsense_is_survived, build);
             }

@@ -1,0 +1,178 @@
+//! The laws of light samplers for contexts that make no sense.
+
+use light_bounds::{Gloss, LightSampleContext, ReceiverSides, SampledLight};
+use light_math::glam::Vec3;
+use light_samplers::LightSampler;
+
+use super::sampler::ROUNDING;
+use crate::{LightSet, Rng};
+
+/// Lengths that break careless code.
+const LENGTHS: [f32; 12] = [
+    1e-45,
+    1e-30,
+    1e-10,
+    0.5,
+    1e4,
+    1e14,
+    1e19,
+    1e25,
+    1e36,
+    f32::MAX,
+    f32::INFINITY,
+    f32::NAN,
+];
+
+/// Contexts about `ctx` with numbers of every kind in each of their fields.
+#[must_use]
+pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
+    let LightSampleContext { p, ns, .. } = *ctx;
+    let up = ns.normalize_or(Vec3::new(0.48, 0.6, 0.64));
+    let surface = LightSampleContext::surface(p, up, up);
+    let mut all = Vec::new();
+    for x in LENGTHS {
+        for sides in [ReceiverSides::Front, ReceiverSides::Both] {
+            let leaning = Vec3::new(x, -0.2, 0.3);
+            let odd = [up * x, leaning].map(|ns| LightSampleContext {
+                ns,
+                sides,
+                ..surface
+            });
+            all.extend(odd);
+            all.push(LightSampleContext {
+                p: p * x,
+                sides,
+                ..surface
+            });
+        }
+        all.push(LightSampleContext::medium(Vec3::new(p.x, x, -x)));
+        for way in [up, -up, Vec3::X] {
+            all.push(LightSampleContext::segment(p, way * x));
+            // A surface that is a segment as well.
+            all.push(LightSampleContext {
+                segment: way * x,
+                ns: up * x,
+                ..surface
+            });
+        }
+        all.push(LightSampleContext::segment(p * x, up));
+        let smooth = Gloss {
+            wo: up,
+            alpha: 0.1,
+            diffuse: 0.2,
+        };
+        let odd = [
+            Gloss {
+                wo: up * x,
+                ..smooth
+            },
+            Gloss {
+                wo: Vec3::new(0.0, x, 1.0),
+                ..smooth
+            },
+            Gloss { alpha: x, ..smooth },
+            Gloss {
+                alpha: -x,
+                diffuse: 0.0,
+                ..smooth
+            },
+            Gloss {
+                diffuse: x,
+                ..smooth
+            },
+            Gloss {
+                diffuse: -x,
+                alpha: 0.0,
+                ..smooth
+            },
+            Gloss {
+                wo: Vec3::ZERO,
+                alpha: x,
+                diffuse: x,
+            },
+        ];
+        all.extend(odd.map(|gloss| surface.with_gloss(gloss)));
+    }
+    all
+}
+
+/// At any context the pmfs are a distribution, sampling and asking agree to the bit, and what is left of `u` is in `[0, 1)`.
+///
+/// # Panics
+/// If the law does not hold.
+pub fn laws_hold_at_any_context(set: &LightSet, sampler: &impl LightSampler) {
+    const STRATA: u32 = 32;
+    let mut rng = Rng::new(34);
+    // Around one of the contexts, another one for each number of lights.
+    let index = set.emitters.len() % set.contexts.len().max(1);
+    let around = set.contexts.get(index).map(senseless_contexts);
+    for ctx in around.into_iter().flatten() {
+        let name = set.name;
+        let pmfs = set.ids().map(|id| {
+            let pmf = sampler.pmf(&ctx, id);
+            assert!(
+                (0.0..=1.0).contains(&pmf),
+                "{name}: pmf {pmf} of {id:?} at {ctx:?}"
+            );
+            f64::from(pmf)
+        });
+        let sum: f64 = pmfs.sum();
+        let rng = &mut rng;
+        let inside = (0..STRATA).map(|i| (f64::from(i) + rng.f64()) / f64::from(STRATA));
+        let edges = [0.0, SampledLight::MAX_U];
+        let mut none = 0;
+        for (i, u) in (0..).zip(inside.chain(edges)) {
+            let Some(chosen) = sampler.sample(&ctx, u) else {
+                none += u32::from(i < STRATA);
+                continue;
+            };
+            let asked = sampler.pmf(&ctx, chosen.light);
+            let sound = chosen.pmf.to_bits() == asked.to_bits()
+                && chosen.pmf > 0.0
+                && (0.0..1.0).contains(&chosen.u);
+            assert!(
+                sound,
+                "{name}: {chosen:?}, asked {asked}, at u = {u}, {ctx:?}"
+            );
+        }
+        // As for other contexts: strata that borders cross may go either way.
+        let predicted = (1.0 - sum).clamp(0.0, 1.0);
+        let spread = (predicted * (1.0 - predicted) / f64::from(STRATA)).sqrt();
+        let margin = ROUNDING + 5.0 * spread + 3.0 / f64::from(STRATA);
+        let off = (sum + f64::from(none) / f64::from(STRATA) - 1.0).abs();
+        assert!(
+            sum <= 1.0 + ROUNDING && off <= margin,
+            "{name}: pmfs sum to {sum}, none in {none} of {STRATA} at {ctx:?}"
+        );
+    }
+}
+
+/// A light that contributes at a point by the direction of its normal can be chosen, however long the normal is; and by any light if it has no
+/// direction.
+///
+/// # Panics
+/// If the law does not hold.
+pub fn contributing_lights_can_be_chosen_whatever_the_normal(
+    set: &LightSet,
+    sampler: &impl LightSampler,
+) {
+    for ctx in &set.contexts {
+        for length in LENGTHS {
+            let odd = LightSampleContext {
+                ns: ctx.ns * length,
+                ..*ctx
+            };
+            let unit = match odd.unit_ns() {
+                Some(ns) => LightSampleContext { ns, ..*ctx },
+                None => LightSampleContext::medium(ctx.p),
+            };
+            for (id, emitter) in set.ids().zip(&set.emitters) {
+                assert!(
+                    sampler.pmf(&odd, id) > 0.0 || emitter.contribution(&unit) == 0.0,
+                    "{}: {id:?} is never chosen at {odd:?}: {emitter:?}",
+                    set.name
+                );
+            }
+        }
+    }
+}
