@@ -21,6 +21,7 @@ mod mutants;
 mod no_std;
 mod oldest;
 mod references;
+mod soak;
 mod steps;
 mod tools;
 mod uplift;
@@ -50,6 +51,8 @@ usage: cargo xtask [COMMAND]
   mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
+  soak [CHOICES] [LIGHT_SAMPLES] [SEED]
+                              take very many samples and hold each against its query (default: 10^9, 10^8, seed 1)
   uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
 
@@ -77,6 +80,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
+        ("soak", rest) => one("soak", || soak::soak(rest)),
         ("conformance", rest) => conformance::run(rest),
         ("exhaustive", rest) => exhaustive::run(rest),
         ("uplift-table", []) => uplift::run(),

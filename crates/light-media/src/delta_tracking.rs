@@ -52,7 +52,9 @@ pub fn delta_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
             flight.weight = C::Radiance::BLACK;
             return flight;
         }
-        if next_u() * total < p_real {
+        // An event so improbable that its weight overflows never happens.
+        let is_possible = (total / p_real).is_finite();
+        if next_u() * total < p_real && is_possible {
             flight.weight = real * (total / p_real);
             flight.scattered_at = Some(t);
             return flight;

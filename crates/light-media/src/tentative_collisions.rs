@@ -34,7 +34,8 @@ impl<'a> TentativeCollisions<'a> {
         let mut thickness = -float::ln(1.0 - next_u());
         while let Some(MajorantSegment { span, sigma_maj }) = &mut self.here {
             let crossed = *sigma_maj * span.length();
-            if thickness < crossed {
+            // Weights are over the bound, which has no reciprocal where it is subnormal: nothing happens there.
+            if thickness < crossed && *sigma_maj >= f32::MIN_POSITIVE {
                 let t = (span.t0 + thickness / *sigma_maj).min(span.t1);
                 span.t0 = t;
                 return Some(Collision {

@@ -138,7 +138,8 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
             uv: at.uv,
         };
         let dir = self.pdf_direction(&ray);
-        (!l.is_black() && dir > 0.0).then_some(LightLeSample {
+        // Of a surface too small for a density per area no ray leaves.
+        (!l.is_black() && dir > 0.0 && pdf.is_finite()).then_some(LightLeSample {
             l,
             ray,
             pdf: LePdf { pos: pdf, dir },

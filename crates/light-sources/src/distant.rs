@@ -11,8 +11,8 @@ use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
-use light_math::Frame;
 use light_math::warp::concentric_disk;
+use light_math::{Frame, direction};
 
 /// A [`DistantLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ impl<C: ColorModel> DistantLight<C> {
     /// When a field of `desc` makes no sense.
     pub fn new(desc: DistantLightDesc<C>, scene: SceneSphere) -> Result<Self, DistantLightError> {
         let scale = desc.amount.scale(C::flux(&desc.emission))?;
-        let direction = desc.direction.try_normalize();
+        let direction = direction(desc.direction).map(Vec3::normalize);
         let direction = direction.ok_or(DistantLightError::Direction)?;
         Ok(Self {
             direction,

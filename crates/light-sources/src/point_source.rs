@@ -121,7 +121,7 @@ impl<S: PointSource> Light<S::Color> for S {
 
 /// The sample toward a light that is a point: `intensity`, asked for the unit direction away from the light, over the
 /// squared distance. `None` in the dark, where the two points meet, and where they are so near or so far that the
-/// inverse square is no positive finite number.
+/// inverse square, or the sample's light, is no positive finite number.
 fn toward<R: Radiance>(
     ctx: &LightSampleContext,
     position: Vec3,
@@ -134,7 +134,7 @@ fn toward<R: Radiance>(
         return None;
     }
     let l = intensity(-wi) * inv_dist_sq;
-    (!l.is_black()).then_some(LightLiSample {
+    (!l.is_black() && l.maximum().is_finite()).then_some(LightLiSample {
         l,
         wi,
         pdf: 1.0,
@@ -170,5 +170,7 @@ mod tests {
             let sample = toward(&ctx, Vec3::Z * distance, |_| Vec3::ONE);
             assert!(sample.is_none(), "distance {distance}");
         }
+        let near = toward(&ctx, Vec3::Z * 1e-18, |_| Vec3::splat(1e9));
+        assert!(near.is_none(), "more light than a float holds: {near:?}");
     }
 }

@@ -66,6 +66,9 @@ pub enum PortalInfiniteLightError {
     Portal,
 }
 
+/// Cosines to the portal's normal below this are taken for none when rays are emitted: their density has no digits left.
+const LEAST_COSINE: f32 = 1e-5;
+
 impl<C: ColorModel> PortalInfiniteLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
@@ -228,7 +231,8 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
         }
         let on_portal = self.portal.point(u2);
         let away = self.scene.radius() + on_portal.distance(self.scene.center());
-        Some(LightLeSample {
+        // A ray along the portal passes nothing of it.
+        (self.portal.frame().z.dot(wi) > LEAST_COSINE).then(|| LightLeSample {
             l: self.radiance(uv, wavelengths),
             ray: EmittedRay::from_point(on_portal + wi * away, -wi),
             pdf: LePdf { pos, dir: pdf },

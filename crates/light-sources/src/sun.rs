@@ -15,7 +15,7 @@ use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
 use light_math::float::sin;
 use light_math::warp::uniform_cone;
-use light_math::{DirectionCone, Frame};
+use light_math::{DirectionCone, Frame, direction};
 
 /// A [`SunLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -79,7 +79,7 @@ impl<C: ColorModel> SunLight<C> {
     /// # Errors
     /// When a field of `desc` makes no sense.
     pub fn new(desc: SunLightDesc<C>, scene: SceneSphere) -> Result<Self, SunLightError> {
-        let direction = desc.direction.try_normalize();
+        let direction = direction(desc.direction).map(Vec3::normalize);
         let direction = direction.ok_or(SunLightError::Direction)?;
         let sin_theta = sin(0.5 * desc.angular_diameter);
         let sin_half = sin(0.25 * desc.angular_diameter);

@@ -6,6 +6,9 @@
     reason = "doubles are rounded to what the tested f32 code takes, counts are small and positive"
 )]
 
+#[cfg(any(feature = "fuzz", feature = "soak"))]
+extern crate alloc;
+
 pub use light_math::glam;
 #[cfg(feature = "samplers")]
 pub use light_samplers;
@@ -29,14 +32,20 @@ mod gamma;
 mod generated_sets;
 mod kolmogorov_smirnov;
 pub mod laws;
+#[cfg(any(feature = "fuzz", feature = "soak"))]
+mod light_agreement;
 #[cfg(feature = "samplers")]
 mod light_set;
+#[cfg(feature = "samplers")]
+mod may_contribute;
 pub mod naive;
 pub mod nasty;
 mod quadrature;
 mod real3;
 mod rng;
 mod significance;
+#[cfg(feature = "soak")]
+pub mod soak;
 
 pub use cap::Cap;
 pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
@@ -48,6 +57,8 @@ pub use gamma::{ln_gamma, regularized_gamma_q};
 pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 #[cfg(feature = "samplers")]
 pub use light_set::LightSet;
+#[cfg(feature = "samplers")]
+pub use may_contribute::may_contribute;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
 pub use significance::{FAMILY_ERROR, PROGRAMS, SIGNIFICANCE, TESTS_PER_PROGRAM, tests_taken};

@@ -58,7 +58,7 @@ impl LightSet {
     }
 
     /// The box of all bounded lights.
-    fn corners(&self) -> (Vec3, Vec3) {
+    pub(crate) fn corners(&self) -> (Vec3, Vec3) {
         let extents = self.extents();
         let boxes = extents.iter().filter_map(|e| e.bounded()).map(|b| b.bounds);
         let all = boxes.fold(Aabb::EMPTY, Aabb::union);

@@ -1,12 +1,11 @@
 use core::fmt;
 use core::str::{FromStr, SplitWhitespace};
-use std::io;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::{LightSetFile, SetLight, SetPoint};
-use crate::text::read_all;
 
 /// Why a light-set file was refused: which file, which line, and what was expected there.
 #[derive(Debug)]
@@ -24,7 +23,7 @@ pub struct LightSetError {
 #[non_exhaustive]
 pub enum LightSetProblem {
     /// The file cannot be read or written.
-    Io(io::Error),
+    Io(std::io::Error),
     /// The record is neither `tri`, `point` nor `spot`.
     UnknownRecord,
     /// The line has too few or too many fields.
@@ -100,9 +99,7 @@ fn read_records<T>(
         line,
         problem,
     };
-    let text = read_all(path)
-        .and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other))
-        .map_err(|e| error(0, LightSetProblem::Io(e)))?;
+    let text = fs::read_to_string(path).map_err(|e| error(0, LightSetProblem::Io(e)))?;
     let records: Vec<T> = text
         .lines()
         .enumerate()

@@ -63,7 +63,12 @@ impl Triangle {
     /// The unit normal of the front; `None` without area.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
-        self.scaled_normal().try_normalize()
+        let normal = self.scaled_normal();
+        if normal.length_squared() >= f32::MIN_POSITIVE {
+            return normal.try_normalize();
+        }
+        // Of a triangle so small the square loses digits.
+        light_math::direction(normal)
     }
 
     /// The normal, as long as twice the area.
@@ -247,5 +252,18 @@ mod tests {
             }
         }
         assert!(small > 10 * missed, "nearly all: {small} and {missed}");
+    }
+    #[test]
+    fn the_normal_of_a_tiny_triangle_is_a_unit_vector() {
+        for size in [1e-8, 1e-10, 1e-11, 1e-20] {
+            let corners = [Vec3::ZERO, Vec3::X * size, Vec3::new(0.3, 0.4, 0.5) * size];
+            let triangle = Triangle::from_corners(corners, Triangle::DEFAULT_UV);
+            let Some(normal) = triangle.normal() else {
+                continue;
+            };
+            let (length, tilt) = (normal.length(), normal.dot(Vec3::new(0.0, 0.4, 0.5)));
+            assert!((length - 1.0).abs() < 1e-6, "size {size}: {normal}");
+            assert!(tilt.abs() < 1e-3, "size {size}: {normal}");
+        }
     }
 }

@@ -2,31 +2,43 @@
 //!
 //! Each panics when a promise is broken, and answers nothing otherwise.
 
+mod choices;
 mod compact_bounds;
 mod distributions;
 mod input;
+mod light_sources;
 mod light_trees;
+mod lights;
+mod media;
 mod octahedral;
 mod quantisation;
 mod readers;
+mod refits;
+mod samplers;
 
 pub use compact_bounds::compact_bounds;
 pub use distributions::distributions;
+pub use light_sources::light_sources;
 pub use light_trees::light_trees;
+pub use media::media;
 pub use octahedral::octahedral;
 pub use quantisation::{box_quantisation, cosine_quantisation};
 pub use readers::{read_gltf, read_image, read_luminaire, read_mtl, read_obj, read_pbrt, read_ply};
+pub use refits::refits;
+pub use samplers::samplers;
 
 /// A target: what one input has to survive.
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also the name of the folder of their corpus.
-pub const TARGETS: [(&str, Target); 13] = [
+pub const TARGETS: [(&str, Target); 17] = [
     ("box_quantisation", box_quantisation),
     ("compact_bounds", compact_bounds),
     ("cosine_quantisation", cosine_quantisation),
     ("distributions", distributions),
+    ("light_sources", light_sources),
     ("light_trees", light_trees),
+    ("media", media),
     ("octahedral", octahedral),
     ("read_gltf", read_gltf),
     ("read_image", read_image),
@@ -35,4 +47,6 @@ pub const TARGETS: [(&str, Target); 13] = [
     ("read_obj", read_obj),
     ("read_pbrt", read_pbrt),
     ("read_ply", read_ply),
+    ("refits", refits),
+    ("samplers", samplers),
 ];

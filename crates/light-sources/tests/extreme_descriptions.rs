@@ -1,0 +1,110 @@
+//! Descriptions at the ends of what a float holds: directions of any length, points that nearly meet, rays along a portal.
+
+use light_sources::glam::{Affine3A, Vec2, Vec3};
+use light_sources::light_bounds::{LightExtent, LightSampleContext};
+use light_sources::shape::ShapeDesc;
+use light_sources::*;
+
+fn scene() -> SceneSphere {
+    SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere")
+}
+
+#[test]
+fn directions_to_lights_have_any_length() {
+    for length in [1e-40, 1e-23, 1.0, 1e25] {
+        let direction = Vec3::new(0.36, 0.48, 0.8) * length;
+        let amount = IrradianceAmount::Radiometric(1.0);
+        let distant = DistantLight::<Rgb>::new(
+            DistantLightDesc {
+                direction,
+                emission: Vec3::ONE,
+                amount,
+            },
+            scene(),
+        );
+        let sun = SunLight::<Rgb>::new(
+            SunLightDesc {
+                direction,
+                angular_diameter: 0.01,
+                emission: Vec3::ONE,
+                amount: SunAmount::Irradiance(amount),
+            },
+            scene(),
+        );
+        let extents = [
+            distant.expect("a distant light").extent(),
+            sun.expect("a sun").extent(),
+        ];
+        for extent in extents {
+            let LightExtent::Infinite(bounds) = extent else {
+                panic!("{extent:?} is not at infinity");
+            };
+            assert_eq!(bounds.validate(), Ok(()), "length {length}: {bounds:?}");
+        }
+    }
+}
+
+#[test]
+fn a_point_light_gives_no_more_than_a_float_holds() {
+    let light = PointLight::<Rgb>::new(PointLightDesc {
+        position: Vec3::ZERO,
+        emission: Vec3::ONE,
+        amount: IntensityAmount::Radiometric(1e8),
+        media: MediumInterface::default(),
+    });
+    let light = light.expect("a point light");
+    for distance in [1e-25, 1e-19, 1e-15, 1e-12, 1.0] {
+        let ctx = LightSampleContext::medium(Vec3::X * distance);
+        let sample = light.sample_li(&ctx, Vec2::ZERO, &(), PdfCoverage::Complete);
+        let l = sample.map_or(Vec3::ZERO, |sample| sample.l);
+        assert!(l.is_finite(), "{l} at {distance}");
+    }
+}
+
+#[test]
+fn no_ray_leaves_along_a_portal() {
+    let texels = Image::from_f32([1, 1], Channels::Gray, [1.0]).expect("an image");
+    let light = PortalInfiniteLight::<Rgb>::new(
+        PortalInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map: EnvironmentMap::EqualArea(texels),
+            amount: RadianceAmount::Radiometric(1.0),
+            portal: [Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X, Vec3::X],
+        },
+        scene(),
+    );
+    let light = light.expect("a portal");
+    let ends = [0.0, 0.25, 1.0 - f32::EPSILON / 2.0];
+    for (x, y) in ends.into_iter().flat_map(|x| ends.map(|y| (x, y))) {
+        let Some(sample) = light.sample_le(Vec2::new(x, y), Vec2::splat(0.5), &()) else {
+            continue;
+        };
+        let asked = light.pdf_le(&sample.ray);
+        let LePdf { pos, .. } = sample.pdf;
+        assert!(
+            pos < 1e6 && (asked.pos - pos).abs() <= 1e-3 * pos,
+            "{sample:?}, queried {asked:?} at {x}, {y}"
+        );
+    }
+}
+
+#[test]
+fn rays_leave_a_tiny_sphere_with_finite_densities() {
+    for radius in [1e-20, 1e-19, 1e-10, 1.0] {
+        let shape = ShapeDesc::Sphere {
+            transform: Affine3A::IDENTITY,
+            radius,
+        };
+        let shape = shape.build().expect("a sphere");
+        let desc = DiffuseEmissionDesc::<Rgb>::new(
+            SurfaceColor::Uniform(Vec3::ONE),
+            RadianceAmount::Radiometric(1.0),
+        );
+        let emission = DiffuseEmission::new(desc, [&shape]).expect("an emission");
+        let light = DiffuseAreaLight::new(&shape, &emission);
+        let sample = light.sample_le(Vec2::splat(0.5), Vec2::splat(0.3), &());
+        let is_finite = sample.is_none_or(|s| s.pdf.pos.is_finite() && s.pdf.dir.is_finite());
+        assert!(is_finite, "radius {radius}: {sample:?}");
+        assert!(sample.is_some() || radius < 1e-18, "radius {radius}: none");
+    }
+}

@@ -1,0 +1,171 @@
+use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+
+use crate::may_contribute::may_contribute;
+
+/// How far pmfs may be from the widths of the intervals of `u` that they stand for, and their sum from one: `f32` round-off of all levels.
+const ROUNDING: f64 = 2e-5;
+
+/// Overlaps narrower than this are taken for round-off.
+const GAP: f64 = 4.0 * ROUNDING;
+
+/// Places in `[0, 1)` at which choices are tried.
+const GRID: u32 = 128;
+
+/// The `u` that lead to one light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Share {
+    /// One interval, as wide as the pmf.
+    Interval,
+    /// Several, as of a reservoir or of an alias table.
+    Scattered,
+}
+
+/// One way to choose a light: for a receiver, for none, one of several, or by a cut.
+pub(super) struct Choice<'a> {
+    /// What is asked, for messages.
+    pub(super) name: &'a str,
+    pub(super) sample: &'a dyn Fn(f64) -> Option<SampledLight>,
+    pub(super) pmf: &'a dyn Fn(LightId) -> f32,
+    /// How many lights there are.
+    pub(super) count: u32,
+    /// What each of them owns.
+    pub(super) share: Share,
+}
+
+impl Choice<'_> {
+    /// A sample at `u`, which has to be of a known light, with the bits of the queried pmf and a rest in `[0, 1)`.
+    pub(super) fn checked(&self, u: f64) -> Option<SampledLight> {
+        let chosen = (self.sample)(u)?;
+        let asked = (self.pmf)(chosen.light);
+        let name = self.name;
+        assert!(
+            chosen.light.0 < self.count,
+            "{name}: {chosen:?} at {u} is unknown"
+        );
+        assert_eq!(
+            chosen.pmf.to_bits(),
+            asked.to_bits(),
+            "{name}: {chosen:?} at {u}, but the queried pmf is {asked}"
+        );
+        assert!(
+            chosen.pmf > 0.0 && chosen.pmf <= 1.0 && (0.0..1.0).contains(&chosen.u),
+            "{name}: {chosen:?} at {u} is out of range"
+        );
+        Some(chosen)
+    }
+
+    /// Every pmf is in `[0, 1]`, that of an unknown light is 0, and they sum to one at most: their sum.
+    pub(super) fn sum(&self) -> f64 {
+        let name = self.name;
+        for unknown in [self.count, self.count + 1, u32::MAX] {
+            let pmf = (self.pmf)(LightId(unknown));
+            assert_eq!(pmf, 0.0, "{name}: pmf of the unknown light {unknown}");
+        }
+        let pmfs = (0..self.count).map(|id| {
+            let pmf = (self.pmf)(LightId(id));
+            assert!(
+                (0.0..=1.0).contains(&pmf),
+                "{name}: pmf {pmf} of light {id}"
+            );
+            f64::from(pmf)
+        });
+        let sum = pmfs.sum();
+        assert!(sum <= 1.0 + ROUNDING, "{name}: the pmfs sum to {sum}");
+        sum
+    }
+
+    /// Each light owns a part of `[0, 1)` as large as its pmf, no two overlap, and what none of them owns is none.
+    ///
+    /// So the pmfs and the probability of `None` sum to one: a grid of `u` meets each interval that is wider than its step.
+    pub(super) fn shares_fill_the_unit(&self, us: &[f64]) {
+        let (sum, name) = (self.sum(), self.name);
+        let mut found: Vec<Interval> = Vec::new();
+        let mut is_some = |u: f64| {
+            let chosen = self.checked(u);
+            if let Some(chosen) = &chosen {
+                if self.share == Share::Interval {
+                    add(&mut found, Interval::of(u, chosen), name);
+                }
+            }
+            chosen.is_some()
+        };
+        for u in [0.0, SampledLight::MAX_U].iter().chain(us) {
+            is_some(*u);
+        }
+        let step = 1.0 / f64::from(GRID);
+        let none = (0..GRID).filter(|i| !is_some((f64::from(*i) + 0.5) * step));
+        let none = none.count() as f64 * step;
+        for id in (0..self.count).map(LightId) {
+            let pmf = f64::from((self.pmf)(id));
+            assert!(
+                pmf <= step + GAP
+                    || self.share == Share::Scattered
+                    || found.iter().any(|interval| interval.light == id),
+                "{name}: {id:?} has the pmf {pmf} and is never chosen: {found:?}"
+            );
+        }
+        // Each end of an interval is off by a step at most, and narrow intervals are met by chance.
+        let slack = step * (2.0 * f64::from(self.count) + 2.0);
+        assert!(
+            (sum + none - 1.0).abs() <= slack,
+            "{name}: the pmfs sum to {sum}, none has about {none}: {found:?}"
+        );
+    }
+
+    /// A light that certainly may light the receiver has a pmf above zero.
+    pub(super) fn contributing_lights_are_possible(
+        &self,
+        lights: &[LightExtent],
+        ctx: &LightSampleContext,
+    ) {
+        for (id, light) in (0..).map(LightId).zip(lights) {
+            let pmf = (self.pmf)(id);
+            assert!(
+                pmf > 0.0 || !may_contribute(light, ctx),
+                "{}: {id:?} may contribute and has pmf {pmf}: {light:?} at {ctx:?}",
+                self.name
+            );
+        }
+    }
+}
+
+/// The part of `[0, 1)` that belongs to a light.
+#[derive(Clone, Copy, Debug)]
+struct Interval {
+    light: LightId,
+    start: f64,
+    end: f64,
+}
+
+impl Interval {
+    /// By the place that `u` has in it.
+    fn of(u: f64, chosen: &SampledLight) -> Self {
+        let pmf = f64::from(chosen.pmf);
+        let start = u - chosen.u * pmf;
+        Self {
+            light: chosen.light,
+            start,
+            end: start + pmf,
+        }
+    }
+}
+
+/// Adds an interval, or finds it where it was before.
+fn add(found: &mut Vec<Interval>, new: Interval, name: &str) {
+    assert!(
+        new.start >= -GAP && new.end <= 1.0 + GAP,
+        "{name}: {new:?} leaves the unit interval"
+    );
+    for old in found.iter() {
+        if old.light == new.light {
+            assert!(
+                (old.start - new.start).abs() <= GAP,
+                "{name}: {new:?} and {old:?} differ"
+            );
+            return;
+        }
+        let overlap = old.end.min(new.end) - old.start.max(new.start);
+        assert!(overlap <= GAP, "{name}: {new:?} and {old:?} overlap");
+    }
+    found.push(new);
+}

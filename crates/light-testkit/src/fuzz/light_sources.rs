@@ -1,0 +1,127 @@
+use light_bounds::{LightExtent, LightSampleContext};
+use light_math::glam::{Vec2, Vec3};
+use light_samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
+use light_sources::{Light, LightRef, LightSet, LightSetBuilder, PdfCoverage, Rgb};
+
+use super::input::Input;
+use super::lights;
+use crate::light_agreement::{Demand, is_light, le_agrees, li_agrees};
+
+/// Lights that one input describes.
+const MAX_LIGHTS: usize = 4;
+
+/// How far away receivers are.
+const FAR: f32 = 1e6;
+
+/// Any description makes a light that keeps its promises, or is refused.
+///
+/// Powers are finite, extents valid, sampled radiances finite and not negative, sampled densities those that are queried; and what arrives
+/// at a receiver has a pmf above zero. Of lights and receivers of extreme sizes and places densities are not compared.
+///
+/// # Panics
+/// If a promise is broken.
+pub fn light_sources(data: &[u8]) {
+    let mut input = Input::new(data);
+    let contexts = [Demand::Density, Demand::Range].map(|demand| {
+        input.is_tame = demand == Demand::Density;
+        (input.receiver(), demand)
+    });
+    let us = [point(&mut input), point(&mut input), point(&mut input)];
+    let set = described(&mut input);
+    let demand = if input.is_tame {
+        Demand::Density
+    } else {
+        Demand::Range
+    };
+    for (_, light) in set.iter() {
+        check_power(&light);
+        let pairs = us.iter().flat_map(|&u1| us.map(|u2| (u1, u2)));
+        for (u1, u2) in pairs {
+            let agrees = le_agrees(&light, u1, u2, demand);
+            agrees.unwrap_or_else(|fault| panic!("{fault}: {light:?}"));
+        }
+        for (ctx, demanded) in contexts.iter().filter(|(ctx, _)| is_somewhere(ctx)) {
+            let demand = demand.min(*demanded);
+            for u in us {
+                for coverage in [PdfCoverage::Complete, PdfCoverage::Incomplete] {
+                    let agrees = li_agrees(&light, ctx, u, coverage, demand);
+                    agrees.unwrap_or_else(|fault| panic!("{fault}: {light:?}"));
+                }
+            }
+        }
+    }
+    check_samplers(&set, &contexts.map(|(ctx, _)| ctx), &us);
+}
+
+/// The lights of an input, all of them tame or none.
+fn described(input: &mut Input<'_>) -> LightSet<Rgb> {
+    input.is_tame = input.byte() % 2 == 0;
+    let scene = lights::scene(input);
+    let mut builder = LightSetBuilder::<Rgb>::new(scene);
+    for _ in 0..MAX_LIGHTS {
+        if input.is_empty() {
+            break;
+        }
+        if let Err(error) = builder.add(lights::light(input)) {
+            assert_eq!(error.to_string().lines().count(), 1, "one line: {error}");
+        }
+    }
+    builder.build()
+}
+
+/// A point of the unit square, often at an edge.
+fn point(input: &mut Input<'_>) -> Vec2 {
+    let mut u = || match input.byte() % 8 {
+        0 => 0.0,
+        1 => crate::nasty::BELOW_ONE,
+        2 => 0.5,
+        _ => input.unit(),
+    };
+    Vec2::new(u(), u())
+}
+
+/// Within reach, with the normals of a surface or with none: only then a light promises anything.
+fn is_somewhere(ctx: &LightSampleContext) -> bool {
+    let is_normal = |n: Vec3| n == Vec3::ZERO || n.is_normalized();
+    let is_near = |v: Vec3| v.abs().max_element() <= FAR;
+    is_near(ctx.p)
+        && is_near(ctx.segment)
+        && ctx.p_error.max_element() <= 1.0
+        && is_normal(ctx.n)
+        && is_normal(ctx.ns)
+}
+
+fn check_power(light: &LightRef<'_, Rgb>) {
+    let phi = light.phi(&());
+    assert!(is_light(phi), "phi is {phi} of {light:?}");
+    let is_valid = match light.extent() {
+        LightExtent::Bounded(bounds) => bounds.validate().is_ok(),
+        LightExtent::Lobe(bounds, lobe) => bounds.validate().is_ok() && lobe.is_valid(),
+        LightExtent::Infinite(bounds) => bounds.validate().is_ok(),
+    };
+    assert!(is_valid, "{:?} of {light:?}", light.extent());
+}
+
+/// What arrives, by a sample of the light, has a pmf above zero.
+fn check_samplers(set: &LightSet<Rgb>, contexts: &[LightSampleContext], us: &[Vec2]) {
+    let extents = set.extents();
+    let default = BvhLightSampler::new(&extents).expect("valid extents");
+    let reference = ReferenceBvhLightSampler::new(&extents).expect("valid extents");
+    for ctx in contexts.iter().filter(|ctx| is_somewhere(ctx)) {
+        for (id, light) in set.iter() {
+            let arrives = us.iter().find_map(|&u| {
+                let sample = light.sample_li(ctx, u, &(), PdfCoverage::Complete)?;
+                let above = ctx.is_medium() || ctx.ns.dot(sample.wi) > 1e-4;
+                // Light that is no positive float is none.
+                let irradiance = sample.l.max_element() / sample.pdf;
+                (above && irradiance > 1e-30).then_some(sample)
+            });
+            let Some(sample) = arrives else { continue };
+            let pmfs = [default.pmf(ctx, id), reference.pmf(ctx, id)];
+            assert!(
+                pmfs[0] > 0.0 && pmfs[1] > 0.0,
+                "{sample:?} arrives, pmfs are {pmfs:?} at {ctx:?} of {light:?}"
+            );
+        }
+    }
+}

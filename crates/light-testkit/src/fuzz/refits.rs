@@ -1,0 +1,149 @@
+use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext};
+use light_bvh::{DarkLights, LightBvhOptions};
+use light_math::glam::Vec3;
+use light_samplers::{BvhLightSampler, LightSampler};
+
+use super::input::Input;
+use super::samplers::{Kind, check, options, power};
+
+/// Lights that one input may hold: enough for two levels of wide nodes.
+const MAX_LIGHTS: usize = 24;
+
+/// Changes of the lights that one input may hold.
+const MAX_STEPS: usize = 6;
+
+/// The largest coordinate that the default tree takes.
+const MAX_PLACE: Vec3 = Vec3::splat(1e36);
+
+/// A tree that follows its lights obeys the laws after each step, as the one that is built of them does, and emits in the same proportions; a
+/// step that it refuses leaves it as it was.
+///
+/// # Panics
+/// If a promise is broken.
+pub fn refits(data: &[u8]) {
+    let mut input = Input::new(data);
+    let options = options(&mut input);
+    let contexts = [input.receiver()];
+    let us = [f64::from(input.unit())];
+    let count = input.below(MAX_LIGHTS) + 1;
+    let first: Vec<LightExtent> = (0..count).map(|_| input.scene_extent()).collect();
+    let mut tree = BvhLightSampler::with(&first, &options).expect("valid lights");
+    let mut lights = first.clone();
+    for _ in 0..MAX_STEPS {
+        if input.is_empty() {
+            return;
+        }
+        let mut next = lights.clone();
+        for _ in 0..=input.below(4) {
+            change(&mut next, &mut input);
+        }
+        let before = answers(&tree, &lights, &contexts[0]);
+        match tree.refit(&next) {
+            Ok(()) => {
+                assert!(
+                    fits(&first, &next, &options),
+                    "no place for {next:?} in the tree of {first:?}"
+                );
+                lights = next;
+                check(Kind::default_named("refit"), &tree, &lights, &contexts, &us);
+                compare(&tree, &lights, &options, &contexts, &us);
+            }
+            Err(error) => {
+                assert!(
+                    !fits(&first, &next, &options),
+                    "{error}: {next:?} in the tree of {first:?}"
+                );
+                let after = answers(&tree, &lights, &contexts[0]);
+                assert_eq!(before, after, "a refused refit changes the tree");
+            }
+        }
+    }
+}
+
+/// Moves a light, turns it, switches it, or puts another in its place.
+fn change(lights: &mut [LightExtent], input: &mut Input<'_>) {
+    let at = input.below(lights.len());
+    let light = &mut lights[at];
+    match (input.byte() % 8, &mut *light) {
+        (0, _) => *light = input.scene_extent(),
+        (1, _) => set_power(light, 0.0),
+        (2, _) => set_power(light, input.amount(1e30)),
+        (3, LightExtent::Bounded(bounds)) => bounds.w = input.axis(),
+        (3, LightExtent::Lobe(_, lobe)) => lobe.mean = input.axis() * input.unit(),
+        (_, LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _)) => {
+            let by = input.place();
+            let moved = |p: Vec3| (p + by).clamp(-MAX_PLACE, MAX_PLACE);
+            bounds.bounds.min = moved(bounds.bounds.min);
+            bounds.bounds.max = moved(bounds.bounds.max);
+        }
+        (_, LightExtent::Infinite(bounds)) => {
+            *bounds = InfiniteBounds::distant(bounds.fluence, input.axis());
+        }
+    }
+}
+
+fn set_power(light: &mut LightExtent, power: f32) {
+    match light {
+        LightExtent::Bounded(bounds) => bounds.phi = power,
+        LightExtent::Lobe(bounds, lobe) => {
+            bounds.phi = power;
+            lobe.power = power;
+        }
+        LightExtent::Infinite(bounds) => bounds.fluence = power,
+    }
+}
+
+/// Whether the documentation of `refit` says that the tree of `first` can follow to `next`.
+fn fits(first: &[LightExtent], next: &[LightExtent], options: &LightBvhOptions) -> bool {
+    first.iter().zip(next).all(|(before, now)| {
+        let has_place = match before.infinite() {
+            Some(_) => false,
+            None => options.dark == DarkLights::Kept || power(before) > 0.0,
+        };
+        match now.infinite() {
+            Some(_) => !has_place,
+            None => has_place || power(now) == 0.0,
+        }
+    })
+}
+
+/// Against the sampler that is built of the lights: the same power, the same sky, the same laws.
+fn compare(
+    refit: &BvhLightSampler,
+    lights: &[LightExtent],
+    options: &LightBvhOptions,
+    contexts: &[LightSampleContext],
+    us: &[f64],
+) {
+    let rebuilt = BvhLightSampler::with(lights, options).expect("valid lights");
+    check(
+        Kind::default_named("rebuilt"),
+        &rebuilt,
+        lights,
+        contexts,
+        us,
+    );
+    let powers = [refit, &rebuilt].map(|sampler| sampler.tree().power());
+    assert!(
+        (powers[0] - powers[1]).abs() <= 1e-9 * powers[1],
+        "{powers:?} after a refit and of a rebuilt tree"
+    );
+    for (id, light) in (0..).map(LightId).zip(lights) {
+        let [a, b] = [refit, &rebuilt].map(|sampler| sampler.pmf_emitter(id));
+        assert!(
+            (a - b).abs() <= 1e-3 * a.max(b) + 1e-6,
+            "{id:?} emits with {a} after a refit, {b} when rebuilt: {light:?} of {lights:?}"
+        );
+    }
+}
+
+/// Everything that a sampler says at a receiver, in bits.
+fn answers(
+    sampler: &BvhLightSampler,
+    lights: &[LightExtent],
+    ctx: &LightSampleContext,
+) -> (u64, Vec<[u32; 2]>) {
+    let ids = (0..lights.len() as u32).map(LightId);
+    let pmfs = ids.map(|id| [sampler.pmf(ctx, id), sampler.pmf_emitter(id)].map(f32::to_bits));
+    (sampler.tree().power().to_bits(), pmfs.collect())
+}
