@@ -2,6 +2,7 @@ use light_math::float::sqrt;
 
 use crate::angle::Angle;
 use crate::glam::Vec3;
+use crate::light_bounds::AXIS_TOLERANCE;
 use crate::{LightBounds, LightSampleContext};
 
 /// Importance is never below this where light may arrive: contributions too small for a float still count.
@@ -13,6 +14,10 @@ const MAX_IMPORTANCE: f32 = f32::MAX / 4.0;
 /// Cosines closer than this to where they would become zero count as this: more than the round-off of the cosines below,
 /// and of a light that evaluates its own emission in single precision.
 const COS_SLACK: f32 = 2e-6;
+
+/// How far beyond the edge of its emission a light still counts, as a cosine: round-off, and three times what an axis may be too short. It
+/// lowers the cosine, and may make each of two angles seem not to reach the other one by as much.
+const EDGE_SLACK: f32 = COS_SLACK + 1.5 * AXIS_TOLERANCE;
 
 /// Enlargement of the sine of the angle that a box subtends, against its round-off.
 const SIN_GROWTH: f32 = 1.0 + 3.0 * f32::EPSILON;
@@ -60,7 +65,7 @@ impl LightBounds {
             let from_light = to_p / dist;
             let subtended = Angle::from_sin(sin_b);
             let cos_emission = self.cos_emission(from_light, subtended);
-            if cos_emission < self.cos_theta_e - COS_SLACK {
+            if cos_emission < self.cos_theta_e - EDGE_SLACK {
                 return 0.0;
             }
             cos_emission.max(COS_SLACK) * cos_incidence(ctx, from_light, subtended).max(COS_SLACK)

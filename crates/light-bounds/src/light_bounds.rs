@@ -8,7 +8,7 @@ use crate::LightBoundsError;
 const JOIN_ERROR: f32 = 4.0 * f32::EPSILON;
 
 /// How far the squared length of an axis may be from one: what a few rotations in single precision leave.
-const AXIS_TOLERANCE: f32 = 1e-5;
+pub(crate) const AXIS_TOLERANCE: f32 = 1e-5;
 
 /// Bounds of where a light (or a group of lights) is, where it emits, and how much.
 #[derive(Clone, Copy, Debug, PartialEq)]
