@@ -3,7 +3,7 @@ use core::f32::consts::PI;
 use glam::Vec3;
 
 use crate::Aabb;
-use crate::float::{cos, safe_acos, safe_asin, safe_sqrt, sin_cos, sqrt};
+use crate::float::{cos, safe_acos, safe_asin, sin_cos, sqrt};
 
 /// Round-off of the dot product of two unit vectors, each known to half a unit in the last place.
 const DOT_ERROR: f32 = 4.0 * f32::EPSILON;
@@ -127,7 +127,7 @@ impl DirectionCone {
         if self.cos_theta <= -cos_a {
             return Self::WHOLE_SPHERE;
         }
-        let sin_theta = safe_sqrt((1.0 - self.cos_theta) * (1.0 + self.cos_theta));
+        let sin_theta = sqrt((1.0 - self.cos_theta) * (1.0 + self.cos_theta));
         Self::new(self.w, self.cos_theta * cos_a - sin_theta * sin_a)
     }
 

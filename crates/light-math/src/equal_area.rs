@@ -11,7 +11,7 @@ use core::f32::consts::{FRAC_2_PI, FRAC_PI_4};
 
 use glam::{Vec2, Vec3};
 
-use crate::float::{atan, safe_sqrt, sin_cos, sqrt};
+use crate::float::{atan, sin_cos, sqrt};
 
 /// The unit vector of the point `p` in `[0, 1]^2`.
 #[inline]
@@ -31,7 +31,7 @@ pub fn square_to_sphere(p: Vec2) -> Vec3 {
     let (sin_phi, cos_phi) = sin_cos(turn * FRAC_PI_4);
 
     let z = (1.0 - r * r).copysign(signed_distance);
-    let sin_theta = r * safe_sqrt(2.0 - r * r);
+    let sin_theta = r * sqrt(2.0 - r * r);
     Vec3::new(
         cos_phi.copysign(uv.x) * sin_theta,
         sin_phi.copysign(uv.y) * sin_theta,
@@ -118,6 +118,7 @@ pub fn wrap_texel(x: i32, y: i32, n: u32) -> (u32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::float::safe_sqrt;
     use light_testkit::DensityTest;
     use proptest::prelude::*;
 

@@ -111,6 +111,7 @@ fn fold(x: f32, y: f32) -> (f32, f32) {
     ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y))
 }
 
+/// The code of a coordinate, which a rounded quotient by a sum that is not smaller keeps within `[-1, 1]`.
 #[inline]
 #[allow(
     clippy::cast_possible_truncation,
@@ -118,7 +119,7 @@ fn fold(x: f32, y: f32) -> (f32, f32) {
     reason = "between 0.5 and 65535.5; the conversion saturates and sends NaN to 0"
 )]
 fn quantize(f: f32) -> u32 {
-    (0.5 * (f.clamp(-1.0, 1.0) + 1.0) * 65535.0 + 0.5) as u32
+    (0.5 * (f + 1.0) * 65535.0 + 0.5) as u32
 }
 
 #[inline]

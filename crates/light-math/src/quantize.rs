@@ -27,7 +27,7 @@ pub fn encode_cos(cos_theta: f32) -> u16 {
     let c = cos_theta.clamp(-1.0, 1.0);
     let q = (32767.0 * (0.5 * (c + 1.0))) as u16;
     // Round-off can lift a code by one, never code 0: that decodes to -1.
-    q - u16::from(q > 0 && decode_cos(q) > c)
+    q - u16::from(decode_cos(q) > c)
 }
 
 /// The cosine that the 15-bit code `q` stands for, in `[-1, 1]`; larger codes count as [`MAX_COS`].

@@ -190,6 +190,36 @@ fn dirac_lights_have_closed_forms() {
     }
 }
 
+/// What stands behind the point hides the phase function's samples, not the light's.
+struct DarkBehind;
+
+impl Visibility for DarkBehind {
+    fn unoccluded(&self, _from: Vec3, _to: Vec3) -> bool {
+        true
+    }
+}
+
+impl Intersection for DarkBehind {
+    fn first(&self, _from: Vec3, _wi: Vec3) -> FirstHit {
+        FirstHit::Dark
+    }
+}
+
+#[test]
+fn what_is_dark_takes_nothing_from_the_light() {
+    let (desc, position) = point();
+    let lights = lights([desc]);
+    let to = position - AT.p;
+    let d = f64::from(to.length());
+    let truth = value(to.normalize()) * 5.0 / (d * d) * (-0.25 * d).exp();
+    for found in estimate(&lights, &UniformLightSampler::new(1), &DarkBehind, 16) {
+        assert!(
+            (found.mean / truth - 1.0).abs() < 1e-5,
+            "{found:?}, {truth}"
+        );
+    }
+}
+
 /// A ball and a sky, each chosen with another probability than the other: both estimates have the mean that quadrature
 /// gives. A probability that is missing in either weight of a pair of samples would show.
 #[test]

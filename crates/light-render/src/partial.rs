@@ -56,7 +56,7 @@ const LOW_WORDS: usize = 2;
 
 impl PartialPicture {
     /// Bytes a pixel that are taken to write or read a file, the film itself left out.
-    pub const FILE_BYTES_PER_PIXEL: u64 = 150;
+    pub const FILE_BYTES_PER_PIXEL: u64 = 90;
 
     /// Reads the part in a file.
     ///

@@ -56,4 +56,4 @@ pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
 pub use shining_copies::MOST_SHINING_COPIES;
 pub use sphere::{Sphere, SphereFront};
-pub use write_whole::write_whole;
+pub use write_whole::{exit_without_outputs, write_whole};

@@ -2,6 +2,8 @@
 
 use alloc::borrow::Cow;
 use core::str::SplitWhitespace;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::Path;
 
 use crate::glam::{Vec2, Vec3};
@@ -19,7 +21,21 @@ pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
 
 /// The bytes of a file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
-    std::fs::read(path).map_err(|error| Diagnostic::file(path, format!("cannot be read: {error}")))
+    read_all(path).map_err(|error| Diagnostic::file(path, format!("cannot be read: {error}")))
+}
+
+/// The bytes of a file; those of a pipe or a device, which may have no end, if there are not too many.
+pub(crate) fn read_all(path: &Path) -> io::Result<Vec<u8>> {
+    const MOST: u64 = 1 << 28;
+    let file = File::open(path)?;
+    if file.metadata()?.is_file() {
+        return fs::read(path);
+    }
+    let mut bytes = vec![];
+    if file.take(MOST + 1).read_to_end(&mut bytes)? as u64 > MOST {
+        return Err(io::Error::other("expected an end after at most 256 MiB"));
+    }
+    Ok(bytes)
 }
 
 /// The lines of `text` with the number of each (the first is 1), without comments that `#` starts.

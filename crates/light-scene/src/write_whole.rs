@@ -2,6 +2,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::Diagnostic;
 
@@ -15,6 +16,23 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     StagedFile::new(path, bytes)
         .and_then(StagedFile::publish)
         .map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))
+}
+
+/// Ends the process with `status`, and removes what is being written: for a program that is told to stop. Every file is whole then, or not
+/// there.
+pub fn exit_without_outputs(status: i32) -> ! {
+    // Nobody begins or ends a file from here on.
+    let all = staged_files();
+    for beside in all.iter() {
+        drop(fs::remove_file(beside));
+    }
+    std::process::exit(status)
+}
+
+/// The files that are being written, not yet at their places.
+fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
+    static ALL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+    ALL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file that is written completely, but not yet at its place. Unless it is published, it is removed.
@@ -45,7 +63,10 @@ impl StagedFile {
             Err(_) => path.to_path_buf(),
         };
         let beside = beside(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
+        let mut all = staged_files();
         let mut file = File::options().write(true).create_new(true).open(&beside)?;
+        all.push(beside.clone());
+        drop(all);
         let staged = Self {
             places: Some((beside, target)),
         };
@@ -58,7 +79,9 @@ impl StagedFile {
     /// Puts the file at its place.
     pub(crate) fn publish(mut self) -> io::Result<()> {
         if let Some((beside, target)) = &self.places {
+            let mut all = staged_files();
             fs::rename(beside, target)?;
+            all.retain(|other| other != beside);
         }
         self.places = None;
         Ok(())
@@ -68,8 +91,10 @@ impl StagedFile {
 impl Drop for StagedFile {
     fn drop(&mut self) {
         if let Some((beside, _)) = &self.places {
+            let mut all = staged_files();
             // What stops the removal stopped the writing, and that is what is reported.
             drop(fs::remove_file(beside));
+            all.retain(|other| other != beside);
         }
     }
 }

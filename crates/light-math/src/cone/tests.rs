@@ -1,4 +1,5 @@
 use super::*;
+use crate::float::safe_sqrt;
 use proptest::prelude::*;
 
 fn direction() -> impl Strategy<Value = Vec3> {

@@ -1,7 +1,7 @@
 //! Directions around +z with a density proportional to the cosine: Lambertian emission and reflection.
 
 use super::concentric_disk;
-use crate::float::{safe_sqrt, sin_cos};
+use crate::float::{sin_cos, sqrt};
 use core::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
@@ -15,7 +15,7 @@ pub fn sample(u: Vec2) -> Vec3 {
     let (r, phi) = concentric_disk::polar(u);
     let (sin_phi, cos_phi) = sin_cos(phi);
     // The rim itself has no density, so stay above it by less than a rounding of the unit length.
-    let z = safe_sqrt((1.0 - r) * (1.0 + r)).max(f32::EPSILON);
+    let z = sqrt((1.0 - r) * (1.0 + r)).max(f32::EPSILON);
     Vec3::new(r * cos_phi, r * sin_phi, z)
 }
 

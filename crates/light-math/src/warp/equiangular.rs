@@ -3,6 +3,9 @@
 use crate::float::{atan2, sin_cos};
 use glam::Vec3;
 
+/// The least distance of a point from the ray: its square is still a normal number.
+const SMALLEST_DIST: f32 = 2e-19;
+
 /// A part of a ray seen from a point beside it, such as a light in a medium.
 ///
 /// # Source
@@ -24,14 +27,14 @@ impl Equiangular {
     /// The ray from an origin along the unit vector `direction` between `t_min` and `t_max`, and the point at
     /// `to_point` from that origin; `t_max` may be infinite. None if the part is empty.
     ///
-    /// A point on the ray itself is moved off it by 1e-6 of the largest distance, because the density toward it has no
-    /// integral.
+    /// A point on the ray itself is moved off it by 1e-6 of the largest distance, at least by 2e-19, because the density
+    /// toward it has no integral.
     #[must_use]
     pub fn new(to_point: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Option<Self> {
         let closest = to_point.dot(direction);
         let (near, far) = (t_min - closest, t_max - closest);
         let reach = if far.is_finite() { far.abs() } else { 0.0 };
-        let least = 1e-6 * reach.max(near.abs()).max(f32::MIN_POSITIVE * 1e8);
+        let least = (1e-6 * reach.max(near.abs())).max(SMALLEST_DIST);
         let dist = to_point.cross(direction).length().max(least);
         let angle = if far == f32::INFINITY {
             atan2(dist, near)

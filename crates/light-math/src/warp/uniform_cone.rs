@@ -5,7 +5,7 @@
 //! `sin^2 / (1 + cos)`.
 
 use super::{azimuth, invert_azimuth};
-use crate::float::safe_sqrt;
+use crate::float::sqrt;
 use core::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 
@@ -17,7 +17,7 @@ use glam::{Vec2, Vec3};
 #[must_use]
 pub fn sample(u: Vec2, one_minus_cos_theta_max: f32) -> Vec3 {
     let height = u.x * one_minus_cos_theta_max;
-    let sin_theta = safe_sqrt(height * (2.0 - height));
+    let sin_theta = sqrt(height * (2.0 - height));
     (azimuth(u.y) * sin_theta).extend(1.0 - height)
 }
 

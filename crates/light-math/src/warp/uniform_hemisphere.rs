@@ -1,7 +1,7 @@
 //! Uniform directions around +z.
 
 use super::{azimuth, invert_azimuth};
-use crate::float::safe_sqrt;
+use crate::float::sqrt;
 use core::f32::consts::FRAC_1_PI;
 use glam::{Vec2, Vec3};
 
@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 #[must_use]
 pub fn sample(u: Vec2) -> Vec3 {
     let z = u.x;
-    (azimuth(u.y) * safe_sqrt(1.0 - z * z)).extend(z)
+    (azimuth(u.y) * sqrt(1.0 - z * z)).extend(z)
 }
 
 /// The density per solid angle of a direction with `z = cos_theta`: `1 / (2 pi)`, 0 below the horizon.

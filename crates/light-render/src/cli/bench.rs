@@ -14,7 +14,7 @@ use super::room::expect_room;
 use super::say::say;
 
 /// What a light takes while samplers are built over it one after another and measured side by side: itself, its bounds, and a node in each of them.
-const BYTES_PER_LIGHT: u64 = 1500;
+const BYTES_PER_LIGHT: u64 = 400;
 
 /// Measure light samplers side by side on a set of lights.
 #[derive(Args, Debug)]
@@ -40,8 +40,8 @@ pub(crate) struct BenchArgs {
     /// Samplers to measure, with commas between.
     #[arg(long, value_name = "LIST", default_value_t = default_samplers())]
     samplers: String,
-    /// Samples of one call, at most 65536.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    /// Samples of one call, at most 4096.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 12))]
     k: u32,
     /// Points that the variance is taken over: all, or 256 above 10 thousand lights, unless told.
     #[arg(long, value_name = "M")]

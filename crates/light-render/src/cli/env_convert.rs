@@ -11,7 +11,7 @@ use super::output_file::expect_writable;
 use super::room::expect_room;
 
 /// A texel while it is made, as light, as a picture, and in the file.
-const BYTES_PER_TEXEL: u64 = 64;
+const BYTES_PER_TEXEL: u64 = 48;
 
 /// Convert a lat-long environment map into an equal-area one, or back.
 ///

@@ -28,6 +28,10 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use light_scene::exit_without_outputs;
+
+/// The status of a program that was told to stop, by custom.
+const INTERRUPTED: i32 = 130;
 
 /// Lights and light sampling for physically based rendering.
 ///
@@ -57,6 +61,8 @@ pub fn main() -> ExitCode {
         Ok(program) => program,
         Err(error) => return failure::report_usage(&error),
     };
+    // Without a handler the process would end as well, but leave what it is writing.
+    drop(ctrlc::set_handler(|| exit_without_outputs(INTERRUPTED)));
     let result = match program.command {
         Some(Command::Bench(args)) => args.run(),
         Some(Command::Compare(args)) => args.run(),

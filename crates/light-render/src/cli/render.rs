@@ -123,7 +123,7 @@ impl RenderArgs {
     /// Makes sure that the picture fits into memory.
     fn expect_room(&self, view: &View) -> Result<(), Failure> {
         /// The film, what it shows, what a screen shows of that, and the file.
-        const PICTURE: u64 = Film::BYTES_PER_PIXEL + 60;
+        const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
         let sums = if self.checkpoint.is_wanted() {
             2 * Film::BYTES_PER_PIXEL + PartialPicture::FILE_BYTES_PER_PIXEL
         } else if self.settings.samples.is_some() {

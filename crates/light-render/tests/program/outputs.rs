@@ -140,6 +140,53 @@ mod full {
     }
 
     #[test]
+    fn what_has_no_end_is_not_read_for_ever() {
+        let folder = Folder::new("endless");
+        let link = folder.path("endless.obj");
+        symlink("/dev/zero", &link).expect("a link");
+        let words = ["cannot be read", "256 MiB"];
+        assert_refused(&["ies", "/dev/zero"], &words);
+        assert_refused(&["info", &link], &words);
+        let bench = ["bench", "--lights", "/dev/zero", "--points", "/dev/zero"];
+        assert_refused(&bench, &["/dev/zero", "256 MiB"]);
+    }
+
+    #[test]
+    fn an_interrupted_program_leaves_no_half_file() {
+        let folder = Folder::new("interrupted");
+        let scene = folder.scene(LIT);
+        let (out, kept) = (folder.path("out.exr"), folder.path("kept.exr"));
+        for signal in ["INT", "TERM", "INT", "HUP", "INT"] {
+            // Most of the time it writes its checkpoint.
+            let arguments = [
+                "render", &scene, "-o", &out, "--spp", "4000000", "--width", "64",
+            ];
+            let mut program = Command::new(env!("CARGO_BIN_EXE_lights"));
+            let program = program.args(arguments).args(["--checkpoint", &kept]);
+            let program = program.args(["--checkpoint-every", "1e-3"]);
+            let mut child = program.spawn().expect("it runs");
+            let before = fs::metadata(&kept).and_then(|file| file.modified()).ok();
+            let start = std::time::Instant::now();
+            let is_new = || {
+                let now = fs::metadata(&kept).and_then(|file| file.modified()).ok();
+                now.is_some() && now != before
+            };
+            while !is_new() && start.elapsed().as_secs() < 60 {
+                std::thread::sleep(core::time::Duration::from_millis(3));
+            }
+            let kill = format!("kill -s {signal} {}", child.id());
+            let killed = Command::new("sh").args(["-c", &kill]).status();
+            assert!(killed.expect("sent").success(), "{signal} is sent");
+            let status = child.wait().expect("an end");
+            assert_eq!(status.code(), Some(130), "{signal}: {status}");
+            let names = ["kept.exr", "scene.mtl", "scene.obj"];
+            assert_eq!(folder.names(), names, "nothing half written");
+            let part = light_render::PartialPicture::read(Path::new(&kept));
+            assert!(part.is_ok(), "the checkpoint is whole");
+        }
+    }
+
+    #[test]
     fn devices_are_written_to_and_stay() {
         let folder = Folder::new("devices");
         let ies =

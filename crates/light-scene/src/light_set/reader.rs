@@ -1,11 +1,12 @@
 use core::fmt;
 use core::str::{FromStr, SplitWhitespace};
-use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
 use super::{LightSetFile, SetLight, SetPoint};
+use crate::text::read_all;
 
 /// Why a light-set file was refused: which file, which line, and what was expected there.
 #[derive(Debug)]
@@ -23,7 +24,7 @@ pub struct LightSetError {
 #[non_exhaustive]
 pub enum LightSetProblem {
     /// The file cannot be read or written.
-    Io(std::io::Error),
+    Io(io::Error),
     /// The record is neither `tri`, `point` nor `spot`.
     UnknownRecord,
     /// The line has too few or too many fields.
@@ -99,7 +100,9 @@ fn read_records<T>(
         line,
         problem,
     };
-    let text = fs::read_to_string(path).map_err(|e| error(0, LightSetProblem::Io(e)))?;
+    let text = read_all(path)
+        .and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other))
+        .map_err(|e| error(0, LightSetProblem::Io(e)))?;
     let records: Vec<T> = text
         .lines()
         .enumerate()
