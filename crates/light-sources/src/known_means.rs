@@ -1,12 +1,12 @@
 use alloc::vec::Vec;
 
 use crate::glam::Vec3;
-use crate::shape::{Shape, Triangle, UvArea};
-use crate::surface_texture::SurfaceTexture;
+use crate::shape::Triangle;
+use crate::surface_texture::{Footprint, SurfaceTexture};
 
 /// Means of triangles that were asked for lately: often many triangles show the same part of an image.
 #[derive(Debug, Default)]
-pub(crate) struct KnownMeans(Vec<Option<(UvArea, Vec3)>>);
+pub(crate) struct KnownMeans(Vec<Option<(Footprint, Vec3)>>);
 
 impl KnownMeans {
     /// How many are known at once.
@@ -14,32 +14,74 @@ impl KnownMeans {
 
     /// The mean of `texture` over `triangle`.
     pub(crate) fn mean(&mut self, texture: &SurfaceTexture, triangle: &Triangle) -> Vec3 {
-        let area = triangle.uv_area();
+        let footprint = texture.footprint(triangle.uvs());
         self.0.resize(Self::COUNT, None);
-        let place = &mut self.0[Self::place(&area)];
+        let place = &mut self.0[Self::place(&footprint)];
         match place {
-            Some((known, mean)) if *known == area => *mean,
+            Some((known, mean)) if *known == footprint => *mean,
             _ => {
                 let mean = texture.mean(triangle);
-                *place = Some((area, mean));
+                *place = Some((footprint, mean));
                 mean
             }
         }
     }
 
-    /// Where the mean over an area is kept.
-    fn place(area: &UvArea) -> usize {
-        let UvArea::Triangle(corners) = area else {
-            return 0;
-        };
-        let bits = corners
-            .iter()
-            .flat_map(|uv| uv.to_array().map(f32::to_bits));
+    /// Where the mean over a footprint is kept.
+    fn place(footprint: &Footprint) -> usize {
         // The multiplier of Fibonacci hashing: two to the power of 64 over the golden ratio.
-        let mix = |hash: u64, bits: u32| {
-            (hash.rotate_left(5) ^ u64::from(bits)).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        let mix = |hash: u64, number: &i64| {
+            let bits = u64::from_ne_bytes(number.to_ne_bytes());
+            (hash.rotate_left(5) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
         };
-        let hash = bits.fold(0, mix) >> (64 - Self::COUNT.ilog2());
+        let hash = footprint.0.iter().fold(0, mix) >> (64 - Self::COUNT.ilog2());
         usize::try_from(hash).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amount::RadianceAmount;
+    use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+    use crate::glam::Vec2;
+    use crate::image::{Channels, Image};
+    use crate::rgb::Rgb;
+    use crate::texture_mapping::{TextureMapping, Wrap};
+
+    /// A known mean is that of the triangle that is asked for, whatever was asked for before.
+    #[test]
+    fn what_is_known_is_right() {
+        let texels: Vec<f32> = (0..64u16).map(|i| f32::from(i * 7 % 11)).collect();
+        let image = Image::from_f32([8, 8], Channels::Gray, texels).expect("an image");
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Black] {
+            let color = SurfaceColor::<Rgb>::Image {
+                texture: image.clone().into(),
+                tint: Vec3::ONE,
+            };
+            let desc = DiffuseEmissionDesc {
+                mapping: TextureMapping {
+                    wrap: [wrap; 2],
+                    ..TextureMapping::REPEAT
+                },
+                ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
+            };
+            let texture = SurfaceTexture::new(&desc).expect("an image");
+            let mut known = KnownMeans::default();
+            let corners = [[0.0, 0.0], [1.0, 0.0], [0.25, 1.5]].map(Vec2::from);
+            for shift in (0..40u8).map(|i| Vec2::new(f32::from(i % 8) - 3.0, f32::from(i / 8))) {
+                for size in [1.0, 0.5] {
+                    let uv = corners.map(|corner| corner * size + shift);
+                    let triangle = Triangle::from_corners([Vec3::ZERO, Vec3::X, Vec3::Y], uv);
+                    let (ours, exact) = (known.mean(&texture, &triangle), texture.mean(&triangle));
+                    let near = ours.abs_diff_eq(exact, 1e-5 * exact.max_element());
+                    assert!(near, "{wrap:?}, {uv:?}: {ours}, {exact}");
+                }
+            }
+            // Two sizes of triangles, at three distances at which single precision has steps of its own.
+            let count = known.0.iter().flatten().count();
+            let repeats = wrap == Wrap::Repeat;
+            assert_eq!(count <= 6, repeats, "{wrap:?}: {count} known");
+        }
     }
 }

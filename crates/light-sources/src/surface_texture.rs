@@ -3,12 +3,12 @@ use alloc::sync::Arc;
 use crate::block_means::BlockMeans;
 use crate::color::ColorModel;
 use crate::diffuse_emission::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
-use crate::glam::Vec3;
+use crate::glam::{Vec2, Vec3};
 use crate::shape::Shape;
-use crate::texel_cells::Shown;
+use crate::texel_cells::{Shown, floor};
 use crate::texture::Texture;
 use crate::texture_integral;
-use crate::texture_mapping::TextureMapping;
+use crate::texture_mapping::{TextureMapping, Wrap};
 
 /// What varies over a surface that shines: an image, an alpha mask, or their product.
 #[derive(Clone, Debug)]
@@ -18,6 +18,11 @@ pub(crate) struct SurfaceTexture {
     masked: Option<(Texture, Arc<BlockMeans>)>,
     mapping: TextureMapping,
 }
+
+/// Which part of an image a triangle shows, in steps as small as single precision makes them: triangles with the same
+/// footprint have the same mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Footprint(pub(crate) [i64; 7]);
 
 impl SurfaceTexture {
     /// `None` where nothing varies.
@@ -58,6 +63,35 @@ impl SurfaceTexture {
             wrap: self.mapping.wrap,
         };
         texture_integral::mean(&shown, blocks, &self.mapping, &shape.uv_area())
+    }
+
+    /// The part of the image that a triangle with these surface parameters shows, moved to where the image repeats itself.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "saturates, where places have no fraction"
+    )]
+    pub(crate) fn footprint(&self, uvs: [Vec2; 3]) -> Footprint {
+        let places = uvs.map(|uv| self.mapping.place(uv).as_dvec2());
+        let [a, b, c] = places;
+        let farthest = [a, b, c].map(|p| p.abs().max_element());
+        let farthest = farthest.into_iter().fold(1.0, f64::max);
+        // A few roundings of the largest number, as a power of two.
+        let exponent = u64::from((farthest as f32).to_bits() >> 23) - 127;
+        let steps = f64::from_bits((1023 + 21 - exponent) << 52);
+        let low = a.min(b).min(c);
+        let mut numbers = [exponent as i64; 7];
+        for (i, number) in numbers[1..].iter_mut().enumerate() {
+            let axis = i % 2;
+            let origin = match self.mapping.wrap[axis] {
+                // Numbers near a whole one go the same way.
+                Wrap::Repeat => floor(low[axis] + 0.25),
+                Wrap::Mirror => 2.0 * floor(0.5 * low[axis] + 0.25),
+                Wrap::Clamp | Wrap::Black => 0.0,
+            };
+            *number = floor((places[i / 2][axis] - origin) * steps + 0.5) as i64;
+        }
+        Footprint(numbers)
     }
 
     /// The textures, and the means that belong to none of them.

@@ -19,7 +19,7 @@ pub(crate) struct UvPolygon {
 }
 
 /// A parallelogram that is cut by two lines along each axis has eight corners; rounding adds few.
-const MOST: usize = 16;
+const MOST: usize = 12;
 
 /// An axis of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

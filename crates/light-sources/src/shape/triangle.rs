@@ -60,6 +60,12 @@ impl Triangle {
         self.p
     }
 
+    /// Surface parameters at the vertices.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn uvs(&self) -> [Vec2; 3] {
+        self.uv
+    }
+
     /// The unit normal of the front; `None` without area.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
