@@ -90,3 +90,18 @@ where
     let parsed = Program::try_parse_from(arguments);
     parsed.map(drop).map_err(|error| error.render().to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn command_lines_are_read_without_running_them() {
+        let scene = ["lights", "render", "no-such-file.obj", "-o", "a.exr"];
+        assert_eq!(parse(scene), Ok(()), "files are not looked at");
+        let error = parse(["lights", "render", "--spp", "0"]).expect_err("no sample");
+        assert!(error.contains("--spp"), "{error}");
+        let help = parse(["lights", "--help"]).expect_err("help");
+        assert!(help.contains("Usage"), "{help}");
+    }
+}
