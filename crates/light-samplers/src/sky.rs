@@ -201,4 +201,47 @@ mod tests {
         );
         assert_eq!(e, 10.0, "from below as well");
     }
+
+    /// A cone of 30 degrees: its upper edge counts, whatever its axis does.
+    #[test]
+    fn a_part_of_the_sky_counts_until_all_of_it_has_set() {
+        let sky = |below: f32| {
+            let w = Vec3::new(float::cos(below), 0.0, -float::sin(below));
+            let bounds = InfiniteBounds {
+                fluence: 10.0,
+                mean: w * 0.95,
+                cone: light_math::DirectionCone::new(w, float::cos(30f32.to_radians())),
+            };
+            irradiance(&bounds, &floor())
+        };
+        for degrees in [-90.0, 0.0, 20.0, 29.9] {
+            assert!(
+                sky(f32::to_radians(degrees)) > 0.0,
+                "{degrees} degrees below"
+            );
+        }
+        for degrees in [30.1, 45.0, 90.0] {
+            assert_eq!(
+                sky(f32::to_radians(degrees)),
+                0.0,
+                "{degrees} degrees below"
+            );
+        }
+    }
+
+    /// The sine of a narrow cone is known to its last digits.
+    #[test]
+    fn narrow_cones_count_to_their_edge() {
+        for cos_theta in [1.0 - 1e-6, 1.0 - 1e-5, 1.0 - 1e-4, 1.0 - 1e-3] {
+            let theta = f64::from(cos_theta).acos();
+            #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+            let w = Vec3::new(theta.cos() as f32, 0.0, -theta.sin() as f32);
+            let bounds = InfiniteBounds {
+                fluence: 10.0,
+                mean: w,
+                cone: light_math::DirectionCone::new(w, cos_theta),
+            };
+            assert!(irradiance(&bounds, &floor()) > 0.0, "{cos_theta}");
+        }
+    }
 }

@@ -125,3 +125,39 @@ impl LightCut {
         Some(ends.partition_point(|&end| end < self.total()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cut of nodes whose weights end at `ends`.
+    fn cut(ends: &[f32]) -> LightCut {
+        let mut cut = LightCut::default();
+        cut.ends[..ends.len()].copy_from_slice(ends);
+        cut.count = ends.len();
+        cut
+    }
+
+    #[test]
+    fn the_last_node_with_any_weight_takes_what_rounding_leaves() {
+        let cut = cut(&[1.0, 3.0, 3.0, 3.0]);
+        assert_eq!(cut.node_at(0.0), Some((0, 0.0)), "the first");
+        assert_eq!(cut.node_at(1.0), Some((1, 0.0)), "where the first ends");
+        assert_eq!(cut.node_at(2.5), Some((1, 1.5)), "within the second");
+        assert_eq!(cut.node_at(3.0), Some((1, 2.0)), "at the end");
+        assert_eq!(cut.search(3.5), Some(1), "beyond the end");
+    }
+
+    /// Rounded to single precision the target is at the end of a node that it is still within.
+    #[test]
+    fn a_target_just_below_an_end_is_within_its_node() {
+        let cut = cut(&[1.0, 2.0, 4.0]);
+        for end in [1.0f64, 2.0, 4.0] {
+            let target = end * (1.0 - f64::EPSILON);
+            let (index, within) = cut.node_at(target).expect("a node");
+            let start = [0.0, 1.0, 2.0][index];
+            assert_eq!(f64::from(cut.ends[index]), end, "{target}");
+            assert_eq!(within, target - start, "{target}");
+        }
+    }
+}

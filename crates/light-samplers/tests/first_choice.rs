@@ -1,0 +1,90 @@
+//! The choice between the tree and the sky follows lights that change, and is the same in every way to ask.
+#![cfg(feature = "alloc")]
+
+use light_samplers::light_bounds::glam::Vec3;
+use light_samplers::light_bounds::light_math::Aabb;
+use light_samplers::light_bounds::{
+    InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
+};
+use light_samplers::{BvhLightSampler, LightLook, LightSampler};
+
+fn lamp(phi: f32) -> LightExtent {
+    LightExtent::Bounded(LightBounds {
+        bounds: Aabb::from_point(Vec3::Z * 2.0),
+        w: Vec3::NEG_Z,
+        phi,
+        cos_theta_o: 1.0,
+        cos_theta_e: 0.0,
+        two_sided: false,
+    })
+}
+
+fn lights(phi: f32, radiance: f32) -> [LightExtent; 2] {
+    let sky = LightExtent::Infinite(InfiniteBounds::uniform(radiance));
+    [lamp(phi), sky]
+}
+
+fn floor() -> LightSampleContext {
+    LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
+}
+
+/// All probabilities of a sampler of two lights, as bits.
+fn pmfs(sampler: &BvhLightSampler) -> [[u32; 2]; 3] {
+    let ids = [0, 1].map(LightId);
+    [
+        ids.map(|id| sampler.pmf(&floor(), id).to_bits()),
+        ids.map(|id| sampler.pmf_many(&floor(), id, 4).to_bits()),
+        ids.map(|id| sampler.pmf_emitter(id).to_bits()),
+    ]
+}
+
+#[test]
+fn a_refit_knows_the_new_sky_and_the_new_power() {
+    let mut sampler = BvhLightSampler::new(&lights(10.0, 0.1)).expect("valid lights");
+    for (phi, radiance) in [(10.0, 5.0), (3000.0, 5.0), (1.0, 1e-4), (1.0, 0.0)] {
+        let changed = lights(phi, radiance);
+        sampler.refit(&changed).expect("as many lights");
+        let rebuilt = BvhLightSampler::new(&changed).expect("valid lights");
+        assert_eq!(pmfs(&sampler), pmfs(&rebuilt), "{phi} W, {radiance}");
+    }
+}
+
+#[test]
+fn what_was_looked_at_gives_the_bits_of_a_new_look() {
+    let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
+    for count in [1, 2, 5] {
+        let mut look = LightLook::default();
+        let mut chosen = Vec::new();
+        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| chosen.push(s));
+        for id in [0, 1].map(LightId) {
+            let looked = sampler.pmf_many_looking(&floor(), id, count, &look);
+            assert_eq!(
+                looked,
+                sampler.pmf_many(&floor(), id, count),
+                "{id:?} of {count}"
+            );
+            assert!(looked > 0.1 && looked < 0.9, "both count: {looked}");
+        }
+        for sample in chosen {
+            let pmf = sampler.pmf_many(&floor(), sample.light, count);
+            assert_eq!(sample.pmf, pmf, "{sample:?} of {count}");
+        }
+    }
+}
+
+/// One lamp and the sky: the probabilities of several choices add up to one, as those of one do.
+#[test]
+fn probabilities_of_several_choices_add_up() {
+    for (phi, radiance) in [(10.0, 0.5), (10.0, 0.0), (0.0, 0.5)] {
+        let sampler = BvhLightSampler::new(&lights(phi, radiance)).expect("valid lights");
+        for count in [1, 2, 7] {
+            let pmf = |id| f64::from(sampler.pmf_many(&floor(), LightId(id), count));
+            assert!(
+                (pmf(0) + pmf(1) - 1.0).abs() < 1e-6,
+                "{count}: {} {}",
+                pmf(0),
+                pmf(1)
+            );
+        }
+    }
+}
