@@ -10,6 +10,7 @@ mod equal_area;
 mod light_bounds_importance;
 mod light_bounds_union;
 mod light_samplers;
+mod light_tree;
 mod lights;
 mod octahedral;
 mod piecewise_constant_1d;

@@ -14,7 +14,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     let table = AliasTable::new(&weights).map_err(|e| Malformed(e.to_string()))?;
     let pmf = case.get("pmf")?.floats()?;
     for (index, &theirs) in pmf.iter().enumerate() {
-        findings.near("pmf", table.pmf(index), theirs, Tolerance::GENERAL);
+        let ours = findings.ours("pmf", table.pmf(index));
+        findings.near("pmf", ours, theirs, Tolerance::GENERAL);
     }
 
     let mut frequencies = vec![0.0; weights.len()];
@@ -23,12 +24,14 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         frequencies[bin.alias as usize] += (1.0 - bin.q) / weights.len() as f32;
     }
     for (&ours, &theirs) in frequencies.iter().zip(&pmf) {
+        let ours = findings.ours("frequency", ours);
         findings.near("frequency", ours, theirs, Tolerance::GENERAL);
     }
 
     for sample in case.get("samples")?.items()? {
         let ours = table.sample(f64::from(sample.at(0)?.float()?));
-        findings.equal("pmf of a sample", ours.pmf, table.pmf(ours.index));
+        let own = findings.ours("pmf of a sample", ours.pmf);
+        findings.equal("pmf of a sample", own, table.pmf(ours.index));
         findings.check(ours.pmf > 0.0, || format!("{ours:?} has no probability"));
         let theirs = sample.at(1)?.index()?;
         findings.near(

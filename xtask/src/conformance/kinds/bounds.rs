@@ -23,10 +23,8 @@ pub(super) fn read_light_bounds(case: &Case<'_>) -> Result<LightBounds, Malforme
     })
 }
 
-/// Importance in double precision, from trigonometric functions: the formula without its round-off, and what decides on zero.
-pub(super) struct PreciseImportance {
-    /// The result where it is not zero.
-    pub(super) importance: f64,
+/// What decides on the importance of bounds, in double precision.
+pub(super) struct Margins {
     /// `cos theta' - cos theta_e`: light is emitted toward the point if this is positive.
     pub(super) emission_margin: f64,
     /// `d / r - 1`: the point is within the bounding sphere if this is negative.
@@ -35,49 +33,28 @@ pub(super) struct PreciseImportance {
     pub(super) scale: f64,
 }
 
-impl PreciseImportance {
-    /// The importance of `lb` at `p` with the normal `n`, zero in a medium.
-    pub(super) fn new(lb: &LightBounds, p: Vec3, n: Vec3) -> Self {
-        let [min, max, p, w, n] = [lb.bounds.min, lb.bounds.max, p, lb.w, n].map(double);
-        let center: [f64; 3] = std::array::from_fn(|i| 0.5 * (min[i] + max[i]));
-        let to_p: [f64; 3] = std::array::from_fn(|i| p[i] - center[i]);
-        let diagonal: [f64; 3] = std::array::from_fn(|i| max[i] - min[i]);
-        let (dist, radius) = (length(to_p), 0.5 * length(diagonal));
+impl Margins {
+    /// Of `lb` seen from `p`.
+    pub(super) fn new(lb: &LightBounds, p: Vec3) -> Self {
+        let [min, max, p, w] = [lb.bounds.min, lb.bounds.max, p, lb.w].map(|v| v.as_dvec3());
+        let to_p = p - 0.5 * (min + max);
+        let (dist, radius) = (to_p.length(), 0.5 * (max - min).length());
 
         let theta_b = if dist < radius {
             std::f64::consts::PI
         } else {
             (radius / dist).clamp(0.0, 1.0).asin()
         };
-        let cos_w = dot(w, to_p) / (dist * length(w));
+        let cos_w = w.dot(to_p) / (dist * w.length());
         let theta_w = if lb.two_sided { cos_w.abs() } else { cos_w };
         let theta_w = theta_w.clamp(-1.0, 1.0).acos();
         let theta_o = f64::from(lb.cos_theta_o).acos();
         let cos_emission = (theta_w - theta_o - theta_b).max(0.0).cos();
-        let cos_incidence = if length(n) == 0.0 {
-            1.0
-        } else {
-            let theta_i = (dot(n, to_p) / dist).abs().min(1.0).acos();
-            (theta_i - theta_b).max(0.0).cos()
-        };
         let scale = f64::from(lb.phi) / (dist * dist).max(radius);
         Self {
-            importance: scale * cos_emission * cos_incidence,
             emission_margin: cos_emission - f64::from(lb.cos_theta_e),
             sphere_margin: dist / radius - 1.0,
             scale,
         }
     }
-}
-
-fn double(v: Vec3) -> [f64; 3] {
-    v.to_array().map(f64::from)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    dot(v, v).sqrt()
 }

@@ -1,18 +1,12 @@
 use lights::bounds::{InfiniteBounds, LightExtent, LightId};
-use lights::bvh::reference::{Link, ReferenceNode};
 use lights::samplers::{
     ExhaustiveLightSampler, PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler,
 };
 
 use super::bounds::read_light_bounds;
-use super::compact::compact_codes;
+use super::light_tree;
 use super::sampler_answers::Question;
-use crate::conformance::{Case, Checker, Findings, Malformed, Rule, Tolerance};
-
-pub(super) const NARROW_CONE: Rule = Rule {
-    name: "cone one code wider",
-    reason: "rounding makes some cones of the reference narrower than what they hold, by the last bit; ours take the next code",
-};
+use crate::conformance::{Case, Checker, Findings, Malformed};
 
 /// Lights, then the tree of them, then what samplers answer.
 #[derive(Default)]
@@ -69,18 +63,7 @@ impl Set {
     }
 
     fn compare_tree(&self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        let tree = self.bvh.tree().view();
-        let nodes: Vec<_> = case.get("nodes")?.items()?.collect();
-        findings.equal("number of nodes", tree.nodes().len(), nodes.len());
-        for (index, (ours, theirs)) in tree.nodes().iter().zip(&nodes).enumerate() {
-            compare_node(index, ours, theirs, findings)?;
-        }
-        for pair in case.get("bit_trails")?.items()? {
-            let light = light_id(&pair.at(0)?)?;
-            let ours = tree.trail(light).bits() as usize;
-            findings.equal(&format!("trail of {light:?}"), ours, pair.at(1)?.index()?);
-        }
-        Ok(())
+        light_tree::compare(&self.bvh.tree().view(), &self.extents, case, findings)
     }
 
     fn compare_sampler(&self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
@@ -102,50 +85,7 @@ impl Set {
     }
 }
 
-fn compare_node(
-    index: usize,
-    ours: &ReferenceNode,
-    theirs: &Case<'_>,
-    findings: &mut Findings,
-) -> Result<(), Malformed> {
-    let link = theirs.get("child_or_light")?;
-    let link = if theirs.get("leaf")?.flag()? {
-        Link::Leaf(light_id(&link)?)
-    } else {
-        Link::Interior {
-            second_child: light_id(&link)?.0,
-        }
-    };
-    findings.equal(&format!("link of node {index}"), ours.link(), link);
-    let phi = theirs.get("phi")?.float()?;
-    findings.near(
-        &format!("phi of node {index}"),
-        ours.bounds().phi(),
-        phi,
-        Tolerance::GENERAL,
-    );
-
-    let codes = compact_codes(theirs)?;
-    let is_one_less = ours.bounds().packed() + 1 == codes.packed;
-    if is_one_less {
-        findings.exempt(&NARROW_CONE);
-    } else {
-        findings.equal(
-            &format!("packed bits of node {index}"),
-            ours.bounds().packed(),
-            codes.packed,
-        );
-    }
-    findings.equal(&format!("axis of node {index}"), ours.bounds().w(), codes.w);
-    findings.equal(
-        &format!("box of node {index}"),
-        ours.bounds().bounds(),
-        codes.bounds,
-    );
-    Ok(())
-}
-
-fn light_id(case: &Case<'_>) -> Result<LightId, Malformed> {
+pub(super) fn light_id(case: &Case<'_>) -> Result<LightId, Malformed> {
     let index = u32::try_from(case.index()?).map_err(|e| Malformed(e.to_string()))?;
     Ok(LightId(index))
 }

@@ -1,15 +1,34 @@
 use lights::math::OctahedralVector;
 
-use crate::conformance::{Case, Findings, Malformed, Tolerance};
+use super::light_tree::judge;
+use crate::conformance::oracle::{Certainty, codes};
+use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
+
+const ROUNDED_CODE: Rule = Rule {
+    name: "rounded_code",
+    reason: "a number lies between two codes up to single precision; ours is one of both in double precision",
+};
 
 /// Both codes are the same integers, the decoded vectors the same up to round-off.
 pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-    let (x, y) = OctahedralVector::encode(case.get("v")?.vec3()?).xy();
+    let v = case.get("v")?.vec3()?;
+    let (x, y) = OctahedralVector::encode(v).xy();
+    let ours = findings.ours("codes", [x, y].map(i64::from));
     let enc = case.get("enc")?;
     let theirs = [enc.at(0)?.integer()?, enc.at(1)?.integer()?];
-    findings.equal("enc", [i64::from(x), i64::from(y)], theirs);
-
-    let decoded = OctahedralVector::from_xy(x, y).decode();
-    findings.near3("dec", decoded, case.get("dec")?.vec3()?, Tolerance::GENERAL);
+    let exact = codes::octahedral(v.as_dvec3());
+    let is_exact = (0..2).all(|i| codes::is_nearest(ours[i], exact[i]));
+    judge(
+        "direction",
+        ours == theirs,
+        is_exact,
+        &ROUNDED_CODE,
+        findings,
+    );
+    if ours == theirs {
+        let decoded = findings.ours("decoded", OctahedralVector::from_xy(x, y).decode());
+        findings.near3("dec", decoded, case.get("dec")?.vec3()?, Tolerance::GENERAL);
+        findings.settled(Certainty::Determined);
+    }
     Ok(())
 }

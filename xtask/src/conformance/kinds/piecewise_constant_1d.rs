@@ -1,5 +1,8 @@
 use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, refuses_signs};
+use crate::conformance::comparison::Comparison;
+use crate::conformance::oracle::Certainty;
 use crate::conformance::{Case, Findings, Malformed, Tolerance};
+use glam::{DVec2, DVec3};
 use lights::math::distribution::{PiecewiseConstant1D, TableError};
 
 /// Integral, running sum, samples and inverses, on the given domain.
@@ -17,39 +20,58 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         Err(error) => return Err(Malformed(error.to_string())),
     };
 
-    let integral = case.get("integral")?.float()?;
-    findings.near("integral", table.integral(), integral, Tolerance::GENERAL);
+    let integral = findings.ours("integral", table.integral());
+    let theirs = case.get("integral")?.float()?;
+    findings.near("integral", integral, theirs, Tolerance::GENERAL);
+    findings.settled(Certainty::Determined);
     for (&ours, theirs) in table.cdf().iter().zip(case.get("cdf")?.floats()?) {
+        let ours = findings.ours("cdf", ours);
         findings.near("cdf", ours, theirs, RUNNING_SUM);
+        findings.settled(Certainty::Determined);
     }
+    let exact = super::tables::table(&weights, weights.len(), 1);
+    let width = f64::from(max) - f64::from(min);
     for sample in case.get("samples")?.items()? {
         let [u, x, pdf, offset] = sample.float_array()?;
-        let tolerance = Tolerance::new(1e-5, 1e-5 * (max - min));
         let ours = table.sample(u);
-        if ours.index as f32 == offset && tolerance.accepts(ours.x, x) {
-            findings.near("pdf", ours.pdf, pdf, Tolerance::GENERAL);
-            continue;
-        }
-        let low = table.sample(u - U_ROUNDING.ulps);
-        let high = table.sample(u + U_ROUNDING.ulps);
-        let end = if u + U_ROUNDING.ulps < 1.0 {
-            high.x
-        } else {
-            max
-        };
-        let enclosing = low.x - tolerance.absolute..=end + tolerance.absolute;
-        let bins = low.index as f32..=high.index as f32;
-        findings.check(enclosing.contains(&x) && bins.contains(&offset), || {
-            format!("sample at {u}: {ours:?}, reference {x} of density {pdf} in bin {offset}")
-        });
-        findings.exempt(&U_ROUNDING.rule);
+        let mut comparison = Comparison::default();
+        let our_x = findings.ours("x", ours.x);
+        let place = Tolerance::new(1e-5, 1e-5 * (max - min));
+        comparison.number("x", our_x, Some(x), place);
+        comparison.ill_conditioned();
+        let our_pdf = findings.ours("pdf", ours.pdf);
+        comparison.number("pdf", our_pdf, Some(pdf), Tolerance::GENERAL);
+        let index = findings.ours("index", ours.index as i64) as f32;
+        comparison.number("index", index, Some(offset), Tolerance::new(0.0, 0.0));
+        comparison.settle(
+            findings,
+            || &U_ROUNDING,
+            |jitter| {
+                // Any bin whose sums rounding may lead to; ours is one of them.
+                let u = DVec2::new(f64::from(u), 0.5);
+                let (at, pdf) = exact.sample_in(u, [ours.index, 0], jitter)?;
+                let parts = [
+                    f64::from(min) + at.x * width,
+                    pdf / width,
+                    ours.index as f64,
+                ];
+                Some(parts.map(|x| DVec3::X * x).to_vec())
+            },
+        );
     }
     for inverse in case.get("inverts")?.items()? {
         let x = inverse.at(0)?.float()?;
-        match (table.invert(x), inverse.at(1)?) {
+        match (
+            findings.ours_if_any("inverse", table.invert(x)),
+            inverse.at(1)?,
+        ) {
             (None, theirs) => findings.check(theirs.is_null(), || format!("invert({x}): none")),
-            (Some(ours), theirs) => findings.near("invert", ours, theirs.float()?, RUNNING_SUM),
+            (Some(ours), theirs) => {
+                let ours = findings.ours("inverse u", ours);
+                findings.near("invert", ours, theirs.float()?, RUNNING_SUM);
+            }
         }
+        findings.settled(Certainty::Determined);
     }
     Ok(())
 }

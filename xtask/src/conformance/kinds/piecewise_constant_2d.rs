@@ -1,13 +1,10 @@
 use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, refuses_signs};
-use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
+use crate::conformance::comparison::Comparison;
+use crate::conformance::oracle::Certainty;
+use crate::conformance::{Case, Findings, Malformed, Tolerance};
+use glam::{DVec2, DVec3};
 use lights::math::distribution::{PiecewiseConstant2D, TableError};
 use lights::math::glam::Vec2;
-
-/// A point on the edge of a texel.
-const ON_EDGE: Rule = Rule {
-    name: "on_edge",
-    reason: "the point lies on the edge of a texel up to rounding: the density beside it is the reference",
-};
 
 /// Integral, samples, densities and inverses, on the given domain.
 pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
@@ -30,71 +27,71 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         Err(error) => return Err(Malformed(error.to_string())),
     };
 
-    let integral = case.get("integral")?.float()?;
-    findings.near("integral", table.integral(), integral, Tolerance::GENERAL);
+    let integral = findings.ours("integral", table.integral());
+    let theirs = case.get("integral")?.float()?;
+    findings.near("integral", integral, theirs, Tolerance::GENERAL);
+    findings.settled(Certainty::Determined);
+    let exact = super::tables::table(&weights, nx, ny);
+    let (low, size) = (min.as_dvec2(), max.as_dvec2() - min.as_dvec2());
     let absolute = 1e-5 * (max - min).max_element();
     let place = Tolerance::new(1e-5, absolute);
     for sample in case.get("samples")?.items()? {
         let [u0, u1, x, y, pdf, ix, iy] = sample.float_array()?;
-        let (u, p) = (Vec2::new(u0, u1), Vec2::new(x, y));
+        let u = Vec2::new(u0, u1);
         let ours = table.sample(u);
-        let near = place.accepts(ours.p.x, x) && place.accepts(ours.p.y, y);
-        if ours.texel.map(|i| i as f32) == [ix, iy] && near {
-            findings.near("pdf", ours.pdf, pdf, Tolerance::GENERAL);
-            continue;
-        }
-        let is_enclosed = is_enclosed(&table, u, [x, y, ix, iy], absolute, max);
-        findings.check(is_enclosed, || {
-            format!("sample at {u}: {ours:?}, reference {p} of density {pdf} in [{ix}, {iy}]")
-        });
-        findings.exempt(&U_ROUNDING.rule);
+        let mut comparison = Comparison::default();
+        let p = findings.ours("p", ours.p);
+        comparison.vec2("p", p, Some(Vec2::new(x, y)), place);
+        comparison.ill_conditioned();
+        let our_pdf = findings.ours("pdf of the sample", ours.pdf);
+        comparison.number("pdf", our_pdf, Some(pdf), Tolerance::GENERAL);
+        let texel = findings.ours("texel", ours.texel.map(|i| i as i64));
+        let texel = Vec2::new(texel[0] as f32, texel[1] as f32);
+        let their_texel = Some(Vec2::new(ix, iy));
+        comparison.vec2("texel", texel, their_texel, Tolerance::new(0.0, 0.0));
+        comparison.settle(
+            findings,
+            || &U_ROUNDING,
+            |jitter| {
+                // Any texel whose sums rounding may lead to; ours is one of them.
+                let (at, pdf) = exact.sample_in(u.as_dvec2(), ours.texel, jitter)?;
+                let texel = DVec2::new(ours.texel[0] as f64, ours.texel[1] as f64);
+                let pdf = pdf / size.element_product();
+                let p = low + at * size;
+                Some(vec![p.extend(0.0), DVec3::X * pdf, texel.extend(0.0)])
+            },
+        );
     }
     for query in case.get("pdfs")?.items()? {
         let [x, y, pdf] = query.float_array()?;
         let p = Vec2::new(x, y);
-        if Tolerance::GENERAL.accepts(table.pdf(p), pdf) {
-            findings.near("pdf", table.pdf(p), pdf, Tolerance::GENERAL);
-            continue;
-        }
-        let step = (max - min).max(p.abs()) * 4.0 * f32::EPSILON;
-        let beside = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
-        let agrees = beside.iter().any(|&(sx, sy)| {
-            let density = table.pdf(p + step * Vec2::new(sx, sy));
-            Tolerance::GENERAL.accepts(density, pdf)
-        });
-        findings.check(agrees, || {
-            format!("pdf at {p}: {}, reference {pdf}", table.pdf(p))
-        });
-        findings.exempt(&ON_EDGE);
+        let mut comparison = Comparison::default();
+        let ours = findings.ours("pdf", table.pdf(p));
+        comparison.number("pdf", ours, Some(pdf), Tolerance::GENERAL);
+        comparison.settle(
+            findings,
+            || &U_ROUNDING,
+            |jitter| {
+                let magnitude = f64::from(max.abs().max(min.abs()).max_element());
+                let p = p.as_dvec2().map(|x| jitter.at_scale(x, magnitude));
+                let pdf = exact.pdf((p - low) / size) / size.element_product();
+                Some(vec![DVec3::X * pdf])
+            },
+        );
     }
     for inverse in case.get("inverts")?.items()? {
         let p = inverse.at(0)?.vec2()?;
-        match (table.invert(p), inverse.at(1)?) {
+        match (
+            findings.ours_if_any("inverse", table.invert(p)),
+            inverse.at(1)?,
+        ) {
             (None, theirs) => findings.check(theirs.is_null(), || format!("invert({p}): none")),
-            (Some(ours), theirs) => findings.near2("invert", ours, theirs.vec2()?, RUNNING_SUM),
+            (Some(ours), theirs) => {
+                let ours = findings.ours("inverse u", ours);
+                findings.near2("invert", ours, theirs.vec2()?, RUNNING_SUM);
+            }
         }
+        findings.settled(Certainty::Determined);
     }
     Ok(())
-}
-
-/// Whether samples for u moved by some ulps enclose the reference: its row among theirs, its column in one of these.
-fn is_enclosed(
-    table: &PiecewiseConstant2D<Vec<f32>>,
-    u: Vec2,
-    [x, y, ix, iy]: [f32; 4],
-    absolute: f32,
-    max: Vec2,
-) -> bool {
-    let ulps = U_ROUNDING.ulps;
-    // No u lies beyond the last one, whose bin reaches to the end of the domain.
-    let end = |u: f32, high: f32, max: f32| if u + ulps < 1.0 { high } else { max };
-    let at = |dx: f32, dy: f32| table.sample(u + Vec2::new(dx, dy) * ulps);
-    let rows = [-1.0, 1.0].map(|dy| (at(-1.0, dy), at(1.0, dy)));
-    let is_row_enclosed = rows.iter().any(|row| row.0.texel[1] as f32 == iy)
-        && (rows[0].0.p.y - absolute..=end(u.y, rows[1].0.p.y, max.y) + absolute).contains(&y);
-    let is_column_enclosed = rows.iter().any(|(low, high)| {
-        (low.texel[0] as f32..=high.texel[0] as f32).contains(&ix)
-            && (low.p.x - absolute..=end(u.x, high.p.x, max.x) + absolute).contains(&x)
-    });
-    is_row_enclosed && is_column_enclosed
 }

@@ -1,32 +1,26 @@
-use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+//! The probabilities of lights by importance in double precision, as ranges of what rounding leaves open.
+
+use lights::bounds::{LightBounds, LightExtent, LightId};
 use lights::bvh::reference::{Link, ReferenceLightBvhRef, Side};
 use lights::math::glam::Vec3;
-use lights::math::quantize::{MAX_COS, decode_cos};
+use std::cell::RefCell;
 
-use super::bounds::PreciseImportance;
+use super::bounds::Margins;
+use crate::conformance::oracle::cone::importance;
+use crate::conformance::oracle::range;
 
-/// What the vectors state: cosines are known to 3e-4 at worst, so importance to 5e-4 of itself without cosines.
-const COS_ERROR: f64 = 5e-4;
+/// In how many ways inputs are moved.
+const WAYS: u32 = 48;
 
-/// How near to the bounding sphere, in radii, a point counts as on it.
-const SPHERE_ERROR: f64 = 2e-6;
+/// The relative error of an importance in single precision, and that of its cosines.
+const RELATIVE: f64 = 4e-6;
+const COS_ERROR: f64 = 4e-6;
 
-/// The values that a number can have, given how far the reference's cosines may be off.
+/// The values that a number can have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
     pub(super) low: f64,
     pub(super) high: f64,
-}
-
-/// What a range allows for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Allowance {
-    /// Round-off alone.
-    RoundOff,
-    /// Also that the cone of a node is one code wider than the reference's.
-    WiderCones,
-    /// Also both sides of the steps of the importance.
-    Steps,
 }
 
 impl Range {
@@ -38,51 +32,48 @@ impl Range {
         }
     }
 
-    /// The importances of `lb` at the point and normal around ours.
-    fn of_importance(lb: &LightBounds, at: [Vec3; 2], allowance: Allowance) -> Self {
-        let precise = PreciseImportance::new(lb, at[0], at[1]);
-        let ctx = LightSampleContext::surface(at[0], at[1], at[1]);
-        let ours = f64::from(lb.importance(&ctx));
-        let error = COS_ERROR * precise.scale + 1e-5 * ours;
-        let mut range = Self {
-            low: (ours - error).max(0.0),
-            high: ours + error,
-        };
-        if allowance == Allowance::Steps {
-            let may_vanish = precise.emission_margin < COS_ERROR || lb.cos_theta_e == 1.0;
-            let may_appear = precise.emission_margin.abs() < COS_ERROR;
-            let on_sphere = precise.sphere_margin.abs() < SPHERE_ERROR;
-            if may_vanish || on_sphere {
-                range.low = 0.0;
-            }
-            if may_appear || on_sphere {
-                range.high = range.high.max(precise.scale);
-            }
+    /// The importances of `lb` at the point and normal.
+    pub(super) fn of_importance(lb: &LightBounds, at: [Vec3; 2]) -> Self {
+        let scale = Margins::new(lb, at[0]).scale;
+        let scale = if scale.is_finite() { scale } else { 0.0 };
+        let [low, high] = range(WAYS, |jitter| importance(lb, at, jitter));
+        let error = |x: f64| RELATIVE * x + COS_ERROR * scale;
+        Self {
+            low: if low > 0.0 {
+                (low - error(low)).max(f64::from(f32::MIN_POSITIVE))
+            } else {
+                0.0
+            },
+            high: if high > 0.0 { high + error(high) } else { 0.0 },
         }
-        range
     }
 
     /// The shares of `self` beside `other`.
     pub(super) fn share_beside(self, other: Self) -> Self {
-        let share = |own: f64, other: f64| if own > 0.0 { own / (own + other) } else { 0.0 };
+        // A light at the point itself outweighs all others.
+        let share = |own: f64, other: f64| {
+            if own == 0.0 {
+                0.0
+            } else {
+                1.0 / (1.0 + other / own)
+            }
+        };
+        if self.high.is_infinite() && other.high.is_infinite() {
+            return Self {
+                low: 0.0,
+                high: 1.0,
+            };
+        }
         Self {
             low: share(self.low, other.high),
             high: share(self.high, other.low),
         }
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
+    fn plus(self, other: Self) -> Self {
         Self {
             low: self.low + other.low,
             high: self.high + other.high,
-        }
-    }
-
-    /// The smallest range that holds both.
-    fn hull(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
         }
     }
 
@@ -93,98 +84,131 @@ impl Range {
         }
     }
 
-    /// Whether the reference's number lies within, up to round-off.
-    pub(super) fn holds(self, theirs: f32) -> bool {
-        let theirs = f64::from(theirs);
-        self.low * (1.0 - 1e-5) - 1e-9 <= theirs && theirs <= self.high * (1.0 + 1e-5) + 1e-9
+    /// Whether a number lies within, up to round-off.
+    pub(super) fn holds(self, x: f32) -> bool {
+        let x = f64::from(x);
+        self.low * (1.0 - 1e-5) - 1e-9 <= x && x <= self.high * (1.0 + 1e-5) + 1e-9
+    }
+
+    /// Whether it says little.
+    pub(super) fn is_wide(self) -> bool {
+        self.high > 1.5 * self.low + 1e-9
     }
 }
 
-/// What a query is about: point and normal, and what its answer allows for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Query {
-    pub(super) at: [Vec3; 2],
-    pub(super) allowance: Allowance,
+/// The importances of all bounds for one query, computed when they are asked for.
+pub(super) struct Importances<'a> {
+    at: [Vec3; 2],
+    lights: &'a [LightExtent],
+    tree: ReferenceLightBvhRef<'a>,
+    of_lights: RefCell<Vec<Option<Range>>>,
+    of_nodes: RefCell<Vec<Option<Range>>>,
 }
 
-impl Query {
-    fn importance(&self, lb: &LightBounds) -> Range {
-        Range::of_importance(lb, self.at, self.allowance)
+impl<'a> Importances<'a> {
+    pub(super) fn new(
+        at: [Vec3; 2],
+        lights: &'a [LightExtent],
+        tree: ReferenceLightBvhRef<'a>,
+    ) -> Self {
+        Self {
+            at,
+            lights,
+            of_lights: RefCell::new(vec![None; lights.len()]),
+            of_nodes: RefCell::new(vec![None; tree.nodes().len()]),
+            tree,
+        }
     }
 
-    fn node_importance(&self, tree: &ReferenceLightBvhRef<'_>, index: usize) -> Range {
-        let decoded = decode(tree, index);
-        let range = self.importance(&decoded);
-        if self.allowance == Allowance::RoundOff {
-            return range;
-        }
-        let code = (tree.nodes()[index].bounds().packed() & u32::from(MAX_COS)) as u16;
-        range.hull(self.importance(&LightBounds {
-            cos_theta_o: decode_cos(code + 1),
-            ..decoded
-        }))
+    fn of_light(&self, index: usize) -> Range {
+        let none = Range::exactly(0.0);
+        let compute = || {
+            let bounded = self.lights[index].bounded();
+            bounded.map_or(none, |lb| Range::of_importance(lb, self.at))
+        };
+        *self.of_lights.borrow_mut()[index].get_or_insert_with(compute)
     }
 
-    /// The probabilities of `light` among `lights`, each in proportion to its importance.
-    pub(super) fn pmf_among(&self, lights: &[LightExtent], light: LightId) -> Range {
-        let ids = (0..).map(LightId).zip(lights);
-        let mut own = Range::exactly(0.0);
-        let mut others = Range::exactly(0.0);
-        for (id, lb) in ids.filter_map(|(id, extent)| Some((id, extent.bounded()?))) {
-            let sum = if id == light { &mut own } else { &mut others };
-            *sum = sum.plus(self.importance(lb));
-        }
-        own.share_beside(others)
+    fn of_node(&self, index: usize) -> Range {
+        let compute = || Range::of_importance(&self.decoded(index), self.at);
+        *self.of_nodes.borrow_mut()[index].get_or_insert_with(compute)
+    }
+
+    fn decoded(&self, index: usize) -> LightBounds {
+        self.tree.nodes()[index].bounds().decode(self.tree.bounds())
+    }
+
+    /// The probabilities of `light` among all, each in proportion to its importance.
+    pub(super) fn pmf_among(&self, light: LightId) -> Range {
+        let others = (0..self.lights.len()).filter(|&i| i != light.index());
+        let others = others.map(|i| self.of_light(i));
+        let others = others.fold(Range::exactly(0.0), Range::plus);
+        self.of_light(light.index()).share_beside(others)
     }
 
     /// The probabilities of `light` in the tree.
-    pub(super) fn pmf_in_tree(&self, tree: &ReferenceLightBvhRef<'_>, light: LightId) -> Range {
-        let importance = |index: usize| self.node_importance(tree, index);
-        if tree.nodes().len() == 1 {
+    pub(super) fn pmf_in_tree(&self, light: LightId) -> Range {
+        if self.tree.nodes().len() == 1 {
             // A root that is a leaf is taken if it matters at all.
-            let root = importance(0);
-            return root.share_beside(Range::exactly(0.0));
+            return self.of_node(0).share_beside(Range::exactly(0.0));
         }
-        let shares =
-            forks(tree, light).map(|[own, other]| importance(own).share_beside(importance(other)));
+        let shares = self
+            .forks(light)
+            .map(|[own, other]| self.of_node(own).share_beside(self.of_node(other)));
         shares.fold(Range::exactly(1.0), Range::times)
     }
 
-    /// Whether the reference divides 0 by 0 on the way to `light`, or takes the direction to a box centre from there.
-    pub(super) fn explains_nan(&self, tree: &ReferenceLightBvhRef<'_>, light: LightId) -> bool {
-        let is_dark = |index| self.node_importance(tree, index).low == 0.0;
-        let is_centre = |index| decode(tree, index).bounds.center() == self.at[0];
-        let on_the_way = |children: [usize; 2]| {
-            children.iter().all(|&i| is_dark(i)) || children.iter().any(|&i| is_centre(i))
-        };
-        forks(tree, light).any(on_the_way) || (tree.nodes().len() == 1 && is_centre(0))
+    /// The lights that `u` of the tree's share may choose, -1 for none.
+    pub(super) fn choices_in_tree(&self, u: f64) -> Vec<i64> {
+        let mut choices = Vec::new();
+        let root = self.of_node(0);
+        if root.low == 0.0 && self.tree.nodes().len() == 1 {
+            choices.push(-1);
+        }
+        self.collect(0, [u, u], &mut choices);
+        choices
     }
 
-    /// Whether the reference's sum over all `lights` is zero or has a light at whose box centre the point is.
-    pub(super) fn explains_nan_among(&self, lights: &[LightExtent]) -> bool {
-        let mut bounded = lights.iter().filter_map(LightExtent::bounded);
-        bounded.clone().all(|lb| self.importance(lb).low == 0.0)
-            || bounded.any(|lb| lb.bounds.center() == self.at[0])
+    fn collect(&self, index: usize, [low, high]: [f64; 2], choices: &mut Vec<i64>) {
+        let second = match self.tree.nodes()[index].link() {
+            Link::Leaf(light) => return choices.push(i64::from(light.0)),
+            Link::Interior { second_child } => second_child as usize,
+        };
+        let (a, b) = (self.of_node(index + 1), self.of_node(second));
+        if a.low == 0.0 && b.low == 0.0 {
+            choices.push(-1);
+        }
+        // What a choice leaves of u is rounded as well.
+        const ROUNDING: f64 = 1e-7;
+        let share = a.share_beside(b);
+        let (low, high) = (low - ROUNDING, high + ROUNDING);
+        if low < share.high && a.high > 0.0 {
+            let remap = |u: f64, share: f64| (u / share).clamp(0.0, 1.0);
+            let u = [remap(low, share.high), remap(high, share.low.max(1e-300))];
+            self.collect(index + 1, u, choices);
+        }
+        if high >= share.low && b.high > 0.0 {
+            let remap =
+                |u: f64, share: f64| ((u - share) / (1.0 - share).max(1e-300)).clamp(0.0, 1.0);
+            let u = [remap(low, share.high), remap(high, share.low)];
+            self.collect(second, u, choices);
+        }
     }
-}
 
-fn decode(tree: &ReferenceLightBvhRef<'_>, index: usize) -> LightBounds {
-    tree.nodes()[index].bounds().decode(tree.bounds())
-}
-
-/// The nodes on the way to `light` below the root, each with its sibling.
-fn forks(tree: &ReferenceLightBvhRef<'_>, light: LightId) -> impl Iterator<Item = [usize; 2]> {
-    let mut index = 0;
-    tree.trail(light).sides().map_while(move |side| {
-        let Link::Interior { second_child } = tree.nodes()[index].link() else {
-            return None;
-        };
-        let children = [index + 1, second_child as usize];
-        let [own, other] = match side {
-            Side::First => children,
-            Side::Second => [children[1], children[0]],
-        };
-        index = own;
-        Some([own, other])
-    })
+    /// The nodes on the way to `light` below the root, each with its sibling.
+    fn forks(&self, light: LightId) -> impl Iterator<Item = [usize; 2]> {
+        let mut index = 0;
+        self.tree.trail(light).sides().map_while(move |side| {
+            let Link::Interior { second_child } = self.tree.nodes()[index].link() else {
+                return None;
+            };
+            let children = [index + 1, second_child as usize];
+            let [own, other] = match side {
+                Side::First => children,
+                Side::Second => [children[1], children[0]],
+            };
+            index = own;
+            Some([own, other])
+        })
+    }
 }

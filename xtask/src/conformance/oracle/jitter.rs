@@ -21,7 +21,7 @@ pub(in crate::conformance) enum Conditioning {
 }
 
 /// One way to move all inputs of a computation by a few roundings; the first way leaves them alone.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::conformance) struct Jitter {
     way: u32,
     drawn: u32,
@@ -130,6 +130,14 @@ pub(in crate::conformance) fn confirm(
         }
     }
     Ok(certainty)
+}
+
+/// The least and the largest of the answers for inputs moved in a number of ways.
+pub(in crate::conformance) fn range(ways: u32, answer: impl Fn(&mut Jitter) -> f64) -> [f64; 2] {
+    let answers = (0..ways).map(|way| answer(&mut Jitter::new(way)));
+    answers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+        [low.min(x), high.max(x)]
+    })
 }
 
 /// Whether inputs determine an answer.

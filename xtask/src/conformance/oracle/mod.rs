@@ -3,6 +3,8 @@
 //! Single precision is modelled as double precision for inputs that are off by a few units in the last place: a
 //! [`Jitter`] moves them, and an answer is right if it is the answer for inputs as near as that.
 
+pub(super) mod codes;
+pub(super) mod cone;
 pub(super) mod equal_area;
 mod jitter;
 pub(super) mod lights;
@@ -12,7 +14,7 @@ pub(super) mod table;
 pub(super) mod warp;
 mod window;
 
-pub(super) use jitter::{Certainty, Conditioning, Jitter, Ours, confirm};
+pub(super) use jitter::{Certainty, Conditioning, Jitter, Ours, confirm, range};
 pub(super) use spherical_rectangle::ExactRectangle;
 pub(super) use spherical_triangle::ExactTriangle;
 pub(super) use window::ExactWindows;

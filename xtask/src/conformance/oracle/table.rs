@@ -36,6 +36,24 @@ impl ExactTable {
         }
     }
 
+    /// The point for `u` in a texel, and its density there; none if the sums of no rounding lead there.
+    pub(in crate::conformance) fn sample_in(
+        &self,
+        u: DVec2,
+        [ix, iy]: [usize; 2],
+        jitter: &mut Jitter,
+    ) -> Option<(DVec2, f64)> {
+        let rows: Vec<f64> = self
+            .weights
+            .chunks(self.nx)
+            .map(|r| r.iter().sum())
+            .collect();
+        let row = self.weights.get(iy * self.nx..)?.get(..self.nx)?;
+        let y = place_in(&rows, u.y, iy, jitter)?;
+        let x = place_in(row, u.x, ix, jitter)?;
+        Some((DVec2::new(x, y), row[ix] / self.mean()))
+    }
+
     /// The point for `u`: the second number picks the row, the first one the place in it.
     pub(in crate::conformance) fn sample(&self, u: DVec2, jitter: &mut Jitter) -> Option<DVec2> {
         let rows: Vec<f64> = self
@@ -48,6 +66,16 @@ impl ExactTable {
         let row = &self.weights[iy * self.nx..][..self.nx];
         Some(DVec2::new(place(row, jitter.by(u.x, SUMS))?, y))
     }
+}
+
+/// The place in bin `i` for `u`, anywhere in it if it is narrower than rounding; none if `u` is not even near.
+fn place_in(weights: &[f64], u: f64, i: usize, jitter: &mut Jitter) -> Option<f64> {
+    let sum: f64 = weights.iter().sum();
+    let low = weights[..i].iter().sum::<f64>() / sum;
+    let width = weights[i] / sum;
+    let is_near = low - SUMS <= u && u <= low + width + SUMS;
+    let part = ((jitter.by(u, SUMS) - low) / width).clamp(0.0, 1.0);
+    (width > 0.0 && is_near).then(|| (i as f64 + part) / weights.len() as f64)
 }
 
 /// The place in [0, 1] below which there is the part `u` of the weights; none if all are zero.

@@ -1,0 +1,73 @@
+//! Quantised directions, cosines and boxes as real numbers, before they are rounded to codes.
+
+use glam::{DVec2, DVec3};
+
+/// How far rounding in single precision moves such a number, in codes.
+const ROUNDING: f64 = 0.06;
+
+/// The numbers that are rounded to the two codes of a direction.
+pub(in crate::conformance) fn octahedral(w: DVec3) -> [f64; 2] {
+    let p = w / (w.x.abs() + w.y.abs() + w.z.abs());
+    let sign = |x: f64| if x < 0.0 { -1.0 } else { 1.0 };
+    let f = if p.z < 0.0 {
+        DVec2::new((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
+    } else {
+        p.truncate()
+    };
+    [f.x, f.y].map(|f| (f.clamp(-1.0, 1.0) + 1.0) / 2.0 * 65535.0)
+}
+
+/// The number that is rounded down to the code of a cosine.
+pub(in crate::conformance) fn cosine(cos_theta: f64) -> f64 {
+    32767.0 * (cos_theta.clamp(-1.0, 1.0) + 1.0) / 2.0
+}
+
+/// A number that is rounded to a code, and by how much single precision moves it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::conformance) struct Number {
+    exact: f64,
+    rounding: f64,
+}
+
+impl From<f64> for Number {
+    fn from(exact: f64) -> Self {
+        Self {
+            exact,
+            rounding: ROUNDING,
+        }
+    }
+}
+
+/// The number of a coordinate in the interval of a box, which loses digits far from the origin.
+pub(in crate::conformance) fn coordinate(x: f32, min: f32, max: f32) -> Number {
+    let [x, min, max] = [x, min, max].map(f64::from);
+    if max <= min {
+        return Number::from(0.0);
+    }
+    let codes = 65535.0 / (max - min);
+    let lost = 2.0 * f64::from(f32::EPSILON) * min.abs().max(max.abs());
+    Number {
+        exact: (codes * (x - min)).clamp(0.0, 65535.0),
+        rounding: ROUNDING + codes * lost,
+    }
+}
+
+/// The same for an axis that unions have turned one after the other.
+const TURNED: f64 = 0.15;
+
+/// Whether `code` is a number rounded to the nearest code.
+pub(in crate::conformance) fn is_nearest(code: i64, exact: f64) -> bool {
+    (code as f64 - exact).abs() <= 0.5 + TURNED
+}
+
+/// Whether `code` is a number rounded down.
+pub(in crate::conformance) fn is_below(code: i64, number: impl Into<Number>) -> bool {
+    let (code, Number { exact, rounding }) = (code as f64, number.into());
+    code <= exact + rounding && exact - rounding < code + 1.0
+}
+
+/// Whether `code` is a number rounded up.
+pub(in crate::conformance) fn is_above(code: i64, number: impl Into<Number>) -> bool {
+    let (code, Number { exact, rounding }) = (code as f64, number.into());
+    code >= exact - rounding && exact + rounding > code - 1.0
+}

@@ -1,0 +1,93 @@
+//! Cones of directions and the importance of bounds, by trigonometric functions.
+
+use super::Jitter;
+use glam::{DQuat, DVec3};
+use lights::bounds::LightBounds;
+use lights::math::glam::Vec3;
+use std::f64::consts::PI;
+
+/// An axis and the cosine of the half angle; above 1 for no direction at all.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::conformance) struct ExactCone {
+    pub(in crate::conformance) w: DVec3,
+    pub(in crate::conformance) cos_theta: f64,
+}
+
+const WHOLE: ExactCone = ExactCone {
+    w: DVec3::Z,
+    cos_theta: -1.0,
+};
+
+impl ExactCone {
+    pub(in crate::conformance) fn new(w: Vec3, cos_theta: f32) -> Self {
+        Self {
+            w: w.as_dvec3(),
+            cos_theta: f64::from(cos_theta),
+        }
+    }
+
+    /// The smallest cone around both, with its axis in the plane of theirs.
+    pub(in crate::conformance) fn union(self, other: Self, jitter: &mut Jitter) -> Self {
+        if self.cos_theta > 1.0 || other.cos_theta > 1.0 {
+            return if self.cos_theta > 1.0 { other } else { self };
+        }
+        let [a, b] = [self, other].map(|c| c.cos_theta.clamp(-1.0, 1.0).acos());
+        let (v, w) = (self.w.normalize(), other.w.normalize());
+        let turn = v.cross(w);
+        let between = jitter.at_scale(f64::atan2(turn.length(), v.dot(w)), 1.0);
+        if (between + b).min(PI) <= a {
+            return self;
+        }
+        if (between + a).min(PI) <= b {
+            return other;
+        }
+        let half = 0.5 * (a + between + b);
+        if half >= PI || turn.length_squared() == 0.0 {
+            return WHOLE;
+        }
+        // The direction in which to turn is lost where the axes are opposite.
+        let turn = jitter.vector(turn, 1.0).normalize();
+        Self {
+            w: DQuat::from_axis_angle(turn, half - a) * v,
+            cos_theta: half.cos(),
+        }
+    }
+}
+
+/// The importance of `lb` at `p` with normal `n`, zero in a medium.
+pub(in crate::conformance) fn importance(
+    lb: &LightBounds,
+    [p, n]: [Vec3; 2],
+    jitter: &mut Jitter,
+) -> f64 {
+    let [min, max, w, n] = [lb.bounds.min, lb.bounds.max, lb.w, n].map(|v| v.as_dvec3());
+    let magnitude = p.abs().as_dvec3().max(min.abs()).max(max.abs());
+    let center = 0.5 * (min + max);
+    let to_p = jitter.vector(p.as_dvec3() - center, magnitude.max_element());
+    let (dist, radius) = (to_p.length(), 0.5 * (max - min).length());
+    let radius = jitter.relative(radius);
+    let scale = f64::from(lb.phi) / (dist * dist).max(radius);
+    if dist <= radius {
+        return scale;
+    }
+    let theta_b = (radius / dist).asin();
+    let cos_w = to_p.normalize().dot(w) / w.length();
+    let theta_w = if lb.two_sided { cos_w.abs() } else { cos_w };
+    let theta_w = theta_w.clamp(-1.0, 1.0).acos();
+    let theta_o = f64::from(lb.cos_theta_o).clamp(-1.0, 1.0).acos();
+    let cos_emission = (theta_w - theta_o - theta_b).max(0.0).cos();
+    // Light at the very edge of the emission counts.
+    if jitter.by(cos_emission, EDGE) < f64::from(lb.cos_theta_e) - 0.5 * EDGE {
+        return 0.0;
+    }
+    let cos_incidence = if n == DVec3::ZERO {
+        1.0
+    } else {
+        let theta_i = (n.dot(to_p) / dist).abs().min(1.0).acos();
+        (theta_i - theta_b).max(0.0).cos()
+    };
+    scale * cos_emission.max(0.0) * cos_incidence
+}
+
+/// How near to the edge of the emission cosines decide by rounding.
+const EDGE: f64 = 4e-6;
