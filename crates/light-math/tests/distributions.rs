@@ -12,6 +12,8 @@ use light_math::distribution::{
     WeightedReservoir, Window, WindowedPiecewiseConstant2D,
 };
 use light_math::glam::Vec2;
+use light_math::spectrum::SampledWavelengths;
+use light_math::spectrum::cie::{LAMBDA_MAX, LAMBDA_MIN};
 use light_testkit::{DensityTest, Rng, chi_squared, kolmogorov_smirnov_uniform, nasty};
 use proptest::prelude::*;
 
@@ -62,6 +64,35 @@ fn tables_follow_their_densities() {
             |p| windowed.pdf(p, &window),
         )
         .assert("windowed");
+    }
+}
+
+/// Each of the wavelengths of a path follows the density that it carries.
+#[test]
+fn wavelengths_follow_their_densities() {
+    let range = [LAMBDA_MIN, LAMBDA_MAX];
+    let width = LAMBDA_MAX - LAMBDA_MIN;
+    let density = |draw: fn(f32) -> SampledWavelengths<4>, i: usize| {
+        // The density at any wavelength, from the nearest of many samples' tables.
+        let mut table: Vec<(f32, f32)> = (0..1 << 14)
+            .map(|k| draw((k as f32 + 0.5) / 16384.0))
+            .map(|w| (w.lambda()[i], w.pdf()[i]))
+            .collect();
+        table.sort_by(|a, b| a.0.total_cmp(&b.0));
+        move |x: f32| {
+            let at = table.partition_point(|&(lambda, _)| lambda < x);
+            table[at.min(table.len() - 1)].1
+        }
+    };
+    for i in 0..4 {
+        let even = |rng: &mut Rng| Some(SampledWavelengths::<4>::uniform(rng.f32()).lambda()[i]);
+        DensityTest::default()
+            .interval(range, even, |_| 1.0 / width)
+            .assert("uniform");
+        let visible = |rng: &mut Rng| Some(SampledWavelengths::<4>::visible(rng.f32()).lambda()[i]);
+        DensityTest::default()
+            .interval(range, visible, density(SampledWavelengths::visible, i))
+            .assert("visible");
     }
 }
 

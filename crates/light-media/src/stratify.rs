@@ -3,7 +3,7 @@
 /// A point is computed from its number, so nothing is stored. The same seed gives the same points.
 ///
 /// # Source
-/// The permutation by hashing is that of `[Kensler2013]`, section 3.
+/// The permutation by hashing is that of `[Kensler2013]`, section 3, with its turn at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatinHypercube {
     n: u32,
@@ -39,7 +39,7 @@ impl LatinHypercube {
             axis += 1;
             let key = hash(self.seed ^ hash(axis));
             let slab = permute(index, self.n, key);
-            let jitter = (f64::from(hash(key ^ index)) + 0.5) / 4_294_967_296.0;
+            let jitter = (f64::from(hash(hash(key) ^ index)) + 0.5) / 4_294_967_296.0;
             (f64::from(slab) + jitter) / f64::from(self.n)
         })
     }
@@ -62,6 +62,7 @@ pub(crate) fn narrow(u: f64) -> f32 {
 
 /// A permutation of `0..n` chosen by `key`, evaluated at `i < n`: rounds of invertible steps on the next power of two,
 /// repeated until the value falls below `n`.
+#[expect(clippy::cast_possible_truncation, reason = "a remainder below n")]
 fn permute(i: u32, n: u32, key: u32) -> u32 {
     let mask = n.next_power_of_two().wrapping_sub(1);
     let half_width = (mask.count_ones() / 2).max(1);
@@ -76,9 +77,12 @@ fn permute(i: u32, n: u32, key: u32) -> u32 {
             round = hash(round);
         }
         if x < n {
-            return x;
+            break;
         }
     }
+    // Few rounds on few bits favour some places; turned by a random number of them, every place is as likely.
+    let turn = (u64::from(hash(!key)) * u64::from(n)) >> 32;
+    ((u64::from(x) + turn) % u64::from(n)) as u32
 }
 
 /// Mixes 32 bits so that each input bit moves half of the output bits.
@@ -91,6 +95,7 @@ fn hash(x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
 
     #[test]
     fn every_slab_of_every_axis_holds_one_point() {
@@ -120,5 +125,52 @@ mod tests {
     #[test]
     fn none_is_treated_as_one() {
         assert_eq!(LatinHypercube::new(0, 3).len(), 1, "never empty");
+    }
+
+    #[test]
+    fn indices_wrap_and_floats_stay_below_one() {
+        let cube = LatinHypercube::new(7, 5);
+        assert_eq!(cube.point::<2>(3), cube.point::<2>(10), "modulo the number");
+        assert_ne!(cube.point::<2>(3), cube.point::<2>(4), "others differ");
+        assert_eq!(
+            narrow(1.0 - 1e-12),
+            light_math::float::ONE_MINUS_EPSILON,
+            "below one"
+        );
+        assert!(!cube.is_empty(), "never");
+    }
+
+    /// Over many seeds each point alone is anywhere in `[0, 1)^3`, whatever its number: choices that go with the number
+    /// would be biased otherwise.
+    #[test]
+    fn every_point_is_uniform_over_seeds() {
+        use light_testkit::{Rng, chi_squared, kolmogorov_smirnov_uniform};
+        const SEEDS: u32 = 1 << 13;
+        for n in [1, 2, 3, 4, 5, 8, 16, 31] {
+            for index in [0, 1, n / 2, n - 1] {
+                let mut rng = Rng::new(u64::from(n));
+                let points: Vec<[f64; 3]> = (0..SEEDS)
+                    .map(|_| LatinHypercube::new(n, rng.u32()).point(index))
+                    .collect();
+                for axis in 0..3 {
+                    let mut places: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+                    let outcome = kolmogorov_smirnov_uniform(&mut places);
+                    assert!(
+                        outcome.passes(),
+                        "point {index} of {n}, axis {axis}: {outcome:?}"
+                    );
+                    let mut pairs = [0u64; 64];
+                    for p in &points {
+                        let [x, y] = [p[axis], p[(axis + 1) % 3]].map(|x| (x * 8.0) as usize);
+                        pairs[y * 8 + x] += 1;
+                    }
+                    let outcome = chi_squared(&pairs, &[f64::from(SEEDS) / 64.0; 64]);
+                    assert!(
+                        outcome.passes(),
+                        "point {index} of {n}, axes {axis}: {outcome:?}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -36,7 +36,8 @@ impl<'a> TentativeCollisions<'a> {
             let crossed = *sigma_maj * span.length();
             // Weights are over the bound, which has no reciprocal where it is subnormal: nothing happens there.
             if thickness < crossed && *sigma_maj >= f32::MIN_POSITIVE {
-                let t = (span.t0 + thickness / *sigma_maj).min(span.t1);
+                // The quotient is at most the length, also when rounded.
+                let t = span.t0 + thickness / *sigma_maj;
                 span.t0 = t;
                 return Some(Collision {
                     t,
@@ -80,5 +81,38 @@ mod tests {
         };
         let mut collisions = TentativeCollisions::new(Majorants::constant(span, 0.0));
         assert_eq!(collisions.next(&mut || 0.999_999_9), None, "nothing there");
+    }
+
+    /// Numbers that use up all of a segment but for a rounding.
+    #[test]
+    fn collisions_stay_in_their_segment() {
+        let mut rng = light_testkit::Rng::new(71);
+        for _ in 0..20_000 {
+            let (t0, length) = (rng.log_range(1e-2, 1e2), rng.log_range(1e-2, 1e2));
+            let sigma = rng.log_range(0.1, 1.0) / length;
+            let span = Span {
+                t0,
+                t1: t0 + length,
+            };
+            let crossed = sigma * span.length();
+            let thickness = float::next_down(crossed);
+            // The number whose logarithm comes nearest from below.
+            let mut u = 1.0 - float::exp(-thickness);
+            while -float::ln(1.0 - u) >= crossed {
+                u = float::next_down(u);
+            }
+            let mut collisions = TentativeCollisions::new(Majorants::constant(span, sigma));
+            let found = collisions.next(&mut || u).expect("within");
+            assert!(found.t <= span.t1, "{found:?} beyond {span:?}");
+        }
+    }
+
+    #[test]
+    fn an_extinction_above_its_bound_by_rounding_leaves_nothing() {
+        use light_math::glam::Vec3;
+        let above = Vec3::new(float::next_up(0.7), 0.35, 0.0);
+        let share = null_share(above, 0.7);
+        assert_eq!((share.x, share.z), (0.0, 1.0), "{share}");
+        assert!((share.y - 0.5).abs() < 1e-6, "{share}");
     }
 }

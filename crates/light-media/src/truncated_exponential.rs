@@ -69,4 +69,31 @@ mod tests {
             assert!(d.sample(0.999_999_94) <= length, "within the length");
         }
     }
+
+    #[test]
+    fn thin_media_keep_their_digits() {
+        for thickness in [1e-8, 1e-6, 1e-5, 5e-4] {
+            let d = TruncatedExponential::new(thickness / 2.0, 2.0);
+            for i in 1..32u8 {
+                let u = f32::from(i) / 32.0;
+                let error = d.sample(u) / (2.0 * u) - 1.0;
+                assert!(error.abs() < 1e-3, "{thickness}: off by {error} at {u}");
+            }
+            assert!((d.pdf(1.0) * 2.0 - 1.0).abs() < 1e-3, "{thickness}");
+        }
+    }
+
+    /// The last float below one stands for the end, or by rounding for a place beyond it.
+    #[test]
+    fn samples_stay_within_the_length() {
+        let mut beyond = 0;
+        for i in 0..4000u16 {
+            let rate = 0.01 + 0.001 * f32::from(i);
+            let d = TruncatedExponential::new(rate, 3.0);
+            let u = light_math::float::ONE_MINUS_EPSILON;
+            beyond += u32::from(-ln(1.0 - u * d.mass) / rate > 3.0);
+            assert!(d.sample(u) <= 3.0, "rate {rate}");
+        }
+        assert!(beyond > 10, "{beyond} samples need the guard");
+    }
 }

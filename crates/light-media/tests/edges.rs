@@ -117,6 +117,10 @@ fn spans_are_not_empty_and_not_endless() {
     assert_eq!(span(1.0, 2.0).intersection(&span(3.0, 5.0)), None, "apart");
     let whole = StepSize::new(4.0).expect("positive").march(span(1.0, 3.0));
     assert_eq!((whole.n, whole.step), (1, 2.0), "one step at least");
+    let tiny = StepSize::new(1e30)
+        .expect("positive")
+        .march(span(0.0, 1e-20));
+    assert_eq!((tiny.n, tiny.step), (1, 1e-20), "a share that vanishes");
     let most = StepSize::new(1.0)
         .expect("positive")
         .march(span(0.0, 65536.0));
