@@ -76,8 +76,9 @@ pub(in crate::conformance) fn importance(
     let theta_w = theta_w.clamp(-1.0, 1.0).acos();
     let theta_o = f64::from(lb.cos_theta_o).clamp(-1.0, 1.0).acos();
     let cos_emission = (theta_w - theta_o - theta_b).max(0.0).cos();
-    // Light at the very edge of the emission counts.
-    if jitter.by(cos_emission, EDGE) < f64::from(lb.cos_theta_e) - 0.5 * EDGE {
+    // Light at the very edge of the emission counts, and beside it may.
+    let margin = cos_emission - f64::from(lb.cos_theta_e);
+    if margin < -BESIDE || (margin < 0.0 && jitter.either(true, false)) {
         return 0.0;
     }
     let cos_incidence = if n == DVec3::ZERO {
@@ -89,5 +90,5 @@ pub(in crate::conformance) fn importance(
     scale * cos_emission.max(0.0) * cos_incidence
 }
 
-/// How near to the edge of the emission cosines decide by rounding.
-const EDGE: f64 = 4e-6;
+/// How far beyond it light may count: bounds promise so much, as their axis may be too short by rounding.
+const BESIDE: f64 = 2e-5;
