@@ -122,3 +122,29 @@ impl LightSampleContext {
         self.unit_ns().is_none()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constructors_keep_what_they_are_given() {
+        let segment = LightSampleContext::segment(Vec3::X, Vec3::Y);
+        assert_eq!((segment.p, segment.segment), (Vec3::X, Vec3::Y), "the way");
+        assert!(segment.is_medium(), "no normal");
+        let gloss = Gloss {
+            wo: Vec3::Z,
+            alpha: 0.25,
+            diffuse: 0.5,
+        };
+        let error = Vec3::splat(1e-4);
+        let ctx = LightSampleContext::two_sided(Vec3::ONE, Vec3::X, Vec3::Z)
+            .with_gloss(gloss)
+            .with_error(error);
+        assert_eq!(ctx.gloss, Some(gloss), "gloss");
+        assert_eq!(ctx.p_error, error, "error");
+        assert_eq!((ctx.n, ctx.ns), (Vec3::X, Vec3::Z), "normals");
+        assert_eq!(ctx.sides, ReceiverSides::Both, "sides");
+        assert_eq!(ctx.unit_ns(), Some(Vec3::Z), "a unit normal, to the bit");
+    }
+}

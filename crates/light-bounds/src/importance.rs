@@ -195,6 +195,17 @@ mod tests {
         }
     }
 
+    /// The published clamp: a squared distance is at least half of the diagonal's length.
+    #[test]
+    fn near_the_centre_the_diagonal_bounds_the_distance() {
+        let long = lamp(Aabb::new(
+            Vec3::new(-24.0, -32.0, 0.0),
+            Vec3::new(24.0, 32.0, 0.0),
+        ));
+        let importance = long.importance(&LightSampleContext::medium(Vec3::Z));
+        assert!((importance - 2.0 / 40.0).abs() < 1e-6, "{importance}");
+    }
+
     #[test]
     fn no_context_gives_nan() {
         let values = [0.0, 1e-38, -1e20, 3e38, f32::INFINITY, f32::NAN];
