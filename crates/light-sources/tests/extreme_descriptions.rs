@@ -2,7 +2,7 @@
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightExtent, LightSampleContext};
-use light_sources::shape::ShapeDesc;
+use light_sources::shape::{Shape, ShapeDesc};
 use light_sources::*;
 
 fn scene() -> SceneSphere {
@@ -85,6 +85,21 @@ fn no_ray_leaves_along_a_portal() {
             pos < 1e6 && (asked.pos - pos).abs() <= 1e-3 * pos,
             "{sample:?}, queried {asked:?} at {x}, {y}"
         );
+    }
+}
+
+#[test]
+fn a_narrow_patch_has_unit_normals() {
+    for width in [1e-3, 1e-20, 1e-26] {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::X + Vec3::Y].map(|p| p * width);
+        let [a, b, c, d] = corners;
+        let shape = ShapeDesc::Quad([a, b, c + Vec3::Z * 1e5, d]);
+        let Ok(shape) = shape.build() else {
+            continue;
+        };
+        let sample = shape.sample(Vec2::new(0.3, 0.4));
+        let length = sample.map_or(1.0, |sample| sample.at.n.length());
+        assert!((length - 1.0).abs() < 1e-5, "width {width}: {length}");
     }
 }
 

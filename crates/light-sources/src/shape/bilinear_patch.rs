@@ -3,7 +3,9 @@ use core::fmt;
 
 use super::flat_quad::FlatQuad;
 use super::patch_area;
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle};
+use super::{
+    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, unit_normal,
+};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -90,7 +92,7 @@ impl BilinearPatch {
     fn at(&self, uv: Vec2) -> Option<SurfacePoint> {
         Some(SurfacePoint {
             p: self.point(uv),
-            n: self.scaled_normal(uv).try_normalize()?,
+            n: unit_normal(self.scaled_normal(uv))?,
             uv,
         })
     }
@@ -107,7 +109,7 @@ impl BilinearPatch {
     /// Flat where all normals at the corners are the same, up to rounding.
     fn measure_bend(&self) -> Bend {
         const TOLERANCE: f32 = 1e-6;
-        let normals = CORNERS.map(|uv| self.scaled_normal(uv).try_normalize());
+        let normals = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv)));
         let is_same = |n: Option<Vec3>| {
             let pair = n.zip(normals[0]);
             pair.is_some_and(|(a, b)| a.distance(b) <= TOLERANCE)
@@ -180,7 +182,7 @@ impl Shape for BilinearPatch {
 
     /// The normals lie in the cone of those at the corners: they are their means.
     fn normal_cone(&self) -> DirectionCone {
-        let normals = CORNERS.map(|uv| self.scaled_normal(uv).try_normalize());
+        let normals = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv)));
         let normals = normals.into_iter().flatten();
         let Some(axis) = normals.clone().sum::<Vec3>().try_normalize() else {
             return DirectionCone::WHOLE_SPHERE;

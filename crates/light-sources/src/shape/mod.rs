@@ -140,6 +140,16 @@ pub(crate) fn azimuth(p: Vec3) -> f32 {
     turn.min(ONE_MINUS_EPSILON)
 }
 
+/// The unit vector along a normal; also where that is so short, as of a tiny surface, that its square loses digits.
+#[inline]
+fn unit_normal(normal: Vec3) -> Option<Vec3> {
+    if normal.length_squared() >= f32::MIN_POSITIVE {
+        normal.try_normalize()
+    } else {
+        light_math::direction(normal)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle};
+use super::{DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle, unit_normal};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -69,12 +69,7 @@ impl Triangle {
     /// The unit normal of the front; `None` without area.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
-        let normal = self.scaled_normal();
-        if normal.length_squared() >= f32::MIN_POSITIVE {
-            return normal.try_normalize();
-        }
-        // Of a triangle so small the square loses digits.
-        light_math::direction(normal)
+        unit_normal(self.scaled_normal())
     }
 
     /// The normal, as long as twice the area.

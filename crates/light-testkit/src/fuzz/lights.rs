@@ -50,7 +50,8 @@ pub(super) fn light(input: &mut Input<'_>) -> LightDesc<Rgb> {
         2 => LightDesc::Projection(ProjectionLightDesc {
             transform: transform(input),
             image: image(input),
-            fov: input.unit() * PI,
+            // A picture that fills a half space ends where no direction has digits left.
+            fov: input.unit() * if input.is_tame { 2.8 } else { PI },
             amount: intensity(input),
             media,
         }),

@@ -3,6 +3,7 @@
 //! Each panics when a promise is broken, and answers nothing otherwise.
 
 mod choices;
+mod command_lines;
 mod compact_bounds;
 mod distributions;
 mod input;
@@ -11,17 +12,20 @@ mod light_trees;
 mod lights;
 mod media;
 mod octahedral;
+mod partials;
 mod quantisation;
 mod readers;
 mod refits;
 mod samplers;
 
+pub use command_lines::command_lines;
 pub use compact_bounds::compact_bounds;
 pub use distributions::distributions;
 pub use light_sources::light_sources;
 pub use light_trees::light_trees;
 pub use media::media;
 pub use octahedral::octahedral;
+pub use partials::partials;
 pub use quantisation::{box_quantisation, cosine_quantisation};
 pub use readers::{read_gltf, read_image, read_luminaire, read_mtl, read_obj, read_pbrt, read_ply};
 pub use refits::refits;
@@ -31,8 +35,9 @@ pub use samplers::samplers;
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also the name of the folder of their corpus.
-pub const TARGETS: [(&str, Target); 17] = [
+pub const TARGETS: [(&str, Target); 19] = [
     ("box_quantisation", box_quantisation),
+    ("command_lines", command_lines),
     ("compact_bounds", compact_bounds),
     ("cosine_quantisation", cosine_quantisation),
     ("distributions", distributions),
@@ -40,6 +45,7 @@ pub const TARGETS: [(&str, Target); 17] = [
     ("light_trees", light_trees),
     ("media", media),
     ("octahedral", octahedral),
+    ("partials", partials),
     ("read_gltf", read_gltf),
     ("read_image", read_image),
     ("read_luminaire", read_luminaire),
