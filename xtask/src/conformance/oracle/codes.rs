@@ -22,6 +22,16 @@ pub(in crate::conformance) fn cosine(cos_theta: f64) -> f64 {
     32767.0 * (cos_theta.clamp(-1.0, 1.0) + 1.0) / 2.0
 }
 
+/// How far the roundings of an encoder or a decoder of cosines in single precision move that number: three of a sum
+/// up to 2, in codes.
+const COSINE_ROUNDING: f64 = 3.0 * 32767.0 * 0.5 * f32::EPSILON as f64;
+
+/// Whether `code` is that of a cosine, rounded down, or the one below if rounding may lift the decoded cosine above.
+pub(in crate::conformance) fn is_cosine(code: i64, cos_theta: f64) -> bool {
+    let (code, exact) = (code as f64, cosine(cos_theta));
+    code <= exact && exact - COSINE_ROUNDING < code + 1.0
+}
+
 /// A number that is rounded to a code, and by how much single precision moves it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::conformance) struct Number {
@@ -70,4 +80,18 @@ pub(in crate::conformance) fn is_below(code: i64, number: impl Into<Number>) -> 
 pub(in crate::conformance) fn is_above(code: i64, number: impl Into<Number>) -> bool {
     let (code, Number { exact, rounding }) = (code as f64, number.into());
     code >= exact - rounding && exact + rounding > code - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cosines_have_their_own_code_and_at_a_code_the_one_below() {
+        let decoded = |number: f64| 2.0 * number / 32767.0 - 1.0;
+        assert!(is_cosine(1000, decoded(1000.5)), "rounded down");
+        assert!(is_cosine(999, decoded(1000.001)), "rounding may lift it");
+        assert!(!is_cosine(999, decoded(1000.01)), "a whole code lost");
+        assert!(!is_cosine(1001, decoded(1000.999)), "a narrower cone");
+    }
 }

@@ -87,7 +87,13 @@ pub(in crate::conformance) fn importance(
         let theta_i = (n.dot(to_p) / dist).abs().min(1.0).acos();
         (theta_i - theta_b).max(0.0).cos()
     };
-    scale * cos_emission.max(0.0) * cos_incidence
+    let importance = scale * cos_emission.max(0.0) * cos_incidence;
+    if scale > 0.0 {
+        // Light that may arrive matters, however little is left of its cosine.
+        importance.max(f64::MIN_POSITIVE)
+    } else {
+        importance
+    }
 }
 
 /// How far beyond it light may count: bounds promise so much, as their axis may be too short by rounding.
