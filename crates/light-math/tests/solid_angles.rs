@@ -224,3 +224,39 @@ fn spherical_rectangles_are_even() {
             .assert(&format!("{rectangle:?}"));
     }
 }
+
+/// A point just above the middle of a large square sees the same at both ends, where 2^-24 is a long way.
+#[test]
+fn far_ends_of_large_spherical_rectangles_mirror_near_ends() {
+    for height in [0.01, 0.03, 0.1] {
+        let corner = Vec3::new(-25.0, -25.0, height);
+        let size = Vec2::splat(50.0);
+        let spherical = Rectangle { corner, size }.spherical();
+        for u in [1.0, 2.0, 16.0].map(|x| x * (1.0 - ONE_MINUS_EPSILON)) {
+            for axis in [Vec2::X, Vec2::Y] {
+                let middle = (Vec2::ONE - axis) * 0.5;
+                let near = spherical.sample(middle + axis * u).dot(axis);
+                let far = spherical.sample(middle + axis * (1.0 - u)).dot(axis);
+                let ratio = (1.0 - far) / near;
+                assert!((ratio - 1.0).abs() < 0.01, "{height} {u} {axis}: {ratio}");
+            }
+        }
+    }
+}
+
+/// The area below a sample is its part of the whole also where the first guess is far off.
+#[test]
+fn small_spherical_rectangles_seen_aslant_are_cut_where_u_says() {
+    let corner = Vec3::new(-10.0, 0.17, 0.02);
+    let size = Vec2::new(0.06, 0.018);
+    let whole = Rectangle { corner, size };
+    let spherical = whole.spherical();
+    for i in 0..200 {
+        let u = (i as f32 + 0.5) / 200.0;
+        let at = spherical.sample(Vec2::new(u, 0.5));
+        let size = Vec2::new(size.x * at.x, size.y);
+        let part = Rectangle { corner, size }.exact() / whole.exact();
+        let error = part - f64::from(u);
+        assert!(error.abs() < 2e-6, "{u}: {error}");
+    }
+}

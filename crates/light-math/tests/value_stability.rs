@@ -20,7 +20,7 @@ const PINNED: &[(&str, u64)] = &[
     ("linear", 0xf59e5a55efcc32c9),
     ("polar_disk", 0x03395c8768191dd1),
     ("smoothstep", 0x7f41b7168b129ba1),
-    ("spherical_rectangle", 0xd03876dd85cb3a5c),
+    ("spherical_rectangle", 0x69f826063fc442ea),
     ("spherical_triangle", 0x3b449af064f6b544),
     ("uniform_cone", 0x54b318f7a10b7c15),
     ("uniform_hemisphere", 0x9eaeb8c1dccf002a),

@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 ///
 /// # Source
 /// `[Urena2013]`: `u.x` cuts off a part of the area by a line across, `u.y` walks along that line. Differences of
-/// nearly equal angles cost the paper's formulas their digits where the rectangle is small; one step of Newton's
+/// nearly equal angles cost the paper's formulas their digits where the rectangle is small; a step or two of Newton's
 /// method, on areas computed without such differences, gives them back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalRectangle {
@@ -53,18 +53,31 @@ impl SphericalRectangle {
     #[must_use]
     pub fn sample(&self, u: Vec2) -> Vec2 {
         let area = u.x * self.solid_angle;
-        let x = self.cut(area);
-        let line = self.line(x);
-        let slope = self.size.x * self.height * line.share(1.0) / line.dist_sq;
-        let step = (self.area_up_to(x) - area) / slope;
-        let x = refined(x, step, sqrt(line.dist_sq) / self.size.x);
+        let x = newton(self.cut(area), |x| {
+            let line = self.line(x);
+            let slope = self.size.x * self.height * line.share(1.0) / line.dist_sq;
+            // From the nearer end, so that what is subtracted is small.
+            let excess = if u.x <= 0.5 {
+                self.area_between(0.0, x) - area
+            } else {
+                (1.0 - u.x) * self.solid_angle - self.area_between(x, 1.0)
+            };
+            (excess / slope, sqrt(line.dist_sq) / self.size.x)
+        });
 
         let line = self.line(x);
-        let y = line.place(u.y);
-        let dist = line.dist(self.low.y + y * self.size.y);
-        let slope = self.size.y * line.dist_sq / (dist * dist * dist);
-        let step = (line.share(y) - u.y * line.share(1.0)) / slope;
-        Vec2::new(x, refined(y, step, dist / self.size.y))
+        let share = line.share(1.0);
+        let y = newton(line.place(u.y), |y| {
+            let dist = line.dist(self.low.y + y * self.size.y);
+            let slope = self.size.y * line.dist_sq / (dist * dist * dist);
+            let excess = if u.y <= 0.5 {
+                line.share(y) - u.y * share
+            } else {
+                (1.0 - u.y) * share - line.share_between(y, 1.0)
+            };
+            (excess / slope, dist / self.size.y)
+        });
+        Vec2::new(x, y)
     }
 
     /// The density per solid angle of all samples, `1 / solid_angle`.
@@ -91,7 +104,12 @@ impl SphericalRectangle {
 
     /// The solid angle of the part from the lower end to the place `x`.
     fn area_up_to(&self, x: f32) -> f32 {
-        let columns = halves(self.low.x, x * self.size.x);
+        self.area_between(0.0, x)
+    }
+
+    /// The solid angle of the part between two places of x.
+    fn area_between(&self, from: f32, to: f32) -> f32 {
+        let columns = halves(self.low.x + from * self.size.x, (to - from) * self.size.x);
         let rows = halves(self.low.y, self.size.y);
         let mut sum = 0.0;
         for column in columns.into_iter().flatten() {
@@ -148,13 +166,18 @@ struct Line {
 impl Line {
     /// The difference of the sines of the elevation between the lower end and the place `y`.
     fn share(&self, y: f32) -> f32 {
-        let width = y * self.size;
-        let high = self.low + width;
-        let (r0, r1) = (self.dist(self.low), self.dist(high));
-        if self.low * high > 0.0 {
-            width * (self.low + high) * self.dist_sq / (r0 * r1 * (high * r0 + self.low * r1))
+        self.share_between(0.0, y)
+    }
+
+    /// The difference of the sines of the elevation between two places.
+    fn share_between(&self, from: f32, to: f32) -> f32 {
+        let (low, width) = (self.low + from * self.size, (to - from) * self.size);
+        let high = low + width;
+        let (r0, r1) = (self.dist(low), self.dist(high));
+        if low * high > 0.0 {
+            width * (low + high) * self.dist_sq / (r0 * r1 * (high * r0 + low * r1))
         } else {
-            high / r1 - self.low / r0
+            high / r1 - low / r0
         }
     }
 
@@ -214,14 +237,21 @@ fn quadrant([x, width]: [f32; 2], [y, length]: [f32; 2], height: f32) -> f32 {
     2.0 * (atan2(sin, cos(1)) + atan2(sin, cos(3)))
 }
 
-/// One step of Newton's method within `[0, 1]`, if it stays well within `reach`, the scale on which slopes change: a
-/// longer one means that `x` is as good as `u` allows already.
-fn refined(x: f32, step: f32, reach: f32) -> f32 {
-    if step.abs() < 0.25 * reach {
-        unit(x - step)
-    } else {
-        x
+/// Newton's method within `[0, 1]` from `x` on, for the step at a place and its reach, the scale on which slopes change:
+/// a step that is not well within it means that `x` is as good as `u` allows already. One step does, unless it is so
+/// long that the slope changed on its way.
+fn newton(mut x: f32, step_and_reach: impl Fn(f32) -> (f32, f32)) -> f32 {
+    for _ in 0..2 {
+        let (step, reach) = step_and_reach(x);
+        if !(step.abs() < 0.25 * reach) {
+            break;
+        }
+        x = unit(x - step);
+        if step * step < 1e-6 * reach {
+            break;
+        }
     }
+    x
 }
 
 /// `x` forced into `[0, 1]`; 1/2 for NaN.

@@ -32,9 +32,11 @@ pub(in crate::conformance) fn uniform_cone(u: DVec2, one_minus_cos_max: f64) -> 
     polar(u.x * one_minus_cos_max, u.y)
 }
 
+/// The rim itself has no density, so directions stay above it by a rounding of the unit length.
 pub(in crate::conformance) fn cosine_hemisphere(u: DVec2) -> DVec3 {
     let disk = concentric_disk(u);
-    disk.extend((1.0 - disk.length_squared()).max(0.0).sqrt())
+    let z = (1.0 - disk.length_squared()).max(0.0).sqrt();
+    disk.extend(z.max(f64::from(f32::EPSILON)))
 }
 
 /// Barycentric coordinates: the square is folded along its diagonal (Heitz 2019).

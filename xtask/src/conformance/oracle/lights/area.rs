@@ -150,9 +150,16 @@ impl<S: Shape> ExactLight for Area<S> {
     }
 }
 
-/// A density per area as one per solid angle; none where the surface is seen from its edge.
-pub(super) fn per_solid_angle(pdf_area: f64, from: &Receiver, at: &At) -> Option<f64> {
-    let to_light = at.p - from.p;
+/// A density per area as one per solid angle; none where the surface is seen from its edge. The place is rounded before
+/// the receiver is subtracted, which turns a direction along the surface.
+pub(super) fn per_solid_angle(
+    pdf_area: f64,
+    from: &Receiver,
+    at: &At,
+    jitter: &mut Jitter,
+) -> Option<f64> {
+    let magnitude = at.p.abs().max(from.p.abs()).max_element();
+    let to_light = jitter.vector(at.p - from.p, magnitude);
     let pdf = pdf_area * to_light.length_squared() / at.n.dot(to_light.normalize()).abs();
     (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
 }

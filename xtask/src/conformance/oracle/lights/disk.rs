@@ -61,7 +61,7 @@ impl Shape for Disk {
 
     fn toward(&self, from: &Receiver, u: DVec2, jitter: &mut Jitter) -> Option<(At, f64)> {
         let at = self.sample(u, jitter)?;
-        Some((at, per_solid_angle(1.0 / self.area(), from, &at)?))
+        Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?))
     }
 
     fn pdf_toward(&self, from: &Receiver, wi: DVec3, jitter: &mut Jitter) -> f64 {
@@ -73,6 +73,6 @@ impl Shape for Disk {
         if !(t > 0.0 && r <= self.radius && r >= self.inner) {
             return 0.0;
         }
-        per_solid_angle(1.0 / self.area(), from, &self.at(local)).unwrap_or(0.0)
+        per_solid_angle(1.0 / self.area(), from, &self.at(local), jitter).unwrap_or(0.0)
     }
 }

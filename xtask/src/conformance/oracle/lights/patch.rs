@@ -153,7 +153,7 @@ impl Shape for Patch {
             return Some((At { uv, ..at }, pdf));
         }
         let at = self.sample(u, jitter)?;
-        let pdf = per_solid_angle(self.pdf(at.uv), from, &at)?;
+        let pdf = per_solid_angle(self.pdf(at.uv), from, &at, jitter)?;
         let dist = at.p.distance(from.p);
         // Another part of the patch may be in the way.
         let wi = jitter.vector((at.p - from.p) / dist, 1.0);
@@ -171,6 +171,6 @@ impl Shape for Patch {
         let Some((uv, _)) = self.hit(from.p, wi) else {
             return 0.0;
         };
-        per_solid_angle(self.pdf(uv), from, &self.at(uv)).unwrap_or(0.0)
+        per_solid_angle(self.pdf(uv), from, &self.at(uv), jitter).unwrap_or(0.0)
     }
 }

@@ -83,7 +83,7 @@ impl Shape for Rectangle {
             }
             None => {
                 let at = self.at(u);
-                Some((at, per_solid_angle(1.0 / self.area(), from, &at)?))
+                Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?))
             }
         }
     }
@@ -94,7 +94,7 @@ impl Shape for Rectangle {
         };
         match self.seen(from, jitter) {
             Some((seen, cosines)) => cosines.pdf(seen.invert(uv)) / seen.solid_angle(),
-            None => per_solid_angle(1.0 / self.area(), from, &self.at(uv)).unwrap_or(0.0),
+            None => per_solid_angle(1.0 / self.area(), from, &self.at(uv), jitter).unwrap_or(0.0),
         }
     }
 }

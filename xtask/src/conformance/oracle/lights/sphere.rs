@@ -68,7 +68,7 @@ impl Shape for Sphere {
         let to_center = self.center_from(from, jitter);
         let Some((_, one_minus_cos_max)) = self.cone(to_center) else {
             let at = self.sample(u, jitter)?;
-            return Some((at, per_solid_angle(1.0 / self.area(), from, &at)?));
+            return Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?));
         };
         let u = jitter.numbers(u);
         let local = polar(one_minus_cos_max * u.x, u.y);
@@ -104,7 +104,7 @@ impl Shape for Sphere {
                         .max(0.0)
                         .sqrt();
                 let at = self.at(((wi * t - to_center) / self.radius).normalize(), jitter);
-                per_solid_angle(1.0 / self.area(), from, &at).unwrap_or(0.0)
+                per_solid_angle(1.0 / self.area(), from, &at, jitter).unwrap_or(0.0)
             }
         }
     }

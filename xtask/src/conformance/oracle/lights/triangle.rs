@@ -81,7 +81,7 @@ impl Shape for Triangle {
             }
             None => {
                 let at = self.sample(u, jitter)?;
-                Some((at, per_solid_angle(1.0 / self.area(), from, &at)?))
+                Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?))
             }
         }
     }
@@ -92,7 +92,7 @@ impl Shape for Triangle {
         };
         match self.seen(from, jitter) {
             Some((seen, cosines)) => cosines.pdf(seen.invert(b)) / seen.solid_angle(),
-            None => per_solid_angle(1.0 / self.area(), from, &self.at(b)).unwrap_or(0.0),
+            None => per_solid_angle(1.0 / self.area(), from, &self.at(b), jitter).unwrap_or(0.0),
         }
     }
 }
