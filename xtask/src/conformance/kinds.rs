@@ -11,6 +11,7 @@ mod light_bounds_importance;
 mod light_bounds_union;
 mod light_samplers;
 mod light_tree;
+mod light_tree_splits;
 mod lights;
 mod octahedral;
 mod piecewise_constant_1d;
