@@ -88,3 +88,42 @@ fn probabilities_of_several_choices_add_up() {
         }
     }
 }
+
+#[test]
+fn several_choices_without_a_kept_look_are_the_same_choices() {
+    let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
+    for count in [1, 2, 5] {
+        let (mut looking, mut plain) = (Vec::new(), Vec::new());
+        let mut look = LightLook::default();
+        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| looking.push(s));
+        sampler.sample_many(&floor(), 0.3, count, &mut |s| plain.push(s));
+        assert_eq!(plain.len(), count as usize, "each choice finds a light");
+        assert_eq!(plain, looking, "{count} choices");
+    }
+}
+
+/// A cut looks closer than a single choice does, so that the two have different probabilities.
+#[test]
+fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
+    let lights: Vec<LightExtent> = (0..200u8)
+        .map(|i| match lamp(1.0 + f32::from(i)) {
+            LightExtent::Bounded(mut lamp) => {
+                lamp.bounds = Aabb::from_point(Vec3::new(f32::from(i), 1.0, 2.0));
+                LightExtent::Bounded(lamp)
+            }
+            other => other,
+        })
+        .collect();
+    let sampler = BvhLightSampler::new(&lights).expect("valid lights");
+    let mut differ = 0;
+    for id in (0..200).map(LightId) {
+        let pmf = |count| {
+            let look = LightLook::default();
+            sampler.pmf_many_looking(&floor(), id, count, &look)
+        };
+        let one = sampler.pmf(&floor(), id);
+        assert_eq!(pmf(1).to_bits(), one.to_bits(), "{id:?}");
+        differ += usize::from(pmf(16) != one);
+    }
+    assert!(differ > 100, "a cut of 16 differs for {differ} lights");
+}
