@@ -15,3 +15,13 @@ impl LightId {
         self.0 as usize
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_is_a_position() {
+        assert_eq!(LightId(7).index(), 7, "the number itself");
+    }
+}

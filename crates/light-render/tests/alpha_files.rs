@@ -1,0 +1,89 @@
+//! Lamps with alpha are as bright as the share that is there, from every file format and by every estimator.
+
+mod support;
+
+use std::fs;
+
+use light_render::integrator::Estimator;
+use light_scene::{Scene, read_obj, read_pbrt};
+use support::{Shot, plane};
+
+/// The mean over the file's scene, from the camera over a plane.
+fn mean(scene: &Scene, estimator: Estimator) -> (f64, f64) {
+    let mut scene = scene.clone();
+    scene.camera = plane(0.5, 1.0).camera;
+    let shot = Shot {
+        estimator,
+        spp: if estimator == Estimator::Bsdf {
+            256
+        } else {
+            16
+        },
+        max_depth: 2,
+        ..Shot::default()
+    };
+    let (mean, error) = shot.mean(&scene);
+    (mean.x, error.x)
+}
+
+fn check(name: &str, whole: &Scene, half: &Scene) {
+    let (full, full_error) = mean(whole, Estimator::Light);
+    assert!(full > 0.01, "{name}: the lamp shines: {full}");
+    for estimator in [Estimator::Mis, Estimator::Light, Estimator::Bsdf] {
+        let (part, error) = mean(half, estimator);
+        let margin = 3.0 * (error + 0.5 * full_error) + 1e-4 * full;
+        assert!(
+            (part - 0.5 * full).abs() <= margin,
+            "{name}, {estimator:?}: {part} of {full}"
+        );
+    }
+}
+
+#[test]
+fn lamps_of_pbrt_files() {
+    let folder = std::env::temp_dir().join(format!("alpha_files_pbrt_{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let read = |name: &str, shape: &str| {
+        let text = format!(
+            "WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n\
+             Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n\
+             \"point3 P\" [-1 0 -1  -1 0 1  1 0 1  1 0 -1]\n\
+             AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [3 3 3]\n{shape}\nAttributeEnd\n"
+        );
+        let path = folder.join(name);
+        fs::write(&path, text).expect("a file");
+        read_pbrt(&path).expect("a scene")
+    };
+    let square = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \
+                  \"point3 P\" [-2 3 -2  2 3 -2  2 3 2  -2 3 2]";
+    let sphere = "Translate 0 3 0\nShape \"sphere\" \"float radius\" 0.5";
+    for (name, shape) in [("square", square), ("sphere", sphere)] {
+        let whole = read(&format!("{name}.pbrt"), shape);
+        let half = read(
+            &format!("{name}_half.pbrt"),
+            &format!("{shape} \"float alpha\" 0.5"),
+        );
+        check(name, &whole, &half);
+    }
+    fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn lamps_of_obj_files() {
+    let folder = std::env::temp_dir().join(format!("alpha_files_obj_{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let read = |name: &str, alpha: &str| {
+        let materials =
+            format!("newmtl matt\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 3 3 3\n{alpha}\n");
+        fs::write(folder.join(format!("{name}.mtl")), materials).expect("a file");
+        let text = format!(
+            "mtllib {name}.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -2 3 -2\nv 2 3 -2\nv 2 3 2\n\
+             v -2 3 2\nusemtl matt\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n"
+        );
+        let path = folder.join(format!("{name}.obj"));
+        fs::write(&path, text).expect("a file");
+        read_obj(&path).expect("a scene")
+    };
+    check("obj", &read("whole", ""), &read("half", "d 0.5"));
+    fs::remove_dir_all(&folder).expect("removed");
+}
