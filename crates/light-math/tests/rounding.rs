@@ -33,15 +33,16 @@ fn a_cone_holds_its_axis_although_its_square_is_below_one() {
     assert!(short > 1000, "{short} axes need the slack");
 }
 
+/// The axis of a whole sphere has no meaning; float functions decide which one comes back.
 #[test]
-fn a_whole_sphere_holds_any_other_cone_and_stays_itself() {
+fn a_whole_sphere_holds_any_other_cone() {
     let whole = DirectionCone::new(Vec3::X, -1.0);
     for other in [
         DirectionCone::from_direction(-Vec3::X),
         DirectionCone::new(Vec3::Y, -0.5),
     ] {
-        assert_eq!(whole.union(other), whole, "the first");
-        assert_eq!(other.union(whole), whole, "the second");
+        assert!(whole.union(other).is_whole_sphere(), "the first");
+        assert!(other.union(whole).is_whole_sphere(), "the second");
     }
 }
 

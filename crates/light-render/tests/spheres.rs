@@ -422,6 +422,6 @@ fn impossible_spheres_are_refused() {
     let text = "WorldBegin\nShape \"sphere\" \"float radius\" -1";
     let error = parse_scene(Path::new("a.pbrt"), text.as_bytes(), Files::NONE).err();
     let error = error.map(|error| error.to_string());
-    let expected = "a.pbrt:2: expected a positive radius, found -1";
+    let expected = "a.pbrt:2: expected `radius` above 0, found -1";
     assert_eq!(error.as_deref(), Some(expected), "inside out");
 }
