@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use crate::steps::{Outcome, StepResult, output, root, run};
+use crate::tools::{Install, cargo_tool};
 
 /// Seconds for each target when nobody says how long.
 const DEFAULT_SECONDS: u32 = 60;
@@ -44,13 +45,6 @@ pub fn smoke(seconds: u32) -> StepResult {
         Ok(tool) => run_targets(&tool, &targets()?, seconds),
         Err(reason) => Ok(Outcome::Skipped(reason)),
     }
-}
-
-/// Whether to build the tool when it is missing.
-#[derive(Clone, Copy, PartialEq)]
-enum Install {
-    Allowed,
-    Forbidden,
 }
 
 /// What a run of one target did, by its last lines.
@@ -174,20 +168,7 @@ fn targets() -> Result<Vec<String>, String> {
 fn cargo_fuzz(install: Install) -> Result<PathBuf, String> {
     let nightly = output(Command::new("rustup").args(["run", "nightly", "rustc", "--version"]));
     nightly.map_err(|_| "no nightly toolchain (rustup toolchain install nightly)")?;
-    let ours = root().join("target/tools/bin/cargo-fuzz");
-    for tool in [PathBuf::from("cargo-fuzz"), ours.clone()] {
-        if output(Command::new(&tool).arg("--version")).is_ok() {
-            return Ok(tool);
-        }
-    }
-    if install == Install::Forbidden {
-        return Err("no cargo-fuzz (cargo xtask fuzz installs it)".into());
-    }
-    println!("    installing cargo-fuzz into target/tools");
-    let mut build = Command::new("cargo");
-    build.args(["install", "cargo-fuzz", "--locked", "--quiet", "--root"]);
-    run(build.arg(root().join("target/tools")))?;
-    Ok(ours)
+    cargo_tool("cargo-fuzz", install)
 }
 
 #[cfg(test)]
