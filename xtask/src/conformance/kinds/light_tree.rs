@@ -180,10 +180,7 @@ fn compare_bounds(
     // Codes of the axis.
     let xy = |w: lights::math::OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
     let w = findings.ours("node axis", xy(ours.w));
-    let numbers = codes::octahedral(exact.cone.w);
-    // The axis of all directions has no meaning.
-    let is_free = theirs.is_none() && unpack(ours.packed)[0] == 0;
-    let is_exact = is_free || (0..2).all(|i| codes::is_nearest(w[i], numbers[i]));
+    let is_exact = codes::is_octahedral(w, exact.cone.w);
     let is_same = theirs.is_some_and(|t| w == xy(t.w));
     judge("axis", is_same, is_exact, rule(&ROUNDED_CODE), findings);
 

@@ -16,8 +16,7 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     let ours = findings.ours("codes", [x, y].map(i64::from));
     let enc = case.get("enc")?;
     let theirs = [enc.at(0)?.integer()?, enc.at(1)?.integer()?];
-    let exact = codes::octahedral(v.as_dvec3());
-    let is_exact = (0..2).all(|i| codes::is_nearest(ours[i], exact[i]));
+    let is_exact = codes::is_octahedral(ours, v.as_dvec3());
     judge(
         "direction",
         ours == theirs,

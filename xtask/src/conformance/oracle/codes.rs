@@ -1,21 +1,32 @@
 //! Quantised directions, cosines and boxes as real numbers, before they are rounded to codes.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// How far rounding in single precision moves such a number, in codes.
 const ROUNDING: f64 = 0.06;
 
-/// The numbers that are rounded to the two codes of a direction.
-pub(in crate::conformance) fn octahedral(w: DVec3) -> [f64; 2] {
+/// Whether `code` is that of the direction `w`.
+///
+/// The lower half of the octahedron is unfolded to the outside of the square, each coordinate with the sign of its own: where one is zero,
+/// as +0 or as -0, the direction lies on the edge of the square and has a code on either side of it.
+pub(in crate::conformance) fn is_octahedral(code: [i64; 2], w: DVec3) -> bool {
     let p = w / (w.x.abs() + w.y.abs() + w.z.abs());
-    let sign = |x: f64| if x < 0.0 { -1.0 } else { 1.0 };
-    let f = if p.z < 0.0 {
-        DVec2::new((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
-    } else {
-        p.truncate()
+    let signs = |x: f64| {
+        [-1.0, 1.0]
+            .into_iter()
+            .filter(move |s| s * x >= -TURNED * CODE)
     };
-    [f.x, f.y].map(|f| (f.clamp(-1.0, 1.0) + 1.0) / 2.0 * 65535.0)
+    let code_of = |x: f64| (x.clamp(-1.0, 1.0) + 1.0) / CODE;
+    let is_code =
+        |x: f64, y: f64| is_nearest(code[0], code_of(x)) && is_nearest(code[1], code_of(y));
+    if p.z >= 0.0 {
+        return is_code(p.x, p.y);
+    }
+    signs(p.x).any(|x| signs(p.y).any(|y| is_code((1.0 - p.y.abs()) * x, (1.0 - p.x.abs()) * y)))
 }
+
+/// The length of a code on the square.
+const CODE: f64 = 2.0 / 65535.0;
 
 /// The number that is rounded down to the code of a cosine.
 pub(in crate::conformance) fn cosine(cos_theta: f64) -> f64 {
@@ -66,7 +77,7 @@ pub(in crate::conformance) fn coordinate(x: f32, min: f32, max: f32) -> Number {
 const TURNED: f64 = 0.15;
 
 /// Whether `code` is a number rounded to the nearest code.
-pub(in crate::conformance) fn is_nearest(code: i64, exact: f64) -> bool {
+fn is_nearest(code: i64, exact: f64) -> bool {
     (code as f64 - exact).abs() <= 0.5 + TURNED
 }
 
@@ -85,6 +96,32 @@ pub(in crate::conformance) fn is_above(code: i64, number: impl Into<Number>) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_direction_on_the_edge_of_the_square_has_a_code_on_either_side() {
+        let top = 65535;
+        for zero in [0.0, -0.0] {
+            let down = DVec3::new(zero, zero, -1.0);
+            for code in [[0, 0], [0, top], [top, 0], [top, top]] {
+                assert!(is_octahedral(code, down), "{code:?} of {down}");
+            }
+            let slanted = DVec3::new(zero, -0.5, -0.5);
+            for x in [16384, 49151] {
+                assert!(is_octahedral([x, 0], slanted), "{x} of {slanted}");
+                assert!(!is_octahedral([x, top], slanted), "the other end of {x}");
+                assert!(!is_octahedral([x + 1, 0], slanted), "beside {x}");
+            }
+        }
+        let beside = DVec3::new(1e-4, -0.5, -0.5);
+        assert!(is_octahedral([49153, 3], beside), "its code");
+        assert!(
+            !is_octahedral([16382, 3], beside),
+            "that of its mirror image"
+        );
+        let up = DVec3::new(0.0, 0.5, 0.5);
+        assert!(is_octahedral([32768, 49151], up), "within the square");
+        assert!(!is_octahedral([32768, 16384], up), "its mirror image");
+    }
 
     #[test]
     fn cosines_have_their_own_code_and_at_a_code_the_one_below() {
