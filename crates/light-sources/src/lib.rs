@@ -72,6 +72,8 @@ mod rgb;
 #[cfg(feature = "alloc")]
 mod rgb_sum;
 mod rigid_transform;
+#[cfg(feature = "alloc")]
+mod row_integral;
 mod sample;
 mod scaled_emission;
 mod scene_sphere;

@@ -1,5 +1,6 @@
 use crate::block_means::{Block, BlockMeans};
 use crate::glam::{DVec2, DVec3, Vec2, Vec3};
+use crate::row_integral::mean_by_rows;
 use crate::shape::{UvArea, UvDensity};
 use crate::texel_cells::{Shown, ShownCell, floor};
 use crate::texture_mapping::{TextureMapping, Wrap};
@@ -164,7 +165,7 @@ impl Integral<'_> {
             self.cells(&above);
             inside = middle;
         }
-        if inside.is_empty() {
+        if inside.is_empty() || self.rows(&inside) {
             return;
         }
         let (level, [low, high]) = self.covering(inside.place_bounds());
@@ -225,6 +226,9 @@ impl Integral<'_> {
                 return;
             }
         }
+        if self.rows(part) {
+            return;
+        }
         if level == 0 {
             return self.cells(part);
         }
@@ -241,6 +245,20 @@ impl Integral<'_> {
                 self.block(Block { level, index }, finest, &child);
             }
         }
+    }
+
+    /// Adds a polygon that is small and evenly measured, and shows one image; says whether it does.
+    fn rows(&mut self, polygon: &UvPolygon) -> bool {
+        if self.shown.alpha.is_some() || self.density != UvDensity::Even {
+            return false;
+        }
+        let mean = mean_by_rows(self.shown.image, self.shown.wrap, polygon);
+        if let Some(mean) = mean {
+            let weight = self.weight(polygon);
+            self.sum += mean * weight;
+            self.total += weight;
+        }
+        mean.is_some()
     }
 
     /// Adds a polygon that lies anywhere, piece by piece between the bends of the colour.

@@ -1,4 +1,5 @@
 use crate::glam::{Affine2, Vec2};
+use crate::texel_cells::floor as whole;
 use light_math::float::floor;
 
 /// How an image lies on a surface: where in the image each surface parameter is, and what is beyond its edges.
@@ -72,6 +73,21 @@ impl Wrap {
             texels: [first, first + 1.0].map(|i| self.texel(i.into(), n)),
             part: t - first,
         }
+    }
+
+    /// The texel with the whole number `i`, however far away from a line of `n`.
+    #[inline]
+    pub(crate) fn texel_anywhere(self, i: f64, n: u32) -> Option<u32> {
+        let count = f64::from(n);
+        let folded = match self {
+            Self::Clamp | Self::Black => i,
+            Self::Repeat => i - count * whole(i / count),
+            Self::Mirror => {
+                let turn = i - 2.0 * count * whole(0.5 * i / count);
+                turn.min(2.0 * count - 1.0 - turn)
+            }
+        };
+        self.texel(folded, n)
     }
 
     /// The texel with the whole number `i`, which is less than `n` away from a line of `n`.

@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use super::*;
 use crate::glam::Affine2;
 use crate::image::{Channels, Image};
+use light_testkit::Rng;
 
 const ONCE: TextureMapping = TextureMapping {
     transform: Affine2::IDENTITY,
@@ -191,6 +192,45 @@ fn blocks_change_nothing() {
             );
         }
     }
+}
+
+/// By rows, along the edges, the mean is that by cells, wherever the triangle lies and whatever its size.
+#[test]
+fn rows_change_nothing() {
+    let image = gray([37, 23], |i| (i % 97 * 31 % 89) as f32);
+    let mut rng = Rng::new(1);
+    let mut by_rows = 0;
+    for i in 0..800 {
+        let shown = Shown {
+            image: &image,
+            alpha: None,
+            wrap: [WRAPS[i % 4], WRAPS[i / 4 % 4]],
+        };
+        let size = [0.8, 0.1, 0.01, 1e-4][i / 16 % 4];
+        let low = rng.vec2() * 4.0 - 2.0;
+        let corner = |uv| Corner {
+            uv,
+            place: (low + rng.vec2() * size).as_dvec2(),
+        };
+        let triangle = UvPolygon::new(&[DVec2::ZERO, DVec2::X, DVec2::Y].map(corner));
+        let Some(mean) = mean_by_rows(&image, shown.wrap, &triangle) else {
+            continue;
+        };
+        by_rows += 1;
+        let mut integral = Integral {
+            shown: &shown,
+            blocks: &BlockMeans::new(&shown),
+            density: UvDensity::Even,
+            sum: DVec3::ZERO,
+            total: 0.0,
+            nearby: DVec3::ZERO,
+        };
+        integral.cells(&triangle);
+        let exact = integral.sum / integral.total;
+        let near = mean.abs_diff_eq(exact, 1e-8 * exact.x.max(1.0));
+        assert!(near, "{:?}, {triangle:?}: {mean}, {exact}", shown.wrap);
+    }
+    assert!(by_rows > 750, "{by_rows} of 800");
 }
 
 #[test]
