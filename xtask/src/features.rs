@@ -62,6 +62,8 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     alloc("light-media", "libm,alloc"),
     std("light-media", "std"),
     alloc("light-media", "libm,serde"),
+    alloc("light-photometry", "libm"),
+    std("light-photometry", "std"),
     core("lights", "libm"),
     alloc("lights", "libm,alloc"),
     std("lights", "std,rayon,serde"),
@@ -97,6 +99,7 @@ pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
     alloc("light-samplers", "libm,alloc"),
     alloc("light-sources", "libm,alloc"),
     alloc("light-media", "libm,alloc"),
+    alloc("light-photometry", "libm"),
 ];
 
 const fn core(package: &'static str, features: &'static str) -> FeatureSet {

@@ -5,11 +5,11 @@ use std::fs;
 use std::path::Path;
 
 use crate::glam::Vec3;
-use crate::ies::parse_luminaire;
 use crate::image::tests::png;
 use crate::test_folder::TestFolder;
 use crate::{
-    Diagnostic, Files, Image, parse_image, parse_obj, parse_ply, parse_scene, write_image,
+    Diagnostic, Files, Image, parse_image, parse_luminaire, parse_obj, parse_ply, parse_scene,
+    write_image,
 };
 
 /// Variants of each good file.
@@ -145,10 +145,18 @@ fn gltf_and_glb() {
 fn luminaires() {
     let lm63 = "IESNA:LM-63-2002\n[TEST] a\n[MANUFAC] b\nTILT=NONE\n1 1000 1 3 2 1 2 0 0 0\n1 1 100\n\
         0 60 90\n0 90\n500 250 0\n400 200 0\n";
-    let eulumdat = crate::ies::good_eulumdat();
+    // One plane of three intensities, symmetrical about the vertical.
+    let zeros = |n: usize| "0\n".repeat(n);
+    let eulumdat = format!(
+        "A maker\n1\n1\n1\n0\n3\n45\nreport\nA lamp\n1\na.ldt\ntoday\n{}100\n0\n1,0\n0\n1\n\
+        1\nLED\n2000\n830\n80\n20\n{}0\n0\n45\n90\n100\n55\n10\n",
+        zeros(9),
+        zeros(10)
+    );
     for (name, good) in [("a.ies", lm63), ("a.ldt", &eulumdat)] {
         let n = refused(name, good.as_bytes(), |bytes| {
-            parse_luminaire(Path::new(name), &String::from_utf8_lossy(bytes))
+            let text = String::from_utf8_lossy(bytes);
+            parse_luminaire(Path::new(name), &text, Files::NONE)
         });
         assert!(n >= 100, "{n} of {VARIANTS}: {name}");
     }

@@ -16,9 +16,9 @@ mod files;
 mod gltf;
 mod grid;
 mod gunzip;
-pub mod ies;
 mod image;
 pub mod light_set;
+mod luminaire;
 mod material;
 mod mesh;
 mod obj;
@@ -47,6 +47,7 @@ pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
     write_exr_half, write_hdr, write_image, write_png,
 };
+pub use luminaire::{goniometric_light, in_luminaire, parse_luminaire, read_luminaire};
 pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::{parse_obj, read_obj};

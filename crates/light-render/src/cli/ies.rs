@@ -2,8 +2,8 @@ use core::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use light_scene::ies::{CandelaWeb, Luminaire, WebType, read_luminaire};
-use light_scene::write_whole;
+use light_scene::lights::photometry::{Luminaire, PhotometricWeb, WebType};
+use light_scene::{in_luminaire, read_luminaire, write_whole};
 use serde_json::json;
 
 use super::failure::Failure;
@@ -55,8 +55,14 @@ impl IesArgs {
             "vertical_angles": web.vertical(),
             "horizontal_angles": web.horizontal(),
             "keywords": luminaire.keywords,
-            "warnings": luminaire.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "warnings": self.warnings(luminaire).collect::<Vec<_>>(),
         })
+    }
+
+    /// What is odd in the file, a line each.
+    fn warnings<'a>(&'a self, luminaire: &'a Luminaire) -> impl Iterator<Item = String> + 'a {
+        let warnings = luminaire.warnings.iter();
+        warnings.map(|warning| in_luminaire(&self.file, warning).to_string())
     }
 
     fn print(&self, luminaire: &Luminaire) -> Result<(), Failure> {
@@ -75,7 +81,7 @@ impl IesArgs {
         for (keyword, words) in &luminaire.keywords {
             say!("[{keyword}] {words}")?;
         }
-        for warning in &luminaire.warnings {
+        for warning in self.warnings(luminaire) {
             say!("warning: {warning}")?;
         }
         Ok(())
@@ -88,7 +94,7 @@ const SIZE: f32 = 480.0;
 const RADIUS: f32 = 200.0;
 
 /// Intensity by angle in two planes through the luminaire, the nadir below: across (drawn solid) and along (dashed).
-fn polar_plot(web: &CandelaWeb) -> String {
+fn polar_plot(web: &PhotometricWeb) -> String {
     let peak = web.peak_candelas().max(f32::MIN_POSITIVE);
     let centre = 0.5 * SIZE;
     let mut svg = format!(
@@ -135,7 +141,7 @@ fn polar_plot(web: &CandelaWeb) -> String {
 }
 
 /// The intensity at an angle from the nadir, toward the horizontal direction `plane` first.
-fn candelas(web: &CandelaWeb, plane: f32, degrees: f32) -> f32 {
+fn candelas(web: &PhotometricWeb, plane: f32, degrees: f32) -> f32 {
     let (vertical, plane) = if degrees <= 180.0 {
         (degrees, plane)
     } else {
@@ -165,7 +171,7 @@ mod tests {
 
     #[test]
     fn the_plot_has_the_peak_at_the_outer_ring() {
-        let web = CandelaWeb::new(WebType::C, &[0.0, 90.0], &[0.0], &[100.0, 0.0]);
+        let web = PhotometricWeb::new(WebType::C, &[0.0, 90.0], &[0.0], &[100.0, 0.0]);
         let svg = polar_plot(&web.expect("a web"));
         assert!(
             svg.contains("d=\"M240.0 440.0L"),

@@ -66,6 +66,11 @@ impl<'a> Buffers<'a> {
         Ok(all)
     }
 
+    /// Where the files come from that a document names.
+    pub(super) const fn files(&self) -> Files<'a> {
+        self.files
+    }
+
     /// The bytes that a URI stands for.
     pub(super) fn load(&self, uri: &Item<'_>) -> Result<Vec<u8>, Diagnostic> {
         match resource(uri.text()?) {

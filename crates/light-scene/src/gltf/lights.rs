@@ -1,6 +1,7 @@
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use lights::math::spectrum::photometric::{K_M, Lumen};
+use lights::photometry::{WebType, parse_lm63};
 use lights::sources::{
     DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, MediumInterface,
     PointLightDesc, Rgb, SpotLightDesc,
@@ -8,9 +9,9 @@ use lights::sources::{
 
 use super::item::Item;
 use super::reader::Reader;
-use crate::Diagnostic;
 use crate::glam::{Affine3A, Mat3A, Quat, Vec3};
-use crate::ies::{WebType, parse_lm63};
+use crate::luminaire::read_beside;
+use crate::{Diagnostic, goniometric_light};
 
 /// Texels a side of the map of a measured luminaire.
 const WEB_SIZE: u32 = 256;
@@ -53,7 +54,9 @@ impl<'a> Reader<'a> {
             }
         };
         let text = String::from_utf8_lossy(&bytes);
-        let luminaire = parse_lm63(self.document.path(), &text);
+        let luminaire = parse_lm63(&text, |name| {
+            read_beside(self.document.path(), name, self.buffers.files())
+        });
         let luminaire = luminaire.map_err(|error| {
             profile.error(&format!("expected an LM-63 file: {}", error.message))
         })?;
@@ -69,7 +72,7 @@ impl<'a> Reader<'a> {
         let color = color(extension)?.min(Vec3::ONE);
         let multiplier = extension.amount_or("multiplier", 1.0)?;
         let transform = rigid(node, place)? * Affine3A::from_quat(turned);
-        let mut light = web.light(transform, color, WEB_SIZE);
+        let mut light = goniometric_light(&web, transform, color, WEB_SIZE);
         // A tint takes away what it does not let through.
         let lumens = web.total_lumens() * multiplier * luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens));

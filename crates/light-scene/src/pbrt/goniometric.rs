@@ -7,9 +7,8 @@ use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, Li
 use super::lights::luminance;
 use super::state::{Reader, Typed};
 use crate::glam::{Affine3A, Mat3A, Vec3};
-use crate::ies::parse_luminaire;
 use crate::text::text_of;
-use crate::{Camera, Diagnostic};
+use crate::{Camera, Diagnostic, goniometric_light, in_luminaire, parse_luminaire};
 
 /// Texels a side of the map of a measured luminaire.
 const WEB_SIZE: u32 = 256;
@@ -75,17 +74,18 @@ impl Reader {
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
         let path = self.beside(name);
         let read = self.files.read(&path);
-        let luminaire = read.and_then(|bytes| parse_luminaire(&path, &text_of(&bytes)));
+        let luminaire = read.and_then(|bytes| parse_luminaire(&path, &text_of(&bytes), self.files));
         let luminaire = luminaire.map_err(|error| typed.at.diagnostic(error.to_string()))?;
-        self.scene.warnings.extend(luminaire.warnings);
+        let warnings = luminaire.warnings.iter();
+        let warnings = warnings.map(|warning| in_luminaire(&path, warning));
+        self.scene.warnings.extend(warnings);
         let power = typed
             .parameters
             .positive("power")
             .map(|watts| watts * 683.0);
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
-        let mut light = luminaire
-            .web
-            .light(place * self.web_to_light(), color, WEB_SIZE);
+        let place = place * self.web_to_light();
+        let mut light = goniometric_light(&luminaire.web, place, color, WEB_SIZE);
         let tint = color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens * tint));
         light.media = self.light_media();
@@ -163,7 +163,7 @@ mod tests {
         let file =
             "IESNA:LM-63-2002\nTILT=NONE\n1 2000 1 3 1 1 2 0 0 0\n1 1 100\n0 60 90\n0\n500 250 0\n";
         fs::write(folder.path("a.ies"), file).expect("written");
-        let web = parse_luminaire(Path::new("a.ies"), file)
+        let web = parse_luminaire(Path::new("a.ies"), file, crate::Files::NONE)
             .expect("a luminaire")
             .web;
         let lamp = light(&folder, "\"string filename\" \"a.ies\" \"float scale\" 2");

@@ -1,7 +1,8 @@
 use std::path::Path;
 
 use light_scene::{
-    Color, Diagnostic, Files, Mesh, Scene, ies, parse_image, parse_obj, parse_ply, parse_scene,
+    Color, Diagnostic, Files, Mesh, Scene, parse_image, parse_luminaire, parse_obj, parse_ply,
+    parse_scene,
 };
 
 /// An OBJ file gives a sound scene or one line.
@@ -77,7 +78,7 @@ pub fn read_image(data: &[u8]) {
 pub fn read_luminaire(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     for name in ["a.ies", "a.ldt"] {
-        if let Some(luminaire) = answer(ies::parse_luminaire(Path::new(name), &text)) {
+        if let Some(luminaire) = answer(parse_luminaire(Path::new(name), &text, Files::NONE)) {
             let lumens = luminaire.web.total_lumens();
             assert!(lumens >= 0.0, "{lumens} lm");
         }

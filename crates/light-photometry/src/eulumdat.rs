@@ -1,22 +1,24 @@
-use std::path::Path;
+use alloc::borrow::ToOwned;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use alloc::{format, vec};
 
-use super::{CandelaWeb, CandelaWebError, Luminaire, LuminaireFormat, WebType};
-use crate::text::shown;
-use crate::{Diagnostic, Place};
+use super::axis::full_turn;
+use super::diagnostic::{Diagnostic, shown};
+use super::{Luminaire, LuminaireFormat, PhotometricWeb, PhotometricWebError, WebType};
 
-/// The luminaire in the text of a EULUMDAT file; `path` is for messages.
+/// The luminaire in the text of a EULUMDAT file.
 ///
 /// Its planes are those of a [`WebType::C`]. Intensities are stated for 1000 lm of lamps and are scaled by those of the
 /// first set of lamps; further sets are ignored with a warning.
 ///
 /// # Errors
-/// When the text is malformed: file, line and what was expected there.
+/// When the text is malformed: the line and what was expected there.
 ///
 /// # Source
 /// `[Eulumdat]`.
-pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
+pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
     let mut file = Lines {
-        path,
         lines: text.lines(),
         number: 0,
     };
@@ -68,9 +70,9 @@ pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> 
             "expected a number of C planes that suits the symmetry, found {planes}"
         ))
     })?;
-    let after_horizontal = file.wrong(CandelaWebError::Horizontal.to_string());
+    let after_horizontal = file.wrong(PhotometricWebError::Horizontal.to_string());
     let vertical = file.list(rows, "a gamma angle")?;
-    let after_vertical = file.wrong(CandelaWebError::Vertical.to_string());
+    let after_vertical = file.wrong(PhotometricWebError::Vertical.to_string());
     let factor = lumens / 1000.0 * if conversion > 0.0 { conversion } else { 1.0 };
     let mut by_plane = Vec::new();
     for &plane in &used {
@@ -78,14 +80,14 @@ pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> 
         for _ in 0..rows {
             let value = factor * file.number("an intensity in cd/klm")?;
             if !(value >= 0.0 && value.is_finite()) {
-                return Err(file.wrong(CandelaWebError::Candelas.to_string()));
+                return Err(file.wrong(PhotometricWebError::Candelas.to_string()));
             }
             values.push(value);
         }
         // Planes from C270 over C0 to C90 are those from 90 to 270 with the mirror the other way round.
         let angle = match symmetry {
             1 => 0.0,
-            3 => (180.0 - angles[plane]).rem_euclid(360.0),
+            3 => full_turn(180.0 - angles[plane]),
             _ => angles[plane],
         };
         by_plane.push((angle, values));
@@ -95,11 +97,11 @@ pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> 
     }
     let horizontal: Vec<f32> = by_plane.iter().map(|plane| plane.0).collect();
     let candelas: Vec<f32> = by_plane.into_iter().flat_map(|plane| plane.1).collect();
-    let web = CandelaWeb::new(WebType::C, &vertical, &horizontal, &candelas);
+    let web = PhotometricWeb::new(WebType::C, &vertical, &horizontal, &candelas);
     let web = web.map_err(|error| match error {
-        CandelaWebError::Vertical => after_vertical,
-        CandelaWebError::Horizontal => after_horizontal,
-        CandelaWebError::Candelas => file.wrong(error.to_string()),
+        PhotometricWebError::Vertical => after_vertical,
+        PhotometricWebError::Horizontal => after_horizontal,
+        PhotometricWebError::Candelas => file.wrong(error.to_string()),
     })?;
 
     let mut luminaire = Luminaire {
@@ -113,14 +115,14 @@ pub fn parse_eulumdat(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> 
     };
     if sets > 1 {
         let message = format!("the {} further sets of lamps were ignored", sets - 1);
-        luminaire.warnings.push(Diagnostic::file(path, message));
+        luminaire.warnings.push(Diagnostic::whole(message));
     }
     let stated = 0.01 * output_ratio * lumens;
     let measured = luminaire.web.total_lumens();
     if stated > 0.0 && !((measured / stated - 1.0).abs() <= 0.03) {
         let message =
             format!("gives off {measured:.0} lm, not the {stated:.0} lm of its light output ratio");
-        luminaire.warnings.push(Diagnostic::file(path, message));
+        luminaire.warnings.push(Diagnostic::whole(message));
     }
     Ok(luminaire)
 }
@@ -146,7 +148,6 @@ fn used_planes(symmetry: usize, planes: usize) -> Option<Vec<usize>> {
 
 /// A file that holds one thing a line.
 struct Lines<'a> {
-    path: &'a Path,
     lines: core::str::Lines<'a>,
     number: usize,
 }
@@ -183,6 +184,6 @@ impl Lines<'_> {
 
     /// A message about the line that was read last.
     fn wrong(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Line(self.number.max(1)), message)
+        Diagnostic::at(self.number.max(1), message)
     }
 }

@@ -1,14 +1,17 @@
-use super::WebType;
-use super::axis::Axis;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::axis::{Axis, full_turn};
+use super::web_type::WebType;
 
 /// An axis that symmetry has completed, and for each of its angles which of the measured ones has its values.
 #[derive(Clone, Debug)]
-pub(super) struct Unfolding {
+pub(super) struct UnfoldedAxis {
     pub(super) axis: Axis,
     pub(super) from: Vec<usize>,
 }
 
-impl Unfolding {
+impl UnfoldedAxis {
     /// None where the angles are not those of the type.
     pub(super) fn vertical(web_type: WebType, angles: &[f32]) -> Option<Self> {
         let axis = Axis::new(angles.to_vec()).filter(|_| angles.len() > 1)?;
@@ -35,7 +38,7 @@ impl Unfolding {
             (0.0, 180.0) => Some(Self::of(&axis, |a| vec![a, 360.0 - a])),
             (90.0, 270.0) => Some(Self::of(&axis, |a| {
                 let mirrored = 180.0 - a;
-                vec![a, mirrored.rem_euclid(360.0), mirrored + 360.0]
+                vec![a, full_turn(mirrored), mirrored + 360.0]
             })),
             // A full turn, with or without its end.
             (0.0, last) if last > 180.0 && last <= 360.0 => Some(Self::of(&axis, |a| {

@@ -1,7 +1,8 @@
+use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 
-use super::{CandelaWeb, LampTilt};
-use crate::Diagnostic;
+use super::{Diagnostic, LampTilt, PhotometricWeb};
 
 /// A measured luminaire.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +12,7 @@ pub struct Luminaire {
     /// What the file says in words, in its order: names of LM-63's keywords, or of EULUMDAT's lines, and the words.
     pub keywords: Vec<(String, String)>,
     /// The intensity by direction, in candela, with all factors of the file.
-    pub web: CandelaWeb,
+    pub web: PhotometricWeb,
     /// What its bare lamps give off, in lm; none where the file was measured without asking for them.
     pub lamp_lumens: Option<f32>,
     /// What it draws, in W.

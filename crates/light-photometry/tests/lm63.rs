@@ -1,14 +1,12 @@
-use core::f32::consts::PI;
-use std::path::Path;
+//! LM-63 texts and what they mean.
 
-use super::*;
-use crate::test_folder::TestFolder;
-use glam::{Affine3A, Vec2, Vec3};
-use lights::bounds::{LightId, LightSampleContext};
-use lights::sources::{Light, LightDesc, LightSetBuilder, PdfCoverage, Rgb, SceneSphere};
+use core::f32::consts::PI;
+
+use light_photometry::glam::Vec3;
+use light_photometry::{Luminaire, LuminaireFormat, parse_lm63};
 
 /// Which planes a file holds, and the factor of the intensity around the vertical.
-pub(super) type Case<Planes> = (Planes, fn(f32) -> f32);
+type Case = (core::ops::RangeInclusive<usize>, fn(f32) -> f32);
 
 /// A file of the 2002 edition, with one value for each direction that the angles say.
 fn lm63(
@@ -33,16 +31,21 @@ fn lm63(
     )
 }
 
+/// For texts that name no file.
+fn no_file(name: &str) -> Result<String, String> {
+    Err(format!("is {name}: not allowed"))
+}
+
 fn parse(text: &str) -> Luminaire {
-    parse_lm63(Path::new("a.ies"), text).expect("well-formed")
+    parse_lm63(text, no_file).expect("well-formed")
 }
 
 fn error(text: &str) -> String {
-    let result = parse_lm63(Path::new("a.ies"), text);
+    let result = parse_lm63(text, no_file);
     result.expect_err("malformed").to_string()
 }
 
-pub(super) fn near(value: f32, expected: f32, part: f32, what: &str) {
+fn near(value: f32, expected: f32, part: f32, what: &str) {
     let error = (value - expected).abs();
     assert!(
         error <= part * expected.abs(),
@@ -122,7 +125,7 @@ fn directions_are_those_of_the_standard() {
 fn symmetry_fills_in_what_is_left_out() {
     let vertical = [0.0, 60.0, 90.0];
     let turn: Vec<f32> = (0..=24u8).map(|i| 15.0 * f32::from(i)).collect();
-    let cases: [Case<core::ops::RangeInclusive<usize>>; 5] = [
+    let cases: [Case; 5] = [
         (0..=6, |h| 3.0 + (2.0 * h).cos()),
         (0..=12, |h| 3.0 + h.cos()),
         (6..=18, |h| 3.0 + h.sin()),
@@ -179,17 +182,24 @@ fn tilt_is_included_or_beside() {
         1e-6,
         "included",
     );
-    let folder = TestFolder::new("ies_tilt");
-    std::fs::write(folder.path("lamp.tlt"), tilt).expect("written");
-    std::fs::write(folder.path("a.ies"), format!("TILT=lamp.tlt\n{body}")).expect("written");
-    let lamp = read_luminaire(&folder.path("a.ies")).expect("well-formed");
-    near(lamp.tilt.expect("a tilt").factor(0.0), 1.0, 0.0, "beside");
-    let missing = parse_lm63(&folder.path("b.ies"), "x\nTILT=none.tlt\n").expect_err("no file");
-    assert!(
-        missing
-            .message
-            .starts_with("TILT names `none.tlt`, which cannot be read"),
-        "{missing}"
+    let text = format!("TILT=lamp.tlt\n{body}");
+    let lamp = parse_lm63(&text, |name| {
+        assert_eq!(name, "lamp.tlt", "as the text has it");
+        Ok(tilt.into())
+    });
+    let factor = lamp.expect("well-formed").tilt.expect("a tilt").factor(0.0);
+    near(factor, 1.0, 0.0, "beside");
+    let missing = parse_lm63(&text, |_| Err("cannot be read".into())).expect_err("no file");
+    assert_eq!(
+        missing.to_string(),
+        "line 1: TILT names `lamp.tlt`, which cannot be read",
+        "the caller's reason"
+    );
+    let broken = parse_lm63(&text, |_| Ok("1\n2\n0 0\n1 1\n".into())).expect_err("no tilt");
+    assert_eq!(
+        broken.to_string(),
+        "lamp.tlt: line 4: expected ascending tilt angles",
+        "the file that is wrong"
     );
 }
 
@@ -198,8 +208,8 @@ fn odd_files_are_warned_about() {
     let lamp = parse("IESNA91\nTILT=NONE\n1 10 1 2 1 1 1 0 0 0\n1 1 12\n0 180\n0\n10 10\n7\n");
     let warnings: Vec<String> = lamp.warnings.iter().map(ToString::to_string).collect();
     let expected = [
-        "a.ies:7: what follows the last intensity was ignored",
-        "a.ies: gives off 126 lm, more than the 10 lm of its lamps",
+        "line 7: what follows the last intensity was ignored",
+        "gives off 126 lm, more than the 10 lm of its lamps",
     ];
     assert_eq!(warnings, expected, "both");
 }
@@ -212,47 +222,47 @@ fn errors_name_line_and_expectation() {
     let cases = [
         (
             "IESNA91\n[A] b\n".to_owned(),
-            "a.ies:2: expected a line `TILT=...`, found the end of the file",
+            "line 2: expected a line `TILT=...`, found the end of the file",
         ),
         (
             "TILT=\n".to_owned(),
-            "a.ies:1: expected `TILT=NONE`, `TILT=INCLUDE` or the name of a file",
+            "line 1: expected `TILT=NONE`, `TILT=INCLUDE` or the name of a file",
         ),
         (
             body("0 90", "0", "1 x"),
-            "a.ies:7: expected an intensity in candela, found `x`",
+            "line 7: expected an intensity in candela, found `x`",
         ),
         (
             body("0 90", "0", "1"),
-            "a.ies:7: expected an intensity in candela, found the end of the file",
+            "line 7: expected an intensity in candela, found the end of the file",
         ),
         (
             body("0 90", "0", "1 -1"),
-            "a.ies:7: expected a finite intensity of at least 0",
+            "line 7: expected a finite intensity of at least 0",
         ),
         (
             body("90 0", "0", "1 1"),
-            "a.ies:5: expected ascending vertical angles",
+            "line 5: expected ascending vertical angles",
         ),
         (
             body("0 90", "10", "1 1"),
-            "a.ies:6: expected ascending horizontal angles",
+            "line 6: expected ascending horizontal angles",
         ),
         (
             "TILT=NONE\n1 -1 0 2 1".to_owned(),
-            "a.ies:2: expected a multiplier above 0, found `0`",
+            "line 2: expected a multiplier above 0, found `0`",
         ),
         (
             "TILT=NONE\n1 -1 1\n2.5 1".to_owned(),
-            "a.ies:3: expected the number of vertical angles from 1 to 7201, found `2.5`",
+            "line 3: expected the number of vertical angles from 1 to 7201, found `2.5`",
         ),
         (
             "TILT=NONE\n1 -1 1 2 1 4".to_owned(),
-            "a.ies:2: expected the photometric type from 1 to 3, found `4`",
+            "line 2: expected the photometric type from 1 to 3, found `4`",
         ),
         (
             "TILT=INCLUDE\n1 2 0 0 1 1\n".to_owned(),
-            "a.ies:2: expected ascending tilt angles",
+            "line 2: expected ascending tilt angles",
         ),
     ];
     for (text, message) in cases {
@@ -260,40 +270,6 @@ fn errors_name_line_and_expectation() {
             error(&text).starts_with(message),
             "{}\nnot\n{message}",
             error(&text)
-        );
-    }
-}
-
-#[test]
-fn a_web_becomes_a_light_of_its_power_and_shape() {
-    let steps: Vec<f32> = (0..=18u8).map(|i| 10.0 * f32::from(i)).collect();
-    let turn: Vec<f32> = (0..=24u8).map(|i| 15.0 * f32::from(i)).collect();
-    let web = parse(&lm63(1, &steps, &turn, |v, h| {
-        (200.0 - v) * (2.0 + h.to_radians().sin())
-    }))
-    .web;
-    let mut builder =
-        LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"));
-    let desc = web.light::<Rgb>(Affine3A::IDENTITY, Vec3::ONE, 256);
-    builder.add(LightDesc::Goniometric(desc)).expect("a light");
-    let set = builder.build();
-    let light = set.get(LightId(0)).expect("one");
-    near(683.0 * light.phi(&()).x, web.total_lumens(), 1e-4, "lumens");
-    for w in [
-        Vec3::new(0.3, -0.8, 0.2),
-        Vec3::new(-0.5, 0.1, 0.7),
-        Vec3::new(0.1, 0.9, -0.3),
-    ] {
-        let w = w.normalize();
-        let ctx = LightSampleContext::medium(w);
-        let sample = light
-            .sample_li(&ctx, Vec2::ZERO, &(), PdfCoverage::Complete)
-            .expect("in sight");
-        near(
-            683.0 * sample.l.x,
-            web.toward(w),
-            0.03,
-            "candela at 1 m are lux",
         );
     }
 }

@@ -1,7 +1,17 @@
-use std::path::Path;
+//! EULUMDAT texts and what they mean.
 
-use super::parse_eulumdat;
-use super::tests::{Case, near};
+use light_photometry::parse_eulumdat;
+
+/// Which planes a file holds, and the factor of the intensity around the vertical.
+type Case = (Vec<usize>, fn(f32) -> f32);
+
+fn near(value: f32, expected: f32, part: f32, what: &str) {
+    let error = (value - expected).abs();
+    assert!(
+        error <= part * expected.abs(),
+        "{what}: {value} for {expected}"
+    );
+}
 
 /// A EULUMDAT file of one set of lamps of 2000 lm.
 fn ldt(symmetry: usize, planes: &[usize], cd_per_klm: impl Fn(f32, f32) -> f32) -> String {
@@ -38,7 +48,7 @@ fn ldt(symmetry: usize, planes: &[usize], cd_per_klm: impl Fn(f32, f32) -> f32) 
 
 #[test]
 fn eulumdat_has_five_symmetries() {
-    let cases: [Case<Vec<usize>>; 5] = [
+    let cases: [Case; 5] = [
         ((0..8).collect(), |c| 3.0 + (c + 0.5).sin()),
         (vec![0], |_| 3.0),
         ((0..5).collect(), |c| 3.0 + c.cos()),
@@ -49,7 +59,7 @@ fn eulumdat_has_five_symmetries() {
         let text = ldt(symmetry, &planes, |c, g| {
             around(c.to_radians()) * (100.0 - g)
         });
-        let lamp = parse_eulumdat(Path::new("a.ldt"), &text).expect("well-formed");
+        let lamp = parse_eulumdat(&text).expect("well-formed");
         assert_eq!(
             (lamp.lamp_lumens, lamp.input_watts),
             (Some(2000.0), 20.0),
@@ -66,11 +76,7 @@ fn eulumdat_has_five_symmetries() {
 #[test]
 fn eulumdat_errors_and_warnings() {
     let text = ldt(1, &[0], |_, _| 100.0);
-    let message = |text: &str| {
-        parse_eulumdat(Path::new("a.ldt"), text)
-            .expect_err("bad")
-            .to_string()
-    };
+    let message = |text: &str| parse_eulumdat(text).expect_err("bad").to_string();
     let lines: Vec<&str> = text.lines().collect();
     let with = |index: usize, line: &str| {
         let mut lines = lines.clone();
@@ -79,37 +85,32 @@ fn eulumdat_errors_and_warnings() {
     };
     assert_eq!(
         message(&with(2, "5")),
-        "a.ldt:3: expected the symmetry, 0 to 4, at most 4, found `5`",
+        "line 3: expected the symmetry, 0 to 4, at most 4, found `5`",
         "symmetry"
     );
     assert_eq!(
         message(&with(28, "x")),
-        "a.ldt:29: expected the lumens of the lamps, found `x`",
+        "line 29: expected the lumens of the lamps, found `x`",
         "lumens"
     );
     assert_eq!(
         message(&with(25, "0")),
-        "a.ldt:26: expected at least one set of lamps",
+        "line 26: expected at least one set of lamps",
         "no lamps"
     );
     let short = lines[..lines.len() - 1].join("\n");
     assert_eq!(
         message(&short),
-        "a.ldt:55: expected an intensity in cd/klm, found the end of the file",
+        "line 55: expected an intensity in cd/klm, found the end of the file",
         "cut"
     );
     // 100 cd/klm over the half space below are 628 lm of 1000.
-    let lamp = |ratio| parse_eulumdat(Path::new("a.ldt"), &with(22, ratio)).expect("well-formed");
+    let lamp = |ratio| parse_eulumdat(&with(22, ratio)).expect("well-formed");
     assert!(lamp("63").warnings.is_empty(), "as stated");
     let warnings = lamp("80").warnings;
     assert_eq!(
         warnings[0].to_string(),
-        "a.ldt: gives off 1257 lm, not the 1600 lm of its light output ratio",
+        "gives off 1257 lm, not the 1600 lm of its light output ratio",
         "not as stated"
     );
-}
-
-/// A file without a fault.
-pub(crate) fn good_eulumdat() -> String {
-    ldt(1, &[0], |_, gamma| 100.0 - gamma)
 }

@@ -1,23 +1,30 @@
-use std::path::Path;
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
+use super::diagnostic::{Diagnostic, shown};
 use super::numbers::Numbers;
-use super::{CandelaWeb, CandelaWebError, LampTilt, Luminaire, LuminaireFormat, WebType};
-use crate::text::{read_text, shown};
-use crate::{Diagnostic, Place};
+use super::{LampTilt, Luminaire, LuminaireFormat, PhotometricWeb, PhotometricWebError, WebType};
 
 /// The most angles on an axis, and pairs of a tilt, that are believed.
 const MOST_ANGLES: u16 = 7_201;
 
-/// The luminaire in the text of an LM-63 file, of any edition from 1986 to 2019; `path` is for messages, and for the file
-/// that `TILT=` may name, which is looked for beside it.
+/// The luminaire in the text of an LM-63 file, of any edition from 1986 to 2019.
+///
+/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or why there is none: this crate reads no
+/// files.
 ///
 /// # Errors
-/// When the text is malformed: file, line and what was expected there.
+/// When the text is malformed, or there is no file that it names: the line and what was expected there.
 ///
 /// # Source
 /// `[LM63]`. The ballast-lamp photometric factor is one of the editions of 1986 and 1991; later ones have another
 /// use for its place.
-pub fn parse_lm63(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
+pub fn parse_lm63(
+    text: &str,
+    tilt_file: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<Luminaire, Diagnostic> {
     let mut lines = (1..).zip(text.lines()).peekable();
     let first = lines.peek().map_or("", |&(_, line)| line.trim());
     let year = edition(first);
@@ -34,7 +41,7 @@ pub fn parse_lm63(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
     let tilt = loop {
         let Some((number, line)) = lines.next() else {
             let message = "expected a line `TILT=...`, found the end of the file";
-            return Err(Diagnostic::at(path, Place::Line(last_line), message));
+            return Err(Diagnostic::at(last_line, message));
         };
         last_line = number;
         match line.trim().strip_prefix("TILT=") {
@@ -43,24 +50,21 @@ pub fn parse_lm63(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
         }
     };
     let tilt_line = last_line;
-    let mut numbers = Numbers::new(path, lines);
+    let mut numbers = Numbers::new(lines);
     let tilt = match tilt {
         "NONE" => None,
         "INCLUDE" => Some(read_tilt(&mut numbers)?),
         "" => {
             let message = "expected `TILT=NONE`, `TILT=INCLUDE` or the name of a file";
-            return Err(Diagnostic::at(path, Place::Line(tilt_line), message));
+            return Err(Diagnostic::at(tilt_line, message));
         }
         name => {
-            let beside = path.with_file_name(name);
-            let text = read_text(&beside).map_err(|error| {
-                let message = format!("TILT names `{}`, which {}", shown(name), error.message);
-                Diagnostic::at(path, Place::Line(tilt_line), message)
+            let text = tilt_file(name).map_err(|reason| {
+                let message = format!("TILT names `{}`, which {reason}", shown(name));
+                Diagnostic::at(tilt_line, message)
             })?;
-            Some(read_tilt(&mut Numbers::new(
-                &beside,
-                (1..).zip(text.lines()),
-            ))?)
+            let tilt = read_tilt(&mut Numbers::new((1..).zip(text.lines())));
+            Some(tilt.map_err(|error| error.in_tilt_file(name))?)
         }
     };
 
@@ -90,22 +94,22 @@ pub fn parse_lm63(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
     let input_watts = numbers.number("the input watts")?;
 
     let vertical = numbers.list(vertical, "a vertical angle")?;
-    let after_vertical = numbers.wrong(CandelaWebError::Vertical.to_string());
+    let after_vertical = numbers.wrong(PhotometricWebError::Vertical.to_string());
     let horizontal = numbers.list(horizontal, "a horizontal angle")?;
-    let after_horizontal = numbers.wrong(CandelaWebError::Horizontal.to_string());
+    let after_horizontal = numbers.wrong(PhotometricWebError::Horizontal.to_string());
     let mut candelas = Vec::new();
     for _ in 0..vertical.len() * horizontal.len() {
         let value = factor * numbers.number("an intensity in candela")?;
         if !(value >= 0.0 && value.is_finite()) {
-            return Err(numbers.wrong(CandelaWebError::Candelas.to_string()));
+            return Err(numbers.wrong(PhotometricWebError::Candelas.to_string()));
         }
         candelas.push(value);
     }
-    let web = CandelaWeb::new(web_type, &vertical, &horizontal, &candelas);
+    let web = PhotometricWeb::new(web_type, &vertical, &horizontal, &candelas);
     let web = web.map_err(|error| match error {
-        CandelaWebError::Vertical => after_vertical,
-        CandelaWebError::Horizontal => after_horizontal,
-        CandelaWebError::Candelas => numbers.wrong(error.to_string()),
+        PhotometricWebError::Vertical => after_vertical,
+        PhotometricWebError::Horizontal => after_horizontal,
+        PhotometricWebError::Candelas => numbers.wrong(error.to_string()),
     })?;
 
     let mut luminaire = Luminaire {
@@ -127,7 +131,7 @@ pub fn parse_lm63(path: &Path, text: &str) -> Result<Luminaire, Diagnostic> {
             let lumens = luminaire.web.total_lumens();
             let message =
                 format!("gives off {lumens:.0} lm, more than the {lamps:.0} lm of its lamps");
-            luminaire.warnings.push(Diagnostic::file(path, message));
+            luminaire.warnings.push(Diagnostic::whole(message));
         }
     }
     Ok(luminaire)

@@ -1,12 +1,12 @@
-use std::path::Path;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
-use crate::text::shown;
-use crate::{Diagnostic, Place};
+use super::diagnostic::{Diagnostic, shown};
 
 /// The numbers of a text, wherever its lines break; each error names the line.
 #[derive(Debug)]
 pub(super) struct Numbers<'a> {
-    path: &'a Path,
     words: Vec<(usize, &'a str)>,
     next: usize,
     last_line: usize,
@@ -14,7 +14,7 @@ pub(super) struct Numbers<'a> {
 
 impl<'a> Numbers<'a> {
     /// The words of numbered lines, separated by blanks or commas.
-    pub(super) fn new(path: &'a Path, lines: impl Iterator<Item = (usize, &'a str)>) -> Self {
+    pub(super) fn new(lines: impl Iterator<Item = (usize, &'a str)>) -> Self {
         let mut words = Vec::new();
         let mut last_line = 1;
         for (number, line) in lines {
@@ -24,7 +24,6 @@ impl<'a> Numbers<'a> {
             words.extend(found.map(|word| (number, word)));
         }
         Self {
-            path,
             words,
             next: 0,
             last_line,
@@ -35,17 +34,13 @@ impl<'a> Numbers<'a> {
     pub(super) fn number(&mut self, what: &str) -> Result<f32, Diagnostic> {
         let Some(&(line, word)) = self.words.get(self.next) else {
             let message = format!("expected {what}, found the end of the file");
-            return Err(Diagnostic::at(
-                self.path,
-                Place::Line(self.last_line),
-                message,
-            ));
+            return Err(Diagnostic::at(self.last_line, message));
         };
         self.next += 1;
         let parsed = word.parse().ok().filter(|number: &f32| number.is_finite());
         parsed.ok_or_else(|| {
             let message = format!("expected {what}, found `{}`", shown(word));
-            Diagnostic::at(self.path, Place::Line(line), message)
+            Diagnostic::at(line, message)
         })
     }
 
@@ -74,6 +69,6 @@ impl<'a> Numbers<'a> {
     pub(super) fn wrong(&self, message: impl Into<String>) -> Diagnostic {
         let last = self.words.get(self.next.saturating_sub(1));
         let line = last.map_or(self.last_line, |&(line, _)| line);
-        Diagnostic::at(self.path, Place::Line(line), message)
+        Diagnostic::at(line, message)
     }
 }

@@ -1,3 +1,5 @@
+use alloc::vec::Vec;
+
 /// How the output of a luminaire's lamps changes when it is tilted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LampTilt {
@@ -16,7 +18,7 @@ impl LampTilt {
 
     /// The part of the output that is left at a tilt of `degrees`; beyond the measured angles that of the nearest.
     ///
-    /// A [`CandelaWeb`](super::CandelaWeb) is that of the luminaire as it was measured, without this factor.
+    /// A [`PhotometricWeb`](super::PhotometricWeb) is that of the luminaire as it was measured, without this factor.
     #[must_use]
     pub fn factor(&self, degrees: f32) -> f32 {
         let above = self.angles.partition_point(|&angle| angle <= degrees);
@@ -31,6 +33,8 @@ impl LampTilt {
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec;
+
     use super::*;
 
     #[test]

@@ -1,22 +1,21 @@
+use alloc::vec::Vec;
 use core::error::Error;
 use core::fmt;
 
-use glam::{Affine3A, Vec2, Vec3};
-use lights::math::equal_area::square_to_sphere;
-use lights::math::spectrum::photometric::Lumen;
-use lights::sources::{
-    Channels, ColorModel, GoniometricLightDesc, Image, IntensityAmount, MediumInterface,
-};
+use light_math::equal_area::square_to_sphere;
+use light_math::float;
+use light_math::glam::{Vec2, Vec3};
 
-use super::axis::{Axis, Measure};
-use super::unfolding::Unfolding;
+use super::axis::{Axis, Measure, full_turn};
+use super::unfolded_axis::UnfoldedAxis;
+use super::web_type::WebType;
 
 /// The intensity of a luminaire by direction: candelas at vertical and horizontal angles, bilinear in between, 0 beyond.
 ///
 /// Light space is right-handed with y up, whatever the [`WebType`]: the nadir is -y, and the direction that the standard
 /// calls photometric horizontal is +x.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CandelaWeb {
+pub struct PhotometricWeb {
     web_type: WebType,
     vertical: Axis,
     horizontal: Axis,
@@ -24,27 +23,10 @@ pub struct CandelaWeb {
     candelas: Vec<f32>,
 }
 
-/// How vertical and horizontal angles, `v` and `h`, say a direction.
-///
-/// # Source
-/// `[LM63]`, section 3: photometric zero, the nadir, is (v, h) = (0, 0) in types B and C and (-90, 0) in type A; photometric
-/// horizontal is (90, 0) in types B and C and (0, 0) in type A. Seen from above, horizontal angles run clockwise in
-/// types A and B, counter-clockwise in type C. `[LM75]` has the axes: the pole of type A is vertical, that of type B lies
-/// level and across, so that there `v` turns around it and `h` is a latitude. Type B is that of `[Radiance]`, `source.cal`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WebType {
-    /// Automotive lights: `(cos v cos h, sin v, cos v sin h)`.
-    A,
-    /// Floodlights: `(cos h sin v, -cos h cos v, sin h)`.
-    B,
-    /// Anything else, indoors and along roads: `(sin v cos h, -cos v, -sin v sin h)`.
-    C,
-}
-
 /// Why angles and candelas are no web.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum CandelaWebError {
+pub enum PhotometricWebError {
     /// Vertical angles do not ascend in `[0, 180]`, or for types A and B from the opposite of the last one, or from 0, to
     /// at most 90; or there is only one.
     Vertical,
@@ -55,7 +37,7 @@ pub enum CandelaWebError {
     Candelas,
 }
 
-impl CandelaWeb {
+impl PhotometricWeb {
     /// The web of the given angles in degrees; `candelas` holds the values of one horizontal angle after the other.
     ///
     /// What symmetry leaves out is filled in. Type C: horizontal angles that end at 0 are those of a rotationally
@@ -69,15 +51,16 @@ impl CandelaWeb {
         vertical: &[f32],
         horizontal: &[f32],
         candelas: &[f32],
-    ) -> Result<Self, CandelaWebError> {
+    ) -> Result<Self, PhotometricWebError> {
         let is_valid = |&value: &f32| value >= 0.0 && value.is_finite();
         let count = vertical.len() * horizontal.len();
         if candelas.len() != count || !candelas.iter().all(is_valid) {
-            return Err(CandelaWebError::Candelas);
+            return Err(PhotometricWebError::Candelas);
         }
-        let rows = Unfolding::vertical(web_type, vertical).ok_or(CandelaWebError::Vertical)?;
-        let planes =
-            Unfolding::horizontal(web_type, horizontal).ok_or(CandelaWebError::Horizontal)?;
+        let rows =
+            UnfoldedAxis::vertical(web_type, vertical).ok_or(PhotometricWebError::Vertical)?;
+        let planes = UnfoldedAxis::horizontal(web_type, horizontal)
+            .ok_or(PhotometricWebError::Horizontal)?;
         let value = |&plane: &usize| {
             let plane = &candelas[plane * vertical.len()..][..vertical.len()];
             rows.from.iter().map(|&row| plane[row])
@@ -132,14 +115,14 @@ impl CandelaWeb {
     pub fn toward(&self, w: Vec3) -> f32 {
         let (vertical, horizontal) = match self.web_type {
             // At the poles of these types a zero must not be negative, which would mean behind.
-            WebType::A => (w.y.clamp(-1.0, 1.0).asin(), w.z.atan2(w.x + 0.0)),
-            WebType::B => (w.x.atan2(0.0 - w.y), w.z.clamp(-1.0, 1.0).asin()),
-            WebType::C => ((-w.y).clamp(-1.0, 1.0).acos(), (-w.z).atan2(w.x)),
+            WebType::A => (float::safe_asin(w.y), float::atan2(w.z, w.x + 0.0)),
+            WebType::B => (float::atan2(w.x, 0.0 - w.y), float::safe_asin(w.z)),
+            WebType::C => (float::safe_acos(-w.y), float::atan2(-w.z, w.x)),
         };
         let (vertical, horizontal) = (vertical.to_degrees(), horizontal.to_degrees());
         match self.web_type {
             WebType::A | WebType::B => self.at(vertical, horizontal),
-            WebType::C => self.at(vertical, horizontal.rem_euclid(360.0)),
+            WebType::C => self.at(vertical, full_turn(horizontal)),
         }
     }
 
@@ -170,28 +153,13 @@ impl CandelaWeb {
             .sum::<f64>() as f32
     }
 
-    /// A goniometric light with the distribution and the luminous power of this web, its distribution an equal-area
-    /// square of `size` texels a side (at least 1), each the mean of what it covers, 1 at the peak.
+    /// The distribution over directions as an equal-area square of `size` texels a side, row by row from
+    /// row 0: each the mean intensity over what it covers, as a part of the peak.
     ///
-    /// # Panics
-    /// When `size` is 0.
+    /// # Source
+    /// The map of the square is that of [`light_math::equal_area`].
     #[must_use]
-    pub fn light<C: ColorModel>(
-        &self,
-        transform: Affine3A,
-        emission: C::Emission,
-        size: u32,
-    ) -> GoniometricLightDesc<C> {
-        GoniometricLightDesc {
-            transform,
-            distribution: self.distribution(size),
-            emission,
-            amount: IntensityAmount::LuminousPower(Lumen(self.total_lumens())),
-            media: MediumInterface::default(),
-        }
-    }
-
-    fn distribution(&self, size: u32) -> Image {
+    pub fn distribution(&self, size: u32) -> Vec<f32> {
         /// Places a side in each texel.
         const PLACES: u32 = 4;
         let peak = self.peak_candelas();
@@ -203,23 +171,13 @@ impl CandelaWeb {
         };
         let count = PLACES * PLACES;
         let mean = |x, y| (0..count).map(|i| place(x, y, i)).sum::<f32>() / count as f32;
-        let texels = (0..size).flat_map(|y| (0..size).map(move |x| mean(x, y)));
-        Image::from_f32([size, size], Channels::Gray, texels.collect::<Vec<_>>())
-            .expect("a square of parts of the peak")
+        (0..size)
+            .flat_map(|y| (0..size).map(move |x| mean(x, y)))
+            .collect()
     }
 }
 
-impl fmt::Display for WebType {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::A => "A",
-            Self::B => "B",
-            Self::C => "C",
-        })
-    }
-}
-
-impl fmt::Display for CandelaWebError {
+impl fmt::Display for PhotometricWebError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Vertical => {
@@ -234,4 +192,4 @@ impl fmt::Display for CandelaWebError {
     }
 }
 
-impl Error for CandelaWebError {}
+impl Error for PhotometricWebError {}

@@ -1,0 +1,165 @@
+use std::path::Path;
+
+use lights::math::spectrum::photometric::Lumen;
+use lights::photometry::{self, Luminaire, PhotometricWeb, parse_eulumdat, parse_lm63};
+use lights::sources::{
+    Channels, ColorModel, GoniometricLightDesc, Image, IntensityAmount, MediumInterface,
+};
+
+use crate::glam::Affine3A;
+use crate::text::{read_text, text_of};
+use crate::{Diagnostic, Files, Place};
+
+/// The luminaire that a file describes: EULUMDAT if its name ends in `.ldt`, LM-63 otherwise.
+///
+/// A file that `TILT=` names is looked for beside it.
+///
+/// # Errors
+/// When a file cannot be read or is malformed: file, line and what was expected there.
+pub fn read_luminaire(path: &Path) -> Result<Luminaire, Diagnostic> {
+    parse_luminaire(path, &read_text(path)?, Files::DISK)
+}
+
+/// As [`read_luminaire`], from the text of the file; `path` says by its ending which format it has, and names it in messages. A file that
+/// `TILT=` names is asked of `files`.
+///
+/// # Errors
+/// As [`read_luminaire`].
+pub fn parse_luminaire(path: &Path, text: &str, files: Files<'_>) -> Result<Luminaire, Diagnostic> {
+    let extension = path.extension().unwrap_or_default();
+    let luminaire = if extension.eq_ignore_ascii_case("ldt") {
+        parse_eulumdat(text)
+    } else {
+        parse_lm63(text, |name| read_beside(path, name, files))
+    };
+    luminaire.map_err(|error| in_luminaire(path, &error))
+}
+
+/// The text of the file `name` in the folder of `path`, or why there is none.
+pub(crate) fn read_beside(path: &Path, name: &str, files: Files<'_>) -> Result<String, String> {
+    let bytes = files.read(&path.with_file_name(name));
+    bytes
+        .map(|bytes| text_of(&bytes).into_owned())
+        .map_err(|error| error.message)
+}
+
+/// A message about the luminaire whose file is `path`.
+#[must_use]
+pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic {
+    let beside = message
+        .tilt_file
+        .as_ref()
+        .map(|name| path.with_file_name(name));
+    let place = message.line.map_or(Place::File, Place::Line);
+    Diagnostic::at(beside.as_deref().unwrap_or(path), place, &message.message)
+}
+
+/// A goniometric light with the distribution and the luminous power of `web`: an equal-area square of `size` texels a side, at least 1.
+///
+/// # Panics
+/// When `size` is 0.
+#[must_use]
+pub fn goniometric_light<C: ColorModel>(
+    web: &PhotometricWeb,
+    transform: Affine3A,
+    emission: C::Emission,
+    size: u32,
+) -> GoniometricLightDesc<C> {
+    let distribution = Image::from_f32([size, size], Channels::Gray, web.distribution(size));
+    GoniometricLightDesc {
+        transform,
+        distribution: distribution.expect("a square of parts of the peak"),
+        emission,
+        amount: IntensityAmount::LuminousPower(Lumen(web.total_lumens())),
+        media: MediumInterface::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use lights::bounds::{LightId, LightSampleContext};
+    use lights::photometry::WebType;
+    use lights::sources::{Light, LightDesc, LightSetBuilder, PdfCoverage, Rgb, SceneSphere};
+
+    use super::*;
+    use crate::glam::{Vec2, Vec3};
+    use crate::test_folder::TestFolder;
+
+    fn near(value: f32, expected: f32, part: f32, what: &str) {
+        let error = (value - expected).abs();
+        assert!(error <= part * expected, "{what}: {value} for {expected}");
+    }
+
+    #[test]
+    fn a_tilt_file_is_asked_of_the_files_that_the_caller_allows() {
+        let folder = TestFolder::new("luminaire_tilt");
+        let text = "TILT=lamp.tlt\n1 1000 1 2 1 1 1 0 0 0\n1 1 12\n0 90\n0\n10 5\n";
+        fs::write(folder.path("a.ies"), text).expect("written");
+        let missing = read_luminaire(&folder.path("a.ies")).expect_err("no file");
+        assert!(
+            missing
+                .message
+                .starts_with("TILT names `lamp.tlt`, which cannot be read"),
+            "{missing}"
+        );
+        fs::write(folder.path("lamp.tlt"), "1\n3\n0 45 90\n1 0.9 0.7\n").expect("written");
+        let lamp = read_luminaire(&folder.path("a.ies")).expect("well-formed");
+        assert_eq!(lamp.tilt.expect("a tilt").factor(0.0), 1.0, "beside");
+        let refused = parse_luminaire(&folder.path("a.ies"), text, Files::NONE);
+        assert!(
+            refused
+                .expect_err("no files")
+                .message
+                .ends_with("not allowed"),
+            "the file is there, but must not be read"
+        );
+        fs::write(folder.path("lamp.tlt"), "1\n2\n0 0\n1 1\n").expect("written");
+        let broken = read_luminaire(&folder.path("a.ies")).expect_err("no tilt");
+        assert_eq!(
+            broken.path,
+            folder.path("lamp.tlt"),
+            "the file that is wrong"
+        );
+        assert_eq!(broken.place, Place::Line(4), "and the line");
+    }
+
+    #[test]
+    fn a_web_becomes_a_light_of_its_power_and_shape() {
+        let steps: Vec<f32> = (0..=18u8).map(|i| 10.0 * f32::from(i)).collect();
+        let turn: Vec<f32> = (0..=24u8).map(|i| 15.0 * f32::from(i)).collect();
+        let candelas: Vec<f32> = (turn.iter())
+            .flat_map(|h| {
+                steps
+                    .iter()
+                    .map(|v| (200.0 - v) * (2.0 + h.to_radians().sin()))
+            })
+            .collect();
+        let web = PhotometricWeb::new(WebType::C, &steps, &turn, &candelas).expect("a web");
+        let mut builder =
+            LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"));
+        let desc = goniometric_light::<Rgb>(&web, Affine3A::IDENTITY, Vec3::ONE, 256);
+        builder.add(LightDesc::Goniometric(desc)).expect("a light");
+        let set = builder.build();
+        let light = set.get(LightId(0)).expect("one");
+        near(683.0 * light.phi(&()).x, web.total_lumens(), 1e-4, "lumens");
+        for w in [
+            Vec3::new(0.3, -0.8, 0.2),
+            Vec3::new(-0.5, 0.1, 0.7),
+            Vec3::new(0.1, 0.9, -0.3),
+        ] {
+            let w = w.normalize();
+            let ctx = LightSampleContext::medium(w);
+            let sample = light
+                .sample_li(&ctx, Vec2::ZERO, &(), PdfCoverage::Complete)
+                .expect("in sight");
+            near(
+                683.0 * sample.l.x,
+                web.toward(w),
+                0.03,
+                "candela at 1 m are lux",
+            );
+        }
+    }
+}
