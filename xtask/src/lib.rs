@@ -48,7 +48,8 @@ usage: cargo xtask [COMMAND]
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   coverage                    which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
-  mutants [CRATE] [COUNT|all] break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
+  mutants [CRATE] [COUNT|all|missed] [OFFSET]
+                break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
