@@ -123,6 +123,38 @@ mod tests {
     }
 
     #[test]
+    fn each_bit_of_a_key_moves_half_of_the_bits_of_its_hash() {
+        const KEYS: u32 = 1 << 12;
+        let mut rng = light_testkit::Rng::new(19);
+        let keys: Vec<u32> = (0..KEYS).map(|_| rng.u32()).collect();
+        for bit in 0..32 {
+            let mut moved = [0u32; 32];
+            for &key in &keys {
+                let change = hash(key) ^ hash(key ^ (1 << bit));
+                (0..32).for_each(|to| moved[to] += change >> to & 1);
+            }
+            for (to, moved) in moved.into_iter().enumerate() {
+                let share = f64::from(moved) / f64::from(KEYS);
+                assert!((share - 0.5).abs() < 0.05, "{bit} moves {to}: {share}");
+            }
+        }
+    }
+
+    /// Hashes of different numbers differ: no two points stand at the same place of their slabs.
+    #[test]
+    fn each_point_has_a_place_of_its_own_in_its_slab() {
+        for seed in 0..16 {
+            let cube = LatinHypercube::new(64, seed);
+            let mut places: Vec<f64> = (0..64)
+                .map(|i| (cube.point::<1>(i)[0] * 64.0).fract())
+                .collect();
+            places.sort_by(f64::total_cmp);
+            places.dedup();
+            assert_eq!(places.len(), 64, "seed {seed}");
+        }
+    }
+
+    #[test]
     fn none_is_treated_as_one() {
         assert_eq!(LatinHypercube::new(0, 3).len(), 1, "never empty");
     }

@@ -135,3 +135,6 @@ impl<'a> CellWalk<'a> {
         (density, if inside { end } else { f32::INFINITY })
     }
 }
+
+#[cfg(test)]
+mod tests;
