@@ -140,16 +140,25 @@ mod tests {
             w: Vec3::Z,
             phi: 3.0,
             cos_theta_o: 1.0,
-            cos_theta_e: -1.0,
+            cos_theta_e: decode_cos(12_345),
             two_sided: true,
         };
         let compact = CompactLightBounds::encode(&bounds, &all);
-        assert_eq!(compact.packed(), 32767 | 1 << 30, "cosines and the flag");
+        let packed = 32_767 | 12_345 << 15 | 1 << 30;
+        assert_eq!(compact.packed(), packed, "cosines and the flag");
         assert_eq!(compact.phi(), 3.0, "as it is");
         let decoded = compact.decode(&all);
         assert_eq!(decoded.bounds, bounds.bounds, "a corner is exact");
-        assert_eq!(decoded.cos_theta_e, -1.0, "so is the largest angle");
+        assert_eq!(decoded.cos_theta_e, bounds.cos_theta_e, "so is a code");
         assert!(decoded.two_sided, "and the flag");
+        let ctx = LightSampleContext::medium(Vec3::new(0.5, 0.2, -3.0));
+        let importance = compact.importance(&all, &ctx);
+        assert_eq!(
+            importance,
+            decoded.importance(&ctx),
+            "of what it decodes to"
+        );
+        assert!(importance > 0.0 && importance != 1.0, "{importance}");
     }
 
     /// Wide enough for any code of the axis, and not by more than what an arc cosine near 1 loses anyway.

@@ -136,6 +136,22 @@ mod tests {
         product(0) + product(1) + product(2)
     }
 
+    /// A box subtends its own angle and hardly more: it can be seen to lie beyond the edge of its emission.
+    #[test]
+    fn a_box_that_shines_away_does_not_matter() {
+        for size in [1e-3, 0.1, 1.0, 3.0] {
+            let lamp = lamp(Aabb::new(Vec3::splat(-size), Vec3::splat(size)));
+            // From a little less or more below the horizon of its centre than the angle that it subtends.
+            let sin_b = size * 3f32.sqrt() / 10.0;
+            for (sin, matters) in [(sin_b - 1e-4, true), (sin_b + 1e-4, false)] {
+                let p = Vec3::new(light_math::float::safe_sqrt(1.0 - sin * sin), 0.0, -sin);
+                let importance = lamp.importance(&LightSampleContext::medium(p * 10.0));
+                let is_zero = importance == 0.0;
+                assert_eq!(is_zero, !matters, "{size} at {p}: {importance}");
+            }
+        }
+    }
+
     #[test]
     fn a_point_above_a_lamp() {
         let lamp = lamp(Aabb::from_point(Vec3::ZERO));

@@ -143,6 +143,9 @@ mod tests {
             u.cone().contains(Vec3::X) && u.cone().contains(Vec3::Y),
             "cones join"
         );
+        // Two axes at a right angle: normals up to half of it.
+        let half = core::f32::consts::FRAC_1_SQRT_2;
+        assert!((u.cos_theta_o - half).abs() < 1e-5, "{u:?} is no wider");
     }
 
     #[test]
