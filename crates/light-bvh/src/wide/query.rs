@@ -49,3 +49,49 @@ impl Asker for &LightSampleContext {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::LightBvh;
+    use crate::wide::importance::FAR;
+    use light_bounds::{LightBounds, LightExtent, LightId};
+    use light_math::Aabb;
+
+    /// Beyond the reach of the tree a point is taken to be nearer. A light that is above its horizon may seem to be below it then, so
+    /// that the normal does not count.
+    #[test]
+    fn a_normal_does_not_count_where_coordinates_are_clamped() {
+        let lights = [Vec3::ZERO, Vec3::Y].map(|p| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(p),
+                w: Vec3::X,
+                phi: 1.0,
+                cos_theta_o: -1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        });
+        let tree = LightBvh::build(&lights).expect("valid lights");
+        for axis in [
+            Vec3::X,
+            Vec3::Y,
+            Vec3::Z,
+            Vec3::NEG_X,
+            Vec3::NEG_Y,
+            Vec3::NEG_Z,
+        ] {
+            let near = LightSampleContext::surface(axis * FAR, axis, axis);
+            assert_eq!(tree.pmf(&near, LightId(0)), 0.0, "below the horizon");
+            let p = axis * (2.0 * FAR);
+            let far = LightSampleContext::surface(p, axis, axis);
+            let pmf = tree.pmf(&far, LightId(0));
+            assert!(pmf > 0.0, "{axis}: {pmf}");
+            assert_eq!(
+                pmf,
+                tree.pmf(&LightSampleContext::medium(p), LightId(0)),
+                "{axis}"
+            );
+        }
+    }
+}

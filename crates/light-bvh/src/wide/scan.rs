@@ -93,3 +93,21 @@ pub(super) fn is_held(phi: f32, dark: DarkLights) -> bool {
 fn is_far(bounds: &Aabb) -> bool {
     bounds.min.min_element() < -FAR || bounds.max.max_element() > FAR
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_math::float::next_up;
+    use light_math::glam::Vec3;
+
+    #[test]
+    fn a_box_is_far_beyond_any_of_its_faces() {
+        let reach = Aabb::new(Vec3::splat(-FAR), Vec3::splat(FAR));
+        assert!(!is_far(&reach), "as far as it goes");
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let beyond = axis * next_up(FAR);
+            assert!(is_far(&Aabb::new(Vec3::ZERO, beyond)), "up {axis}");
+            assert!(is_far(&Aabb::new(-beyond, Vec3::ZERO)), "down {axis}");
+        }
+    }
+}
