@@ -1,4 +1,4 @@
-use super::AliasBin;
+use super::alias_bin::AliasBin;
 use super::error::{TableError, check_len, positive_total};
 
 /// Fills `bins` by one sweep with a cursor over the weights below the mean and one over those above it.

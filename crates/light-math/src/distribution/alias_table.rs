@@ -2,22 +2,9 @@
 use alloc::{vec, vec::Vec};
 
 use super::TableError;
+use super::alias_bin::AliasBin;
 use super::alias_sweep::fill;
 use crate::discrete::{SampledIndex, unit};
-
-/// One of the equally likely bins of an [`AliasTable`]: 12 bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
-#[repr(C)]
-pub struct AliasBin {
-    /// The part of the bin that belongs to its own index, in `[0, 1]`.
-    pub q: f32,
-    /// The index to which the rest of the bin belongs.
-    pub alias: u32,
-    /// The probability of the bin's own index.
-    pub pmf: f32,
-}
 
 /// Indices in proportion to weights, in constant time however many there are.
 ///

@@ -3,8 +3,16 @@
 use super::axis::Axis;
 use super::cumulative;
 use super::error::{TableError, check_len, positive_total};
-use super::piecewise_constant_1d::PiecewiseConstant1D;
-use super::piecewise_constant_2d::PiecewiseConstant2D;
+
+/// The number of floats that the table of a line of `bins` bins takes.
+pub(super) const fn line_len(bins: usize) -> usize {
+    2 * bins + 1
+}
+
+/// The number of floats that the table of a grid takes.
+pub(super) const fn grid_len(nx: usize, ny: usize) -> usize {
+    ny * (2 * nx + 1) + ny + 1
+}
 
 /// Fills the table of a line; returns its bins and the mean weight.
 #[expect(
@@ -23,7 +31,7 @@ pub(super) const fn fill_line(
         Ok(total) => total,
         Err(error) => return Err(error),
     };
-    if let Err(error) = check_len(PiecewiseConstant1D::table_len(weights.len()), table.len()) {
+    if let Err(error) = check_len(line_len(weights.len()), table.len()) {
         return Err(error);
     }
     let mean = total / weights.len() as f64;
@@ -55,7 +63,7 @@ pub(super) const fn fill_grid(
     if let Err(error) = check_len(nx.saturating_mul(ny), weights.len()) {
         return Err(error);
     }
-    if let Err(error) = check_len(PiecewiseConstant2D::table_len(nx, ny), table.len()) {
+    if let Err(error) = check_len(grid_len(nx, ny), table.len()) {
         return Err(error);
     }
     let total = match positive_total(weights) {

@@ -3,6 +3,7 @@
 //! A table is built once from weights and then only read. Its numbers live in anything that lends a slice: a `Vec`, a
 //! borrowed buffer, an array in a `static`. Sampling never returns a value of zero density, for any `u`.
 
+mod alias_bin;
 mod alias_sweep;
 mod alias_table;
 mod axis;
@@ -18,7 +19,8 @@ mod whole_sums;
 mod window;
 mod windowed_piecewise_constant_2d;
 
-pub use alias_table::{AliasBin, AliasTable};
+pub use alias_bin::AliasBin;
+pub use alias_table::AliasTable;
 pub use error::TableError;
 pub use piecewise_constant_1d::{PiecewiseConstant1D, Sample1D};
 pub use piecewise_constant_2d::{PiecewiseConstant2D, Sample2D};

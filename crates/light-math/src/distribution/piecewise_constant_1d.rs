@@ -3,7 +3,7 @@ use alloc::{vec, vec::Vec};
 
 use super::axis::Axis;
 use super::cumulative;
-use super::densities::fill_line;
+use super::densities::{fill_line, line_len};
 use super::error::{TableError, check_len};
 
 /// A density on an interval, constant in each of equal bins.
@@ -43,7 +43,7 @@ impl PiecewiseConstant1D<()> {
     /// The number of floats that the table of `bins` bins takes.
     #[must_use]
     pub const fn table_len(bins: usize) -> usize {
-        2 * bins + 1
+        line_len(bins)
     }
 }
 

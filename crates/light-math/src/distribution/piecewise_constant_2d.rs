@@ -3,7 +3,7 @@ use alloc::{vec, vec::Vec};
 
 use super::axis::Axis;
 use super::cumulative;
-use super::densities::fill_grid;
+use super::densities::{fill_grid, grid_len};
 use super::error::{TableError, check_len};
 use glam::Vec2;
 
@@ -38,7 +38,7 @@ impl PiecewiseConstant2D<()> {
     /// The number of floats that the table of a grid of `nx` columns and `ny` rows takes.
     #[must_use]
     pub const fn table_len(nx: usize, ny: usize) -> usize {
-        ny * (2 * nx + 1) + ny + 1
+        grid_len(nx, ny)
     }
 }
 

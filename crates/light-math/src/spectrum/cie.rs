@@ -2,18 +2,13 @@
 
 use glam::Vec3;
 
+pub use super::visible_range::{LAMBDA_MAX, LAMBDA_MIN};
 use super::{SampledSpectrum, SampledWavelengths, Spectrum};
 
 #[path = "cie_1931.rs"]
 mod cie_1931;
 
 use cie_1931::OBSERVER_5_NM;
-
-/// The shortest wavelength, in nm.
-pub const LAMBDA_MIN: f32 = 360.0;
-
-/// The longest wavelength, in nm.
-pub const LAMBDA_MAX: f32 = 830.0;
 
 /// The integral of the luminous efficiency over the wavelengths, in nm.
 pub const Y_INTEGRAL: f32 = 106.856_895;

@@ -17,6 +17,7 @@ mod sigmoid;
 mod uplift;
 mod uplift_solver;
 mod uplift_table;
+mod visible_range;
 mod wavelengths;
 
 pub use blackbody::{Blackbody, BlackbodyError};

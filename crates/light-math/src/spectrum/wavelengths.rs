@@ -1,4 +1,4 @@
-use super::cie::{LAMBDA_MAX, LAMBDA_MIN};
+use super::visible_range::{LAMBDA_MAX, LAMBDA_MIN};
 use crate::float::{exp, ln};
 
 /// The `N` wavelengths that a path carries, with the density of each.

@@ -1,8 +1,8 @@
+use super::height_bands::HeightBands;
 use super::{Coefficients, Majorants, Medium, Substance};
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};
 use crate::region::Region;
-use core::f32::consts::LN_2;
 use light_math::float;
 use light_math::glam::Vec3;
 use light_sources::ColorModel;
@@ -131,50 +131,8 @@ impl<C: ColorModel> Medium<C> for ExponentialHeight<C> {
     }
 
     fn majorants(&self, ray: &Ray, span: Span, _wavelengths: &C::Wavelengths) -> Majorants<'_> {
-        let bands = Bands::new(self.falloff, self.height(ray.o), self.up.dot(ray.d), span);
+        let bands = HeightBands::new(self.falloff, self.height(ray.o), self.up.dot(ray.d), span);
         Majorants::bands(span, self.substance.max_sigma_t(), bands)
-    }
-}
-
-/// The bands of height that a ray crosses: in band `k` the density lies within `[2^-(k+1), 2^-k]`, in band 0 also
-/// everything below the base, in the last one everything above.
-#[derive(Clone, Debug)]
-pub(super) struct Bands {
-    band: i32,
-    last: i32,
-    t_of_base: f32,
-    t_per_band: f32,
-}
-
-impl Bands {
-    /// Above this band the density is below any that matters: one segment covers the rest.
-    const TOP: i32 = 24;
-
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=TOP")]
-    fn new(falloff: f32, h0: f32, dh: f32, span: Span) -> Self {
-        let band_of = |t: f32| {
-            let height = if dh == 0.0 { h0 } else { h0 + dh * t };
-            float::floor(falloff * height / LN_2).clamp(0.0, Self::TOP as f32) as i32
-        };
-        Self {
-            band: band_of(span.t0),
-            last: band_of(span.t1),
-            t_of_base: -h0 / dh,
-            t_per_band: LN_2 / (falloff * dh),
-        }
-    }
-
-    /// The bound of the density in the band where the walk stands, and the distance at which the ray leaves the band.
-    pub(super) fn step(&mut self) -> (f32, f32) {
-        // The margin covers the rounding of heights and exponentials.
-        let density = float::powf(0.5, self.band as f32) * (1.0 + 1e-4);
-        if self.band == self.last {
-            return (density, f32::INFINITY);
-        }
-        let upward = self.last > self.band;
-        let wall = self.band + i32::from(upward);
-        self.band += if upward { 1 } else { -1 };
-        (density, self.t_of_base + self.t_per_band * wall as f32)
     }
 }
 

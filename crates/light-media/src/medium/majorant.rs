@@ -1,4 +1,4 @@
-use super::exponential::Bands;
+use super::height_bands::HeightBands;
 use super::majorant_grid::MajorantGrid;
 use crate::ray::{Ray, Span};
 use light_math::glam::Vec3;
@@ -23,7 +23,7 @@ pub struct Majorants<'a> {
 #[derive(Clone, Debug)]
 enum Walk<'a> {
     Constant,
-    Bands(Bands),
+    Bands(HeightBands),
     Cells(CellWalk<'a>),
 }
 
@@ -35,7 +35,7 @@ impl<'a> Majorants<'a> {
     }
 
     /// The bands of height in which an exponential density stays within a factor of two.
-    pub(super) fn bands(span: Span, max_sigma_t: f32, bands: Bands) -> Self {
+    pub(super) fn bands(span: Span, max_sigma_t: f32, bands: HeightBands) -> Self {
         Self::new(span, max_sigma_t, Walk::Bands(bands))
     }
 

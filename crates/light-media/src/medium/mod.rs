@@ -8,6 +8,7 @@ mod density_grid;
 mod exponential;
 mod glow;
 mod grid;
+mod height_bands;
 mod homogeneous;
 mod majorant;
 mod majorant_grid;

@@ -1,0 +1,13 @@
+/// One of the equally likely bins of an [`AliasTable`](super::AliasTable): 12 bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
+pub struct AliasBin {
+    /// The part of the bin that belongs to its own index, in `[0, 1]`.
+    pub q: f32,
+    /// The index to which the rest of the bin belongs.
+    pub alias: u32,
+    /// The probability of the bin's own index.
+    pub pmf: f32,
+}
