@@ -3,6 +3,7 @@
 //! The estimator is that of one unoccluded shading point: the contribution of the chosen light over its probability. Its variance
 //! is summed over all lights, not sampled, so that a rare large term cannot hide.
 
+mod build_time;
 mod drift;
 mod laws;
 mod occluders;
@@ -27,6 +28,7 @@ use light_scene::light_set::LightSetFile;
 use lights::bounds::LightExtent;
 
 use crate::{AnyLightSamplerError, SamplerKind};
+use build_time::build_time;
 use question::Question;
 use subject::Subject;
 
@@ -87,7 +89,7 @@ pub fn bench(
         .samplers
         .iter()
         .map(|&kind| {
-            let (ms, subject) = pool.install(|| timing::build(|| Subject::new(kind, &extents)));
+            let (ms, subject) = pool.install(|| build_time(|| Subject::new(kind, &extents)));
             Ok((ms, subject?))
         })
         .collect::<Result<_, AnyLightSamplerError>>()?;

@@ -1,7 +1,7 @@
 use lights::bounds::LightExtent;
 use lights::samplers::LightSampler;
 
-use super::timing;
+use super::build_time::build_time;
 use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 
 /// A sampler under measurement.
@@ -33,7 +33,7 @@ impl Subject {
             return None;
         };
         let mut sampler = sampler.clone();
-        let (milliseconds, refitted) = timing::build(|| sampler.refit(extents));
+        let (milliseconds, refitted) = build_time(|| sampler.refit(extents));
         refitted.ok().map(|()| milliseconds)
     }
 

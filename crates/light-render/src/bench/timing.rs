@@ -29,20 +29,6 @@ pub struct QueryTime {
     pub pmf_random_light: f64,
 }
 
-/// Milliseconds of the fastest of several builds, and what was built.
-pub(super) fn build<T>(make: impl FnMut() -> T) -> (f64, T) {
-    let (begin, mut make) = (Instant::now(), make);
-    let mut best = f64::INFINITY;
-    loop {
-        let start = Instant::now();
-        let built = make();
-        best = best.min(start.elapsed().as_secs_f64() * 1e3);
-        if begin.elapsed() > TIME_PER_SUBJECT {
-            return (best, built);
-        }
-    }
-}
-
 /// The time of each subject's queries. They take turns, so that a slow spell of the machine hits all of them.
 pub(super) fn queries(
     subjects: &[&Subject],

@@ -5,7 +5,7 @@ use light_scene::{Diagnostic, Image, write_image};
 use lights::math::SphereMap;
 use lights::sources::equal_area_size;
 
-use super::env::{Environment, MapName};
+use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::output_file::expect_writable;
 use super::room::expect_room;

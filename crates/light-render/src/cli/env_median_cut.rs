@@ -5,8 +5,8 @@ use light_scene::{Diagnostic, write_image};
 use lights::sources::{Centroid, MedianCut, MedianCutLight, RegionSums};
 use serde_json::{Value, json};
 
-use super::env::{Environment, MapName};
 use super::env_regions::draw_regions;
+use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::say::say;
 

@@ -9,6 +9,8 @@ mod env;
 mod env_convert;
 mod env_median_cut;
 mod env_regions;
+mod environment;
+mod exit;
 mod failure;
 mod ies;
 mod info;
@@ -59,7 +61,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let program = match Program::try_parse() {
         Ok(program) => program,
-        Err(error) => return failure::report_usage(&error),
+        Err(error) => return exit::report_usage(&error),
     };
     // Without a handler the process would end as well, but leave what it is writing.
     drop(ctrlc::set_handler(|| exit_without_outputs(INTERRUPTED)));

@@ -3,15 +3,20 @@
 mod chosen;
 mod direct;
 mod estimator;
-mod kind;
+mod follow;
 mod path;
+mod ray_origin;
+mod settings;
 mod single_scattering;
 mod through;
+mod traced;
 mod volpath;
 mod volume_vertex;
 
 pub use estimator::Estimator;
-pub use kind::{Integrator, follow};
-pub use path::{PathSettings, Traced, trace};
-pub use single_scattering::{SingleScattering, coarse_step, trace_single_scattering};
+pub use follow::follow;
+pub use path::trace;
+pub use settings::{Integrator, PathSettings, SingleScattering};
+pub use single_scattering::{coarse_step, trace_single_scattering};
+pub use traced::Traced;
 pub use volpath::trace_volume;

@@ -1,75 +1,10 @@
-use core::num::NonZeroU32;
-
-use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 
 use super::direct::{Arrived, DirectLight, LightQuestion, Vertex};
-use super::{Estimator, Integrator};
+use super::ray_origin::{Origin, sky};
+use super::{PathSettings, Traced};
 use crate::{Ray, SampleStream, World};
-
-/// How paths are traced.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathSettings {
-    /// The number of segments of the longest path: 1 sees emitters directly, 2 adds direct light, and so on.
-    pub max_depth: u32,
-    /// How light is found.
-    pub estimator: Estimator,
-    /// How many lights are chosen at the first vertex where light samples can contribute, at most as many as there are. One of
-    /// them gets a shadow ray. Later vertices, which count for less, choose one.
-    pub light_samples: NonZeroU32,
-    /// Where paths may scatter.
-    pub integrator: Integrator,
-}
-
-impl PathSettings {
-    /// How many lights are chosen at the first diffuse vertex, unless told otherwise.
-    ///
-    /// More would cost more than they gain: what is left of the noise is shadows.
-    pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(2).unwrap();
-
-    /// How many lights the first vertex chooses in `world`: more choices than lights repeat themselves.
-    pub(super) fn first_choices(&self, world: &World) -> u32 {
-        let lights = u32::try_from(world.lights().len()).unwrap_or(u32::MAX);
-        self.light_samples.get().min(lights.max(1))
-    }
-}
-
-/// What one path found.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Traced {
-    /// Radiance that arrives along the first ray.
-    pub radiance: Vec3,
-    /// How many rays were asked for, shadow rays included.
-    pub rays: u32,
-}
-
-/// How the current ray was chosen, which decides how the light it finds is weighted.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Origin {
-    /// By the camera or by a Dirac: no light sample could have found the same light.
-    Dirac,
-    /// By the material where light was asked for so, with this density in sr^-1.
-    Material { question: LightQuestion, pdf: f32 },
-}
-
-impl Origin {
-    /// The weight of the light `light` that the ray finds in the direction `wi`.
-    #[inline]
-    pub(super) fn weight<S: LightSampler>(
-        self,
-        direct: &DirectLight<'_, S>,
-        light: LightId,
-        wi: Vec3,
-    ) -> f32 {
-        match self {
-            Self::Dirac => 1.0,
-            Self::Material { question, pdf } => direct
-                .estimator
-                .bsdf_weight(pdf, || direct.density(&question, light, wi)),
-        }
-    }
-}
 
 /// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased estimate of the radiance
 /// along it, over paths of at most `settings.max_depth` segments.
@@ -157,18 +92,4 @@ pub fn trace<S: LightSampler>(
         from = Some(surface.primitive);
     }
     traced
-}
-
-/// The light of all infinite lights along a ray that leaves the scene.
-pub(super) fn sky<S: LightSampler>(direct: &DirectLight<'_, S>, ray: &Ray, origin: Origin) -> Vec3 {
-    let mut radiance = Vec3::ZERO;
-    for &light in direct.world.infinite_lights() {
-        let le = direct.world.sky_radiance(light, ray);
-        if le == Vec3::ZERO {
-            continue;
-        }
-        let weight = origin.weight(direct, light, ray.direction);
-        radiance += le * weight;
-    }
-    radiance
 }

@@ -6,20 +6,11 @@ use lights::samplers::LightSampler;
 use lights::sources::{LightType, Rgb};
 
 use super::direct::{DirectLight, LightQuestion, Vertex};
-use super::path::{Origin, sky};
+use super::ray_origin::{Origin, sky};
 use super::through::transmittance;
 use super::volume_vertex::VolumeVertex;
-use super::{Estimator, PathSettings, Traced};
+use super::{Estimator, PathSettings, SingleScattering, Traced};
 use crate::{Ray, SampleStream, World};
-
-/// How the light that a medium scatters once is found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SingleScattering {
-    /// Lights are chosen for the ray as a whole, as many as `light_samples` says, each with a distance of its own.
-    NextEvent,
-    /// A march in steps of this length, one light a step: the classic integrator.
-    Classic(StepSize),
-}
 
 /// The light along a camera ray that was scattered once at most, by the medium in which the camera stands or by the first
 /// surface. Mirrors and glass stay black.

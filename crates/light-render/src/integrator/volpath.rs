@@ -3,7 +3,7 @@ use lights::samplers::LightSampler;
 use lights::sources::LightType;
 
 use super::direct::{DirectLight, LightQuestion, Vertex};
-use super::path::{Origin, sky};
+use super::ray_origin::{Origin, sky};
 use super::through::{MOST_CROSSINGS, across, transmittance};
 use super::volume_vertex::{VolumeRay, VolumeVertex};
 use super::{PathSettings, Traced};

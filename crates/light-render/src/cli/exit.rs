@@ -1,0 +1,49 @@
+use std::process::ExitCode;
+
+use super::failure::Failure;
+use super::say::{complain, flush, line};
+
+impl Failure {
+    /// Prints the one line to standard error and says how the process ends.
+    pub(crate) fn report(&self) -> ExitCode {
+        let (message, status) = match self {
+            Self::Input(message) => (message, 2),
+            Self::Check(message) => (message, 1),
+        };
+        complain(format_args!("{}", one_line(message)));
+        ExitCode::from(status)
+    }
+}
+
+/// Ends the process as wrong arguments ask for: help on standard output and status 0, or one line and status 2.
+pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    if !error.use_stderr() {
+        return match line(format_args!("{}", text.trim_end())).and_then(|()| flush()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => failure.report(),
+        };
+    }
+    // What is wrong stands before the usage; the rest is for those who ask for help.
+    let wrong = text.split("\nUsage:").next().unwrap_or_default();
+    let wrong = wrong
+        .split("\nFor more information")
+        .next()
+        .unwrap_or_default();
+    Failure::input(wrong.trim_start_matches("error: ")).report()
+}
+
+/// The words of `message` on a single line.
+fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_one_line() {
+        assert_eq!(one_line("a\n  b\tc\n"), "a b c", "words");
+    }
+}
