@@ -41,7 +41,7 @@ pub fn light_sample_time<S: LightSampler>(
     Some(start.elapsed() / calls)
 }
 
-/// The questions at the points that a coarse grid of camera rays meets.
+/// The queries at the points that a coarse grid of camera rays meets.
 fn seen(world: &World, view: &View) -> Vec<LightSampleContext> {
     const GRID: u32 = 64;
     let (width, height) = view.resolution();

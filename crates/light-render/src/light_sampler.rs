@@ -164,7 +164,7 @@ fn power(extent: &LightExtent) -> f32 {
     }
 }
 
-/// The same question for whichever sampler it is.
+/// The same query for whichever sampler it is.
 macro_rules! for_each_kind {
     ($sampler:expr, $it:ident => $answer:expr) => {
         match $sampler {

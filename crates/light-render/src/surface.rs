@@ -94,7 +94,7 @@ impl Surface {
         }
     }
 
-    /// The question that light samplers and lights answer at this point, with the normals turned to the side of `wo`.
+    /// The query that light samplers and lights answer at this point, with the normals turned to the side of `wo`.
     #[inline]
     #[must_use]
     pub fn light_context(&self, wo: Vec3) -> LightSampleContext {

@@ -8,9 +8,9 @@ use serde_json::Value;
 use crate::steps::{Outcome, StepResult, cargo, output, root, run};
 
 mod adversarial;
-mod drift;
 mod hierarchies;
 mod receivers;
+mod refits;
 
 /// The page that the tables are on, each between a line with its name and the same line at the end.
 const PAGE: &str = "crates/light-bvh/README.md";
@@ -23,7 +23,7 @@ const TABLES: [Table; 4] = [
     ("hierarchies", || hierarchies::table(&[])),
     ("receivers", receivers::table),
     ("adversarial", adversarial::table),
-    ("drift", drift::table),
+    ("refits", refits::table),
 ];
 
 /// Measures and writes the tables of the given names, all of them if there are none; of numbers, only prints the sets of so many lights.
@@ -127,17 +127,20 @@ mod tests {
 
     #[test]
     fn only_the_table_is_replaced() {
-        let begin = "<!-- cargo xtask bench --table drift -->";
+        let begin = "<!-- cargo xtask bench --table refits -->";
         let page = format!("a\n{begin}\nold\n{END}\nb\n{END}\n");
-        let page = replaced(&page, "drift", "new\n").expect("marks");
+        let page = replaced(&page, "refits", "new\n").expect("marks");
         let expected = format!("a\n{begin}\n\nnew\n\n{END}\nb\n{END}\n");
         assert_eq!(page, expected, "the rest stays");
-        assert!(replaced("without marks", "drift", "new\n").is_err(), "none");
+        assert!(
+            replaced("without marks", "refits", "new\n").is_err(),
+            "none"
+        );
     }
 
     #[test]
     fn unknown_tables_are_refused() {
         let error = bench_table(&["speed".to_owned()]).expect_err("no such table");
-        assert!(error.contains("drift"), "{error}");
+        assert!(error.contains("refits"), "{error}");
     }
 }

@@ -3,7 +3,7 @@ use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
-use super::subject::Subject;
+use super::candidate::Candidate;
 use super::timing::unit;
 
 /// How many pmf queries the sums may take in all.
@@ -26,8 +26,8 @@ pub struct Laws {
 }
 
 /// Samples at all points and sums at as many as there is time for.
-pub(super) fn check(subject: &Subject, contexts: &[LightSampleContext]) -> Laws {
-    let sampler = subject.sampler();
+pub(super) fn check(candidate: &Candidate, contexts: &[LightSampleContext]) -> Laws {
+    let sampler = candidate.sampler();
     let (mut none, mut mismatch, mut bad) = (0usize, 0usize, 0usize);
     let mut rng = Pcg64Mcg::seed_from_u64(0x1A35);
     for ctx in contexts {
@@ -42,7 +42,7 @@ pub(super) fn check(subject: &Subject, contexts: &[LightSampleContext]) -> Laws 
         }
     }
     let samples = (contexts.len() * SAMPLES) as f64;
-    let lights = subject.n_lights();
+    let lights = candidate.n_lights();
     let sum_points = (SUM_BUDGET / lights.max(1)).clamp(2, contexts.len().max(2));
     let sums: Vec<(f64, usize)> = contexts
         .par_iter()

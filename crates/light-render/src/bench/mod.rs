@@ -4,24 +4,24 @@
 //! is summed over all lights, not sampled, so that a rare large term cannot hide.
 
 mod build_time;
-mod drift;
+mod candidate;
+mod ground_truth;
 mod laws;
 mod occluders;
-mod question;
+mod query;
 mod receiver;
+mod refits;
 mod row;
 mod statistics;
-mod subject;
 mod timing;
-mod truth;
 mod variance;
 
-pub use drift::{DriftRow, drift};
+pub use ground_truth::GroundTruth;
 pub use laws::Laws;
 pub use receiver::ReceiverKind;
+pub use refits::{RefitRow, refits};
 pub use row::BenchRow;
 pub use timing::QueryTime;
-pub use truth::Truth;
 pub use variance::Variance;
 
 use light_scene::light_set::LightSetFile;
@@ -29,8 +29,8 @@ use lights::bounds::LightExtent;
 
 use crate::{AnyLightSamplerError, SamplerKind};
 use build_time::build_time;
-use question::Question;
-use subject::Subject;
+use candidate::Candidate;
+use query::Query;
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub struct BenchOptions {
     /// Threads that build a tree and sum the variance. Queries are timed on one.
     pub threads: usize,
     /// What counts as the contribution of a light.
-    pub truth: Truth,
+    pub ground_truth: GroundTruth,
     /// Who asks.
     pub receiver: ReceiverKind,
     /// Spheres that stand between lights and points, unknown to the samplers.
@@ -78,46 +78,46 @@ pub fn bench(
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
     let extents = extents(set);
-    let question = Question::new(set, options);
+    let query = Query::new(set, options);
     let var_points = options.points_of(set);
 
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()
         .expect("threads for building");
-    let built: Vec<(f64, Subject)> = options
+    let built: Vec<(f64, Candidate)> = options
         .samplers
         .iter()
         .map(|&kind| {
-            let (ms, subject) = pool.install(|| build_time(|| Subject::new(kind, &extents)));
-            Ok((ms, subject?))
+            let (ms, candidate) = pool.install(|| build_time(|| Candidate::new(kind, &extents)));
+            Ok((ms, candidate?))
         })
         .collect::<Result<_, AnyLightSamplerError>>()?;
-    let subjects: Vec<&Subject> = built.iter().map(|(_, subject)| subject).collect();
-    let times = timing::queries(&subjects, &question.contexts, options.k);
+    let candidates: Vec<&Candidate> = built.iter().map(|(_, candidate)| candidate).collect();
+    let times = timing::queries(&candidates, &query.contexts, options.k);
 
     let rows = built
         .iter()
         .zip(times)
-        .map(|((build_ms, subject), time)| {
+        .map(|((build_ms, candidate), time)| {
             let variance = pool.install(|| {
                 if options.k == 1 {
-                    variance::exact(subject, set, &question, var_points)
+                    variance::exact(candidate, set, &query, var_points)
                 } else {
-                    variance::repeated(subject, set, &question, var_points, options.k)
+                    variance::repeated(candidate, set, &query, var_points, options.k)
                 }
             });
-            let refit_ms = pool.install(|| subject.refit_ms(&extents));
-            let laws = pool.install(|| laws::check(subject, &question.contexts));
+            let refit_ms = pool.install(|| candidate.refit_ms(&extents));
+            let laws = pool.install(|| laws::check(candidate, &query.contexts));
             BenchRow {
                 set: name.to_owned(),
                 n_lights: set.lights.len(),
-                sampler: subject.kind(),
+                sampler: candidate.kind(),
                 k: options.k,
                 build_ms: *build_ms,
                 refit_ms,
-                bytes: subject.bytes(),
-                depth: subject.depth(),
+                bytes: candidate.bytes(),
+                depth: candidate.depth(),
                 time,
                 variance,
                 laws,
@@ -138,7 +138,7 @@ mod tests {
             k,
             var_points: Some(16),
             threads: 1,
-            truth: Truth::Centroid,
+            ground_truth: GroundTruth::Centroid,
             receiver: ReceiverKind::Diffuse,
             occluders: 0,
         }
@@ -181,7 +181,7 @@ mod tests {
         };
         let error = bench("uniform", &set, &options).expect_err("too far");
         assert!(error.to_string().starts_with("light 7: "), "{error}");
-        let error = drift("uniform", &set, &options, 1).expect_err("too far");
+        let error = refits("uniform", &set, &options, 1).expect_err("too far");
         assert!(error.to_string().starts_with("light 7: "), "{error}");
     }
 }

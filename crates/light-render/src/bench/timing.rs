@@ -6,7 +6,7 @@ use lights::bounds::{LightId, LightSampleContext};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::subject::Subject;
+use super::candidate::Candidate;
 
 /// Passes over all points that every sampler gets at least, and how long to go on.
 const MIN_PASSES: usize = 9;
@@ -16,7 +16,7 @@ const TURN: f64 = 0.618_033_988_749_895;
 
 /// Queries that are timed together.
 const RUN: usize = 64;
-const TIME_PER_SUBJECT: Duration = Duration::from_millis(600);
+const TIME_PER_CANDIDATE: Duration = Duration::from_millis(600);
 
 /// Nanoseconds a query: the fastest of many passes, in short runs, which a busy machine disturbs least.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,41 +29,41 @@ pub struct QueryTime {
     pub pmf_random_light: f64,
 }
 
-/// The time of each subject's queries. They take turns, so that a slow spell of the machine hits all of them.
+/// The time of each candidate's queries. They take turns, so that a slow spell of the machine hits all of them.
 pub(super) fn queries(
-    subjects: &[&Subject],
+    candidates: &[&Candidate],
     contexts: &[LightSampleContext],
     k: u32,
 ) -> Vec<QueryTime> {
     let mut rng = Pcg64Mcg::seed_from_u64(0x7131);
     let mut us: Vec<f64> = contexts.iter().map(|_| unit(&mut rng)).collect();
-    let plans: Vec<Plan> = subjects
+    let plans: Vec<Plan> = candidates
         .iter()
-        .map(|subject| Plan::new(subject, contexts, &us, &mut rng))
+        .map(|candidate| Plan::new(candidate, contexts, &us, &mut rng))
         .collect();
-    let mut times = vec![Times::default(); subjects.len()];
+    let mut times = vec![Times::default(); candidates.len()];
     let begin = Instant::now();
-    let limit = TIME_PER_SUBJECT * u32::try_from(subjects.len()).unwrap_or(u32::MAX);
+    let limit = TIME_PER_CANDIDATE * u32::try_from(candidates.len()).unwrap_or(u32::MAX);
     let mut passes = 0;
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
         // Each pass asks with other `u`: the caches do not hold the ways of the last one.
         us.iter_mut().for_each(|u| *u = (*u + TURN).fract());
-        for ((subject, plan), time) in subjects.iter().zip(&plans).zip(&mut times) {
+        for ((candidate, plan), time) in candidates.iter().zip(&plans).zip(&mut times) {
             let asked: Vec<_> = contexts.iter().zip(&us).collect();
             time.sample.pass(&asked, |(ctx, u)| {
                 if k == 1 {
-                    black_box(subject.sampler().sample(ctx, **u));
+                    black_box(candidate.sampler().sample(ctx, **u));
                 } else {
-                    subject.sampler().sample_many(ctx, **u, k, &mut |sample| {
+                    candidate.sampler().sample_many(ctx, **u, k, &mut |sample| {
                         black_box(sample);
                     });
                 }
             });
             let pmf = |(ctx, light): &(LightSampleContext, LightId)| {
                 black_box(match k {
-                    1 => subject.sampler().pmf(ctx, *light),
-                    _ => subject.sampler().pmf_many(ctx, *light, k),
+                    1 => candidate.sampler().pmf(ctx, *light),
+                    _ => candidate.sampler().pmf_many(ctx, *light, k),
                 });
             };
             time.pmf.pass(&plan.picked, pmf);
@@ -128,16 +128,16 @@ struct Plan {
 
 impl Plan {
     fn new(
-        subject: &Subject,
+        candidate: &Candidate,
         contexts: &[LightSampleContext],
         us: &[f64],
         rng: &mut Pcg64Mcg,
     ) -> Self {
-        let lights = u64::try_from(subject.n_lights().max(1)).unwrap_or(u64::MAX);
+        let lights = u64::try_from(candidate.n_lights().max(1)).unwrap_or(u64::MAX);
         let picked = contexts
             .iter()
             .zip(us)
-            .filter_map(|(ctx, &u)| Some((*ctx, subject.sampler().sample(ctx, u)?.light)))
+            .filter_map(|(ctx, &u)| Some((*ctx, candidate.sampler().sample(ctx, u)?.light)))
             .collect();
         let random = contexts
             .iter()

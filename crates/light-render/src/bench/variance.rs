@@ -4,9 +4,9 @@ use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
-use super::question::Question;
+use super::candidate::Candidate;
+use super::query::Query;
 use super::statistics::Summary;
-use super::subject::Subject;
 use super::timing::unit;
 
 /// Calls of `k` samples that the variance at one point is estimated from.
@@ -37,22 +37,22 @@ struct AtPoint {
 
 /// The variance of one sample, summed over all lights.
 pub(super) fn exact(
-    subject: &Subject,
+    candidate: &Candidate,
     set: &LightSetFile,
-    question: &Question,
+    query: &Query,
     points: usize,
 ) -> Variance {
-    let at_points = question.askers[..points]
+    let at_points = query.askers[..points]
         .par_iter()
         .map(|asker| {
             let (mut total, mut reached, mut second_moment) = (0.0, 0.0, 0.0);
             for (id, light) in (0u32..).zip(&set.lights) {
-                let f = question.contribution(light, asker);
+                let f = query.contribution(light, asker);
                 if f <= 0.0 {
                     continue;
                 }
                 total += f;
-                let pmf = f64::from(subject.sampler().pmf(&asker.ctx, LightId(id)));
+                let pmf = f64::from(candidate.sampler().pmf(&asker.ctx, LightId(id)));
                 if pmf > 0.0 {
                     reached += f;
                     second_moment += f * f / pmf;
@@ -70,29 +70,29 @@ pub(super) fn exact(
 
 /// `k` times the variance of the mean of `k` samples, from repeated calls.
 pub(super) fn repeated(
-    subject: &Subject,
+    candidate: &Candidate,
     set: &LightSetFile,
-    question: &Question,
+    query: &Query,
     points: usize,
     k: u32,
 ) -> Variance {
-    let at_points = question.askers[..points]
+    let at_points = query.askers[..points]
         .par_iter()
         .enumerate()
         .map(|(i, asker)| {
             let total: f64 = set
                 .lights
                 .iter()
-                .map(|light| question.contribution(light, asker))
+                .map(|light| query.contribution(light, asker))
                 .sum();
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
             for _ in 0..CALLS {
                 let mut mean = 0.0;
-                subject
+                candidate
                     .sampler()
                     .sample_many(&asker.ctx, unit(&mut rng), k, &mut |sample| {
-                        let f = question.contribution(&set.lights[sample.light.index()], asker);
+                        let f = query.contribution(&set.lights[sample.light.index()], asker);
                         mean += f / f64::from(sample.pmf) / f64::from(k);
                     });
                 squares += (mean - total) * (mean - total) / CALLS as f64;

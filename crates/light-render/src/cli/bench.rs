@@ -3,7 +3,7 @@ use core::str::FromStr;
 use std::path::PathBuf;
 
 use crate::SamplerKind;
-use crate::bench::{BenchOptions, BenchRow, DriftRow, ReceiverKind, Truth, bench, drift};
+use crate::bench::{BenchOptions, BenchRow, GroundTruth, ReceiverKind, RefitRow, bench, refits};
 use clap::Args;
 use light_scene::light_set::{LightSetFile, SetKind};
 use serde_json::Value;
@@ -50,8 +50,8 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "T", default_value_t = 1, value_parser = threads)]
     threads: usize,
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
-    #[arg(long, default_value = "centroid")]
-    truth: Truth,
+    #[arg(long = "truth", default_value = "centroid")]
+    ground_truth: GroundTruth,
     /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half microfacets.
     #[arg(long, default_value = "diffuse")]
     receiver: ReceiverKind,
@@ -60,7 +60,7 @@ pub(crate) struct BenchArgs {
     occluders: u32,
     /// Move the lights in N steps, at most 20, each twice as far as the last, and compare hierarchies that follow with new ones.
     #[arg(long, value_name = "N", conflicts_with = "k", value_parser = clap::value_parser!(u32).range(..=20))]
-    drift: Option<u32>,
+    refits: Option<u32>,
     /// One JSON object a line instead of a table.
     #[arg(long)]
     json: bool,
@@ -92,13 +92,13 @@ impl BenchArgs {
             k: self.k,
             var_points: self.var_points,
             threads: self.threads.max(1),
-            truth: self.truth,
+            ground_truth: self.ground_truth,
             receiver: self.receiver,
             occluders: self.occluders as usize,
         };
-        if let Some(steps) = self.drift {
-            let rows = drift(&name, &set, &options, steps).map_err(Failure::input)?;
-            self.print(&DriftRow::header(), &rows, DriftRow::json)
+        if let Some(steps) = self.refits {
+            let rows = refits(&name, &set, &options, steps).map_err(Failure::input)?;
+            self.print(&RefitRow::header(), &rows, RefitRow::json)
         } else {
             let rows = bench(&name, &set, &options).map_err(Failure::input)?;
             self.print(&BenchRow::header(), &rows, BenchRow::json)

@@ -13,7 +13,7 @@ use crate::{SampleStream, VertexNumbers, World};
 /// How a vertex of a path asks for light: kept until the next ray is known to miss or to find a light, because both strategies weigh
 /// their samples by the same densities.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LightQuestion {
+pub(super) struct LightQuery {
     pub(super) ctx: LightSampleContext,
     /// How many lights are chosen at once; not 0.
     pub(super) count: u32,
@@ -96,14 +96,10 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// As many lights as `question` says, which memory brings nearer while something else is done.
+    /// As many lights as `query` says, which memory brings nearer while something else is done.
     #[inline]
-    pub(super) fn choose(
-        &mut self,
-        question: &LightQuestion,
-        numbers: &VertexNumbers,
-    ) -> ChosenLights {
-        let LightQuestion { ctx, count } = question;
+    pub(super) fn choose(&mut self, query: &LightQuery, numbers: &VertexNumbers) -> ChosenLights {
+        let LightQuery { ctx, count } = query;
         let lights = self.world.lights();
         let mut chosen = ChosenLights::default();
         let mut each = |choice: SampledLight| {
@@ -119,13 +115,13 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     }
 
     /// The light that the `chosen` lights send over `vertex` toward its viewer, with one shadow ray for all of them: an unbiased estimate
-    /// that costs little more than that of a single light. They are those of [`choose`](Self::choose) for the same question.
+    /// that costs little more than that of a single light. They are those of [`choose`](Self::choose) for the same query.
     ///
     /// `arrived` says what is left of the light of the one whose shadow counts for all.
     #[inline]
     pub(super) fn sample<V: Scatters>(
         &self,
-        question: &LightQuestion,
+        query: &LightQuery,
         chosen: &ChosenLights,
         vertex: &Vertex<'_, V>,
         numbers: &VertexNumbers,
@@ -136,8 +132,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         // The more a candidate would give, the more likely it is the one whose shadow is looked at.
         let mut candidates = WeightedReservoir::new(numbers.shadow.into());
         for (number, choice) in (0..).zip(chosen.iter()) {
-            let point = stream.light_point(vertex.number, number, question.count);
-            if let Some(candidate) = unshadowed(world, estimator, question, vertex, choice, point) {
+            let point = stream.light_point(vertex.number, number, query.count);
+            if let Some(candidate) = unshadowed(world, estimator, query, vertex, choice, point) {
                 candidates.add(candidate, candidate.radiance.element_sum());
             }
         }
@@ -151,11 +147,11 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction `wi` toward `light`; `question` is the one
+    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction `wi` toward `light`; `query` is the one
     /// that it was asked last.
     #[inline]
-    pub(super) fn density(&self, question: &LightQuestion, light: LightId, wi: Vec3) -> f32 {
-        let LightQuestion { ctx, count } = question;
+    pub(super) fn density(&self, query: &LightQuery, light: LightId, wi: Vec3) -> f32 {
+        let LightQuery { ctx, count } = query;
         let Some(source) = self.world.lights().get(light) else {
             return 0.0;
         };
@@ -176,7 +172,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
 fn unshadowed<V: Scatters>(
     world: &World,
     estimator: Estimator,
-    question: &LightQuestion,
+    query: &LightQuery,
     vertex: &Vertex<'_, V>,
     choice: SampledLight,
     u_point: Vec2,
@@ -184,15 +180,15 @@ fn unshadowed<V: Scatters>(
     let Vertex { scattering, wo, .. } = *vertex;
     let light = world.lights().get(choice.light)?;
     let coverage = estimator.coverage();
-    let sample = world.sample_light(choice.light, &question.ctx, u_point, coverage)?;
-    if is_in_the_surface(&question.ctx, sample.p_light) {
+    let sample = world.sample_light(choice.light, &query.ctx, u_point, coverage)?;
+    if is_in_the_surface(&query.ctx, sample.p_light) {
         return None;
     }
     let scattered = scattering.eval(wo, sample.wi) * sample.l;
     if scattered == Vec3::ZERO {
         return None;
     }
-    let density = question.count as f32 * choice.pmf * sample.pdf;
+    let density = query.count as f32 * choice.pmf * sample.pdf;
     let kind = light.light_type();
     let weight = if kind.is_delta() {
         1.0

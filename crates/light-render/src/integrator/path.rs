@@ -1,7 +1,7 @@
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 
-use super::direct::{Arrived, DirectLight, LightQuestion, Vertex};
+use super::direct::{Arrived, DirectLight, LightQuery, Vertex};
 use super::ray_origin::{Origin, sky};
 use super::{PathSettings, Traced};
 use crate::{Ray, SampleStream, World};
@@ -45,13 +45,13 @@ pub fn trace<S: LightSampler>(
         }
         let numbers = stream.vertex(number);
         let scattering = world.scattering(&surface);
-        let question = LightQuestion {
+        let query = LightQuery {
             ctx: world.light_context(&surface, &scattering, wo),
             count,
         };
         let asks = !scattering.bsdf().is_dirac();
         let chosen = if asks && estimator.samples_lights() {
-            Some(direct.choose(&question, &numbers))
+            Some(direct.choose(&query, &numbers))
         } else {
             None
         };
@@ -62,7 +62,7 @@ pub fn trace<S: LightSampler>(
                 wo,
                 number,
             };
-            let lit = direct.sample(&question, chosen, &vertex, &numbers, stream, |light| {
+            let lit = direct.sample(&query, chosen, &vertex, &numbers, stream, |light| {
                 let shadowed = world.occluded(&surface, light.wi, light.p_light);
                 let left = if shadowed { Vec3::ZERO } else { Vec3::ONE };
                 Arrived { left, rays: 1 }
@@ -85,7 +85,7 @@ pub fn trace<S: LightSampler>(
             throughput /= survival;
         }
         origin = match sample.pdf {
-            Some(pdf) => Origin::Material { question, pdf },
+            Some(pdf) => Origin::Material { query, pdf },
             None => Origin::Dirac,
         };
         ray = surface.spawn(sample.wi);

@@ -2,7 +2,7 @@ use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 
-use super::direct::{DirectLight, LightQuestion};
+use super::direct::{DirectLight, LightQuery};
 use crate::Ray;
 
 /// How the current ray was chosen, which decides how the light it finds is weighted.
@@ -11,7 +11,7 @@ pub(super) enum Origin {
     /// By the camera or by a Dirac: no light sample could have found the same light.
     Dirac,
     /// By the material where light was asked for so, with this density in sr^-1.
-    Material { question: LightQuestion, pdf: f32 },
+    Material { query: LightQuery, pdf: f32 },
 }
 
 impl Origin {
@@ -25,9 +25,9 @@ impl Origin {
     ) -> f32 {
         match self {
             Self::Dirac => 1.0,
-            Self::Material { question, pdf } => direct
+            Self::Material { query, pdf } => direct
                 .estimator
-                .bsdf_weight(pdf, || direct.density(&question, light, wi)),
+                .bsdf_weight(pdf, || direct.density(&query, light, wi)),
         }
     }
 }

@@ -5,7 +5,7 @@ use lights::media::{Span, StepSize, Visibility, VolumeIntegrator, VolumeLight};
 use lights::samplers::LightSampler;
 use lights::sources::{LightType, Rgb};
 
-use super::direct::{DirectLight, LightQuestion, Vertex};
+use super::direct::{DirectLight, LightQuery, Vertex};
 use super::ray_origin::{Origin, sky};
 use super::through::transmittance;
 use super::volume_vertex::VolumeVertex;
@@ -43,7 +43,7 @@ pub fn trace_single_scattering<S: LightSampler>(
             }
             let vertex = VolumeVertex::on_surface(world, surface, medium);
             if !vertex.is_dirac() {
-                let question = LightQuestion {
+                let query = LightQuery {
                     ctx: vertex.light_context(world, wo),
                     count: settings.first_choices(world),
                 };
@@ -53,8 +53,8 @@ pub fn trace_single_scattering<S: LightSampler>(
                     number: 0,
                 };
                 let numbers = stream.vertex(0);
-                let chosen = direct.choose(&question, &numbers);
-                let lit = direct.sample(&question, &chosen, &at, &numbers, stream, |light| {
+                let chosen = direct.choose(&query, &numbers);
+                let lit = direct.sample(&query, &chosen, &at, &numbers, stream, |light| {
                     let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
                     let target = is_near.then_some(light.p_light);
                     let from = vertex.spawn(world, light.wi);

@@ -2,7 +2,7 @@ use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 use lights::sources::LightType;
 
-use super::direct::{DirectLight, LightQuestion, Vertex};
+use super::direct::{DirectLight, LightQuery, Vertex};
 use super::ray_origin::{Origin, sky};
 use super::through::{MOST_CROSSINGS, across, transmittance};
 use super::volume_vertex::{VolumeRay, VolumeVertex};
@@ -50,7 +50,7 @@ pub fn trace_volume<S: LightSampler>(
         }
         let wo = -met.direction;
         let numbers = stream.vertex(number);
-        let question = LightQuestion {
+        let query = LightQuery {
             ctx: met.vertex.light_context(world, wo),
             count,
         };
@@ -61,16 +61,16 @@ pub fn trace_volume<S: LightSampler>(
                     wo,
                     number,
                 };
-                let chosen = path.direct.choose(&question, &numbers);
-                let lit =
-                    path.direct
-                        .sample(&question, &chosen, &vertex, &numbers, stream, |light| {
-                            let is_near =
-                                matches!(light.kind, LightType::DeltaPosition | LightType::Area);
-                            let target = is_near.then_some(light.p_light);
-                            let from = met.vertex.spawn(world, light.wi);
-                            transmittance(world, from, target, &mut || flight.next_u())
-                        });
+                let chosen = path.direct.choose(&query, &numbers);
+                let lit = path
+                    .direct
+                    .sample(&query, &chosen, &vertex, &numbers, stream, |light| {
+                        let is_near =
+                            matches!(light.kind, LightType::DeltaPosition | LightType::Area);
+                        let target = is_near.then_some(light.p_light);
+                        let from = met.vertex.spawn(world, light.wi);
+                        transmittance(world, from, target, &mut || flight.next_u())
+                    });
                 path.traced.radiance += path.throughput * lit.radiance;
                 path.traced.rays += lit.rays;
             }
@@ -88,7 +88,7 @@ pub fn trace_volume<S: LightSampler>(
             path.throughput /= survival;
         }
         path.origin = match sample.pdf {
-            Some(pdf) => Origin::Material { question, pdf },
+            Some(pdf) => Origin::Material { query, pdf },
             None => Origin::Dirac,
         };
         here = met.vertex.spawn(world, sample.wi);

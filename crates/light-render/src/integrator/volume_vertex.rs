@@ -65,7 +65,7 @@ impl VolumeVertex {
         }
     }
 
-    /// The question that light samplers and lights answer.
+    /// The query that light samplers and lights answer.
     pub(super) fn light_context(&self, world: &World, wo: Vec3) -> LightSampleContext {
         match self {
             Self::Surface {

@@ -55,7 +55,7 @@ impl World {
         Scattering::new(bsdf, surface)
     }
 
-    /// The question that light samplers and lights answer at `surface`, seen from `wo`.
+    /// The query that light samplers and lights answer at `surface`, seen from `wo`.
     #[inline]
     #[must_use]
     pub fn light_context(

@@ -3,17 +3,17 @@ use lights::bounds::LightSampleContext;
 
 use super::occluders::Occluders;
 use super::receiver::Asker;
-use super::{BenchOptions, Truth};
+use super::{BenchOptions, GroundTruth};
 
 /// What is asked at the points of a set, and the true answer.
-pub(super) struct Question {
+pub(super) struct Query {
     pub(super) askers: Vec<Asker>,
     pub(super) contexts: Vec<LightSampleContext>,
-    truth: Truth,
+    ground_truth: GroundTruth,
     occluders: Occluders,
 }
 
-impl Question {
+impl Query {
     pub(super) fn new(set: &LightSetFile, options: &BenchOptions) -> Self {
         let askers: Vec<Asker> = (0..)
             .zip(&set.points)
@@ -22,14 +22,14 @@ impl Question {
         Self {
             contexts: askers.iter().map(|asker| asker.ctx).collect(),
             askers,
-            truth: options.truth,
+            ground_truth: options.ground_truth,
             occluders: Occluders::among(set, options.occluders),
         }
     }
 
     /// What `light` contributes at the asker's point.
     pub(super) fn contribution(&self, light: &SetLight, asker: &Asker) -> f64 {
-        let points = self.truth.points(light);
+        let points = self.ground_truth.points(light);
         let count = points.len() as f64;
         let sum: f64 = points
             .map(|p| {

@@ -5,13 +5,13 @@ use super::build_time::build_time;
 use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 
 /// A sampler under measurement.
-pub(super) struct Subject {
+pub(super) struct Candidate {
     kind: SamplerKind,
     n_lights: usize,
     sampler: AnyLightSampler,
 }
 
-impl Subject {
+impl Candidate {
     /// Builds the sampler of the given kind.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ pub(super) fn table() -> Result<String, String> {
     let mut table = HEADER.to_owned();
     for set in SETS {
         let how = ["--generate", set, "--n", "10000", "--var-points", "512"];
-        for row in measure(&[&how[..], &["--samplers", "bvh", "--drift", "8"]].concat())? {
+        for row in measure(&[&how[..], &["--samplers", "bvh", "--refits", "8"]].concat())? {
             let mut line = format!(
                 "| {set} | {} | {:.2} |",
                 number(&row, "moved")?,

@@ -5,7 +5,7 @@ use lights::glam::DVec3;
 
 /// What counts as the contribution of a light at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Truth {
+pub enum GroundTruth {
     /// All of the light at its position; of a triangle at its centroid.
     #[default]
     Centroid,
@@ -13,7 +13,7 @@ pub enum Truth {
     Area,
 }
 
-impl Truth {
+impl GroundTruth {
     /// The points of `light` that its contribution is the mean over.
     pub(super) fn points(self, light: &SetLight) -> impl ExactSizeIterator<Item = DVec3> {
         let barycentric = match (self, light) {
@@ -24,7 +24,7 @@ impl Truth {
     }
 }
 
-impl FromStr for Truth {
+impl FromStr for GroundTruth {
     type Err = &'static str;
 
     fn from_str(s: &str) -> Result<Self, Self::Err> {
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn far_away_both_truths_agree() {
+    fn far_away_both_ground_truths_agree() {
         let set = light_scene::light_set::LightSetFile::generate(
             light_scene::light_set::SetKind::Clusters,
             20,
@@ -86,10 +86,10 @@ mod tests {
         let mut at = set.points[0];
         at.p.z -= 1000.0;
         for light in &set.lights {
-            let [a, b] = [Truth::Centroid, Truth::Area].map(|truth| {
+            let [a, b] = [GroundTruth::Centroid, GroundTruth::Area].map(|ground_truth| {
                 let n = at.n.as_dvec3();
                 let from = |p| light.contribution_from(p, &at, |wi| n.dot(wi).max(0.0));
-                let points = truth.points(light);
+                let points = ground_truth.points(light);
                 let count = points.len() as f64;
                 points.map(from).sum::<f64>() / count
             });

@@ -7,8 +7,8 @@ use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use serde_json::{Value, json};
 
-use super::question::Question;
-use super::subject::Subject;
+use super::candidate::Candidate;
+use super::query::Query;
 use super::timing::unit;
 use super::variance::{self, Variance};
 use super::{BenchOptions, extents};
@@ -19,7 +19,7 @@ const FIRST: f32 = 1.0 / 64.0;
 
 /// What a hierarchy is worth that follows lights, against one built for where they are.
 #[derive(Clone, Debug)]
-pub struct DriftRow {
+pub struct RefitRow {
     /// Name of the set.
     pub set: String,
     /// Lights of the set.
@@ -41,12 +41,12 @@ pub struct DriftRow {
 ///
 /// # Errors
 /// The first light that a sampler refuses, at the start or on its way.
-pub fn drift(
+pub fn refits(
     name: &str,
     set: &LightSetFile,
     options: &BenchOptions,
     steps: u32,
-) -> Result<Vec<DriftRow>, AnyLightSamplerError> {
+) -> Result<Vec<RefitRow>, AnyLightSamplerError> {
     let mut rng = Pcg64Mcg::seed_from_u64(0xD21F);
     let distance = mean_distance(set);
     let ways: Vec<Vec3> = set
@@ -57,7 +57,7 @@ pub fn drift(
     let points = options.points_of(set);
     let mut rows = Vec::new();
     for &sampler in &options.samplers {
-        let mut following = Subject::new(sampler, &extents(set))?;
+        let mut following = Candidate::new(sampler, &extents(set))?;
         let Some(at_first) = following.looseness() else {
             continue;
         };
@@ -69,17 +69,17 @@ pub fn drift(
                     .collect(),
                 points: set.points.clone(),
             };
-            let question = Question::new(&set, options);
-            let variance = |subject: &Subject| variance::exact(subject, &set, &question, points);
+            let query = Query::new(&set, options);
+            let variance = |candidate: &Candidate| variance::exact(candidate, &set, &query, points);
             following.refit(&extents(&set))?;
-            rows.push(DriftRow {
+            rows.push(RefitRow {
                 set: name.to_owned(),
                 n_lights: set.lights.len(),
                 sampler,
                 moved,
                 looseness: following.looseness().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
-                built_anew: variance(&Subject::new(sampler, &extents(&set))?),
+                built_anew: variance(&Candidate::new(sampler, &extents(&set))?),
             });
         }
     }
@@ -114,7 +114,7 @@ fn direction(rng: &mut Pcg64Mcg) -> Vec3 {
     }
 }
 
-impl DriftRow {
+impl RefitRow {
     /// The title line of a table of rows.
     #[must_use]
     pub fn header() -> String {
@@ -152,7 +152,7 @@ impl DriftRow {
     }
 }
 
-impl fmt::Display for DriftRow {
+impl fmt::Display for RefitRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -173,7 +173,7 @@ impl fmt::Display for DriftRow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{ReceiverKind, Truth};
+    use crate::bench::{GroundTruth, ReceiverKind};
     use light_scene::light_set::SetKind;
 
     #[test]
@@ -184,11 +184,11 @@ mod tests {
             k: 1,
             var_points: Some(16),
             threads: 1,
-            truth: Truth::Centroid,
+            ground_truth: GroundTruth::Centroid,
             receiver: ReceiverKind::Diffuse,
             occluders: 0,
         };
-        let rows = drift("uniform", &set, &options, 7).expect("valid lights");
+        let rows = refits("uniform", &set, &options, 7).expect("valid lights");
         assert_eq!(rows.len(), 8, "uniform sampling follows nothing");
         let (first, last) = (&rows[0], &rows[7]);
         assert_eq!(first.moved, 0.0, "where they were");
