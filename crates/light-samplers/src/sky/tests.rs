@@ -1,0 +1,140 @@
+use super::*;
+
+fn floor() -> LightSampleContext {
+    LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
+}
+
+#[test]
+fn a_uniform_sky_gives_pi_times_its_radiance() {
+    let e = irradiance(&InfiniteBounds::uniform(2.0), &floor());
+    assert!((e - core::f64::consts::TAU).abs() < 1e-5, "{e}");
+}
+
+#[test]
+fn a_sun_gives_its_irradiance_times_the_cosine() {
+    let up = Vec3::new(0.6, 0.0, 0.8);
+    let e = irradiance(&InfiniteBounds::distant(10.0, up), &floor());
+    assert!((e - 8.0).abs() < 1e-5, "{e}");
+    let e = irradiance(&InfiniteBounds::distant(10.0, -up), &floor());
+    assert_eq!(e, 0.0, "set");
+    let grazing = InfiniteBounds::distant(10.0, Vec3::X);
+    assert!(irradiance(&grazing, &floor()) > 0.0, "rising");
+}
+
+#[test]
+fn a_medium_takes_all_of_it() {
+    let e = irradiance(
+        &InfiniteBounds::distant(10.0, Vec3::NEG_Z),
+        &LightSampleContext::medium(Vec3::ZERO),
+    );
+    assert_eq!(e, 10.0, "from below as well");
+}
+
+/// A cone of 30 degrees: its upper edge counts, whatever its axis does.
+#[test]
+fn a_part_of_the_sky_counts_until_all_of_it_has_set() {
+    let sky = |below: f32| {
+        let w = Vec3::new(float::cos(below), 0.0, -float::sin(below));
+        let bounds = InfiniteBounds {
+            fluence: 10.0,
+            mean: w * 0.95,
+            cone: light_math::DirectionCone::new(w, float::cos(30f32.to_radians())),
+        };
+        irradiance(&bounds, &floor())
+    };
+    for degrees in [-90.0, 0.0, 20.0, 29.9] {
+        assert!(
+            sky(f32::to_radians(degrees)) > 0.0,
+            "{degrees} degrees below"
+        );
+    }
+    for degrees in [30.1, 45.0, 90.0] {
+        assert_eq!(
+            sky(f32::to_radians(degrees)),
+            0.0,
+            "{degrees} degrees below"
+        );
+    }
+}
+
+/// The sine of a narrow cone is known to its last digits.
+#[test]
+fn narrow_cones_count_to_their_edge() {
+    for cos_theta in [1.0 - 1e-6, 1.0 - 1e-5, 1.0 - 1e-4, 1.0 - 1e-3] {
+        let theta = f64::from(cos_theta).acos();
+        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+        let w = Vec3::new(theta.cos() as f32, 0.0, -theta.sin() as f32);
+        let bounds = InfiniteBounds {
+            fluence: 10.0,
+            mean: w,
+            cone: light_math::DirectionCone::new(w, cos_theta),
+        };
+        assert!(irradiance(&bounds, &floor()) > 0.0, "{cos_theta}");
+    }
+}
+
+/// A tree that is worth 2, and lights of fluence 1, 2 and 5.
+#[test]
+fn each_choice_has_its_share_of_u() {
+    let lights = [1.0, 0.0, 2.0, 5.0].map(|fluence| {
+        LightExtent::Infinite(InfiniteBounds {
+            fluence,
+            ..InfiniteBounds::uniform(1.0)
+        })
+    });
+    let sky = Sky::new(&lights);
+    let fluence = |bounds: &InfiniteBounds| f64::from(bounds.fluence);
+    for (u, light, pmf, rest) in [
+        (0.1, None, 0.2, 0.5),
+        (0.25, Some(0), 0.1, 0.5),
+        (0.35, Some(2), 0.2, 0.25),
+        (0.75, Some(3), 0.5, 0.5),
+        (0.999, Some(3), 0.5, 0.998),
+        // What rounding leaves beyond the end.
+        (1.0, Some(3), 0.5, SampledLight::MAX_U),
+    ] {
+        let (chosen, chosen_pmf, chosen_u) = match sky.first(u, 2.0, fluence) {
+            FirstChoice::Tree { pmf, u } => (None, pmf, u),
+            FirstChoice::Sky(choice) => {
+                let SampledLight { light, pmf, u } = choice.expect("a light");
+                (Some(light.0), pmf, u)
+            }
+        };
+        assert_eq!((chosen, chosen_pmf), (light, pmf), "{u}");
+        assert!((chosen_u - rest).abs() < 1e-9, "{u}: {chosen_u} is left");
+    }
+    let pmf = |light| match sky.first_pmf(LightId(light), 2.0, fluence) {
+        FirstPmf::Tree(pmf) => -pmf,
+        FirstPmf::Sky(pmf) => pmf,
+    };
+    // A light without fluence is none of these.
+    assert_eq!([0, 1, 2, 3].map(pmf), [0.1, -0.2, 0.2, 0.5], "pmfs");
+}
+
+#[test]
+fn only_what_has_no_weight_has_no_share() {
+    assert_eq!(share(0.0, 5.0), 0.0, "none");
+    assert_eq!(share(1.0, 4.0), 0.25, "a quarter");
+    assert_eq!(share(1e-30, 1e30), f32::MIN_POSITIVE, "never nothing");
+}
+
+/// Seen from both sides a sky counts by its distance from the horizon, or by how far it is spread.
+#[test]
+fn a_surface_that_transmits_has_light_from_both_sides() {
+    let ctx = LightSampleContext::two_sided(Vec3::ZERO, Vec3::Z, Vec3::Z);
+    let sky = |mean| InfiniteBounds {
+        fluence: 10.0,
+        mean,
+        ..InfiniteBounds::uniform(1.0)
+    };
+    for (mean, expected) in [
+        (Vec3::ZERO, 5.0),
+        (Vec3::X * 0.8, 3.0),
+        (Vec3::Z * 0.8, 8.0),
+        (Vec3::NEG_Z * 0.8, 8.0),
+        (Vec3::X, 1e-4),
+    ] {
+        let e = irradiance(&sky(mean), &ctx);
+        assert!((e - expected).abs() < 1e-5, "{mean}: {e}");
+    }
+}
