@@ -92,6 +92,13 @@ mod tests {
     }
 
     #[test]
+    fn a_probability_below_the_range_of_floats_is_none() {
+        assert_eq!(choose(&[1e30, 1e-30], 0.0), None, "1e-60");
+        let least = choose(&[1e30, 1e-6], 0.0).expect("1e-36");
+        assert!(least.value == 1 && least.pmf > 0.0, "{least:?}");
+    }
+
+    #[test]
     fn even_u_gives_even_shares_and_an_even_rest() {
         let weights = [1.0, 0.0, 2.0, 5.0];
         let mut counts = [0; 4];
