@@ -111,8 +111,9 @@ impl Portal {
         let w = self.frame.to_local(w);
         let t = to_corner.z / w.z;
         let at = w.truncate() * t - to_corner.truncate();
-        // What the point rounds off is added to the portal.
-        let slack = 8.0 * f32::EPSILON * (t.abs() + to_corner.length());
+        // What the point rounds off is added to the portal: the lower the line comes in, the more.
+        let magnitude = t.abs() + to_corner.length() + p.length();
+        let slack = 8.0 * f32::EPSILON * magnitude / w.z.abs();
         at.cmpge(Vec2::splat(-slack)).all() && at.cmple(self.size + slack).all()
     }
 }
@@ -186,6 +187,27 @@ mod tests {
                 portal.is_on_line(p, w) && !portal.is_on_line(p + Vec3::X * 4.0, w),
                 "on line"
             );
+        }
+    }
+
+    #[test]
+    fn lines_that_come_in_low_pass_the_edges() {
+        let corners = SQUARE.map(|p| p + Vec3::new(-1.0, 0.3, 2.0));
+        let Some(portal) = Portal::new(corners) else {
+            unreachable!("a rectangle")
+        };
+        for i in 0..4096u16 {
+            let part = f32::from(i % 64) / 63.0;
+            let edge = Vec2::new(f32::from(i / 64 % 2), part);
+            let turn = Vec2::from_angle(f32::from(i / 64) * 0.1);
+            let w = (turn.extend(0.0) + portal.frame().z * 0.001).normalize();
+            for u in [edge, Vec2::new(edge.y, edge.x)] {
+                let p = portal.point(u) + w * 8.0;
+                assert!(portal.is_on_line(p, -w), "{u} along {w}");
+                let aside = w.cross(portal.frame().z).normalize();
+                let beyond = (u - 0.5).dot(Vec2::new(aside.x, aside.y)).signum() * 4.0 * aside;
+                assert!(!portal.is_on_line(p + beyond, -w), "beside {u} along {w}");
+            }
         }
     }
 }

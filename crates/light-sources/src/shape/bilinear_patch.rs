@@ -4,7 +4,8 @@ use core::fmt;
 use super::flat_quad::FlatQuad;
 use super::patch_area;
 use super::{
-    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, unit_normal,
+    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, hit_slack,
+    unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -149,25 +150,48 @@ impl BilinearPatch {
         }
         let q = -0.5 * (b + sqrt(discriminant).copysign(b));
         let near = |u: f32| {
-            // Where the line at u and the ray are closest.
-            let start = from + self.du * u;
-            let line = self.dv + self.duv * u;
-            let across = line.cross(direction);
-            let v = -start.cross(direction).dot(across) / across.length_squared();
-            let t = (start + line * v).dot(direction);
-            // What the distance rounds off, as a part of the side.
-            let inside = |x: f32, side: Vec3| {
-                let slack = (4.0 * f32::EPSILON * (1.0 + t / side.length())).min(0.5);
-                (-slack..=1.0 + slack).contains(&x)
-            };
-            let is_hit = t > 0.0 && inside(u, self.du + self.duv * v) && inside(v, line);
-            is_hit.then(|| (Vec2::new(u, v).clamp(Vec2::ZERO, Vec2::ONE), t))
+            let v = closest(from + self.du * u, self.dv + self.duv * u, direction);
+            let at = Vec2::new(u, v);
+            if at == at.clamp(Vec2::ZERO, Vec2::ONE) {
+                let t = self.along(from, at).dot(direction);
+                (t > 0.0).then_some((at, t))
+            } else {
+                self.graze_edge(from, direction, at)
+            }
         };
         match (near(q / a), near(c / q)) {
             (Some(first), Some(second)) if second.1 < first.1 => Some(second),
             (Some(first), _) => Some(first),
             (None, second) => second,
         }
+    }
+
+    /// From the origin of a ray, which sees the first corner at `from`, to the point at `uv`.
+    fn along(&self, from: Vec3, uv: Vec2) -> Vec3 {
+        from + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
+    }
+
+    /// Where a ray passes an edge, but for a few roundings of its direction: it meets the continued surface at `outside`, and where it comes
+    /// in low, a rounding has moved that far.
+    fn graze_edge(&self, from: Vec3, direction: Vec3, outside: Vec2) -> Option<(Vec2, f32)> {
+        const FAR: f32 = 0.5;
+        let mut uv = outside.clamp(Vec2::ZERO, Vec2::ONE);
+        let beyond = (outside - uv).abs();
+        if !(beyond.max_element() <= FAR) {
+            return None;
+        }
+        if beyond.y > beyond.x {
+            let (start, edge) = (from + self.dv * uv.y, self.du + self.duv * uv.y);
+            uv.x = closest(start, edge, direction).clamp(0.0, 1.0);
+        } else {
+            let (start, edge) = (from + self.du * uv.x, self.dv + self.duv * uv.x);
+            uv.y = closest(start, edge, direction).clamp(0.0, 1.0);
+        }
+        let p = self.along(from, uv);
+        let t = p.dot(direction);
+        let slack = hit_slack(t + from.length() + self.p00.length(), 1.0);
+        let is_near = p.cross(direction).length_squared() <= slack * slack;
+        (t > 0.0 && is_near).then_some((uv, t))
     }
 }
 
@@ -215,7 +239,6 @@ impl Shape for BilinearPatch {
 
     /// Of a patch that is not flat, a point by area, unless another part of the patch hides it.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
-        const SAME: f32 = 1.0 - 1e-3;
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;
             let (uv, _) = self.intersect(ctx.p, sample.wi)?;
@@ -225,10 +248,12 @@ impl Shape for BilinearPatch {
         let ShapeSample { at, pdf } = self.sample(u)?;
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+        // The same distance, but for what rounding takes off at a grazing angle.
+        let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
         let is_hidden = self.bend == Bend::Twisted
             && self
                 .intersect(ctx.p, wi)
-                .is_some_and(|(_, t)| t < SAME * to_light.length());
+                .is_some_and(|(_, t)| t < same * to_light.length());
         (!is_hidden).then_some(DirectionSample { at, wi, pdf })
     }
 
@@ -248,6 +273,12 @@ impl Shape for BilinearPatch {
         let (uv, _) = self.intersect(origin, direction)?;
         self.at(uv)
     }
+}
+
+/// Where the line from `start` along `line` is closest to the ray from zero, as a part of `line`.
+fn closest(start: Vec3, line: Vec3, direction: Vec3) -> f32 {
+    let across = line.cross(direction);
+    -start.cross(direction).dot(across) / across.length_squared()
 }
 
 /// The corners in the order of the weights of [`bilinear`].

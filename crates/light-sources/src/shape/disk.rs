@@ -2,7 +2,9 @@ use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth};
+use super::{
+    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth, hit_slack,
+};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -134,10 +136,17 @@ impl Shape for Disk {
             return None;
         }
         let local = o.truncate() + d.truncate() * t;
-        // What the point rounds off is added to the disk, so that a direction toward any point of it hits.
-        let slack = 4.0 * f32::EPSILON * (o.length() + t);
+        let magnitude = o.length() + t + origin.length();
+        let slack = hit_slack(magnitude, d.z).min(0.5 * self.radius);
         let r = local.length();
-        (r <= self.radius + slack && r >= self.inner_radius - slack).then(|| self.at(local))
+        let is_hit = r <= self.radius + slack && r >= self.inner_radius - slack;
+        let on_disk = r.clamp(self.inner_radius, self.radius);
+        let local = if r == on_disk {
+            local
+        } else {
+            local.try_normalize().unwrap_or(Vec2::X) * on_disk
+        };
+        is_hit.then(|| self.at(local))
     }
 }
 

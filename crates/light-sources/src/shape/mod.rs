@@ -133,6 +133,14 @@ pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Opt
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
 }
 
+/// What a ray in a unit direction rounds off where it meets a surface at the given distance, as a length along the
+/// surface: the lower it comes in, the longer. Edges count that far out, so that a direction toward any point hits.
+///
+/// `magnitude` is the size of the coordinates that were subtracted.
+fn hit_slack(magnitude: f32, cos_theta: f32) -> f32 {
+    4.0 * f32::EPSILON * magnitude / cos_theta.abs()
+}
+
 /// The angle around the axis z of the point at `p`, as a part of a full turn, in `[0, 1)`.
 pub(crate) fn azimuth(p: Vec3) -> f32 {
     let turn = atan2(p.y, p.x) / TAU;

@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle};
+use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle, hit_slack};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -140,16 +140,17 @@ impl Shape for Rectangle {
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
         let to_corner = self.corner - origin;
-        let t = to_corner.dot(self.normal) / direction.dot(self.normal);
+        let cos_theta = direction.dot(self.normal);
+        let t = to_corner.dot(self.normal) / cos_theta;
         if !(t > 0.0 && t.is_finite()) {
             return None;
         }
         let p = direction * t - to_corner;
-        // What the point rounds off is added to the rectangle, so that a direction toward any point of it hits.
-        let slack = 4.0 * f32::EPSILON * (t + to_corner.length());
+        let magnitude = t + to_corner.length() + self.corner.length();
+        let slack = hit_slack(magnitude, cos_theta);
         let along = |edge: Vec3| {
             let x = p.dot(edge) / edge.length_squared();
-            let slack = slack / edge.length();
+            let slack = (slack / edge.length()).min(0.5);
             (x >= -slack && x <= 1.0 + slack).then(|| x.clamp(0.0, 1.0))
         };
         Some(self.at(Vec2::new(along(self.edges[0])?, along(self.edges[1])?)))
