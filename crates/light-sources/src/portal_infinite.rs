@@ -67,7 +67,7 @@ pub enum PortalInfiniteLightError {
 }
 
 /// Cosines to the portal's normal below this are taken for none when rays are emitted: their density has no digits left.
-const LEAST_COSINE: f32 = 1e-5;
+const LEAST_COSINE: f32 = 1e-4;
 
 impl<C: ColorModel> PortalInfiniteLight<C> {
     /// The light that `desc` describes, over the given scene.
@@ -159,11 +159,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
     fn pdf_direction(&self, wi: Vec3, window: &Window) -> f32 {
         let pdf = || {
             let (uv, solid_angle) = self.portal.uv(wi)?;
-            // What a direction rounds off is added to the window.
-            let inside = uv.clamp(window.min, window.max);
-            if !(uv.distance(inside) <= 8.0 * f32::EPSILON) {
-                return None;
-            }
+            let inside = nearest_inside(uv, window)?;
             let pdf = self.table.as_ref()?.pdf(inside, window) / solid_angle;
             pdf.is_finite().then_some(pdf)
         };
@@ -172,15 +168,19 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
 
     /// Density of a ray's origin on the portal, per area across the ray; 0 along the portal, which no ray passes.
     fn pdf_position(&self, direction: Vec3) -> f32 {
-        /// A smaller cosine is what rounding has left of it.
-        const ALONG: f32 = 8.0 * f32::EPSILON;
         let cos_theta = self.portal.frame().z.dot(direction).abs();
-        if cos_theta > ALONG {
+        if cos_theta > LEAST_COSINE {
             1.0 / (self.portal.area() * cos_theta)
         } else {
             0.0
         }
     }
+}
+
+/// The point of a window next to `uv`; `None` if that lies farther outside than the rounding of a direction moves it.
+fn nearest_inside(uv: Vec2, window: &Window) -> Option<Vec2> {
+    let inside = uv.clamp(window.min, window.max);
+    (uv.distance(inside) <= 8.0 * f32::EPSILON).then_some(inside)
 }
 
 impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
@@ -231,8 +231,7 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
         }
         let on_portal = self.portal.point(u2);
         let away = self.scene.radius() + on_portal.distance(self.scene.center());
-        // A ray along the portal passes nothing of it.
-        (self.portal.frame().z.dot(wi) > LEAST_COSINE).then(|| LightLeSample {
+        Some(LightLeSample {
             l: self.radiance(uv, wavelengths),
             ray: EmittedRay::from_point(on_portal + wi * away, -wi),
             pdf: LePdf { pos, dir: pdf },
@@ -259,10 +258,9 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
 impl<C: ColorModel> InfiniteLight<C> for PortalInfiniteLight<C> {
     fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         let uv = self.portal.uv(direction).map(|(uv, _)| uv);
-        match uv.zip(self.portal.window(origin)) {
-            Some((uv, window)) if window.contains(uv) => self.radiance(uv, wavelengths),
-            _ => C::Radiance::BLACK,
-        }
+        let inside = uv.zip(self.portal.window(origin));
+        let inside = inside.and_then(|(uv, window)| nearest_inside(uv, &window));
+        inside.map_or(C::Radiance::BLACK, |uv| self.radiance(uv, wavelengths))
     }
 }
 

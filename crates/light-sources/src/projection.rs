@@ -58,6 +58,9 @@ pub struct ProjectionLight<C> {
     color: PhantomData<C>,
 }
 
+/// The most that rounding of directions may move a place of a picture, as a part of half its shorter side.
+const RESOLVED: f32 = 0.125;
+
 /// Why a description is no projection light; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -81,7 +84,9 @@ impl<C: ColorModel> ProjectionLight<C> {
         let [width, height] = image.size().map(|n| n as f32);
         let half = Vec2::new(width, height) * (tan(0.5 * desc.fov) / width.min(height));
         let area = 4.0 * half.x * half.y;
-        if !(desc.fov > 0.0 && desc.fov < PI && area > 0.0 && area.is_finite()) {
+        // What directions cannot tell apart is no picture.
+        let is_resolved = rounding_on_plane(half) <= RESOLVED * half.min_element();
+        if !(desc.fov > 0.0 && desc.fov < PI && area.is_finite() && is_resolved) {
             return Err(ProjectionLightError::Fov);
         }
 
@@ -150,10 +155,16 @@ impl<C: ColorModel> ProjectionLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// Where a direction away from the light meets the plane z = 1.
-    fn on_plane(&self, w: Vec3) -> Option<Vec2> {
+    /// Where a direction away from the light meets the picture in the plane z = 1. What a direction rounds off is added
+    /// to the picture.
+    fn on_picture(&self, w: Vec3) -> Option<Vec2> {
         let w = self.transform.inverse_vector(w);
-        (w.z > 0.0).then(|| w.truncate() / w.z)
+        if !(w.z > 0.0) {
+            return None;
+        }
+        let p = w.truncate() / w.z;
+        let inside = p.clamp(-self.half, self.half);
+        (p.distance(inside) <= rounding_on_plane(p)).then_some(inside)
     }
 }
 
@@ -165,10 +176,8 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     }
 
     fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
-        match self.on_plane(w) {
-            Some(p) if p.abs().cmple(self.half).all() => self.picture(p, wavelengths),
-            _ => C::Radiance::BLACK,
-        }
+        let p = self.on_picture(w);
+        p.map_or(C::Radiance::BLACK, |p| self.picture(p, wavelengths))
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
@@ -191,8 +200,8 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     }
 
     fn direction_pdf(&self, w: Vec3) -> f32 {
-        let on_plane = self.table.as_ref().zip(self.on_plane(w));
-        on_plane.map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p))
+        let on_picture = self.table.as_ref().zip(self.on_picture(w));
+        on_picture.map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p))
     }
 
     fn point_bounds(&self) -> LightBounds {
@@ -206,6 +215,11 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     fn surroundings(&self) -> MediumInterface {
         self.media
     }
+}
+
+/// How far the rounding of a direction moves the place `p` where it meets the plane z = 1.
+fn rounding_on_plane(p: Vec2) -> f32 {
+    8.0 * f32::EPSILON * (1.0 + p.length_squared())
 }
 
 /// Solid angle per area of the plane z = 1 at `p`: the cubed cosine of the angle to the axis.

@@ -8,11 +8,11 @@ use light_sources::{EmittedRay, LePdf, Light, LightRef, LightType, PdfCoverage, 
 const ROUNDING: f32 = 2e-3;
 
 /// Cosines of grazing angles, at which densities grow without bound, and are not compared.
-const GRAZING: f32 = 1e-2;
+const GRAZING: f32 = 1e-3;
 
 /// Sines of the angles by which a direction is turned where it lies so near to an edge, of a shape or a texel, that its density is that of
 /// the other side.
-const NEAR: [f32; 3] = [1e-6, 1e-5, 1e-4];
+const NEAR: [f32; 3] = [1.2e-7, 1e-6, 1e-5];
 
 /// What is asked of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

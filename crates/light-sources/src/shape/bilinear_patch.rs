@@ -56,6 +56,7 @@ impl BilinearPatch {
     /// # Errors
     /// When a corner is not finite or the patch has no area.
     pub fn new([p00, p10, p01, p11]: [Vec3; 4]) -> Result<Self, BilinearPatchError> {
+        const ROUNDED: f32 = 1.0 + 1e-3;
         if ![p00, p10, p01, p11].iter().all(|p| p.is_finite()) {
             return Err(BilinearPatchError::Corner);
         }
@@ -69,7 +70,9 @@ impl BilinearPatch {
         };
         patch.area = patch_area::integrate(|uv| patch.scaled_normal(uv));
         patch.bend = patch.measure_bend();
-        if !(patch.area > 0.0 && patch.area.is_finite()) {
+        // Normals are means of those at the corners, and no longer: what is more is rounding of a patch without area.
+        let most = patch.weights().into_iter().fold(0.0, f32::max);
+        if !(patch.area > 0.0 && patch.area.is_finite() && patch.area <= ROUNDED * most) {
             return Err(BilinearPatchError::Area);
         }
         Ok(patch)
@@ -237,7 +240,8 @@ impl Shape for BilinearPatch {
         self.pdf_at(at.uv)
     }
 
-    /// Of a patch that is not flat, a point by area, unless another part of the patch hides it.
+    /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or it is seen so
+    /// much from its edge that a ray toward it misses.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;
@@ -248,13 +252,15 @@ impl Shape for BilinearPatch {
         let ShapeSample { at, pdf } = self.sample(u)?;
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-        // The same distance, but for what rounding takes off at a grazing angle.
-        let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
-        let is_hidden = self.bend == Bend::Twisted
-            && self
-                .intersect(ctx.p, wi)
-                .is_some_and(|(_, t)| t < same * to_light.length());
-        (!is_hidden).then_some(DirectionSample { at, wi, pdf })
+        if self.bend == Bend::Twisted {
+            // The same distance, but for what rounding takes off at a grazing angle.
+            let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
+            let (_, t) = self.intersect(ctx.p, wi)?;
+            if t < same * to_light.length() {
+                return None;
+            }
+        }
+        Some(DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

@@ -50,8 +50,7 @@ pub(super) fn light(input: &mut Input<'_>) -> LightDesc<Rgb> {
         2 => LightDesc::Projection(ProjectionLightDesc {
             transform: transform(input),
             image: image(input),
-            // A picture that fills a half space ends where no direction has digits left.
-            fov: input.unit() * if input.is_tame { 2.8 } else { PI },
+            fov: input.unit() * PI,
             amount: intensity(input),
             media,
         }),

@@ -10,6 +10,12 @@ const TRIES: u32 = 192;
 /// How wide the answers for moved inputs may be spread, relative to their magnitude, to count as one continuous range.
 const CONTINUOUS: f64 = 0.05;
 
+/// How near to an answer those for moved inputs lie on both sides of it, relatively, where the answer is one for inputs between them.
+const BETWEEN: f64 = 0.01;
+
+/// The largest quotient of two answers for moved inputs that still tell an answer from its double and its half.
+const TELLING: f64 = 1.5;
+
 /// How far answers may move with their inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::conformance) enum Conditioning {
@@ -91,7 +97,7 @@ pub(in crate::conformance) struct Ours {
 
 /// Whether `ours` is the truth for inputs as near as rounding moves them: all parts of the answer, each with its
 /// tolerance, for one way to move the inputs. Otherwise each part is that for some way, or within the range of all ways
-/// where that is a narrow one.
+/// where that is a narrow one, or a number between the answers of two ways that are next to it on both sides.
 pub(in crate::conformance) fn confirm(
     ours: &[Ours],
     truth: impl Fn(&mut Jitter) -> Option<Vec<DVec3>>,
@@ -123,6 +129,9 @@ pub(in crate::conformance) fn confirm(
             continue;
         }
         let (low, high) = range(i);
+        if part.is_between(seen.iter().map(|truth| truth[i])) {
+            continue;
+        }
         match part.is_within(low, high) {
             Some(Certainty::Determined) => {}
             Some(Certainty::Undetermined) => certainty = Certainty::Undetermined,
@@ -161,6 +170,28 @@ impl Ours {
         (0..3).all(|i| near(self.answer[i], truth[i]))
     }
 
+    /// Whether the answer is a number between two of `truths` that are close to it, and all of them are alike but for those of a miss.
+    fn is_between(&self, truths: impl Iterator<Item = DVec3>) -> bool {
+        if self.answer.y != 0.0 || self.answer.z != 0.0 {
+            return false;
+        }
+        let ours = self.answer.x;
+        let (mut below, mut above) = (0.0, f64::INFINITY);
+        let (mut low, mut high) = (f64::INFINITY, 0.0);
+        for truth in truths.map(|truth| truth.x).filter(|&truth| truth != 0.0) {
+            (low, high) = (truth.min(low), truth.max(high));
+            if truth <= ours {
+                below = truth.max(below);
+            } else {
+                above = truth.min(above);
+            }
+        }
+        0.0 < low
+            && high <= TELLING * low
+            && ours - below <= BETWEEN * ours
+            && above - ours <= BETWEEN * ours
+    }
+
     /// Whether the answer is in the range of all answers, if that says anything.
     fn is_within(&self, low: DVec3, high: DVec3) -> Option<Certainty> {
         let magnitude = low.abs().max(high.abs()).length();
@@ -174,5 +205,47 @@ impl Ours {
             Conditioning::Ill => Some(Certainty::Undetermined),
             Conditioning::Well => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_confirmed(ours: f64, truth: impl Fn(&mut Jitter) -> f64) -> bool {
+        let ours = Ours {
+            answer: DVec3::new(ours, 0.0, 0.0),
+            tolerance: Tolerance::new(1e-6, 0.0),
+            conditioning: Conditioning::Well,
+        };
+        let truth = |jitter: &mut Jitter| Some(vec![DVec3::new(truth(jitter), 0.0, 0.0)]);
+        confirm(&[ours], truth) == Ok(Certainty::Determined)
+    }
+
+    #[test]
+    fn steep_answers_are_confirmed_where_moved_inputs_surround_them() {
+        // A cosine of 1e-5 that rounds by a twentieth, and in every other way misses.
+        let grazing = |jitter: &mut Jitter| 1.0 / jitter.at_scale(1e-5, 1.0);
+        let edge = |jitter: &mut Jitter| match jitter.either(0.0, 1.0) {
+            0.0 => 0.0,
+            _ => 1.0 / jitter.at_scale(1e-5, 1.0),
+        };
+        for ours in [0.97e5, 1e5, 1.02e5] {
+            assert!(is_confirmed(ours, grazing), "{ours}");
+            assert!(is_confirmed(ours, edge), "{ours} on the edge");
+        }
+        for ours in [0.5e5, 0.9e5, 1.1e5, 2e5, -1e5] {
+            assert!(!is_confirmed(ours, grazing), "{ours}");
+            assert!(!is_confirmed(ours, edge), "{ours} on the edge");
+        }
+        // Nothing between the two sides of a step.
+        let step = |jitter: &mut Jitter| jitter.either(1.0, 1.2);
+        assert!(
+            is_confirmed(1.2, step) && !is_confirmed(1.1, step),
+            "a step"
+        );
+        // What may be anything confirms nothing.
+        let wide = |jitter: &mut Jitter| 1.0 / jitter.at_scale(1e-6, 1.0);
+        assert!(!is_confirmed(1.0001e6, wide), "wide");
     }
 }

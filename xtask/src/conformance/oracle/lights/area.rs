@@ -151,7 +151,7 @@ impl<S: Shape> ExactLight for Area<S> {
 }
 
 /// A density per area as one per solid angle; none where the surface is seen from its edge. The place is rounded before
-/// the receiver is subtracted, which turns a direction along the surface.
+/// the receiver is subtracted, which turns a direction along the surface, and the normal is a rounded unit vector.
 pub(super) fn per_solid_angle(
     pdf_area: f64,
     from: &Receiver,
@@ -160,7 +160,8 @@ pub(super) fn per_solid_angle(
 ) -> Option<f64> {
     let magnitude = at.p.abs().max(from.p.abs()).max_element();
     let to_light = jitter.vector(at.p - from.p, magnitude);
-    let pdf = pdf_area * to_light.length_squared() / at.n.dot(to_light.normalize()).abs();
+    let cos = jitter.at_scale(at.n.dot(to_light.normalize()), 1.0);
+    let pdf = pdf_area * to_light.length_squared() / cos.abs();
     (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
 }
 

@@ -96,6 +96,23 @@ impl Patch {
         crossings.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// The edge that a ray passes at a distance that the inputs round off; none where they are not moved.
+    fn hit_edge(&self, o: DVec3, d: DVec3, jitter: &mut Jitter) -> Option<(DVec2, f64)> {
+        let [p00, _, _, p11] = self.corners;
+        let magnitude = o.abs().max(p00.abs()).max(p11.abs()).max_element();
+        let slack = jitter.at_scale(0.0, magnitude + o.distance(p00));
+        let edges = [[0, 1], [2, 3], [0, 2], [1, 3]].map(|edge| edge.map(|i: usize| CORNERS[i]));
+        let passes = edges.into_iter().filter_map(|[a, b]| {
+            let (start, line) = (self.point(a) - o, self.point(b) - self.point(a));
+            let across = line - d * line.dot(d);
+            let s = (-start.dot(across) / across.length_squared()).clamp(0.0, 1.0);
+            let to = start + line * s;
+            let t = to.dot(d);
+            (t > 0.0 && to.distance(d * t) < slack).then(|| (a.lerp(b, s), t))
+        });
+        passes.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     fn seen(&self, from: &Receiver, jitter: &mut Jitter) -> Option<Flat> {
         self.is_flat
             .then(|| Flat::new(from, self.corners, jitter))
@@ -168,7 +185,8 @@ impl Shape for Patch {
         if let Some(flat) = self.seen(from, jitter) {
             return flat.pdf(from, wi, jitter);
         }
-        let Some((uv, _)) = self.hit(from.p, wi) else {
+        let hit = self.hit(from.p, wi);
+        let Some((uv, _)) = hit.or_else(|| self.hit_edge(from.p, wi, jitter)) else {
             return 0.0;
         };
         per_solid_angle(self.pdf(uv), from, &self.at(uv), jitter).unwrap_or(0.0)
