@@ -155,14 +155,15 @@ impl<C: ColorModel> ProjectionLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// Where a direction away from the light meets the picture in the plane z = 1. What a direction rounds off is added
-    /// to the picture.
-    fn on_picture(&self, w: Vec3) -> Option<Vec2> {
+    /// Where a direction away from the light meets the plane z = 1.
+    fn on_plane(&self, w: Vec3) -> Option<Vec2> {
         let w = self.transform.inverse_vector(w);
-        if !(w.z > 0.0) {
-            return None;
-        }
-        let p = w.truncate() / w.z;
+        (w.z > 0.0).then(|| w.truncate() / w.z)
+    }
+
+    /// The same, where that is on the picture. What a direction rounds off is added to the picture.
+    fn on_picture(&self, w: Vec3) -> Option<Vec2> {
+        let p = self.on_plane(w)?;
         let inside = p.clamp(-self.half, self.half);
         (p.distance(inside) <= rounding_on_plane(p)).then_some(inside)
     }
@@ -176,8 +177,11 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     }
 
     fn intensity(&self, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let p = self.on_picture(w);
-        p.map_or(C::Radiance::BLACK, |p| self.picture(p, wavelengths))
+        // Nothing beyond the edge, where the bounds promise that none is.
+        match self.on_plane(w) {
+            Some(p) if p.abs().cmple(self.half).all() => self.picture(p, wavelengths),
+            _ => C::Radiance::BLACK,
+        }
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
