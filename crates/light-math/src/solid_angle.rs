@@ -246,4 +246,18 @@ mod tests {
             "in its plane"
         );
     }
+
+    #[test]
+    fn normals_are_those_of_f64_whichever_edge_is_longest() {
+        let mut rng = light_testkit::Rng::new(31);
+        for _ in 0..1000 {
+            let v = [(); 3].map(|()| rng.vec3());
+            let edge = |to: usize| [0, 1, 2].map(|i| f64::from(v[to][i]) - f64::from(v[0][i]));
+            let ([ax, ay, az], [bx, by, bz]) = (edge(1), edge(2));
+            let exact = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+            let normal = normal(v).to_array();
+            let error = (0..3).fold(0.0, |e, i| (f64::from(normal[i]) - exact[i]).abs().max(e));
+            assert!(error < 1e-5, "{v:?}: {error}");
+        }
+    }
 }
