@@ -5,7 +5,7 @@ mod support;
 use std::fs;
 
 use light_render::integrator::Estimator;
-use light_scene::{Scene, read_obj, read_pbrt};
+use light_scene::{Scene, read_gltf, read_obj, read_pbrt};
 use support::{Shot, plane};
 
 /// The mean over the file's scene, from the camera over a plane.
@@ -85,5 +85,50 @@ fn lamps_of_obj_files() {
         read_obj(&path).expect("a scene")
     };
     check("obj", &read("whole", ""), &read("half", "d 0.5"));
+    fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn lamps_of_gltf_files() {
+    let folder = std::env::temp_dir().join(format!("alpha_files_gltf_{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let floor = [-1.0f32, 0., -1., -1., 0., 1., 1., 0., 1., 1., 0., -1.];
+    let lamp = [-2.0f32, 3., -2., 2., 3., -2., 2., 3., 2., -2., 3., 2.];
+    let mut bytes = [floor, lamp]
+        .concat()
+        .into_iter()
+        .flat_map(f32::to_le_bytes)
+        .collect::<Vec<_>>();
+    bytes.extend([0u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
+    fs::write(folder.join("a.bin"), bytes).expect("a file");
+    let read = |name: &str, alpha: &str| {
+        let text = format!(
+            r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0]}}],
+            "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
+                {{"attributes": {{"POSITION": 0}}, "indices": 2, "material": 0}},
+                {{"attributes": {{"POSITION": 1}}, "indices": 2, "material": 1}}]}}],
+            "bufferViews": [{{"buffer": 0, "byteLength": 96}},
+                {{"buffer": 0, "byteOffset": 96, "byteLength": 12}}],
+            "accessors": [
+                {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                    "min": [-1, 0, -1], "max": [1, 0, 1]}},
+                {{"bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 4,
+                    "type": "VEC3", "min": [-2, 3, -2], "max": [2, 3, 2]}},
+                {{"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}}],
+            "buffers": [{{"byteLength": 108, "uri": "a.bin"}}],
+            "materials": [
+                {{"pbrMetallicRoughness": {{"baseColorFactor": [0.5, 0.5, 0.5, 1],
+                    "metallicFactor": 0}}}},
+                {{"emissiveFactor": [1, 1, 1], {alpha},
+                    "extensions": {{"KHR_materials_emissive_strength": {{"emissiveStrength": 2000}}}},
+                    "pbrMetallicRoughness": {{"baseColorFactor": [0, 0, 0, 0.5],
+                        "metallicFactor": 0}}}}]}}"#
+        );
+        let path = folder.join(format!("{name}.gltf"));
+        fs::write(&path, text).expect("a file");
+        read_gltf(&path).expect("a scene")
+    };
+    let whole = read("whole", r#""alphaMode": "OPAQUE""#);
+    check("gltf", &whole, &read("half", r#""alphaMode": "BLEND""#));
     fs::remove_dir_all(&folder).expect("removed");
 }

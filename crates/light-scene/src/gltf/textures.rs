@@ -5,13 +5,14 @@ use lights::sources::{TextureMapping, Wrap};
 use super::item::Item;
 use super::reader::Reader;
 use crate::glam::{Affine2, Mat2, Vec2, Vec3};
-use crate::image::{EncodedImage, Encoding};
+use crate::image::{EncodedImage, Encoding, TexelBudget};
 use crate::{ColorImage, Diagnostic, Image, ImageId};
 
 /// The images of a document, each decoded and kept once.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     decoded: HashMap<usize, EncodedImage>,
+    budget: TexelBudget,
     colors: HashMap<usize, ImageId>,
     alphas: HashMap<usize, Option<ImageId>>,
     /// The first image of each source: lists may name the same one over and over.
@@ -76,7 +77,11 @@ impl<'a> Reader<'a> {
             };
             // The bytes themselves say it too.
             item.get("mimeType")?;
-            let decoded = EncodedImage::parse(self.document.path(), &bytes);
+            let path = self.document.path();
+            let decoded = EncodedImage::parse(path, &bytes).and_then(|decoded| {
+                self.textures.budget.take(path, decoded.size())?;
+                Ok(decoded)
+            });
             let decoded = decoded.map_err(|error| item.error(&error.message))?;
             self.textures.decoded.insert(image, decoded);
         }

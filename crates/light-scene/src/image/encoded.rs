@@ -41,6 +41,11 @@ impl EncodedImage {
         Ok(Self(image))
     }
 
+    /// Texels per row, and rows.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        [self.0.width(), self.0.height()]
+    }
+
     /// The colours, made linear.
     pub(crate) fn color(&self, encoding: Encoding) -> Image {
         let image = self.0.to_rgb16();

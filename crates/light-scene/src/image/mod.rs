@@ -7,6 +7,7 @@ mod encoded;
 mod file;
 mod openexr;
 mod srgb;
+mod texel_budget;
 
 use alloc::sync::Arc;
 use core::fmt;
@@ -24,6 +25,7 @@ pub(crate) use file::{
 };
 pub use file::{ImageFile, parse_image, read_image, write_image};
 pub use openexr::{parse_exr, write_exr, write_exr_half};
+pub(crate) use texel_budget::TexelBudget;
 
 /// A linear RGB image in memory, row 0 on top.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -72,6 +74,11 @@ impl Image {
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.height
+    }
+
+    /// Texels per row, and rows.
+    pub(crate) const fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
     }
 
     /// All texels, row by row from the top.

@@ -15,6 +15,9 @@ use crate::{Diagnostic, write_whole};
 /// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
 const MAX_TEXELS: usize = 1 << 27;
 
+/// How many bytes one of a file makes at most: deflate's limit, above that of all other compressions.
+const MOST_EXPANDED: usize = 1032;
+
 /// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of half or float samples.
 ///
 /// `path` names the file in messages.
@@ -30,6 +33,13 @@ pub fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
     let [width, height] = [header.layer_size.0, header.layer_size.1];
     if width.checked_mul(height).is_none_or(|n| n > MAX_TEXELS) {
         let message = format!("expected at most {MAX_TEXELS} texels, found {width} x {height}");
+        return Err(Diagnostic::file(path, message));
+    }
+    let claimed = width * height * header.channels.bytes_per_pixel;
+    if claimed > bytes.len().saturating_mul(MOST_EXPANDED) {
+        let count = bytes.len();
+        let message =
+            format!("expected the texels of {width} x {height}, found {count} bytes in all");
         return Err(Diagnostic::file(path, message));
     }
     let names: Vec<_> = header

@@ -182,3 +182,29 @@ fn crc(bytes: &[u8]) -> u32 {
         })
     })
 }
+
+/// A file of some hundred bytes that says it has 2^26 texels: nothing is allocated for them.
+#[test]
+fn sizes_that_the_bytes_cannot_hold_are_refused() {
+    let folder = TestFolder::new("exr_claims");
+    let path = folder.path("a.exr");
+    write_exr(&path, &picture()).expect("written");
+    let mut bytes = fs::read(&path).expect("read");
+    let name = b"dataWindow\0box2i\0";
+    let at = bytes.windows(name.len()).position(|part| part == name);
+    // After its size, the least x and y, then the largest.
+    let largest = at.expect("a window") + name.len() + 4 + 8;
+    for corner in 0..2 {
+        let from = largest + 4 * corner;
+        bytes[from..from + 4].copy_from_slice(&8191i32.to_le_bytes());
+    }
+    let error = parse_exr(&path, &bytes).expect_err("too little");
+    let count = bytes.len();
+    let expected = format!("expected the texels of 8192 x 8192, found {count} bytes in all");
+    assert_eq!(error.message, expected, "refused");
+    // A picture of one colour is packed as tightly as any.
+    let white = Image::new(2048, 2048, vec![Vec3::ONE; 1 << 22]).expect("an image");
+    write_exr(&path, &white).expect("written");
+    let bytes = fs::read(&path).expect("read");
+    assert!(parse_exr(&path, &bytes).is_ok(), "{} bytes", bytes.len());
+}

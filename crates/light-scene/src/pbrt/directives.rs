@@ -6,6 +6,16 @@ use crate::Diagnostic;
 use crate::glam::{Mat4, Vec3, Vec4};
 use crate::text::shown;
 
+/// The directives about the picture as a whole, which stand before the world.
+const OPTIONS: [&str; 6] = [
+    "Camera",
+    "Film",
+    "PixelFilter",
+    "Sampler",
+    "Integrator",
+    "Accelerator",
+];
+
 impl Reader {
     /// Carries out all directives of a file.
     pub(super) fn file(&mut self, path: &Path, text: &str, depth: usize) -> Result<(), Diagnostic> {
@@ -33,6 +43,10 @@ impl Reader {
             path,
             line: tokens.line(),
         };
+        if self.in_world && OPTIONS.contains(&directive) {
+            let message = format!("expected `{directive}` before `WorldBegin`");
+            return Err(at.diagnostic(message));
+        }
         match directive {
             "AttributeBegin" => {
                 self.save_state(at, "expected `AttributeEnd` after `AttributeBegin`")?;
@@ -46,6 +60,9 @@ impl Reader {
                 let saved = self.saved_transforms.pop();
                 let saved = saved.ok_or_else(|| at.unmatched("TransformBegin"))?;
                 self.state.transform = saved.state;
+            }
+            "WorldBegin" if self.in_world => {
+                return Err(at.diagnostic("expected one `WorldBegin` only"));
             }
             "WorldBegin" => {
                 self.in_world = true;

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lights::sources::{TextureMapping, Wrap};
 
@@ -7,7 +7,7 @@ use super::textures::TextureKind;
 use crate::glam::{Affine2, Vec2, Vec3};
 use crate::image::{Encoding, IMAGE_ENDINGS, is_image_name, read_encoded_from};
 use crate::text::shown;
-use crate::{Color, ColorImage, Diagnostic, Image, ImageId};
+use crate::{Color, ColorImage, Diagnostic, Image, ImageFile, ImageId};
 
 /// A file of texels and what is made of them: as much as tells images apart that are stored once each.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -102,11 +102,22 @@ impl Reader {
             at.diagnostic(message)
         })?;
         let file = read_encoded_from(&key.path, self.files, encoding);
+        let file = file.and_then(|file| self.within_budget(&key.path, file));
         let file = file.map_err(|error| at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
         let image = self.scene.add_image(key.change(file.image));
         self.images.insert(key, image);
         Ok(image)
+    }
+
+    /// The image of a file, if there is room for it.
+    pub(super) fn within_budget(
+        &mut self,
+        path: &Path,
+        file: ImageFile,
+    ) -> Result<ImageFile, Diagnostic> {
+        self.texels.take(path, file.image.size())?;
+        Ok(file)
     }
 
     /// How an image lies on surfaces, by their own coordinates.

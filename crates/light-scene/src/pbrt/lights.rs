@@ -191,6 +191,7 @@ impl Reader {
             return Ok(known.clone());
         }
         let file = read_image_from(&path, self.files);
+        let file = file.and_then(|file| self.within_budget(&path, file));
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);
         let image = file.image.to_light();

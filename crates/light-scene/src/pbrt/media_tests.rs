@@ -189,11 +189,11 @@ fn bad_media_are_refused_with_the_line() {
 #[test]
 fn a_preset_counts_before_coefficients_and_one_is_the_default() {
     let text = r#"
+Camera "perspective"
 WorldBegin
 MakeNamedMedium "bare" "string type" "homogeneous"
 MakeNamedMedium "both" "string type" "homogeneous" "string preset" "Skin1" "rgb sigma_a" [ 9 9 9 ]
 MakeNamedMedium "odd" "string type" "homogeneous" "string preset" "Tar" "rgb sigma_a" [ 9 9 9 ]
-Camera "perspective"
 "#;
     let scene = read("pbrt_presets", text).expect("a scene");
     let [bare, both, odd] = [0, 1, 2].map(|i| at(&scene.media[i].medium, Vec3::ZERO));

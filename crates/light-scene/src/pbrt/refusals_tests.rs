@@ -30,6 +30,34 @@ fn broken_files_give_one_clear_line() {
             "LookAt 0 0 0 0 0 0 0 1 0",
             "a.pbrt:1: expected two points, and an up vector not along the view",
         ),
+        (
+            "WorldBegin\nCamera \"perspective\"",
+            "a.pbrt:2: expected `Camera` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin Film \"rgb\"",
+            "a.pbrt:1: expected `Film` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin PixelFilter \"box\"",
+            "a.pbrt:1: expected `PixelFilter` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin AttributeBegin Sampler \"halton\"",
+            "a.pbrt:1: expected `Sampler` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin Integrator \"path\"",
+            "a.pbrt:1: expected `Integrator` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin Accelerator \"bvh\"",
+            "a.pbrt:1: expected `Accelerator` before `WorldBegin`",
+        ),
+        (
+            "WorldBegin\nWorldBegin",
+            "a.pbrt:2: expected one `WorldBegin` only",
+        ),
         ("AttributeEnd", "a.pbrt:1: expected `AttributeBegin` before"),
         ("TransformEnd", "a.pbrt:1: expected `TransformBegin` before"),
         ("ObjectEnd", "a.pbrt:1: expected `ObjectBegin` before"),

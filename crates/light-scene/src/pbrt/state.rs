@@ -14,6 +14,7 @@ use super::objects::Objects;
 use super::parameters::Parameters;
 use super::textures::Textures;
 use crate::glam::{Mat4, Vec3};
+use crate::image::TexelBudget;
 use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
 
@@ -40,6 +41,8 @@ pub(super) struct Reader {
     pub(super) textures: Textures,
     /// Each file read once.
     pub(super) images: HashMap<ImageKey, ImageId>,
+    /// What the images of surfaces and lights have together.
+    pub(super) texels: TexelBudget,
     pub(super) media: Vec<MediumSlot>,
     pub(super) media_by_name: HashMap<String, usize>,
     /// All that `Attribute` directives have said, and where.

@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use lights::sources::{TextureMapping, Wrap};
 
 use crate::glam::{Affine2, Vec2};
-use crate::image::{IMAGE_ENDINGS, is_image_name, read_image_from, read_opacity_from};
+use crate::image::{IMAGE_ENDINGS, TexelBudget, is_image_name, read_image_from, read_opacity_from};
 use crate::text::{Line, shown};
 use crate::{ColorImage, Diagnostic, Files, ImageId, Scene};
 
@@ -38,6 +38,7 @@ pub(super) enum Content {
 pub(super) struct Textures<'a> {
     files: Files<'a>,
     by_name: HashMap<(String, Content), ImageId>,
+    budget: TexelBudget,
 }
 
 /// What a line names.
@@ -50,8 +51,11 @@ pub(super) struct Texture {
 
 impl<'a> Textures<'a> {
     pub(super) fn new(files: Files<'a>) -> Self {
-        let by_name = HashMap::new();
-        Self { files, by_name }
+        Self {
+            files,
+            by_name: HashMap::new(),
+            budget: TexelBudget::default(),
+        }
     }
 
     /// The options and the file that are left of a line.
@@ -79,6 +83,10 @@ impl<'a> Textures<'a> {
                     Content::Color => read_image_from(&path, self.files),
                     Content::Opacity => read_opacity_from(&path, self.files),
                 };
+                let file = file.and_then(|file| {
+                    self.budget.take(&path, file.image.size())?;
+                    Ok(file)
+                });
                 let file = file.map_err(|error| line.diagnostic(error.to_string()))?;
                 texture.warnings.extend(file.warning);
                 let image = scene.add_image(file.image);
