@@ -67,7 +67,7 @@ impl Query for Probability<'_, '_> {
             let at = cut.nodes[..cut.count]
                 .iter()
                 .position(|&n| n as usize == node)?;
-            Some(both(pmf, share(cut.weights[at][child], cut.total())))
+            Some(both(pmf, share(cut.weights[at][child], cut.sum)))
         })
     }
 }
@@ -85,10 +85,10 @@ impl LightCut {
         if !(total > 0.0) {
             return None;
         }
-        let target = u * f64::from(total);
+        let target = u * total;
         let (index, within) = self.node_at(target)?;
-        let (child, u) = pick(&self.weights[index], within, low(within))?;
-        let pmf = both(pmf, share(self.weights[index][child], total));
+        let (child, u) = pick(&self.weights[index], |_| within, low(within))?;
+        let pmf = both(pmf, share(self.weights[index][child], self.sum));
         tree.descend_from(receiver, self.nodes[index], child, pmf, u)
     }
 
@@ -97,15 +97,14 @@ impl LightCut {
     fn node_at(&self, target: f64) -> Option<(usize, f64)> {
         // All are compared, for a search that stops could not be foretold; in single precision, which is right but for the nearest of misses.
         let about = low(target);
-        let guess: u32 = self.ends.iter().map(|&end| u32::from(end <= about)).sum();
+        let guess: u32 = self.about.iter().map(|&end| u32::from(end <= about)).sum();
         let guess = guess as usize;
         let start = |index: usize| match index {
             0 => 0.0,
-            _ => f64::from(self.ends[index - 1]),
+            _ => self.ends[index - 1],
         };
-        let is_right = (guess < self.count)
-            && (start(guess) <= target)
-            && (target < f64::from(self.ends[guess]));
+        let is_right =
+            (guess < self.count) && (start(guess) <= target) && (target < self.ends[guess]);
         let index = if is_right {
             guess
         } else {
@@ -118,7 +117,7 @@ impl LightCut {
     #[cold]
     fn search(&self, target: f64) -> Option<usize> {
         let ends = self.ends.get(..self.count)?;
-        let index = ends.partition_point(|&end| f64::from(end) <= target);
+        let index = ends.partition_point(|&end| end <= target);
         if index < ends.len() {
             return Some(index);
         }
@@ -131,9 +130,10 @@ mod tests {
     use super::*;
 
     /// A cut of nodes whose weights end at `ends`.
-    fn cut(ends: &[f32]) -> LightCut {
+    fn cut(ends: &[f64]) -> LightCut {
         let mut cut = LightCut::default();
         cut.ends[..ends.len()].copy_from_slice(ends);
+        cut.about = cut.ends.map(low);
         cut.count = ends.len();
         cut
     }
@@ -148,6 +148,18 @@ mod tests {
         assert_eq!(cut.search(3.5), Some(1), "beyond the end");
     }
 
+    #[test]
+    fn a_node_of_any_weight_has_its_part() {
+        let cut = cut(&[1.0, 1.0 + 1e-9, 1.0 + 2e-9, 2.0]);
+        assert_eq!(
+            cut.node_at(1.0 + 0.5e-9).map(|n| n.0),
+            Some(1),
+            "a billionth"
+        );
+        assert_eq!(cut.node_at(1.0 + 1.5e-9).map(|n| n.0), Some(2), "the next");
+        assert_eq!(cut.node_at(1.0 + 2.5e-9).map(|n| n.0), Some(3), "beyond");
+    }
+
     /// Rounded to single precision the target is at the end of a node that it is still within.
     #[test]
     fn a_target_just_below_an_end_is_within_its_node() {
@@ -156,7 +168,7 @@ mod tests {
             let target = end * (1.0 - f64::EPSILON);
             let (index, within) = cut.node_at(target).expect("a node");
             let start = [0.0, 1.0, 2.0][index];
-            assert_eq!(f64::from(cut.ends[index]), end, "{target}");
+            assert_eq!(cut.ends[index], end, "{target}");
             assert_eq!(within, target - start, "{target}");
         }
     }

@@ -6,7 +6,7 @@ use super::cut::{CutDetail, LightCut, MAX_NODES};
 use super::importance::Receiver;
 use super::node::WIDTH;
 use super::query::Query;
-use super::select::both;
+use super::select::{both, low};
 use super::tree::LightBvhRef;
 use super::weights::{Weights, total};
 
@@ -35,6 +35,7 @@ impl Query for Grow<'_, '_> {
         cut.nodes[0] = 0;
         let mut limit = 0.0;
         let mut end = 0.0;
+        cut.sum = 0.0;
         let mut index = 0;
         // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
         while index < count {
@@ -74,14 +75,31 @@ impl Query for Grow<'_, '_> {
                     lanes[k] = if worth[k] > limit { 0.0 } else { lanes[k] };
                 }
             }
-            end += total(lanes);
+            cut.sum += total(lanes);
+            end += precise_total(&lanes);
             cut.weights[index] = lanes;
             cut.ends[index] = end;
+            cut.about[index] = low(end);
             index += 1;
         }
         cut.count = index;
-        cut.ends[index..].fill(f32::INFINITY);
+        cut.ends[index..].fill(f64::INFINITY);
+        cut.about[index..].fill(f32::INFINITY);
     }
+}
+
+/// The sum of all lanes in double precision, in pairs.
+#[inline(always)]
+fn precise_total(lanes: &[f32; WIDTH]) -> f64 {
+    let mut sums = lanes.map(f64::from);
+    let mut half = WIDTH / 2;
+    while half > 0 {
+        for k in 0..half {
+            sums[k] += sums[k + half];
+        }
+        half /= 2;
+    }
+    sums[0]
 }
 
 /// Bit `k` says whether number `k` is above `limit`.

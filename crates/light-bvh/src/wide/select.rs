@@ -19,8 +19,7 @@ impl Weights {
         if !(self.total > 0.0) {
             return None;
         }
-        let total = self.total;
-        let (child, u) = pick(&self.lanes, u * f64::from(total), low(u) * total)?;
+        let (child, u) = pick(&self.lanes, |sum| u * sum, low(u) * self.total)?;
         Some(Choice {
             child,
             probability: share(self.lanes[child], self.total),
@@ -35,13 +34,18 @@ impl Weights {
     }
 }
 
-/// The child that `target`, from 0 to the sum of the weights, falls on, and how far into it as a part of 1.
+/// The child that `target` of the sum of the weights, from 0 to that sum, falls on, and how far into it as a part of 1.
 ///
-/// In double precision: 24 bits cannot address the lights below children that differ much. Sums in single precision guess the child,
+/// The sum is that of double precision, for the one in single precision may end before the last child begins. In double precision: 24 bits cannot address the lights below children that differ much. Sums in single precision guess the child,
 /// which is looked for only if they are wrong.
 #[inline(always)]
-pub(crate) fn pick(lanes: &[f32; WIDTH], target: f64, about: f32) -> Option<(usize, f64)> {
+pub(crate) fn pick(
+    lanes: &[f32; WIDTH],
+    target: impl FnOnce(f64) -> f64,
+    about: f32,
+) -> Option<(usize, f64)> {
     let starts = starts(lanes);
+    let target = target(starts[WIDTH]);
     let guess = guess(lanes, about);
     let is_right = (starts[guess] <= target) & (target < starts[guess + 1]);
     let child = if is_right {
@@ -132,30 +136,33 @@ mod tests {
             for near in [0.0, 3.0, 3.001, 1e9, total] {
                 let target = near + (f64::from(i) - 500.0) * 1e-9;
                 if target >= 0.0 {
-                    let found = pick(&lanes, target, low(target)).map(|(child, _)| child);
+                    let found = pick(&lanes, |_| target, low(target)).map(|(child, _)| child);
                     assert_eq!(found, search(&lanes, &starts(&lanes), target), "{target}");
                 }
             }
         }
-        assert!(pick(&[0.0; WIDTH], 0.0, 0.0).is_none(), "no weight at all");
+        assert!(
+            pick(&[0.0; WIDTH], |_| 0.0, 0.0).is_none(),
+            "no weight at all"
+        );
     }
 
     #[test]
     fn what_is_left_of_u_is_how_far_into_the_child_it_falls() {
         let lanes = lanes(&[1.0, 0.0, 2.0, 4.0, 0.0, 0.0, 1.0]);
-        assert_eq!(pick(&lanes, 0.0, low(0.0)), Some((0, 0.0)), "the first");
+        assert_eq!(pick(&lanes, |_| 0.0, low(0.0)), Some((0, 0.0)), "the first");
         assert_eq!(
-            pick(&lanes, 1.0, low(1.0)),
+            pick(&lanes, |_| 1.0, low(1.0)),
             Some((2, 0.0)),
             "begins where the first ends"
         );
         assert_eq!(
-            pick(&lanes, 4.0, low(4.0)),
+            pick(&lanes, |_| 4.0, low(4.0)),
             Some((3, 0.25)),
             "a quarter of the way"
         );
         assert_eq!(
-            pick(&lanes, 8.0, low(8.0)),
+            pick(&lanes, |_| 8.0, low(8.0)),
             Some((6, SampledLight::MAX_U)),
             "beyond the end"
         );
