@@ -125,3 +125,86 @@ fn what_contributes_matters() {
         "{lit} lit, {dark} dark"
     );
 }
+
+/// `SIN_GROWTH`: just outside of its sphere, a box subtends almost a right angle, and how much less depends on the last digits of the sine.
+#[test]
+fn a_light_in_the_corner_of_its_box_matters_just_beside_the_corner() {
+    let mut rng = Rng::new(11);
+    let mut emitted = 0;
+    for _ in 0..ROUNDS {
+        let half = Vec3::from_array([0; 3].map(|_| rng.range(0.1, 1.0)));
+        let center = rng.direction();
+        let corner = center + half;
+        let aside = half.cross(rng.direction()).normalize_or(Vec3::X);
+        let p = corner + aside * rng.log_range(1e-5, 1e-2) + half * rng.log_range(1e-8, 1e-5);
+        let box_of_light = Aabb::new(center - half, corner);
+        let way = (p - box_of_light.max).normalize_or(Vec3::X);
+        // Turned away, from beyond the box, by almost all of the angle up to which it emits.
+        let theta_e = rng.range(0.1, 1.5);
+        let away = (way - half.normalize() * way.dot(half.normalize())).normalize_or(Vec3::X);
+        let from_light = (p - box_of_light.center()).normalize();
+        let turned = (away - from_light * away.dot(from_light)).normalize_or(Vec3::X);
+        let w = (way * theta_e.cos() + (turned * from_light.dot(way) - from_light) * theta_e.sin())
+            .normalize_or(Vec3::X);
+        let bounds = LightBounds {
+            bounds: box_of_light,
+            w,
+            phi: 1.0,
+            cos_theta_o: 1.0,
+            cos_theta_e: angle(
+                double(w),
+                core::array::from_fn(|i| double(p)[i] - double(box_of_light.max)[i]),
+            )
+            .cos() as f32,
+            two_sided: false,
+        };
+        if bounds.validate().is_ok() && emits(&bounds, double(box_of_light.max), p) {
+            emitted += 1;
+            let importance = bounds.importance(&LightSampleContext::medium(p));
+            assert!(importance > 0.0, "{bounds:?} at {p}");
+        }
+    }
+    assert!(emitted > ROUNDS / 10, "{emitted}");
+}
+
+/// The floor of the cosines: near the horizon, and near the edge of an emission of a right angle, rounding may leave nothing of a cosine. Without
+/// it the least importance would be left, however much arrives.
+#[test]
+fn importance_is_no_less_than_what_a_point_sends() {
+    let mut rng = Rng::new(12);
+    let (mut grazing, mut worst) = (0, 0.0f64);
+    for _ in 0..ROUNDS {
+        let (n, p) = (rng.direction(), rng.direction());
+        let across = |n: Vec3, rng: &mut Rng| {
+            n.cross(rng.direction())
+                .normalize_or(n.any_orthonormal_vector())
+        };
+        let at = p + across(n, &mut rng) * rng.log_range(1e-2, 1e2);
+        let way: [f64; 3] = core::array::from_fn(|i| double(at)[i] - double(p)[i]);
+        // Half of the lights shine past the point.
+        let w = if rng.below(2) == 0 {
+            across((at - p).normalize(), &mut rng)
+        } else {
+            (p - at).normalize()
+        };
+        let light = LightBounds {
+            bounds: Aabb::from_point(at),
+            w,
+            phi: 1.0,
+            cos_theta_o: 1.0,
+            cos_theta_e: 0.0,
+            two_sided: false,
+        };
+        let dist_sq = dot(way, way);
+        let cos = |v: Vec3| dot(double(v), way) / dist_sq.sqrt();
+        let (received, emitted) = (cos(n).abs(), -cos(w));
+        if emitted > 0.0 && received < 1e-6 {
+            grazing += 1;
+            let sent = received * emitted / dist_sq;
+            let importance = light.importance(&LightSampleContext::surface(p, n, n));
+            worst = worst.max(sent / f64::from(importance));
+        }
+    }
+    assert!(grazing > ROUNDS / 100, "{grazing}");
+    assert!(worst <= 1.0 + 1e-5, "{worst} times the importance");
+}

@@ -163,6 +163,14 @@ mod tests {
     }
 
     #[test]
+    fn lights_far_from_the_mirror_direction_keep_a_fiftieth() {
+        for v in [Vec3::Z, Vec3::new(-0.6, 0.0, 0.8), Vec3::Y + 0.1 * Vec3::Z] {
+            let w = polished(0.01, 0.0).reflected(&lane(v), v.z);
+            assert!(w >= 0.02, "{v}: {w}");
+        }
+    }
+
+    #[test]
     fn nonsense_still_gives_positive_numbers() {
         for alpha in [f32::NAN, -1.0, 0.0, 2.0] {
             for v in [

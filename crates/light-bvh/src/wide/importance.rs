@@ -6,9 +6,6 @@ use super::lane::{Lane, dist_sq};
 /// Coordinates are clamped to this on either side, so that no difference of two overflows.
 pub(crate) const FAR: f32 = 1e36;
 
-/// Round-off of axis and offset over the distance, in codes of them.
-const EMISSION_SLACK: f32 = 0.004;
-
 /// How much of the squared support of a child counts as variance of its height over the horizon, and how much of the support is taken off
 /// again, for no light is beyond it; how much of its squared width, and of its squared spread and distance, as variance of its emission, in
 /// codes of the axis; how much of its squared width as variance of its distance, and how much more it is worth where its width is that
@@ -19,6 +16,13 @@ const RAMP_BY_POSITION: f32 = 11.0;
 const RAMP_BY_SPREAD: f32 = 0.27;
 pub(crate) const DISTANCE: f32 = 0.09;
 const NEARNESS: f32 = 0.28;
+
+/// How far what is emitted beyond the edge may differ between two points of a box, over the sum of its half extents.
+///
+/// The product with the axis differs by at most its largest component, 127, times that sum, and the offset's by 127 times a length that is no
+/// longer. The mean distance exceeds that of the mean position by at most 0.3 of the sum, and by a hundredth of a code, a 300th of the least
+/// sum: 127 (2 + 0.3 + 0.0034) < 293. An emitter in the corner of a cube, beside a receiver in the cube, needs 210.
+const BOX_EMISSION: f32 = 297.0;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///
@@ -239,11 +243,10 @@ impl Lane {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
-        let beyond = mx * vx + my * vy + mz * vz + (self.offset - EMISSION_SLACK) * self.dist;
-        // From any point of the box it differs by less than the largest axis and offset, 127 each, times the widths of the box; and the mean
-        // distance by less than a third of these.
+        let beyond = mx * vx + my * vy + mz * vz + self.offset * self.dist;
+        // Round-off is less than 0.001 times the distance, which the code of the offset leaves: see its margin.
         // A child whose lights differ is never given up.
-        (beyond < 297.0 * (hx + hy + hz)) | (self.spread > 0.0)
+        (beyond < BOX_EMISSION * (hx + hy + hz)) | (self.spread > 0.0)
     }
 
     /// The same child from a place `offset` away from the receiver's position, and no nearer than the root of `least_sq`.

@@ -138,3 +138,40 @@ fn a_surface_that_transmits_has_light_from_both_sides() {
         assert!((e - expected).abs() < 1e-5, "{mean}: {e}");
     }
 }
+
+/// A sun above the horizon by less than the rounding of its height.
+#[test]
+fn a_sun_that_just_rises_counts() {
+    let mut rng = light_testkit::Rng::new(1);
+    let mut rising = 0;
+    for _ in 0..100_000 {
+        let n = rng.direction();
+        let sun = n
+            .cross(rng.direction())
+            .normalize_or(n.any_orthonormal_vector());
+        let height: f64 = (0..3).map(|i| f64::from(n[i]) * f64::from(sun[i])).sum();
+        if height > 0.0 {
+            rising += 1;
+            let ctx = LightSampleContext::surface(Vec3::ZERO, n, n);
+            let e = irradiance(&InfiniteBounds::distant(1.0, sun), &ctx);
+            assert!(e > 0.0, "{sun} over {n}: {height}");
+        }
+    }
+    assert!(rising > 10_000, "{rising}");
+}
+
+/// The mean of a sky that is almost all in one direction says nothing of the rest of its cone.
+#[test]
+fn a_mean_below_the_horizon_or_on_it_gives_nothing_up() {
+    let one_sided = floor();
+    let both = LightSampleContext::two_sided(Vec3::ZERO, Vec3::Z, Vec3::Z);
+    for mean in [Vec3::NEG_Z, Vec3::X] {
+        let sky = InfiniteBounds {
+            mean,
+            ..InfiniteBounds::uniform(1.0)
+        };
+        for ctx in [one_sided, both] {
+            assert!(irradiance(&sky, &ctx) > 0.0, "{mean} at {ctx:?}");
+        }
+    }
+}
