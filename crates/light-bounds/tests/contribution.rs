@@ -151,6 +151,7 @@ fn a_light_in_the_corner_of_its_box_matters_just_beside_the_corner() {
             w,
             phi: 1.0,
             cos_theta_o: 1.0,
+            #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
             cos_theta_e: angle(
                 double(w),
                 core::array::from_fn(|i| double(p)[i] - double(box_of_light.max)[i]),

@@ -15,8 +15,8 @@ use crate::may_contribute;
 /// Lights that one input may hold: enough for two levels of wide nodes.
 const MAX_LIGHTS: usize = 24;
 
-/// How many lights are chosen at once.
-const COUNTS: [u32; 3] = [1, 2, 5];
+/// How many lights are chosen at once: one by itself, and several by a cut.
+const COUNTS: [u32; 2] = [1, 3];
 
 /// Every sampler obeys the laws for every receiver: bits of pmfs, sums, the rest of `u`, and no light lost.
 ///
