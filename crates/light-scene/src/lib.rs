@@ -16,6 +16,7 @@ mod files;
 mod gltf;
 mod grid;
 mod gunzip;
+mod ids;
 mod image;
 pub mod light_set;
 mod luminaire;
@@ -43,6 +44,7 @@ pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Place};
 pub use files::Files;
 pub use gltf::read_gltf;
+pub use ids::{ImageId, MaterialId, PrototypeId};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
     write_exr_half, write_hdr, write_image, write_png,
@@ -52,8 +54,8 @@ pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, 
 pub use mesh::Mesh;
 pub use obj::{parse_obj, read_obj};
 pub use pbrt::{parse_ply, read_pbrt};
-pub use placement::{Placement, Prototype, PrototypeId};
-pub use scene::{ImageId, MaterialId, NamedMedium, Scene};
+pub use placement::{Placement, Prototype};
+pub use scene::{NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
 pub use shining_copies::MOST_SHINING_COPIES;
 pub use sphere::{Sphere, SphereFront};

@@ -1,11 +1,7 @@
 use lights::math::Aabb;
 
 use crate::glam::{Affine3A, Vec3};
-use crate::{Mesh, Sphere};
-
-/// Position of a prototype in [`Scene::prototypes`](crate::Scene::prototypes).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-pub struct PrototypeId(pub u32);
+use crate::{Mesh, PrototypeId, Sphere};
 
 /// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it stands nowhere.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

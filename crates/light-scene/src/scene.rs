@@ -7,16 +7,9 @@ use lights::sources::{
 
 use crate::glam::{Affine3A, Vec3};
 use crate::{
-    Camera, Color, Diagnostic, Image, Material, Mesh, Placement, Prototype, PrototypeId, Sphere,
+    Camera, Color, Diagnostic, Image, ImageId, Material, MaterialId, Mesh, Placement, Prototype,
+    PrototypeId, Sphere,
 };
-
-/// Position of a material in [`Scene::materials`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-pub struct MaterialId(pub u32);
-
-/// Position of an image in [`Scene::images`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-pub struct ImageId(pub u32);
 
 /// A medium of a scene: fog, smoke, a flame. Its constructors have checked it.
 #[derive(Clone, Debug, serde::Serialize)]

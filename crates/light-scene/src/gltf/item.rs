@@ -13,6 +13,27 @@ pub(super) struct Item<'a> {
     pub(super) path: String,
 }
 
+impl Document {
+    /// The part that holds all others.
+    pub(super) fn root(&self) -> Item<'_> {
+        Item {
+            document: self,
+            value: &self.root,
+            path: String::new(),
+        }
+    }
+
+    /// A part that somebody asks for.
+    pub(super) fn ask<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
+        self.asked.borrow_mut().insert(core::ptr::from_ref(value));
+        Item {
+            document: self,
+            value,
+            path,
+        }
+    }
+}
+
 impl<'a> Item<'a> {
     /// A message about this part.
     pub(super) fn error(&self, message: &str) -> Diagnostic {

@@ -1,19 +1,10 @@
-use std::collections::HashMap;
-
 use lights::math::spectrum::photometric::K_M;
 
 use super::item::{Item, share};
 use super::reader::Reader;
-use super::textures::Texture;
+use super::texture_images::Texture;
 use crate::glam::{Vec2, Vec3};
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Material, MaterialId, Surface};
-
-/// The materials so far, by their places in the document, and which texture coordinates each uses.
-#[derive(Debug, Default)]
-pub(super) struct Materials {
-    known: HashMap<usize, (MaterialId, usize)>,
-    default: Option<MaterialId>,
-}
 
 /// What decides how a surface scatters light.
 struct Finish {

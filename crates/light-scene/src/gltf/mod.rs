@@ -5,7 +5,9 @@ mod buffers;
 mod data_uri;
 mod document;
 mod glb;
+mod instances;
 mod item;
+mod known_materials;
 mod lights;
 #[cfg(test)]
 mod lights_tests;
@@ -18,9 +20,11 @@ mod reader;
 mod refusals_tests;
 #[cfg(test)]
 mod tests;
+mod texture_images;
 mod textures;
 #[cfg(test)]
 mod textures_tests;
+mod unasked;
 
 use std::path::Path;
 

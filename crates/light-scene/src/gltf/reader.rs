@@ -4,9 +4,9 @@ use super::accessor::Budget;
 use super::buffers::Buffers;
 use super::document::Document;
 use super::item::Item;
-use super::materials::Materials;
+use super::known_materials::Materials;
 use super::mesh_uses::MeshUses;
-use super::textures::Textures;
+use super::texture_images::Textures;
 use crate::{Diagnostic, Files, Scene};
 
 /// Extensions that a document may require.

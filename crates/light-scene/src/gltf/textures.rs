@@ -1,45 +1,11 @@
-use std::collections::HashMap;
-
 use lights::sources::{TextureMapping, Wrap};
 
 use super::item::Item;
 use super::reader::Reader;
+use super::texture_images::Texture;
 use crate::glam::{Affine2, Mat2, Vec2, Vec3};
-use crate::image::{EncodedImage, Encoding, TexelBudget};
-use crate::{ColorImage, Diagnostic, Image, ImageId};
-
-/// The images of a document, each decoded and kept once.
-#[derive(Debug, Default)]
-pub(super) struct Textures {
-    decoded: HashMap<usize, EncodedImage>,
-    budget: TexelBudget,
-    colors: HashMap<usize, ImageId>,
-    alphas: HashMap<usize, Option<ImageId>>,
-    /// The first image of each source: lists may name the same one over and over.
-    by_source: HashMap<String, usize>,
-}
-
-impl Textures {
-    /// The first image that has the same source.
-    fn first_alike(&mut self, image: usize, item: &Item<'_>) -> Result<usize, Diagnostic> {
-        let source = match item.get("uri")? {
-            Some(uri) => uri.text()?.to_owned(),
-            // No file's name holds a line break.
-            None => format!("\n{}", item.require("bufferView")?.whole()?),
-        };
-        Ok(*self.by_source.entry(source).or_insert(image))
-    }
-}
-
-/// A texture that a material names.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Texture {
-    /// Which of the mesh's texture coordinates.
-    pub(super) uv_set: usize,
-    mapping: TextureMapping,
-    /// Place in the document's list of images.
-    image: usize,
-}
+use crate::image::{EncodedImage, Encoding};
+use crate::{ColorImage, Diagnostic, Image};
 
 impl<'a> Reader<'a> {
     /// The texture that `owner` names, if its image is of a kind that is read.
@@ -125,16 +91,6 @@ impl<'a> Reader<'a> {
     /// The mean of an image's channels as they are written.
     pub(super) fn mean_of_data(&self, texture: Texture) -> Vec3 {
         self.textures.decoded[&texture.image].mean_of_data()
-    }
-}
-
-impl Texture {
-    fn shown(&self, image: ImageId, scale: Vec3) -> ColorImage {
-        ColorImage {
-            image,
-            scale,
-            mapping: self.mapping,
-        }
     }
 }
 

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use ::image::{DynamicImage, ImageFormat};
 
-use super::file::ending;
+use super::image_file::ending;
 use super::{Image, display::decode, srgb};
 use crate::Diagnostic;
 use crate::glam::Vec3;

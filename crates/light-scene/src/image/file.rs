@@ -1,21 +1,13 @@
 use std::path::Path;
 
 use super::display::parse_hdr;
+use super::image_file::ending;
 use super::openexr::parse_exr;
-use super::{EncodedImage, Encoding, Image, write_exr, write_hdr, write_png};
+use super::{EncodedImage, Encoding, Image, ImageFile, write_exr, write_hdr, write_png};
 use crate::{Diagnostic, Files};
 
 /// The endings of the names of images that are read.
 pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .png, .tga or .jpg";
-
-/// An image as it came from a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ImageFile {
-    /// The image; every channel is finite and at least 0.
-    pub image: Image,
-    /// What was repaired, if anything: how many texels were negative.
-    pub warning: Option<Diagnostic>,
-}
 
 /// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`, `.tga`, `.jpg`, `.jpeg`
 /// (sRGB, made linear).
@@ -100,10 +92,4 @@ pub fn write_image(path: &Path, image: &Image) -> Result<(), Diagnostic> {
             "expected an image to write: .exr, .hdr or .png",
         )),
     }
-}
-
-/// The ending of a file's name in lower case; empty without one.
-pub(super) fn ending(path: &Path) -> String {
-    let ending = path.extension().unwrap_or_default();
-    ending.to_string_lossy().to_ascii_lowercase()
 }

@@ -5,6 +5,7 @@ mod checked;
 mod display;
 mod encoded;
 mod file;
+mod image_file;
 mod openexr;
 mod srgb;
 mod texel_budget;
@@ -23,7 +24,8 @@ pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
     IMAGE_ENDINGS, is_image_name, read_encoded_from, read_image_from, read_opacity_from,
 };
-pub use file::{ImageFile, parse_image, read_image, write_image};
+pub use file::{parse_image, read_image, write_image};
+pub use image_file::ImageFile;
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 pub(crate) use texel_budget::TexelBudget;
 

@@ -1,51 +1,16 @@
 use alloc::rc::Rc;
 use std::path::Path;
 
+use super::at::{At, Typed};
+use super::attribute_target::Target;
 use super::parameters::Parameters;
-use super::state::{At, Reader, Typed};
+use super::state::Reader;
 use super::tokens::Tokens;
 use crate::Diagnostic;
 use crate::text::shown;
 
-/// What kind of directive an `Attribute` speaks to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Target {
-    Shape,
-    Light,
-    Material,
-    Medium,
-    Texture,
-}
-
 /// How many may be in force: each directive looks through all of them.
 pub(super) const MOST_ATTRIBUTES: usize = 256;
-
-/// The `Attribute` directives in force, the last one at the end.
-pub(super) type Attributes = Vec<(Target, Rc<Parameters>)>;
-
-impl Target {
-    fn of_name(name: &str) -> Option<Self> {
-        Some(match name {
-            "shape" => Self::Shape,
-            "light" => Self::Light,
-            "material" => Self::Material,
-            "medium" => Self::Medium,
-            "texture" => Self::Texture,
-            _ => return None,
-        })
-    }
-
-    fn of_directive(directive: &str) -> Option<Self> {
-        Some(match directive {
-            "Shape" => Self::Shape,
-            "LightSource" | "AreaLightSource" => Self::Light,
-            "Material" | "MakeNamedMaterial" => Self::Material,
-            "MakeNamedMedium" => Self::Medium,
-            "Texture" => Self::Texture,
-            _ => return None,
-        })
-    }
-}
 
 impl Reader {
     /// The type in quotes and the parameters of a directive, with those that attributes add.

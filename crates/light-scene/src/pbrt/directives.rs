@@ -1,6 +1,7 @@
 use std::path::Path;
 
-use super::state::{At, Reader, Typed};
+use super::at::{At, Typed};
+use super::state::Reader;
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
 use crate::glam::{Mat4, Vec3, Vec4};

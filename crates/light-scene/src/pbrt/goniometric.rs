@@ -4,8 +4,9 @@ use std::path::Path;
 use lights::math::spectrum::photometric::Lumen;
 use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, LightDesc, Rgb};
 
+use super::at::Typed;
 use super::lights::luminance;
-use super::state::{Reader, Typed};
+use super::state::Reader;
 use crate::glam::{Affine3A, Mat3A, Vec3};
 use crate::text::text_of;
 use crate::{Camera, Diagnostic, goniometric_light, in_luminaire, parse_luminaire};

@@ -9,36 +9,6 @@ use crate::text::text_of;
 /// Files that include each other deeper than this include themselves.
 const DEEPEST: usize = 32;
 
-/// Files that a scene may include, each as often as it is included.
-pub(super) const MOST_FILES: usize = 1 << 16;
-
-/// Bytes of text in all of them, 4 GiB.
-const MOST_BYTES: u64 = 1 << 32;
-
-/// What has been included so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Included {
-    files: usize,
-    bytes: u64,
-}
-
-impl Included {
-    /// Counts a file of so many bytes.
-    fn add(&mut self, bytes: usize) -> Result<(), String> {
-        self.files += 1;
-        self.bytes = self.bytes.saturating_add(bytes as u64);
-        if self.files > MOST_FILES {
-            return Err(format!("expected at most {MOST_FILES} included files"));
-        }
-        if self.bytes > MOST_BYTES {
-            return Err(format!(
-                "expected at most {MOST_BYTES} bytes in all included files"
-            ));
-        }
-        Ok(())
-    }
-}
-
 impl Reader {
     /// `Include "name"`: as if the text of the file stood there.
     pub(super) fn include(

@@ -9,8 +9,9 @@ use lights::sources::{
     UniformInfiniteLightDesc,
 };
 
-use super::image_map::ImageKey;
-use super::state::{AreaLight, Reader, Typed};
+use super::at::Typed;
+use super::image_key::ImageKey;
+use super::state::{AreaLight, Reader};
 use super::textures::scaled;
 use crate::glam::{Affine3A, Quat, Vec2, Vec3};
 use crate::image::read_image_from;

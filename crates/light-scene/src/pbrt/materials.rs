@@ -1,5 +1,6 @@
+use super::at::Typed;
 use super::parameter::ParameterType;
-use super::state::{Reader, Typed};
+use super::state::Reader;
 use crate::glam::{Vec2, Vec3};
 use crate::{Color, Diagnostic, Material, MaterialId, Surface};
 

@@ -1,23 +1,15 @@
-use std::path::PathBuf;
-
 use lights::glam::Affine3A;
 use lights::media::phase::{HenyeyGreenstein, Isotropic};
 use lights::media::{AnyMedium, Homogeneous, Phase, Region, Substance};
 use lights::sources::{MediumId, MediumInterface, Rgb};
 
-use super::state::{At, Reader, Typed};
+use super::at::{At, Typed};
+use super::medium_slot::MediumSlot;
+use super::state::Reader;
 use super::tokens::{Token, Tokens};
 use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, MaterialId, NamedMedium, Place};
-
-/// A medium by its name: files may name it before they describe it.
-#[derive(Debug)]
-pub(super) struct MediumSlot {
-    name: String,
-    first_use: (PathBuf, usize),
-    medium: Option<AnyMedium<Rgb>>,
-}
 
 /// Names of what was measured: reduced scattering and absorption per millimetre, for red, green and blue light.
 ///

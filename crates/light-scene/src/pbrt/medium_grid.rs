@@ -6,10 +6,11 @@ use lights::media::{
 };
 use lights::sources::Rgb;
 
+use super::at::Typed;
 use super::cloud::Cloud;
 use super::media::{phase, refused, substance};
 use super::parameter::ParameterType::{self, Float, Rgb as Colors};
-use super::state::{Reader, Typed};
+use super::state::Reader;
 use crate::Diagnostic;
 use crate::glam::Vec3;
 

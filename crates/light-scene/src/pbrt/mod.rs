@@ -1,5 +1,7 @@
 //! pbrt-v4 scene files.
 
+mod at;
+mod attribute_target;
 mod attributes;
 mod cloud;
 mod colors;
@@ -9,17 +11,22 @@ mod files_tests;
 #[cfg(test)]
 mod frames_tests;
 mod goniometric;
+mod image_key;
 mod image_map;
+mod included;
 mod includes;
 mod lights;
 #[cfg(test)]
 mod lights_tests;
+mod material_names;
 mod materials;
 #[cfg(test)]
 mod materials_tests;
 mod media;
 mod medium_grid;
+mod medium_slot;
 mod named_materials;
+mod object_slots;
 mod objects;
 #[cfg(test)]
 mod objects_tests;
@@ -34,6 +41,7 @@ mod refusals_tests;
 mod shapes;
 mod spectrum;
 mod state;
+mod texture_kind;
 mod textures;
 #[cfg(test)]
 mod textures_tests;

@@ -1,27 +1,10 @@
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use super::state::{At, Reader};
+use super::at::At;
+use super::state::Reader;
 use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, Material, MaterialId, Surface};
-
-/// What `MakeNamedMaterial` describes; files may name a material before they describe it.
-#[derive(Debug, Default)]
-pub(super) struct NamedMaterials {
-    by_name: HashMap<String, MaterialId>,
-    /// Named but not described so far, with what to say if that stays so.
-    awaited: HashMap<String, (MaterialId, Diagnostic)>,
-    awaited_ids: HashSet<MaterialId>,
-    /// Materials that have taken their surface from another one, each with the other.
-    twins: Vec<(MaterialId, MaterialId)>,
-}
-
-impl NamedMaterials {
-    /// Whether the material was named and will be described later.
-    pub(super) fn awaits(&self, material: MaterialId) -> bool {
-        self.awaited_ids.contains(&material)
-    }
-}
 
 impl Reader {
     /// The material with this name, which may still be empty.

@@ -1,61 +1,12 @@
-use std::collections::HashMap;
-
-use super::state::{At, Reader, State};
+use super::at::At;
+use super::object_slots::{ObjectSlot, Objects, OpenObject};
+use super::state::{Reader, State};
 use crate::glam::Affine3A;
-use crate::shining_copies::ShiningCopies;
 use crate::text::shown;
-use crate::{Diagnostic, Mesh, Placement, Prototype, PrototypeId, Sphere};
+use crate::{Diagnostic, Mesh, Placement, Prototype, Sphere};
 
 /// Triangles that a scene may hold, however often it names the same files.
 const MOST_TRIANGLES: usize = 1 << 27;
-
-/// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they describe it.
-#[derive(Debug, Default)]
-pub(super) struct Objects {
-    by_name: HashMap<String, PrototypeId>,
-    slots: Vec<ObjectSlot>,
-    copies: ShiningCopies,
-    /// The one that is being described.
-    open: Option<OpenObject>,
-}
-
-#[derive(Debug)]
-struct ObjectSlot {
-    /// What to say if nobody describes it.
-    unknown: Diagnostic,
-    prototype: Option<Prototype>,
-    /// How many triangles and spheres of it shine, once it is described.
-    shining: usize,
-    /// How often it was placed before that.
-    places: usize,
-}
-
-/// An object between `ObjectBegin` and `ObjectEnd`.
-#[derive(Debug)]
-struct OpenObject {
-    id: PrototypeId,
-    prototype: Prototype,
-    /// How many states are saved, its own included.
-    depth: usize,
-}
-
-impl Objects {
-    fn id(&mut self, at: At<'_>, name: &str) -> PrototypeId {
-        if let Some(&id) = self.by_name.get(name) {
-            return id;
-        }
-        let id = u32::try_from(self.slots.len()).expect("fewer than 2^32 objects");
-        self.by_name.insert(name.to_owned(), PrototypeId(id));
-        let message = format!("expected an object's name, found \"{}\"", shown(name));
-        self.slots.push(ObjectSlot {
-            unknown: at.diagnostic(message),
-            prototype: None,
-            shining: 0,
-            places: 0,
-        });
-        PrototypeId(id)
-    }
-}
 
 impl Reader {
     /// `ObjectBegin "name"`: what follows stands nowhere yet.

@@ -1,7 +1,8 @@
+use super::at::{At, Typed};
 use super::lights::area_scale;
 use super::ply::read_ply;
 use super::quadrics::{cylinder, disk, sphere};
-use super::state::{At, Reader, Typed};
+use super::state::Reader;
 use super::textures::scaled;
 use crate::glam::{Affine3A, Vec3};
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId, Mesh};

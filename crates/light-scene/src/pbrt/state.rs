@@ -5,18 +5,19 @@ use std::path::{Path, PathBuf};
 
 use lights::sources::{Image as LightImage, MediumInterface};
 
-use super::attributes::Attributes;
-use super::image_map::ImageKey;
-use super::includes::Included;
-use super::media::MediumSlot;
-use super::named_materials::NamedMaterials;
-use super::objects::Objects;
+use super::at::At;
+use super::attribute_target::Attributes;
+use super::image_key::ImageKey;
+use super::included::Included;
+use super::material_names::NamedMaterials;
+use super::medium_slot::MediumSlot;
+use super::object_slots::Objects;
 use super::parameters::Parameters;
-use super::textures::Textures;
+use super::texture_kind::Textures;
 use crate::glam::{Mat4, Vec3};
 use crate::image::TexelBudget;
 use crate::text::shown;
-use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Place, Scene};
+use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Scene};
 
 /// Blocks of one kind that may be open at a time.
 pub(super) const MOST_BLOCKS: usize = 1 << 16;
@@ -83,24 +84,6 @@ pub(super) struct AreaLight {
     pub(super) two_sided: bool,
     /// Power in W that decides the scale, if the file states one.
     pub(super) power: Option<f32>,
-}
-
-/// Where a directive stands.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct At<'a> {
-    pub(super) path: &'a Path,
-    pub(super) line: usize,
-}
-
-impl At<'_> {
-    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Line(self.line), message)
-    }
-
-    /// Says that a directive lacks the one that it ends, or one in between.
-    pub(super) fn unmatched(&self, before: &str) -> Diagnostic {
-        self.diagnostic(format!("expected `{before}` before"))
-    }
 }
 
 impl Reader {
@@ -195,12 +178,4 @@ fn save<T>(
     let unclosed = at.diagnostic(unclosed);
     all.push(Saved { state, unclosed });
     Ok(())
-}
-
-/// The directive that a parameter list belongs to, its type in quotes read already.
-#[derive(Debug)]
-pub(super) struct Typed<'a> {
-    pub(super) at: At<'a>,
-    pub(super) kind: String,
-    pub(super) parameters: Parameters,
 }

@@ -1,31 +1,12 @@
-use std::collections::HashMap;
 use std::path::Path;
 
-use super::state::{Reader, Typed};
+use super::at::Typed;
+use super::state::Reader;
+use super::texture_kind::TextureKind;
 use super::tokens::Tokens;
 use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Color, ColorImage, Diagnostic, Image};
-
-/// The textures so far: numbers and colours have names of their own.
-pub(super) type Textures = HashMap<(TextureKind, String), Color>;
-
-/// What a texture gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum TextureKind {
-    /// A number: of a colour the first channel counts.
-    Float,
-    Spectrum,
-}
-
-impl TextureKind {
-    const fn other(self) -> Self {
-        match self {
-            Self::Float => Self::Spectrum,
-            Self::Spectrum => Self::Float,
-        }
-    }
-}
 
 impl Reader {
     /// `Texture "name" "type" "class"` and its parameters.

@@ -1,8 +1,9 @@
 //! Who looks, and at how many pixels.
 
+use super::at::Typed;
 use super::lights::fov;
 use super::parameter::ParameterType;
-use super::state::{Reader, Typed};
+use super::state::Reader;
 use crate::glam::Vec3;
 use crate::{Camera, Crop, Diagnostic, Lens};
 

@@ -1,22 +1,10 @@
 use super::corners;
+use super::gable_style::Gable;
 use super::house::House;
 use super::palette::Palette;
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};
-
-/// How a front ends at the top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Gable {
-    Stepped,
-    Necked,
-    Pointed,
-    Cornice,
-}
-
-impl Gable {
-    pub(super) const ALL: [Self; 4] = [Self::Stepped, Self::Necked, Self::Pointed, Self::Cornice];
-}
 
 impl House {
     /// Builds what stands on a front of height `top`.

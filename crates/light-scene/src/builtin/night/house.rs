@@ -1,6 +1,6 @@
 use super::course::{Bank, Course};
 use super::facade::wall;
-use super::gable::Gable;
+use super::gable_style::Gable;
 use super::palette::Palette;
 use super::window::{Content, Opening};
 use super::{FRONTS, QUAY};

@@ -10,6 +10,7 @@ mod course;
 mod facade;
 mod festoon;
 mod gable;
+mod gable_style;
 mod house;
 mod lantern;
 mod palette;

@@ -3,7 +3,7 @@
 use core::str::FromStr;
 use std::path::Path;
 
-use super::header::{Format, Number, Property};
+use super::element::{Format, Number, Property};
 use crate::text::shown;
 use crate::{Diagnostic, Place};
 

@@ -1,12 +1,13 @@
 //! PLY meshes: text, and binary of both byte orders, compressed by gzip or not.
 
 mod body;
+mod element;
 mod header;
 
 use std::path::Path;
 
 use self::body::{Body, index};
-use self::header::{Element, Format, Property};
+use self::element::{Element, Format, Property};
 use crate::glam::{Vec2, Vec3};
 use crate::gunzip::gunzipped;
 use crate::text::shown;

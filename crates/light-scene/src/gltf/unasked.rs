@@ -1,0 +1,98 @@
+//! The members of a document that no reader asks for.
+
+use alloc::collections::BTreeSet;
+use std::collections::HashSet;
+
+use serde_json::Value;
+
+use super::document::Document;
+use super::item::{Item, joined};
+
+/// Members that say nothing about light: nobody has to ask for them. Filters are those of rasterisers.
+const SAYS_NOTHING: [&str; 8] = [
+    "name",
+    "extras",
+    "generator",
+    "copyright",
+    "minVersion",
+    "min",
+    "max",
+    "minFilter",
+];
+
+impl Document {
+    /// What nobody asked for: the first of each kind, places in lists aside.
+    pub(super) fn unasked(&self) -> Vec<Item<'_>> {
+        let mut unasked = Unasked {
+            asked: &self.asked.borrow(),
+            kinds: BTreeSet::new(),
+            found: Vec::new(),
+        };
+        unasked.walk(self.root());
+        unasked.found
+    }
+}
+
+struct Unasked<'a, 'b> {
+    asked: &'b HashSet<*const Value>,
+    kinds: BTreeSet<String>,
+    found: Vec<Item<'a>>,
+}
+
+impl<'a> Unasked<'a, '_> {
+    fn walk(&mut self, item: Item<'a>) {
+        match item.value {
+            Value::Object(members) => {
+                for (name, value) in members {
+                    if !SAYS_NOTHING.contains(&name.as_str()) {
+                        self.look(&item, value, joined(&item.path, name));
+                    }
+                }
+            }
+            Value::Array(elements) => {
+                for (index, value) in elements.iter().enumerate() {
+                    // Numbers were read with their list.
+                    if value.is_object() {
+                        self.look(&item, value, format!("{}[{index}]", item.path));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn look(&mut self, parent: &Item<'a>, value: &'a Value, path: String) {
+        let item = Item {
+            document: parent.document,
+            value,
+            path,
+        };
+        // Who does not know an extension does not ask for its list either.
+        let is_list_of_extensions = item.path.ends_with("extensions");
+        if is_list_of_extensions || self.asked.contains(&core::ptr::from_ref(value)) {
+            self.walk(item);
+        } else if self.kinds.insert(item.kind()) {
+            self.found.push(item);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gltf::document::tests::document;
+
+    #[test]
+    fn what_nobody_asked_for_is_named_once_a_kind() {
+        let document = document(
+            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1},
+            "extensions": {"E": {"f": 1}}}"#,
+        );
+        for item in document.root().list("a").expect("a list") {
+            item.number_or("x", 0.0).expect("a number");
+        }
+        let unasked = document.unasked();
+        let paths: Vec<_> = unasked.iter().map(|item| item.path.as_str()).collect();
+        let expected = ["a[0].y", "b", "c", "extensions.E"];
+        assert_eq!(paths, expected, "the first of each kind");
+    }
+}

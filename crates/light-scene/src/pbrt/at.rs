@@ -1,0 +1,30 @@
+use std::path::Path;
+
+use super::parameters::Parameters;
+use crate::{Diagnostic, Place};
+
+/// Where a directive stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At<'a> {
+    pub(super) path: &'a Path,
+    pub(super) line: usize,
+}
+
+impl At<'_> {
+    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::at(self.path, Place::Line(self.line), message)
+    }
+
+    /// Says that a directive lacks the one that it ends, or one in between.
+    pub(super) fn unmatched(&self, before: &str) -> Diagnostic {
+        self.diagnostic(format!("expected `{before}` before"))
+    }
+}
+
+/// The directive that a parameter list belongs to, its type in quotes read already.
+#[derive(Debug)]
+pub(super) struct Typed<'a> {
+    pub(super) at: At<'a>,
+    pub(super) kind: String,
+    pub(super) parameters: Parameters,
+}

@@ -1,0 +1,21 @@
+use std::collections::{HashMap, HashSet};
+
+use crate::{Diagnostic, MaterialId};
+
+/// What `MakeNamedMaterial` describes; files may name a material before they describe it.
+#[derive(Debug, Default)]
+pub(super) struct NamedMaterials {
+    pub(super) by_name: HashMap<String, MaterialId>,
+    /// Named but not described so far, with what to say if that stays so.
+    pub(super) awaited: HashMap<String, (MaterialId, Diagnostic)>,
+    pub(super) awaited_ids: HashSet<MaterialId>,
+    /// Materials that have taken their surface from another one, each with the other.
+    pub(super) twins: Vec<(MaterialId, MaterialId)>,
+}
+
+impl NamedMaterials {
+    /// Whether the material was named and will be described later.
+    pub(super) fn awaits(&self, material: MaterialId) -> bool {
+        self.awaited_ids.contains(&material)
+    }
+}
