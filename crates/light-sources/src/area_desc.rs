@@ -3,7 +3,8 @@ use core::fmt;
 
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
-use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
+use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
+use crate::diffuse_emission_desc::DiffuseEmissionDesc;
 use crate::glam::Vec3;
 use crate::shape::{AnyShape, Shape, ShapeDesc, ShapeError};
 use crate::surface_texture::SurfaceTexture;

@@ -3,10 +3,11 @@ use core::f32::consts::PI;
 use core::fmt;
 
 use crate::amount::IntensityAmount;
+use crate::channels::Channels;
 use crate::color::ColorModel;
 use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
-use crate::image::{Channels, Image};
+use crate::image::Image;
 use crate::media::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};

@@ -1,6 +1,7 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
+use crate::channels::Channels;
 use crate::glam::{Vec2, Vec3};
 use crate::image_error::{ImageError, check_texels};
 use crate::rgb_sum::RgbSum;
@@ -20,44 +21,11 @@ pub struct Image {
     texels: Texels,
 }
 
-/// What a texel holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Channels {
-    /// One number, for all colours alike.
-    Gray,
-    /// Red, green, blue.
-    Rgb,
-}
-
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Texels {
     Single(Arc<[f32]>),
     Half(Arc<[f16]>),
-}
-
-impl Channels {
-    /// How many numbers a texel has.
-    #[must_use]
-    pub const fn count(self) -> usize {
-        match self {
-            Self::Gray => 1,
-            Self::Rgb => 3,
-        }
-    }
-
-    /// The colour of texel `index` in a list of numbers.
-    #[inline]
-    fn color(self, index: usize, number: impl Fn(usize) -> f32) -> Vec3 {
-        match self {
-            Self::Gray => Vec3::splat(number(index)),
-            Self::Rgb => {
-                let i = 3 * index;
-                Vec3::new(number(i), number(i + 1), number(i + 2))
-            }
-        }
-    }
 }
 
 impl Image {

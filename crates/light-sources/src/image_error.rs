@@ -1,4 +1,4 @@
-use crate::image::Channels;
+use crate::channels::Channels;
 use core::error::Error;
 use core::fmt;
 

@@ -270,7 +270,7 @@ impl From<RigidTransformError> for ImageInfiniteLightError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Channels;
+    use crate::channels::Channels;
     use crate::rgb::Rgb;
 
     #[test]

@@ -43,9 +43,10 @@ impl KnownMeans {
 mod tests {
     use super::*;
     use crate::amount::RadianceAmount;
-    use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+    use crate::channels::Channels;
+    use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
     use crate::glam::Vec2;
-    use crate::image::{Channels, Image};
+    use crate::image::Image;
     use crate::rgb::Rgb;
     use crate::texture_mapping::{TextureMapping, Wrap};
 

@@ -19,15 +19,21 @@ mod area;
 mod area_desc;
 #[cfg(feature = "alloc")]
 mod block_means;
+#[cfg(feature = "alloc")]
+mod channels;
 mod color;
 mod coverage;
 #[cfg(feature = "alloc")]
 mod desc;
 #[cfg(feature = "alloc")]
 mod diffuse_emission;
+#[cfg(feature = "alloc")]
+mod diffuse_emission_desc;
 mod distant;
 #[cfg(feature = "alloc")]
 mod emission_lobe;
+#[cfg(feature = "alloc")]
+mod floor;
 mod flux;
 #[cfg(feature = "alloc")]
 mod goniometric;
@@ -105,20 +111,22 @@ pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount, SurfaceAmoun
 pub use area::DiffuseAreaLight;
 #[cfg(feature = "alloc")]
 pub use area_desc::{AreaLightDesc, AreaLightError};
+#[cfg(feature = "alloc")]
+pub use channels::Channels;
 pub use color::{ColorModel, Radiance};
 pub use coverage::PdfCoverage;
 #[cfg(feature = "alloc")]
 pub use desc::{LightDesc, LightDescError};
 #[cfg(feature = "alloc")]
-pub use diffuse_emission::{
-    DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError, EmissionMask, SurfaceColor,
-};
+pub use diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
+#[cfg(feature = "alloc")]
+pub use diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
 pub use distant::{DistantLight, DistantLightDesc, DistantLightError};
 pub use flux::Flux;
 #[cfg(feature = "alloc")]
 pub use goniometric::{GoniometricLight, GoniometricLightDesc, GoniometricLightError};
 #[cfg(feature = "alloc")]
-pub use image::{Channels, Image};
+pub use image::Image;
 #[cfg(feature = "alloc")]
 pub use image_error::ImageError;
 #[cfg(feature = "alloc")]

@@ -4,7 +4,8 @@ use core::fmt;
 
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
-use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionDesc, DiffuseEmissionError};
+use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
+use crate::diffuse_emission_desc::DiffuseEmissionDesc;
 use crate::glam::{Vec2, Vec3};
 use crate::known_means::KnownMeans;
 use crate::mesh_indices::MeshIndices;
@@ -201,7 +202,7 @@ impl Error for MeshLightError {}
 mod tests {
     use super::*;
     use crate::amount::RadianceAmount;
-    use crate::diffuse_emission::SurfaceColor;
+    use crate::diffuse_emission_desc::SurfaceColor;
     use crate::light::Light;
     use crate::rgb::Rgb;
 

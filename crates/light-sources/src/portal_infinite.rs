@@ -4,10 +4,11 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::amount::RadianceAmount;
+use crate::channels::Channels;
 use crate::color::{ColorModel, Radiance};
 use crate::coverage::PdfCoverage;
 use crate::glam::{Affine3A, Vec2, Vec3};
-use crate::image::{Channels, Image};
+use crate::image::Image;
 use crate::image_infinite::{EnvironmentMap, ImageInfiniteLightError};
 use crate::kind::LightType;
 use crate::light::{InfiniteLight, Light};

@@ -83,7 +83,7 @@ fn sphere_mean(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Channels;
+    use crate::channels::Channels;
 
     #[test]
     fn light_is_kept_both_ways() -> Result<(), ImageError> {

@@ -1,6 +1,6 @@
+use crate::floor::floor;
 use crate::glam::{DVec2, DVec3};
 use crate::image::Image;
-use crate::texel_cells::floor;
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::UvPolygon;
 

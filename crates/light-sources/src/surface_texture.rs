@@ -2,10 +2,11 @@ use alloc::sync::Arc;
 
 use crate::block_means::BlockMeans;
 use crate::color::ColorModel;
-use crate::diffuse_emission::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
+use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
+use crate::floor::floor;
 use crate::glam::{Vec2, Vec3};
 use crate::shape::Shape;
-use crate::texel_cells::{Shown, floor};
+use crate::texel_cells::Shown;
 use crate::texture::Texture;
 use crate::texture_integral;
 use crate::texture_mapping::{TextureMapping, Wrap};

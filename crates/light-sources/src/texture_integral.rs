@@ -1,8 +1,9 @@
 use crate::block_means::{Block, BlockMeans};
+use crate::floor::floor;
 use crate::glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::row_integral::mean_by_rows;
 use crate::shape::{UvArea, UvDensity};
-use crate::texel_cells::{Shown, ShownCell, floor};
+use crate::texel_cells::{Shown, ShownCell};
 use crate::texture_mapping::{TextureMapping, Wrap};
 use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
 

@@ -1,5 +1,5 @@
+use crate::floor::floor as whole;
 use crate::glam::{Affine2, Vec2};
-use crate::texel_cells::floor as whole;
 use light_math::float::floor;
 
 /// How an image lies on a surface: where in the image each surface parameter is, and what is beyond its edges.

@@ -21,11 +21,13 @@ mod oracle;
 mod report;
 mod sabotage;
 pub mod self_test;
+mod tolerance;
 
 pub use case::{Case, Malformed};
 use files::VectorFile;
-pub use findings::{Findings, Rule, Tolerance};
+pub use findings::{Findings, Rule};
 pub use report::Report;
+pub use tolerance::Tolerance;
 
 /// Compares the lines of one kind, from the first to the last; later lines may refer to earlier ones.
 pub trait Checker {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
 use crate::desc::LightDesc;
-use crate::diffuse_emission::{DiffuseEmissionDesc, SurfaceColor};
+use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
 use crate::distant::DistantLightDesc;
 use crate::glam::Vec3;
 use crate::kind::LightType;

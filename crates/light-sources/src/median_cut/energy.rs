@@ -63,7 +63,7 @@ impl EnergyIndex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Channels;
+    use crate::channels::Channels;
 
     #[test]
     fn light_at_the_ends_of_the_range_counts() {

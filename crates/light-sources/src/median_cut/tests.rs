@@ -1,5 +1,5 @@
 use super::*;
-use crate::image::Channels;
+use crate::channels::Channels;
 use core::f32::consts::PI;
 use light_math::SphereMap::{EqualArea, LatLong};
 use proptest::prelude::*;

@@ -135,6 +135,13 @@ impl ShapeDesc {
     }
 }
 
+impl From<Sphere> for ShapeDesc {
+    fn from(Sphere { transform, radius }: Sphere) -> Self {
+        let transform = transform.into();
+        Self::Sphere { transform, radius }
+    }
+}
+
 /// The rectangle with the corners of a quadrilateral, if it is one.
 fn rectangle([p00, p10, p01, p11]: [Vec3; 4]) -> Option<Rectangle> {
     const TOLERANCE: f32 = 1e-5;

@@ -2,9 +2,7 @@ use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use core::fmt;
 
-use super::{
-    DirectionSample, Shape, ShapeDesc, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth,
-};
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -19,8 +17,8 @@ use light_math::{Aabb, DirectionCone, Frame};
 /// points are chosen by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
-    transform: RigidTransform,
-    radius: f32,
+    pub(super) transform: RigidTransform,
+    pub(super) radius: f32,
 }
 
 /// Why there is no such sphere.
@@ -125,13 +123,6 @@ impl Sphere {
         let [_, (t, n)] = self.crossings(p, wi)?;
         let (_, pdf) = area_to_solid_angle(1.0 / self.area(), wi * t, n)?;
         (t > 0.0).then_some(pdf)
-    }
-}
-
-impl From<Sphere> for ShapeDesc {
-    fn from(Sphere { transform, radius }: Sphere) -> Self {
-        let transform = transform.into();
-        Self::Sphere { transform, radius }
     }
 }
 

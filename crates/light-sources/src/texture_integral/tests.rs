@@ -1,8 +1,9 @@
 use alloc::vec::Vec;
 
 use super::*;
+use crate::channels::Channels;
 use crate::glam::Affine2;
-use crate::image::{Channels, Image};
+use crate::image::Image;
 use light_testkit::Rng;
 
 const ONCE: TextureMapping = TextureMapping {

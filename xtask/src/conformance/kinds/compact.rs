@@ -1,9 +1,9 @@
 use lights::bounds::{CompactLightBounds, LightBounds, LightSampleContext};
-use lights::math::{Aabb, OctahedralVector, quantize::QuantizedBox};
+use lights::math::{Aabb, OctahedralVector};
 
 use super::bounds::{read_box, read_light_bounds};
+use super::compact_codes::{compact_codes, judge};
 use super::light_bounds_importance;
-use super::light_tree::judge;
 use crate::conformance::oracle::{Certainty, codes};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
 
@@ -105,30 +105,6 @@ fn compare_codes(
     Ok(())
 }
 
-/// The codes of compact bounds.
-pub(super) struct Codes {
-    pub(super) w: OctahedralVector,
-    pub(super) packed: u32,
-    pub(super) bounds: QuantizedBox,
-}
-
-/// The codes in an object with the fields of compact bounds.
-pub(super) fn compact_codes(case: &Case<'_>) -> Result<Codes, Malformed> {
-    let w = case.get("w_oct")?;
-    let qb = case.get("qb")?;
-    let cos_theta_o = code(&case.get("q_cos_theta_o")?)?;
-    let cos_theta_e = code(&case.get("q_cos_theta_e")?)?;
-    let two_sided = case.get("two_sided")?.flag()?;
-    Ok(Codes {
-        w: OctahedralVector::from_xy(code(&w.at(0)?)?, code(&w.at(1)?)?),
-        packed: u32::from(cos_theta_o) | u32::from(cos_theta_e) << 15 | u32::from(two_sided) << 30,
-        bounds: QuantizedBox {
-            min: codes(&qb.at(0)?)?,
-            max: codes(&qb.at(1)?)?,
-        },
-    })
-}
-
 fn check_containment(decoded: &LightBounds, lb: &LightBounds, findings: &mut Findings) {
     findings.check(decoded.bounds.contains_box(&lb.bounds), || {
         format!("{:?} does not contain {:?}", decoded.bounds, lb.bounds)
@@ -190,16 +166,4 @@ fn compare_decoded(
 /// Of `cos_theta_o` and `cos_theta_e`.
 fn cosine_codes(packed: i64) -> [i64; 2] {
     [packed & 0x7fff, packed >> 15 & 0x7fff]
-}
-
-fn codes(case: &Case<'_>) -> Result<[u16; 3], Malformed> {
-    Ok([
-        code(&case.at(0)?)?,
-        code(&case.at(1)?)?,
-        code(&case.at(2)?)?,
-    ])
-}
-
-fn code(case: &Case<'_>) -> Result<u16, Malformed> {
-    u16::try_from(case.index()?).map_err(|e| Malformed(e.to_string()))
 }

@@ -3,9 +3,9 @@
 use lights::bounds::{LightBounds, LightExtent};
 use lights::bvh::reference::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
 
-use super::compact::{Codes, compact_codes};
-use super::light_samplers::light_id;
+use super::compact_codes::{Codes, compact_codes, judge};
 use super::light_tree_splits;
+use super::sampler_set::light_id;
 use crate::conformance::oracle::cone::ExactCone;
 use crate::conformance::oracle::{Certainty, Jitter, codes};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
@@ -222,24 +222,5 @@ fn compare_bounds(
         let is_exact = codes::is_above(high, number(exact.bounds.bounds.max[axis]));
         let is_same = theirs.is_some_and(|t| high == i64::from(t.bounds.max[axis]));
         judge("max", is_same, is_exact, rule(&ROUNDED_CODE), findings);
-    }
-}
-
-/// A code of ours is the reference's, or it is exact.
-pub(super) fn judge(
-    what: &str,
-    is_same: bool,
-    is_exact: bool,
-    rule: &'static Rule,
-    findings: &mut Findings,
-) {
-    findings.check(is_same || is_exact, || {
-        format!("code of {what} is not exact")
-    });
-    if is_same {
-        findings.settled(Certainty::Determined);
-    } else {
-        findings.settled(Certainty::Undetermined);
-        findings.exempt(rule);
     }
 }

@@ -1,6 +1,6 @@
 use lights::math::OctahedralVector;
 
-use super::light_tree::judge;
+use super::compact_codes::judge;
 use crate::conformance::oracle::{Certainty, codes};
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
 

@@ -2,8 +2,8 @@ use lights::bounds::{LightExtent, LightId, LightSampleContext};
 use lights::math::glam::Vec3;
 use lights::samplers::LightSampler;
 
-use super::light_samplers::Set;
 use super::pmf_range::{Importances, Range};
+use super::sampler_set::Set;
 use crate::conformance::oracle::Certainty;
 use crate::conformance::{Findings, Malformed, Rule, Tolerance};
 

@@ -1,4 +1,4 @@
-use super::light_tree::judge;
+use super::compact_codes::judge;
 use crate::conformance::oracle::Certainty;
 use crate::conformance::{Case, Findings, Malformed, Rule, Tolerance};
 use lights::math::discrete;

@@ -1,0 +1,34 @@
+use crate::glam::Vec3;
+
+/// What a texel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Channels {
+    /// One number, for all colours alike.
+    Gray,
+    /// Red, green, blue.
+    Rgb,
+}
+
+impl Channels {
+    /// How many numbers a texel has.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Gray => 1,
+            Self::Rgb => 3,
+        }
+    }
+
+    /// The colour of texel `index` in a list of numbers.
+    #[inline]
+    pub(crate) fn color(self, index: usize, number: impl Fn(usize) -> f32) -> Vec3 {
+        match self {
+            Self::Gray => Vec3::splat(number(index)),
+            Self::Rgb => {
+                let i = 3 * index;
+                Vec3::new(number(i), number(i + 1), number(i + 2))
+            }
+        }
+    }
+}
