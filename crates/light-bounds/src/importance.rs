@@ -1,4 +1,4 @@
-use light_math::float::sqrt;
+use light_math::float::{inverse_power_of_two, sqrt};
 
 use crate::angle::Angle;
 use crate::glam::Vec3;
@@ -104,14 +104,6 @@ fn cos_incidence(ctx: &LightSampleContext, from_light: Vec3, subtended: Angle) -
     };
     let to_normal = Angle::from_cos(ns.dot(from_light).abs().min(1.0));
     (to_normal - subtended).cos
-}
-
-/// `2^-k` for `x` in `[2^k, 2^(k+1))`, as far as floats reach; not zero for any `x`.
-#[inline]
-const fn inverse_power_of_two(x: f32) -> f32 {
-    let exponent = (x.to_bits() >> 23) & 0xff;
-    let inverse = 254u32.saturating_sub(exponent);
-    f32::from_bits(if inverse == 0 { 1 } else { inverse } << 23)
 }
 
 #[cfg(test)]
@@ -245,14 +237,6 @@ mod tests {
         for d in [2f32.powi(-60), 0.25, 2f32.powi(62)] {
             assert_eq!(at(d) * d * d, at(1.0), "distance {d}");
         }
-    }
-
-    #[test]
-    fn scale_is_an_inverse_power_of_two() {
-        assert_eq!(inverse_power_of_two(1.5), 1.0, "[1, 2)");
-        assert_eq!(inverse_power_of_two(5.0), 0.25, "[4, 8)");
-        assert!(inverse_power_of_two(0.0).is_finite(), "zero");
-        assert!(inverse_power_of_two(f32::MAX) > 0.0, "largest");
     }
 
     proptest! {

@@ -108,10 +108,12 @@ pub fn safe_asin(x: f32) -> f32 {
 /// The largest `f32` below one: the upper end of `u`, which lies in `[0, 1)`.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
 
-/// A power of two that takes the positive number `x` to between 1 and 4, or below that if it is subnormal: a unit without any rounding.
+/// `2^-k` for `x` in `[2^k, 2^(k+1))`, as far as floats reach; not zero for any `x`: a scale without any rounding.
+///
+/// It takes a positive `x` to `[1, 2)`, one of at least `2^127` to `[2, 4)`, and a subnormal one below 1.
 #[inline]
 #[must_use]
-pub(crate) fn inverse_power_of_two(x: f32) -> f32 {
+pub fn inverse_power_of_two(x: f32) -> f32 {
     const EXPONENT: u32 = 0xff << (f32::MANTISSA_DIGITS - 1);
     const LARGEST: u32 = 0xfe << (f32::MANTISSA_DIGITS - 1);
     f32::from_bits(LARGEST.saturating_sub(x.to_bits() & EXPONENT)).max(f32::MIN_POSITIVE)
@@ -156,6 +158,9 @@ mod tests {
 
     #[test]
     fn units_are_exact() {
+        assert_eq!(inverse_power_of_two(1.5), 1.0, "[1, 2)");
+        assert_eq!(inverse_power_of_two(5.0), 0.25, "[4, 8)");
+        assert!(inverse_power_of_two(0.0).is_finite(), "zero");
         for x in [f32::MIN_POSITIVE, 1e-20, 0.75, 1.0, 1.5, 3e7, f32::MAX] {
             let scaled = x * inverse_power_of_two(x);
             assert!((1.0..4.0).contains(&scaled), "{x} to {scaled}");

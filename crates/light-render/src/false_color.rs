@@ -1,6 +1,6 @@
 use lights::glam::Vec3;
 
-use crate::tone_map::luminance;
+use lights::math::spectrum::rec709_luminance;
 
 /// The linear colour that shows how far a pixel is from its reference: white where equal, red where too bright, blue where too
 /// dark, full colour at one reference value (or 0.1, for dark pixels) of difference.
@@ -11,7 +11,7 @@ pub fn difference(pixel: Vec3, reference: Vec3) -> Vec3 {
     const TOO_BRIGHT: Vec3 = Vec3::new(0.45, 0.01, 0.02);
     const TOO_DARK: Vec3 = Vec3::new(0.015, 0.13, 0.41);
     const EQUAL: Vec3 = Vec3::splat(0.93);
-    let (x, r) = (luminance(pixel), luminance(reference));
+    let (x, r) = (rec709_luminance(pixel), rec709_luminance(reference));
     let relative = ((x - r) / r.max(FLOOR)).clamp(-1.0, 1.0);
     let end = if relative < 0.0 { TOO_DARK } else { TOO_BRIGHT };
     // The root spreads small differences, which are the interesting ones.

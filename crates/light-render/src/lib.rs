@@ -58,6 +58,6 @@ pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};
 pub use scene_digest::SceneDigest;
 pub use scene_lights::SceneLightsError;
 pub use surface::Surface;
-pub use tone_map::{ToneMap, luminance};
+pub use tone_map::ToneMap;
 pub use view::{View, ViewError};
 pub use world::{World, WorldError};

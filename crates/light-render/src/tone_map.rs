@@ -1,4 +1,5 @@
 use lights::glam::Vec3;
+use lights::math::spectrum::rec709_luminance;
 
 /// How linear radiance becomes what a screen shows. For looking only: files of record stay linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +26,7 @@ impl ToneMap {
     pub fn fit(pixels: &[Vec3]) -> Self {
         const MIDDLE_GREY: f64 = 0.18;
         let (mut sum, mut n) = (0.0, 0u32);
-        for luminance in pixels.iter().map(|&p| f64::from(luminance(p))) {
+        for luminance in pixels.iter().map(|&p| f64::from(rec709_luminance(p))) {
             if luminance > 0.0 && luminance.is_finite() {
                 sum += luminance.ln();
                 n += 1;
@@ -45,16 +46,6 @@ impl ToneMap {
     pub fn apply(&self, radiance: Vec3) -> Vec3 {
         (radiance * self.exposure).max(Vec3::ZERO).map(roll_off)
     }
-}
-
-/// The luminance of linear sRGB.
-///
-/// # Source
-/// ITU-R BT.709-6, item 3.2.
-#[inline]
-#[must_use]
-pub fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// Identity up to the knee, from there a curve of equal slope that reaches one at infinity.

@@ -74,7 +74,7 @@ fn no_ray_leaves_along_a_portal() {
         scene(),
     );
     let light = light.expect("a portal");
-    let ends = [0.0, 0.25, 1.0 - f32::EPSILON / 2.0];
+    let ends = [0.0, 0.25, light_math::float::ONE_MINUS_EPSILON];
     for (x, y) in ends.into_iter().flat_map(|x| ends.map(|y| (x, y))) {
         let Some(sample) = light.sample_le(Vec2::new(x, y), Vec2::splat(0.5), &()) else {
             continue;

@@ -1,11 +1,10 @@
 //! Points at the edge of a surface, seen from almost within it: what is sampled there is found again by its direction.
 
 use light_bounds::LightSampleContext;
+use light_math::float::ONE_MINUS_EPSILON;
 use light_math::glam::{Affine3A, Vec2, Vec3};
 use light_sources::shape::{AnyShape, Shape, ShapeDesc};
 use light_testkit::Rng;
-
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 fn shapes() -> [(&'static str, AnyShape); 6] {
     let [a, b, c] = [
@@ -41,8 +40,8 @@ fn edge(rng: &mut Rng) -> Vec2 {
     let end = [
         0.0,
         f32::MIN_POSITIVE,
-        BELOW_ONE - f32::EPSILON / 2.0,
-        BELOW_ONE,
+        ONE_MINUS_EPSILON - f32::EPSILON / 2.0,
+        ONE_MINUS_EPSILON,
     ][rng.below(4)];
     let u = Vec2::new(end, rng.f32());
     if rng.below(2) == 0 {

@@ -1,11 +1,10 @@
 //! The edges of pictures: what is sampled there is found again by its direction, however wide the picture.
 
+use light_math::float::ONE_MINUS_EPSILON;
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
 use light_sources::light_bounds::LightSampleContext;
 use light_sources::shape::{BilinearPatch, BilinearPatchError};
 use light_sources::*;
-
-const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 fn white() -> Image {
     Image::from_f32([1, 1], Channels::Gray, [1.0]).expect("an image")
@@ -17,7 +16,7 @@ fn turn(i: u8) -> Affine3A {
 }
 
 fn corners() -> impl Iterator<Item = Vec2> {
-    let ends = [0.0, 0.3, BELOW_ONE];
+    let ends = [0.0, 0.3, ONE_MINUS_EPSILON];
     ends.into_iter()
         .flat_map(move |x| ends.map(|y| Vec2::new(x, y)))
 }

@@ -1,11 +1,9 @@
 //! Floats that break code: strategies for property tests.
 
 use core::f32::consts::TAU;
+use light_math::float::ONE_MINUS_EPSILON;
 use light_math::glam::{Vec2, Vec3};
 use proptest::prelude::*;
-
-/// The largest float below one, the upper end of every `u`.
-pub const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 /// The values of `u` at which samplers break: both ends, the middle and their neighbours.
 pub const EDGES_OF_U: [f32; 9] = [
@@ -17,7 +15,7 @@ pub const EDGES_OF_U: [f32; 9] = [
     0.5,
     0.5 + f32::EPSILON / 2.0,
     1.0 - f32::EPSILON,
-    BELOW_ONE,
+    ONE_MINUS_EPSILON,
 ];
 
 /// Any bit pattern: NaN of both kinds, infinities, subnormals, zeros of both signs.

@@ -1,6 +1,7 @@
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use lights::math::spectrum::photometric::{K_M, Lumen};
+use lights::math::spectrum::rec709_luminance;
 use lights::photometry::{WebType, parse_lm63};
 use lights::sources::{
     DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, MediumInterface,
@@ -74,7 +75,7 @@ impl<'a> Reader<'a> {
         let transform = rigid(node, place)? * Affine3A::from_quat(turned);
         let mut light = goniometric_light(&web, transform, color, WEB_SIZE);
         // A tint takes away what it does not let through.
-        let lumens = web.total_lumens() * multiplier * luminance(color);
+        let lumens = web.total_lumens() * multiplier * rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens));
         Ok(LightDesc::Goniometric(light))
     }
@@ -153,8 +154,4 @@ fn color(owner: &Item<'_>) -> Result<Vec3, Diagnostic> {
         return Err(owner.error("expected a `color` of at least 0"));
     }
     Ok(color)
-}
-
-fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }

@@ -2,6 +2,7 @@ use core::f32::consts::PI;
 use std::path::Path;
 
 use lights::math::spectrum::photometric::Lumen;
+use lights::math::spectrum::rec709_luminance;
 use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, LightDesc, Rgb};
 
 use super::at::Typed;
@@ -87,7 +88,7 @@ impl Reader {
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
         let place = place * self.web_to_light();
         let mut light = goniometric_light(&luminaire.web, place, color, WEB_SIZE);
-        let tint = color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+        let tint = rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens * tint));
         light.media = self.light_media();
         Ok(LightDesc::Goniometric(light))

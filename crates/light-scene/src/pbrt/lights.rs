@@ -2,6 +2,7 @@ use core::f32::consts::{FRAC_1_PI, PI};
 
 use lights::math::equal_area::square_to_sphere;
 use lights::math::spectrum::photometric::{K_M, Lumen};
+use lights::math::spectrum::rec709_luminance;
 use lights::sources::{
     Channels, DistantLightDesc, EnvironmentMap, Image, ImageError, ImageInfiniteLightDesc,
     IntensityAmount, IrradianceAmount, LightDesc, MediumInterface, PointLightDesc,
@@ -224,7 +225,7 @@ fn upward_illuminance(map: &Image) -> f32 {
     let seen = |(index, texel): (u32, Vec3)| {
         let place = Vec2::new((index % n) as f32, (index / n) as f32) + 0.5;
         let up = square_to_sphere(place / n as f32).z.max(0.0);
-        f64::from(luminance_of(texel) * up)
+        f64::from(rec709_luminance(texel) * up)
     };
     let sum: f64 = (0..).zip(map.texels()).map(seen).sum();
     let solid_angle = 4.0 * core::f64::consts::PI / (f64::from(n) * f64::from(n));
@@ -250,16 +251,12 @@ fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
 }
 
 pub(super) fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
-    luminance_of(typed.parameters.emission(name).unwrap_or(Vec3::ONE))
-}
-
-fn luminance_of(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+    rec709_luminance(typed.parameters.emission(name).unwrap_or(Vec3::ONE))
 }
 
 /// The scale of an emitting surface that gives its stated power.
 pub(super) fn area_scale(light: &AreaLight, mean: Vec3, area: f32) -> f32 {
     let sides = if light.two_sided { 2.0 } else { 1.0 };
-    let factor = |power: f32| power * FRAC_1_PI / (area * sides * luminance_of(mean));
+    let factor = |power: f32| power * FRAC_1_PI / (area * sides * rec709_luminance(mean));
     light.power.map_or(1.0, factor)
 }

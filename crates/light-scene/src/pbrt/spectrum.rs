@@ -82,6 +82,7 @@ impl<S: Spectrum> Spectrum for Lit<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lights::math::spectrum::rec709_luminance;
 
     #[test]
     fn constants_are_grey_and_black_bodies_warm() {
@@ -89,7 +90,7 @@ mod tests {
         assert!(grey.abs_diff_eq(Vec3::splat(0.5), 2e-3), "grey, not {grey}");
         let warm = blackbody(2700.0).expect("a temperature");
         assert!(warm.x > warm.y && warm.y > warm.z, "orange, not {warm}");
-        let luminance = warm.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+        let luminance = rec709_luminance(warm);
         assert!(
             (luminance - 1.0).abs() < 0.01,
             "luminance 1, not {luminance}"

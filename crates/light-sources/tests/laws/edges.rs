@@ -2,7 +2,7 @@
 
 use light_sources::light_bounds::LightSampleContext;
 use light_sources::shape::{Shape, ShapeDesc};
-use light_testkit::{Rng, nasty};
+use light_testkit::Rng;
 
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
 
@@ -42,7 +42,7 @@ fn samples_on_edges_hit() {
             let distance = rng.log_range(0.5, 300.0);
             let p = shape.bounds().center() + rng.direction() * (1.0 + distance);
             let ctx = LightSampleContext::medium(p);
-            let edge = [0.0, nasty::BELOW_ONE][rng.below(2)];
+            let edge = [0.0, light_math::float::ONE_MINUS_EPSILON][rng.below(2)];
             let along = rng.f32();
             let u = [Vec2::new(edge, along), Vec2::new(along, edge)][rng.below(2)];
             let Some(sample) = shape.sample_toward(&ctx, u) else {

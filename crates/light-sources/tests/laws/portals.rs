@@ -102,7 +102,7 @@ fn rays_along_the_portal() {
     let light = light(EnvironmentMap::EqualArea(image));
     let ray = EmittedRay::from_point(Vec3::new(1.0, 3.0, 0.5), Vec3::NEG_Y);
     assert_eq!(light.pdf_le(&ray).pos, 0.0, "along the portal");
-    let ends = [0.0, 0.5, 1.0 - 0.5 * f32::EPSILON];
+    let ends = [0.0, 0.5, light_math::float::ONE_MINUS_EPSILON];
     for u1 in ends.map(|y| ends.map(|x| Vec2::new(x, y))).concat() {
         let Some(sample) = light.sample_le(u1, Vec2::splat(0.5), &()) else {
             continue;
@@ -148,7 +148,7 @@ fn samples_on_the_edges_of_the_portal_pass_it() {
     let (mut missed, mut rays_missed) = (0u32, 0u32);
     const COUNT: u32 = 2000;
     for _ in 0..COUNT {
-        let edge = [0.0, light_testkit::nasty::BELOW_ONE][rng.below(2)];
+        let edge = [0.0, light_math::float::ONE_MINUS_EPSILON][rng.below(2)];
         let along = rng.f32();
         let u = [Vec2::new(edge, along), Vec2::new(along, edge)][rng.below(2)];
         let p = Vec3::new(2.0 - rng.log_range(0.01, 30.0), 0.0, 0.5) + rng.direction() * 0.005;

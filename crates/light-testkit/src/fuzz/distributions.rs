@@ -21,7 +21,7 @@ pub fn distributions(data: &[u8]) {
         input.unit(),
         input.unit(),
         0.0,
-        crate::nasty::BELOW_ONE,
+        light_math::float::ONE_MINUS_EPSILON,
     ];
     let width = usize::from(input.byte() % 8 + 1);
     let corners = [input.unit(), input.unit(), input.unit(), input.unit()];

@@ -73,7 +73,7 @@ fn described(input: &mut Input<'_>) -> LightSet<Rgb> {
 fn point(input: &mut Input<'_>) -> Vec2 {
     let mut u = || match input.byte() % 8 {
         0 => 0.0,
-        1 => crate::nasty::BELOW_ONE,
+        1 => light_math::float::ONE_MINUS_EPSILON,
         2 => 0.5,
         _ => input.unit(),
     };

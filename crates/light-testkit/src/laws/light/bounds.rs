@@ -65,7 +65,10 @@ pub fn edges_are_survived<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>
                 case.name
             );
         }
-        for v in [Vec2::ZERO, Vec2::splat(nasty::BELOW_ONE)] {
+        for v in [
+            Vec2::ZERO,
+            Vec2::splat(light_math::float::ONE_MINUS_EPSILON),
+        ] {
             assert!(
                 le(case, u, v).power.is_finite(),
                 "{}: a ray for {u}, {v}",
