@@ -260,4 +260,33 @@ mod tests {
             assert!(error < 1e-5, "{v:?}: {error}");
         }
     }
+
+    /// Seen from close to an edge, the directions to its ends nearly cancel: whichever corners these are.
+    #[test]
+    fn beside_an_edge_the_angle_is_that_of_f64() {
+        let corners = [(-1.0, 0.0), (2.0, 0.0), (0.3, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+        for turn in 0..3 {
+            let v = [0, 1, 2].map(|i| corners[(i + turn) % 3]);
+            for (x, y, z) in [(-0.8, 1e-5, 1e-5), (0.1, -1e-5, 2e-5), (1.9, 1e-5, 3e-5)] {
+                let p = Vec3::new(x, y, z);
+                let (omega, exact) = (triangle(v, p), by_f64(v, p));
+                assert!(
+                    (f64::from(omega) - exact).abs() < 1e-5,
+                    "corner {turn} first, from {p}: {omega}, not {exact}"
+                );
+            }
+        }
+    }
+
+    /// The solid angle by the same formula in double precision, where cancellation does not matter.
+    fn by_f64(v: [Vec3; 3], p: Vec3) -> f64 {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let [a, b, c] = v.map(|v| {
+            let r = [0, 1, 2].map(|i| f64::from(v[i]) - f64::from(p[i]));
+            r.map(|x| x / dot(r, r).sqrt())
+        });
+        let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| b[i] * c[j] - b[j] * c[i]);
+        let cos = 1.0 + dot(a, b) + dot(b, c) + dot(c, a);
+        2.0 * dot(a, normal).abs().atan2(cos)
+    }
 }
