@@ -102,19 +102,22 @@ fn several_choices_without_a_kept_look_are_the_same_choices() {
     }
 }
 
+/// Lamps of other powers in other places.
+fn many_lamps() -> Vec<LightExtent> {
+    let lamps = (0..200u8).map(|i| match lamp(1.0 + f32::from(i)) {
+        LightExtent::Bounded(mut lamp) => {
+            lamp.bounds = Aabb::from_point(Vec3::new(f32::from(i), 1.0, 2.0));
+            LightExtent::Bounded(lamp)
+        }
+        other => other,
+    });
+    lamps.collect()
+}
+
 /// A cut looks closer than a single choice does, so that the two have different probabilities.
 #[test]
 fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
-    let lights: Vec<LightExtent> = (0..200u8)
-        .map(|i| match lamp(1.0 + f32::from(i)) {
-            LightExtent::Bounded(mut lamp) => {
-                lamp.bounds = Aabb::from_point(Vec3::new(f32::from(i), 1.0, 2.0));
-                LightExtent::Bounded(lamp)
-            }
-            other => other,
-        })
-        .collect();
-    let sampler = BvhLightSampler::new(&lights).expect("valid lights");
+    let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
     let mut differ = 0;
     for id in (0..200).map(LightId) {
         let pmf = |count| {
@@ -126,4 +129,20 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
         differ += usize::from(pmf(16) != one);
     }
     assert!(differ > 100, "a cut of 16 differs for {differ} lights");
+}
+
+/// Whatever was looked at gives the probabilities of the choices that were made with it.
+#[test]
+fn many_lamps_have_the_pmf_of_their_choices() {
+    let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
+    for count in [1, 2, 3, 16] {
+        let (mut chosen, mut look) = (Vec::new(), LightLook::default());
+        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| chosen.push(s));
+        for sample in chosen {
+            let looked = sampler.pmf_many_looking(&floor(), sample.light, count, &look);
+            assert_eq!(sample.pmf, looked, "{sample:?} of {count}, by the look");
+            let pmf = sampler.pmf_many(&floor(), sample.light, count);
+            assert_eq!(sample.pmf, pmf, "{sample:?} of {count}");
+        }
+    }
 }
