@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
-// Not forbidden where one private module, `wide::vectors`, calls code for wider vectors after asking whether the machine has them.
+// Not forbidden where one private module, `simd`, calls code for wider vectors after asking whether the machine has them.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), forbid(unsafe_code))]
 #![deny(unsafe_code, clippy::undocumented_unsafe_blocks)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
@@ -12,19 +12,34 @@ extern crate std;
 
 pub use light_bounds;
 
+#[cfg(feature = "alloc")]
+mod build;
+mod cut;
 mod error;
+mod importance;
 #[cfg(feature = "alloc")]
-mod join;
+mod light_bvh;
+mod node;
+#[cfg(feature = "alloc")]
+mod parallel;
+mod query;
 pub mod reference;
+mod simd;
 mod validate;
-mod wide;
 
-pub use error::LightBvhError;
-pub use validate::validate;
 #[cfg(feature = "alloc")]
-pub use wide::{BuildMode, DarkLights, LightBvh, LightBvhOptions};
-pub use wide::{
-    CutDetail, CutDetailError, GlossyReceiver, Lane, LightBvhRef, LightCut, MAX_DEPTH,
-    MediumReceiver, Receiver, SegmentReceiver, SurfaceReceiver, TwoSidedReceiver, WideNode, is_far,
-    prefetch_item,
+pub use build::options::{BuildMode, DarkLights, LightBvhOptions};
+pub use cut::light_cut::{CutDetail, CutDetailError, LightCut};
+pub use error::LightBvhError;
+pub use importance::child_view::Lane;
+pub use importance::glossy::GlossyReceiver;
+pub use importance::segment::SegmentReceiver;
+pub use importance::surface::{
+    MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far,
 };
+#[cfg(feature = "alloc")]
+pub use light_bvh::LightBvh;
+pub use node::wide_node::WideNode;
+pub use query::bvh_ref::{LightBvhRef, MAX_DEPTH};
+pub use simd::prefetch_item;
+pub use validate::validate;

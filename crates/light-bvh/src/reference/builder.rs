@@ -6,7 +6,7 @@ use light_bounds::{CompactLightBounds, LightBounds, LightExtent, LightId};
 
 use super::split::{Split, cheapest_split};
 use super::{BitTrail, ReferenceNode};
-use crate::join::join;
+use crate::parallel::join;
 use crate::{LightBvhError, validate};
 
 /// More lights would need more nodes than the links of a node can number.

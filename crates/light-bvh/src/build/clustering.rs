@@ -1,0 +1,73 @@
+use alloc::vec::Vec;
+
+use crate::build::cluster::Prim;
+use crate::build::light_primitive::Lamp;
+use crate::build::morton::Range;
+use crate::build::split_group::Group;
+use crate::parallel::{join, map};
+
+/// Lights of a cluster, at most.
+const CLUSTER: usize = 16;
+
+/// Ends of clusters that are turned into prims in one go.
+const CHUNK: usize = 512;
+
+/// Where clusters of neighbours end, as places among all entries: cells of an octree that hold few lights. `first` is the place of
+/// the range's first entry.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a tree holds fewer than 2^32 lights"
+)]
+pub(crate) fn ends(range: Range<'_>, first: u32) -> Vec<u32> {
+    /// Below it is not worth while to join two lists.
+    const FORK: usize = 1 << 14;
+    let lights = range.lights();
+    if lights <= FORK {
+        let mut all = Vec::new();
+        add_ends(range, first, &mut all);
+        return all;
+    }
+    let (left, right) = range.split();
+    let middle = first + left.lights() as u32;
+    let (mut all, right) = join(lights, || ends(left, first), || ends(right, middle));
+    all.extend(right);
+    all
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a tree holds fewer than 2^32 lights"
+)]
+fn add_ends(range: Range<'_>, first: u32, ends: &mut Vec<u32>) {
+    let lights = range.lights();
+    if lights <= CLUSTER {
+        ends.push(first + lights as u32);
+        return;
+    }
+    let (left, right) = range.split();
+    let middle = first + left.lights() as u32;
+    add_ends(left, first, ends);
+    add_ends(right, middle, ends);
+}
+
+/// The clusters of `lamps` that end at `ends`.
+pub(crate) fn clusters(ends: &[u32], lamps: &[Lamp]) -> Vec<Prim> {
+    let mut start = 0;
+    let chunks = ends.chunks(CHUNK).map(|ends| {
+        let first = start;
+        start = ends.last().copied().unwrap_or(first);
+        (first, ends)
+    });
+    let prims = map(chunks.collect(), |(first, ends): (u32, &[u32])| {
+        let starts = core::iter::once(&first).chain(ends);
+        let mut prims = Vec::with_capacity(ends.len());
+        for (&start, &end) in starts.zip(ends) {
+            let lamps = (start..).zip(&lamps[start as usize..end as usize]);
+            prims.push(Prim::join(
+                lamps.map(|(place, lamp)| Prim::of_lamp(lamp, place)),
+            ));
+        }
+        prims
+    });
+    prims.concat()
+}

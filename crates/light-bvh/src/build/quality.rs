@@ -1,0 +1,110 @@
+use light_math::float;
+use light_math::glam::Vec3;
+
+use crate::LightBvh;
+use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode, decode_power};
+
+impl LightBvh {
+    /// How little a step down the tree narrows a group of lights: the mean ratio of a child's spread to its parent's, each child weighted by
+    /// its intensity.
+    ///
+    /// Spread is what the builder minimises: the standard deviation of the positions, the larger the less the axes agree. 0 for a
+    /// tree of one node. Only relative to the figure of the freshly built tree does it say something: when
+    /// [refits](Self::refit) have raised it by a tenth, the noise has risen too, and it is time to build anew.
+    /// Linear in the nodes, without memory; scale does not matter.
+    #[must_use]
+    pub fn looseness(&self) -> f64 {
+        let mut steps = Steps::default();
+        if !self.nodes.is_empty() {
+            group(&self.nodes, 0, &mut steps);
+        }
+        if steps.weight > 0.0 {
+            steps.ratios / steps.weight
+        } else {
+            0.0
+        }
+    }
+}
+
+/// All steps from a node to a child that is one.
+#[derive(Default)]
+struct Steps {
+    ratios: f64,
+    weight: f64,
+}
+
+/// What is below a node.
+#[derive(Clone, Copy, Default)]
+struct Group {
+    /// Variance of the positions.
+    variance: f64,
+    spread_sq: f64,
+}
+
+/// The group below node `index`. Recursive, as deep as the tree at most.
+fn group(nodes: &[WideNode], index: usize, steps: &mut Steps) -> Group {
+    let node = &nodes[index];
+    let slots = || 0..usize::from(node.count);
+    let weight = |k: usize| decode_power(node.power[k]);
+    let total: f32 = slots().map(weight).sum();
+    if !(total > 0.0) {
+        return Group::default();
+    }
+    let mut groups = [Group::default(); WIDTH];
+    for (k, group_of) in groups.iter_mut().enumerate().take(usize::from(node.inner)) {
+        *group_of = group(nodes, node.child_base as usize + k, steps);
+    }
+    // Positions in codes, from the node's origin; emission in the children's common units.
+    let [mut mean, mut axis] = [Vec3::ZERO; 2];
+    let [mut square, mut offset, mut emission_sq] = [0.0; 3];
+    let mut within = 0.0;
+    for k in slots() {
+        let share = weight(k) / total;
+        let (p, w, o) = (position(node, k), axis_of(node, k), offset_of(node, k));
+        mean += p * share;
+        square += p.length_squared() * share;
+        axis += w * share;
+        offset += o * share;
+        let spread = f32::from(node.spread[k]);
+        emission_sq += (w.length_squared() + o * o + spread * spread) * share;
+        within += groups[k].variance * f64::from(share);
+    }
+    let scale = 1.0 / f64::from(node.inv_scale);
+    let between = f64::from((square - mean.length_squared()).max(0.0));
+    let variance = within + between * scale * scale;
+    let common = (axis.length_squared() + offset * offset) / emission_sq.max(f32::MIN_POSITIVE);
+    let disagreement = 1.0 + (1.0 - common).clamp(0.0, 1.0);
+    let root = float::sqrt(float::sqrt(disagreement));
+    let spread_sq = variance * f64::from(disagreement * root);
+    if spread_sq > 0.0 {
+        for (k, group) in groups.iter().enumerate().take(usize::from(node.inner)) {
+            let weight = f64::from(weight(k)) * f64::from(node.gain());
+            steps.ratios += weight * f64::from(ratio(group.spread_sq / spread_sq));
+            steps.weight += weight;
+        }
+    }
+    Group {
+        variance,
+        spread_sq,
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a ratio near 1")]
+fn ratio(square: f64) -> f32 {
+    float::sqrt(square as f32)
+}
+
+fn position(node: &WideNode, k: usize) -> Vec3 {
+    Vec3::from_array([0, 1, 2].map(|axis| f32::from(node.mean[axis][k])))
+}
+
+fn axis_of(node: &WideNode, k: usize) -> Vec3 {
+    Vec3::from_array([0, 1, 2].map(|axis| f32::from(node.axis[axis][k])))
+}
+
+fn offset_of(node: &WideNode, k: usize) -> f32 {
+    match node.offset[k] {
+        BOTH_SIDES => 0.0,
+        offset => f32::from(offset),
+    }
+}

@@ -1,0 +1,177 @@
+use light_bounds::LightExtent;
+
+use crate::LightBvh;
+use crate::LightBvhError;
+use crate::build::lights::{Lights, phi};
+use crate::build::options::DarkLights;
+use crate::build::scan::Scan;
+use crate::node::moments::Moments;
+use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
+use crate::parallel::{is_worth_a_thread, join};
+
+/// Subtrees of so many lights read them all before they make use of them.
+const BATCH: usize = 128;
+
+impl LightBvh {
+    /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
+    ///
+    /// Takes time linear in the lights and no memory. A light that is off keeps its place and has pmf 0 until it is on again. The
+    /// further lights move from where they were, the looser the tree gets: see [`looseness`](Self::looseness).
+    ///
+    /// # Errors
+    /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many lights as the tree was built for, and
+    /// [`LightBvhError::NoPlace`] for the first one that shines, or is somewhere, and was not when the tree was built. The tree is then
+    /// as it was.
+    pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        if lights.len() != self.slots.len() {
+            return Err(LightBvhError::OtherLights {
+                expected: self.slots.len(),
+            });
+        }
+        let scan = Scan::new(lights, 0, DarkLights::Kept, &|light, extent| {
+            let is_in_tree = self.view().slot(light) != NOWHERE;
+            let fits = match extent {
+                LightExtent::Bounded(_) | LightExtent::Lobe(..) => is_in_tree || phi(extent) == 0.0,
+                LightExtent::Infinite(_) => !is_in_tree,
+            };
+            if fits {
+                Ok(())
+            } else {
+                Err(LightBvhError::NoPlace { light })
+            }
+        })?;
+        self.power = scan.power;
+        fill(&mut self.nodes, &self.order, lights, self.power);
+        Ok(())
+    }
+}
+
+/// Tells all nodes, which know their places, what is below them; `lights` are valid and have `power` together.
+pub(crate) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent], power: f64) {
+    let filling = Filling {
+        lights: Lights::new(lights, power),
+        order,
+    };
+    if let Some((root, below)) = nodes.split_first_mut() {
+        filling.subtree(root, below, 1, order.len(), &mut [Moments::NOTHING; BATCH]);
+    }
+}
+
+/// What all steps share.
+struct Filling<'a> {
+    lights: Lights<'a>,
+    order: &'a [u32],
+}
+
+/// Room for the moments of a batch, used again and again.
+type Room = [Moments; BATCH];
+
+impl Filling<'_> {
+    /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below `node`, and perhaps more;
+    /// `base` is the place of the first of them in the tree.
+    fn subtree(
+        &self,
+        node: &mut WideNode,
+        below: &mut [WideNode],
+        base: usize,
+        end: usize,
+        room: &mut Room,
+    ) -> Moments {
+        let first = node.light_base as usize;
+        let lights = &self.order[first..end];
+        if lights.len() <= BATCH {
+            // Lights are far from each other in memory: those of the next batches are on their way while these are looked at.
+            let later = self.order.get(first + BATCH..).unwrap_or_default();
+            let mut later = later.iter();
+            for (moments, &light) in room.iter_mut().zip(lights) {
+                if let Some(&light) = later.next() {
+                    self.lights.prefetch(light);
+                }
+                *moments = self.lights.moments(light);
+            }
+            return Batch {
+                moments: room,
+                first,
+            }
+            .subtree(node, below, base);
+        }
+        let inner = usize::from(node.inner);
+        let mut brood = [Moments::NOTHING; WIDTH];
+        let own = usize::from(node.count) - inner;
+        for (moments, &light) in brood[inner..].iter_mut().zip(&lights[..own]) {
+            *moments = self.lights.moments(light);
+        }
+        let (children, rest) = below.split_at_mut(inner);
+        self.side_by_side(children, rest, base + inner, end, room, &mut brood[..inner]);
+        encode(node, &brood)
+    }
+
+    /// The same for nodes side by side; `below` are the nodes below all of them, in their order.
+    fn side_by_side(
+        &self,
+        nodes: &mut [WideNode],
+        below: &mut [WideNode],
+        base: usize,
+        end: usize,
+        room: &mut Room,
+        moments: &mut [Moments],
+    ) {
+        match nodes {
+            [] => {}
+            [node] => moments[0] = self.subtree(node, below, base, end, room),
+            _ => {
+                let middle = nodes.len() / 2;
+                let lights = end - nodes[0].light_base as usize;
+                let (nodes, later) = nodes.split_at_mut(middle);
+                // What is below the second half begins at the children of its first node.
+                let border = later[0].child_base as usize;
+                let light_border = later[0].light_base as usize;
+                let (below, below_later) = below.split_at_mut(border - base);
+                let (moments, moments_later) = moments.split_at_mut(middle);
+                let mut first = |room: &mut Room| {
+                    self.side_by_side(nodes, below, base, light_border, room, moments);
+                };
+                let mut second = |room: &mut Room| {
+                    self.side_by_side(later, below_later, border, end, room, moments_later);
+                };
+                if is_worth_a_thread(lights) {
+                    let mut room_later = [Moments::NOTHING; BATCH];
+                    join(lights, || first(room), || second(&mut room_later));
+                } else {
+                    first(room);
+                    second(room);
+                }
+            }
+        }
+    }
+}
+
+/// The moments of some lights that follow each other in the order.
+struct Batch<'a> {
+    moments: &'a [Moments],
+    /// The place of the first.
+    first: usize,
+}
+
+impl Batch<'_> {
+    /// As [`Filling::subtree`], of a subtree with all its lights in the batch.
+    fn subtree(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
+        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+        let child_base = node.child_base as usize;
+        let mut brood = [Moments::NOTHING; WIDTH];
+        let own = &self.moments[node.light_base as usize - self.first..][..count - inner];
+        brood[inner..count].copy_from_slice(own);
+        let (children, rest) = below[child_base - base..].split_at_mut(inner);
+        for (moments, child) in brood.iter_mut().zip(children) {
+            *moments = self.subtree(child, rest, child_base + inner);
+        }
+        encode(node, &brood)
+    }
+}
+
+/// Tells `node` what its children are, which are the first ones of `brood`.
+fn encode(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
+    let brood = &brood[..usize::from(node.count)];
+    node.tell(brood);
+    Moments::join(brood)
+}

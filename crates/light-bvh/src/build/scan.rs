@@ -1,0 +1,113 @@
+use light_bounds::{LightExtent, LightId};
+use light_math::Aabb;
+
+use crate::LightBvhError;
+use crate::build::lights::phi;
+use crate::build::options::DarkLights;
+use crate::importance::surface::FAR;
+use crate::parallel::join;
+use crate::validate::validate_light;
+
+/// Lights that are looked at in one go.
+const CHUNK: usize = 8192;
+
+/// What a first look at all lights tells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scan {
+    /// The power of all lights together.
+    pub(crate) power: f64,
+    /// How many lights the tree holds.
+    pub(crate) count: usize,
+    /// Box of their centres.
+    pub(crate) centers: Aabb,
+}
+
+impl Scan {
+    /// Looks at `lights`, of which `first` is the id of the first one, and lets `check` refuse some.
+    ///
+    /// Halves are added to each other the same way on any number of threads.
+    ///
+    /// # Errors
+    /// The first light with invalid bounds, a coordinate beyond the reach of the tree, or an error by `check`.
+    pub(crate) fn new(
+        lights: &[LightExtent],
+        first: u32,
+        dark: DarkLights,
+        check: &(impl Fn(LightId, &LightExtent) -> Result<(), LightBvhError> + Sync),
+    ) -> Result<Self, LightBvhError> {
+        if lights.len() <= CHUNK {
+            return Self::of_chunk(lights, first, dark, check);
+        }
+        let (left, right) = lights.split_at(lights.len() / 2);
+        #[expect(clippy::cast_possible_truncation, reason = "ids have 32 bits")]
+        let middle = first + left.len() as u32;
+        let (left, right) = join(
+            lights.len(),
+            || Self::new(left, first, dark, check),
+            || Self::new(right, middle, dark, check),
+        );
+        let (left, right) = (left?, right?);
+        Ok(Self {
+            power: left.power + right.power,
+            count: left.count + right.count,
+            centers: left.centers.union(right.centers),
+        })
+    }
+
+    fn of_chunk(
+        lights: &[LightExtent],
+        first: u32,
+        dark: DarkLights,
+        check: &(impl Fn(LightId, &LightExtent) -> Result<(), LightBvhError> + Sync),
+    ) -> Result<Self, LightBvhError> {
+        let mut scan = Self {
+            power: 0.0,
+            count: 0,
+            centers: Aabb::EMPTY,
+        };
+        for (light, extent) in (first..).map(LightId).zip(lights) {
+            validate_light(light, extent)?;
+            check(light, extent)?;
+            let Some(bounds) = extent.bounded() else {
+                continue;
+            };
+            if is_far(&bounds.bounds) {
+                return Err(LightBvhError::TooFar { light });
+            }
+            let phi = phi(extent);
+            if is_held(phi, dark) {
+                scan.power += f64::from(phi);
+                scan.count += 1;
+                scan.centers = scan.centers.extend(bounds.bounds.center());
+            }
+        }
+        Ok(scan)
+    }
+}
+
+/// Whether a light of power `phi` gets a place in the tree.
+pub(crate) fn is_held(phi: f32, dark: DarkLights) -> bool {
+    phi > 0.0 || dark == DarkLights::Kept
+}
+
+fn is_far(bounds: &Aabb) -> bool {
+    bounds.min.min_element() < -FAR || bounds.max.max_element() > FAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_math::float::next_up;
+    use light_math::glam::Vec3;
+
+    #[test]
+    fn a_box_is_far_beyond_any_of_its_faces() {
+        let reach = Aabb::new(Vec3::splat(-FAR), Vec3::splat(FAR));
+        assert!(!is_far(&reach), "as far as it goes");
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let beyond = axis * next_up(FAR);
+            assert!(is_far(&Aabb::new(Vec3::ZERO, beyond)), "up {axis}");
+            assert!(is_far(&Aabb::new(-beyond, Vec3::ZERO)), "down {axis}");
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! How a [`LightCut`] is grown.
+
+use light_math::glam::Vec4;
+
+use crate::cut::light_cut::{CutDetail, LightCut, MAX_NODES};
+use crate::importance::surface::Receiver;
+use crate::node::wide_node::WIDTH;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::query::into_receiver::Query;
+use crate::query::select::{both, low};
+use crate::query::weights::{Weights, total};
+
+/// How much more a nearer node may count per unit of its weight: where distances differ by more than 2^30, weights lose their proportion
+/// and keep their sign.
+const MAX_ZOOM: f32 = 1_073_741_824.0;
+
+/// [`LightCut::look_at`]: whatever the cut held is gone.
+pub(crate) struct Grow<'a, 'b> {
+    pub(crate) tree: &'b LightBvhRef<'a>,
+    pub(crate) detail: CutDetail,
+    pub(crate) into: &'b mut LightCut,
+}
+
+impl Query for Grow<'_, '_> {
+    type Answer = ();
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) {
+        let Self {
+            tree,
+            detail,
+            into: cut,
+        } = self;
+        let mut count = usize::from(!tree.is_empty());
+        cut.nodes[0] = 0;
+        let mut limit = 0.0;
+        let mut end = 0.0;
+        cut.sum = 0.0;
+        let mut index = 0;
+        // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
+        while index < count {
+            let Some(node) = tree.nodes().get(cut.nodes[index] as usize) else {
+                break;
+            };
+            let (weights, roughness) = Weights::with_roughness(node, receiver);
+            if index == 0 {
+                cut.inv_unit = weights.inv_unit;
+            }
+            tree.prefetch_below(node);
+            let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
+            let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            let mut lanes = weights.lanes;
+            for weight in &mut lanes {
+                *weight = both(*weight, scale);
+            }
+            if index == 0 {
+                // Not a number counts as 0.
+                limit = detail.threshold.max(0.0) * total(lanes);
+            }
+            let inner = usize::from(node.inner);
+            let mut worth = [0.0; WIDTH];
+            for k in 0..WIDTH {
+                worth[k] = if k < inner {
+                    lanes[k] * roughness[k]
+                } else {
+                    0.0
+                };
+            }
+            let mask = above(&worth, limit);
+            // A node whose children do not all fit opens none.
+            let opened = note(&mut cut.nodes, count, mask, node.child_base);
+            if count + opened <= MAX_NODES {
+                count += opened;
+                for k in 0..WIDTH {
+                    lanes[k] = if worth[k] > limit { 0.0 } else { lanes[k] };
+                }
+            }
+            cut.sum += total(lanes);
+            end += precise_total(&lanes);
+            cut.weights[index] = lanes;
+            cut.ends[index] = end;
+            cut.about[index] = low(end);
+            index += 1;
+        }
+        cut.count = index;
+        cut.ends[index..].fill(f64::INFINITY);
+        cut.about[index..].fill(f32::INFINITY);
+    }
+}
+
+/// The sum of all lanes in double precision, in pairs.
+#[inline(always)]
+fn precise_total(lanes: &[f32; WIDTH]) -> f64 {
+    let mut sums = lanes.map(f64::from);
+    let mut half = WIDTH / 2;
+    while half > 0 {
+        for k in 0..half {
+            sums[k] += sums[k + half];
+        }
+        half /= 2;
+    }
+    sums[0]
+}
+
+/// Bit `k` says whether number `k` is above `limit`.
+#[inline(always)]
+fn above(numbers: &[f32; WIDTH], limit: f32) -> usize {
+    let limit = Vec4::splat(limit);
+    let mut mask = 0;
+    for (i, four) in numbers.chunks_exact(4).enumerate() {
+        mask |= (Vec4::from_slice(four).cmpgt(limit).bitmask() as usize) << (4 * i);
+    }
+    mask
+}
+
+/// Writes `first + k` for every bit `k` of `mask` from `at` on, and anything in the rest of the next [`WIDTH`] places; returns how many.
+///
+/// By tables instead of branches, which could not be foretold.
+#[inline(always)]
+fn note(nodes: &mut [u32; MAX_NODES + WIDTH], at: usize, mask: usize, first: u32) -> usize {
+    let (mut mask, mut first, mut noted) = (mask, first, 0);
+    for _ in 0..WIDTH / 8 {
+        let bits = mask & 0xff;
+        for (i, place) in nodes[at + noted..][..8].iter_mut().enumerate() {
+            *place = first.wrapping_add(PLACES[bits] >> (4 * i) & 0xf);
+        }
+        noted += usize::from(COUNTS[bits]);
+        mask >>= 8;
+        first = first.wrapping_add(8);
+    }
+    noted
+}
+
+const _: () = assert!(WIDTH % 8 == 0, "bits are noted by bytes");
+
+/// For every byte the places of its bits, four bits each, the first one lowest.
+static PLACES: [u32; 256] = places();
+
+/// For every byte how many bits it has.
+static COUNTS: [u8; 256] = counts();
+
+const fn places() -> [u32; 256] {
+    let mut all = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0, 0);
+        while bit < 8 {
+            if byte >> bit & 1 == 1 {
+                all[byte] |= bit << (4 * count);
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    all
+}
+
+const fn counts() -> [u8; 256] {
+    let mut counts = [0; 256];
+    let mut byte = 1;
+    while byte < 256 {
+        counts[byte] = counts[byte / 2] + if byte % 2 == 1 { 1 } else { 0 };
+        byte += 1;
+    }
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_noted_in_their_order() {
+        for mask in (0..1 << WIDTH).step_by(97) {
+            let mut nodes = [0; MAX_NODES + WIDTH];
+            let noted = note(&mut nodes, MAX_NODES, mask, 1000);
+            let expected = (0..WIDTH).zip(1000..).filter(|(k, _)| mask >> k & 1 == 1);
+            let expected = expected.map(|(_, node)| node);
+            assert_eq!(noted, expected.clone().count(), "{mask:b}");
+            assert!(
+                nodes[MAX_NODES..][..noted].iter().copied().eq(expected),
+                "{mask:b}: {nodes:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn only_numbers_above_count() {
+        let mut numbers = [0.5; WIDTH];
+        (numbers[1], numbers[WIDTH - 1], numbers[3]) = (0.6, 2.0, f32::NAN);
+        assert_eq!(above(&numbers, 0.5), 1 << 1 | 1 << (WIDTH - 1));
+    }
+}

@@ -1,0 +1,141 @@
+use light_math::float;
+use light_math::glam::Vec3;
+
+use crate::importance::surface::{DISTANCE, Receiver};
+use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
+
+/// Round-off of a position, as a share of its distance and of the width of a node.
+const ROUND_OFF: f32 = 1e-5;
+
+/// A child of a node as a receiver sees it.
+///
+/// Lengths are in a unit of the node's choice, in which no power of them that a weight needs overflows or vanishes.
+#[derive(Clone, Copy, Debug)]
+pub struct Lane {
+    /// From the receiver to the mean position.
+    pub mean: [f32; 3],
+    /// Half extents of a box about that position that holds all emitting points.
+    pub extent: [f32; 3],
+    /// About the root mean square distance of the emitting points, above 0 and not below the length of `mean`.
+    pub dist: f32,
+    /// Its square.
+    pub dist_sq: f32,
+    /// Round-off that `mean` may have: what a sound test has to leave.
+    pub slack: f32,
+    /// Mean emission axis, no component of which is above 127.
+    pub axis: [f32; 3],
+    /// Mean emission offset, of `[-127, 127]`: the child emits about `power * max(0, dot(axis, w) - offset)` toward a unit vector `w`.
+    pub offset: f32,
+    /// Root mean square deviation of axis and offset. 0 if no light of the child emits beyond its axis and offset: where these say that
+    /// nothing is emitted, nothing is.
+    pub spread: f32,
+    /// Whether the child emits alike to both sides, about `power / 2 * |dot(axis, w)|`.
+    pub both_sides: bool,
+    /// Scale of the emission; 0 for an empty slot.
+    pub power: f32,
+}
+
+/// Where a receiver sees the children of a node, and in which unit of length.
+pub(crate) struct Frame {
+    origin: Vec3,
+    /// The length of a code.
+    code: f32,
+    /// One over the unit of length.
+    pub(crate) inv_unit: f32,
+}
+
+impl Frame {
+    /// A code of the node is the unit: the quickest.
+    #[inline(always)]
+    pub(crate) fn in_codes<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        Self {
+            origin: (Vec3::from(node.origin) - receiver.position()) * node.inv_scale,
+            code: 1.0,
+            inv_unit: node.inv_scale,
+        }
+    }
+
+    /// The unit is near the distance to the node or its extent, whichever is larger: right for all finite lengths.
+    pub(crate) fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        let origin = Vec3::from(node.origin) - receiver.position();
+        let away = origin.abs().element_sum() + receiver.reach();
+        let inv_unit = inverse_power_of_two(away.max(256.0 / node.inv_scale));
+        Self {
+            origin: origin * inv_unit,
+            code: inv_unit / node.inv_scale,
+            inv_unit,
+        }
+    }
+
+    /// Child `k` of the node.
+    #[inline(always)]
+    pub(crate) fn lane(&self, node: &WideNode, k: usize) -> Lane {
+        let Self { origin, code, .. } = *self;
+        let mean = [
+            origin.x + code * f32::from(node.mean[0][k]),
+            origin.y + code * f32::from(node.mean[1][k]),
+            origin.z + code * f32::from(node.mean[2][k]),
+        ];
+        let extent = [
+            code * f32::from(node.extent[0][k]),
+            code * f32::from(node.extent[1][k]),
+            code * f32::from(node.extent[2][k]),
+        ];
+        let dist_sq = dist_sq(mean, extent, DISTANCE, 1e-4 * code * code);
+        let dist = float::sqrt(dist_sq);
+        let both_sides = node.offset[k] == BOTH_SIDES;
+        Lane {
+            mean,
+            extent,
+            dist,
+            dist_sq,
+            slack: ROUND_OFF * dist + ROUND_OFF * 256.0 * code,
+            axis: [
+                f32::from(node.axis[0][k]),
+                f32::from(node.axis[1][k]),
+                f32::from(node.axis[2][k]),
+            ],
+            offset: if both_sides {
+                0.0
+            } else {
+                f32::from(node.offset[k])
+            },
+            spread: f32::from(node.spread[k]),
+            both_sides,
+            power: decode_power(node.power[k]),
+        }
+    }
+}
+
+/// The mean squared distance of a box about `mean` of which `variance` is the share of its squared width that counts, and a little more.
+#[inline(always)]
+pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32, more: f32) -> f32 {
+    let [x, y, z] = mean;
+    let width = extent[0] + extent[1] + extent[2];
+    (x * x + y * y) + (z * z + (variance * (width * width) + more))
+}
+
+/// One over the largest power of two that is not above `x`, which is below 2^127.
+fn inverse_power_of_two(x: f32) -> f32 {
+    let exponent = x.to_bits() & 0x7f80_0000;
+    f32::from_bits((254 << 23) - exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverse_powers_of_two_are_exact() {
+        for (x, inv) in [
+            (1.0, 1.0),
+            (1.99, 1.0),
+            (2.0, 0.5),
+            (0.3, 4.0),
+            (1e36, 1.504_632_8e-36),
+        ] {
+            assert_eq!(inverse_power_of_two(x), inv, "{x}");
+        }
+        assert!(inverse_power_of_two(0.0).is_finite(), "zero");
+    }
+}

@@ -1,0 +1,72 @@
+//! Arithmetic of which the compiler makes a few instructions for several lanes at once; numbers are never NaN.
+
+use crate::node::wide_node::WIDTH;
+
+/// The larger one, in one instruction.
+#[inline(always)]
+pub(crate) fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller one, in one instruction.
+#[inline(always)]
+pub(crate) fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// All lanes joined in pairs.
+#[inline(always)]
+pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) -> f32 {
+    let mut half = WIDTH / 2;
+    while half > 0 {
+        for k in 0..half {
+            lanes[k] = join(lanes[k], lanes[k + half]);
+        }
+        half /= 2;
+    }
+    lanes[0]
+}
+
+/// Between the integers of this many bits no fractions fit: adding it rounds to the nearest integer.
+const INTEGERS: f32 = 12_582_912.0;
+
+/// The nearest integer, for numbers below 2^22.
+#[inline(always)]
+pub(crate) fn nearest(x: f32) -> f32 {
+    (x + INTEGERS) - INTEGERS
+}
+
+/// The low byte of an integer below 2^22, as two's complement.
+#[inline(always)]
+pub(crate) fn low_byte(integer: f32) -> u8 {
+    let [byte, ..] = (integer + INTEGERS).to_bits().to_le_bytes();
+    byte
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_are_joined_once_each() {
+        let some = [3.0, 7.0, -1.0, 0.0, 2.0, 9.0, -4.0];
+        let lanes = core::array::from_fn(|k| some.get(k).copied().unwrap_or(0.5));
+        let rest = 0.5 * (WIDTH - some.len()) as f32;
+        assert_eq!(reduce(lanes, larger), 9.0, "the largest");
+        assert_eq!(reduce(lanes, smaller), -4.0, "the smallest");
+        assert_eq!(reduce(lanes, |a, b| a + b), 16.0 + rest, "the sum");
+    }
+
+    #[test]
+    fn integers_are_nearest() {
+        for (x, integer, byte) in [
+            (0.49, 0.0, 0),
+            (-0.51, -1.0, 0xff),
+            (254.6, 255.0, 0xff),
+            (-127.4, -127.0, 0x81),
+        ] {
+            assert_eq!(nearest(x), integer, "{x}");
+            assert_eq!(low_byte(integer), byte, "{x}");
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The record of the default tree: its layout, the moments that it holds, and their codes.
+
+#[cfg(feature = "alloc")]
+pub(crate) mod children_soa;
+#[cfg(feature = "alloc")]
+pub(crate) mod encode;
+#[cfg(feature = "alloc")]
+pub(crate) mod encode_emission;
+#[cfg(feature = "alloc")]
+pub(crate) mod lane_math;
+#[cfg(feature = "alloc")]
+pub(crate) mod moments;
+pub(crate) mod wide_node;

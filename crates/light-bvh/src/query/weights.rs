@@ -1,0 +1,100 @@
+use crate::importance::child_view::{Frame, Lane};
+use crate::importance::surface::Receiver;
+use crate::node::wide_node::{WIDTH, WideNode};
+
+/// The least sum of weights in codes that is trusted. A child's weight may be 10^18 times smaller than the largest, and what it is the
+/// product of 10^27 times, which a float still holds.
+const LEAST_TOTAL: f32 = 1e-10;
+
+/// What the children of a node are worth to a receiver.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights {
+    /// One number a child: 0 only if it cannot contribute.
+    pub(crate) lanes: [f32; WIDTH],
+    /// Their sum, always added up in the same order.
+    pub(crate) total: f32,
+    /// One over the unit of length that the weights are in.
+    pub(crate) inv_unit: f32,
+}
+
+impl Weights {
+    /// What the children of `node` are worth to `receiver`.
+    #[inline(always)]
+    pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        let weights = Self::in_frame(node, receiver, &Frame::in_codes(node, receiver), |_, _| ());
+        if is_trusted(weights.total) {
+            weights
+        } else {
+            Self::from_afar(node, receiver)
+        }
+    }
+
+    /// The same, and for each child how rough its estimate is: its squared width over its squared distance.
+    #[inline(always)]
+    pub(crate) fn with_roughness<R: Receiver>(
+        node: &WideNode,
+        receiver: &R,
+    ) -> (Self, [f32; WIDTH]) {
+        let mut roughness = [0.0; WIDTH];
+        let frame = Frame::in_codes(node, receiver);
+        let weights = Self::in_frame(node, receiver, &frame, |k, lane| {
+            let [hx, hy, hz] = lane.extent;
+            let width = hx + hy + hz;
+            roughness[k] = width * width * (1.0 / lane.dist_sq);
+        });
+        if is_trusted(weights.total) {
+            (weights, roughness)
+        } else {
+            // So far away, all are points.
+            (Self::from_afar(node, receiver), [0.0; WIDTH])
+        }
+    }
+
+    /// About the irradiance by the lights of `node`, of which these are the weights, where all lights of the tree have power 1.
+    #[inline(always)]
+    pub(crate) fn irradiance(&self, node: &WideNode) -> f64 {
+        let inv_unit = f64::from(self.inv_unit);
+        // Heights and intensities are counted twice each.
+        0.25 * f64::from(self.total) * f64::from(node.gain()) * inv_unit * inv_unit
+    }
+
+    /// The weights of lights so far away, or nodes so large, that they vanish in codes.
+    #[cold]
+    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        Self::in_frame(node, receiver, &Frame::from_afar(node, receiver), |_, _| ())
+    }
+
+    /// Written so that the compiler computes all children together: no branches, and nothing that depends on another child.
+    #[inline(always)]
+    fn in_frame<R: Receiver>(
+        node: &WideNode,
+        receiver: &R,
+        frame: &Frame,
+        mut note: impl FnMut(usize, &Lane),
+    ) -> Self {
+        let mut lanes = [0.0; WIDTH];
+        for (k, weight) in lanes.iter_mut().enumerate() {
+            let lane = frame.lane(node, k);
+            *weight = receiver.weigh(&lane, frame.inv_unit);
+            note(k, &lane);
+        }
+        Self {
+            lanes,
+            total: total(lanes),
+            inv_unit: frame.inv_unit,
+        }
+    }
+}
+
+/// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor infinite, nor not a number.
+#[inline(always)]
+fn is_trusted(total: f32) -> bool {
+    (LEAST_TOTAL..=f32::MAX).contains(&total)
+}
+
+/// The sum of all lanes, in pairs.
+#[inline(always)]
+pub(crate) fn total(lanes: [f32; WIDTH]) -> f32 {
+    let w: [f32; WIDTH / 2] = core::array::from_fn(|k| lanes[k] + lanes[k + WIDTH / 2]);
+    ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7]))
+}

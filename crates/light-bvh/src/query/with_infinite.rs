@@ -1,0 +1,56 @@
+use core::ops::ControlFlow;
+
+use light_bounds::{LightSampleContext, SampledLight};
+
+use crate::importance::surface::Receiver;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::query::into_receiver::Query;
+use crate::query::select::both;
+use crate::query::weights::Weights;
+use crate::simd::answer;
+
+impl LightBvhRef<'_> {
+    /// One light, by a first choice between the tree and other lights.
+    ///
+    /// `first` is told the [`irradiance`](Self::irradiance) of the tree at `ctx`, and goes on into it with the probability of that and the unused
+    /// part of its `u`, or ends with another light. The same light as by [`sample_after`](Self::sample_after) with the same pmf, to the bit,
+    /// but the root is looked at only once.
+    #[inline]
+    #[must_use]
+    pub fn sample_beside(
+        &self,
+        ctx: &LightSampleContext,
+        first: impl FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>,
+    ) -> Option<SampledLight> {
+        answer(ctx, SampleBeside { tree: self, first })
+    }
+}
+
+/// [`LightBvhRef::sample_beside`].
+struct SampleBeside<'a, 'b, F> {
+    tree: &'b LightBvhRef<'a>,
+    first: F,
+}
+
+impl<F: FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>> Query
+    for SampleBeside<'_, '_, F>
+{
+    type Answer = Option<SampledLight>;
+
+    #[inline(always)]
+    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        let Some(root) = self.tree.nodes().first() else {
+            return (self.first)(0.0).break_value()?;
+        };
+        let weights = Weights::new(root, receiver);
+        match (self.first)(weights.irradiance(root)) {
+            ControlFlow::Break(other) => other,
+            ControlFlow::Continue((pmf, u)) => {
+                let choice = weights.choose(u)?;
+                let pmf = both(pmf, choice.probability);
+                self.tree
+                    .descend_from(receiver, 0, choice.child, pmf, choice.u)
+            }
+        }
+    }
+}
