@@ -17,6 +17,7 @@ mod build;
 mod cut;
 mod error;
 mod importance;
+mod lane_math;
 #[cfg(feature = "alloc")]
 mod light_bvh;
 mod node;
@@ -33,13 +34,15 @@ pub use cut::light_cut::{CutDetail, CutDetailError, LightCut};
 pub use error::LightBvhError;
 pub use importance::child_view::Lane;
 pub use importance::glossy::GlossyReceiver;
+pub use importance::medium::MediumReceiver;
+pub use importance::position::is_far;
+pub use importance::receiver::Receiver;
 pub use importance::segment::SegmentReceiver;
-pub use importance::surface::{
-    MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far,
-};
+pub use importance::surface::SurfaceReceiver;
+pub use importance::two_sided::TwoSidedReceiver;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;
-pub use node::wide_node::WideNode;
-pub use query::bvh_ref::{LightBvhRef, MAX_DEPTH};
+pub use node::wide_node::{MAX_DEPTH, WideNode};
+pub use query::bvh_ref::LightBvhRef;
 pub use simd::prefetch_item;
 pub use validate::validate;

@@ -6,8 +6,8 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use crate::LightBvhError;
 use crate::build::builder::build;
 use crate::build::options::LightBvhOptions;
-use crate::build::refit::fill;
 use crate::build::scan::Scan;
+use crate::build::{quality, refit};
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::join;
 use crate::query::bvh_ref::LightBvhRef;
@@ -48,7 +48,7 @@ impl LightBvh {
         let mut nodes = skeleton.nodes();
         let ((), slots) = join(
             lights.len(),
-            || fill(&mut nodes, &order, lights, scan.power),
+            || refit::fill(&mut nodes, &order, lights, scan.power),
             || skeleton.slots(&order, lights.len()),
         );
         Ok(Self {
@@ -57,6 +57,27 @@ impl LightBvh {
             slots,
             power: scan.power,
         })
+    }
+
+    /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
+    ///
+    /// Takes time linear in the lights and no memory. A light that is off keeps its place and has pmf 0 until it is on again. The
+    /// further lights move from where they were, the looser the tree gets: see [`looseness`](Self::looseness).
+    ///
+    /// # Errors
+    /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many lights as the tree was built for, and
+    /// [`LightBvhError::NoPlace`] for the first one that shines, or is somewhere, and was not when the tree was built. The tree is then
+    /// as it was.
+    pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        if lights.len() != self.slots.len() {
+            return Err(LightBvhError::OtherLights {
+                expected: self.slots.len(),
+            });
+        }
+        let scan = refit::scan(lights, &self.slots)?;
+        self.power = scan.power;
+        refit::fill(&mut self.nodes, &self.order, lights, self.power);
+        Ok(())
     }
 
     /// What queries need, borrowed.
@@ -92,13 +113,25 @@ impl LightBvh {
         self.power
     }
 
+    /// How little a step down the tree narrows a group of lights: the mean ratio of a child's spread to its parent's, each child weighted by
+    /// its intensity.
+    ///
+    /// Spread is what the builder minimises: the standard deviation of the positions, the larger the less the axes agree. 0 for a
+    /// tree of one node. Only relative to the figure of the freshly built tree does it say something: when
+    /// [refits](Self::refit) have raised it by a tenth, the noise has risen too, and it is time to build anew.
+    /// Linear in the nodes, without memory; scale does not matter.
+    #[must_use]
+    pub fn looseness(&self) -> f64 {
+        quality::looseness(&self.nodes)
+    }
+
     /// Bytes that queries may touch.
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + size_of_val(&*self.order) + size_of_val(&*self.slots)
     }
 
-    /// Levels of nodes, at most [`MAX_DEPTH`](crate::query::bvh_ref::MAX_DEPTH).
+    /// Levels of nodes, at most [`MAX_DEPTH`](crate::node::wide_node::MAX_DEPTH).
     #[must_use]
     pub fn depth(&self) -> usize {
         let mut levels = vec![0; self.nodes.len()];

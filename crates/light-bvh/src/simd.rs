@@ -2,47 +2,54 @@
     all(feature = "std", target_arch = "x86_64"),
     expect(
         unsafe_code,
-        reason = "code for instructions that not every machine has can only be called so"
+        reason = "functions compiled for vectors that not every machine has are unsafe to call"
     )
 )]
 
-//! Which vectors a query is answered in, or a node made in: the widest that the machine has, asked at run time where there is an operating system.
+//! The vector width, and the only `unsafe` code of the crate.
 //!
-//! The same arithmetic in the same order either way, nothing fused: the same bits.
+//! Queries and the encoding of nodes run in the widest vectors that the machine has, asked at run time where there is an operating
+//! system. The arithmetic and its order are the same in every width, and nothing is fused: the same bits.
 
-use crate::query::into_receiver::{Asker, Query};
-
-/// Bytes that the memory delivers at once.
+/// Bytes that memory delivers at once.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 const CACHE_LINE: usize = 64;
 
-/// The answer to `query`, as the receiver that `asker` turns into sees the tree.
+/// A computation that is compiled once for each vector width.
+pub(crate) trait VectorWork {
+    type Output;
+
+    /// Runs it. Every implementation is `#[inline(always)]`: its caller chooses the vectors.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs `work` in the widest vectors that the machine has.
 ///
-/// The whole query is one piece of code for each kind of vector, so that what a receiver knows stays in registers on its way down.
+/// The whole work is one function for each width, so that what a receiver knows stays in registers on its way down a tree.
 #[inline(always)]
-pub(crate) fn answer<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
+pub(crate) fn dispatch<W: VectorWork>(work: W) -> W::Output {
     #[cfg(avx512)]
     if has_avx512() {
-        // SAFETY: as it says.
-        return unsafe { answer_by_avx512(asker, query) };
+        // SAFETY: `has_avx512` has found each feature that the function is compiled for.
+        return unsafe { run_with_avx512(work) };
     }
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: the machine has AVX2.
-        return unsafe { answer_by_avx2(asker, query) };
+        // SAFETY: the processor has AVX2, the one feature that the function is compiled for.
+        return unsafe { run_with_avx2(work) };
     }
-    asker.ask(query)
+    work.run()
 }
 
 /// # Safety
-/// The machine has to have AVX2.
+/// The processor has AVX2.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2")]
-unsafe fn answer_by_avx2<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
-    asker.ask(query)
+unsafe fn run_with_avx2<W: VectorWork>(work: W) -> W::Output {
+    work.run()
 }
 
-/// Whether the machine has AVX-512, of the generation from which on it costs no clock frequency.
+/// Whether the processor has AVX-512, of the generation from which on it costs no clock frequency.
 #[cfg(avx512)]
 #[inline(always)]
 fn has_avx512() -> bool {
@@ -51,78 +58,36 @@ fn has_avx512() -> bool {
 }
 
 /// # Safety
-/// The machine [has AVX-512](has_avx512).
+/// The processor [has AVX-512](has_avx512).
 #[cfg(avx512)]
 #[target_feature(enable = "avx512vbmi2,avx512vl,avx512dq")]
-unsafe fn answer_by_avx512<A: Asker, Q: Query>(asker: A, query: Q) -> Q::Answer {
-    asker.ask(query)
-}
-
-/// Arithmetic to be done in the widest vectors.
-#[cfg(feature = "alloc")]
-pub(crate) trait Work {
-    type Output;
-
-    /// Does it. To be inlined where it is called: there the vectors are chosen.
-    fn run(self) -> Self::Output;
-}
-
-/// What `work` makes, in the widest vectors that the machine has.
-#[cfg(feature = "alloc")]
-#[inline(always)]
-pub(crate) fn widely<W: Work>(work: W) -> W::Output {
-    #[cfg(avx512)]
-    if has_avx512() {
-        // SAFETY: as it says.
-        return unsafe { run_by_avx512(work) };
-    }
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: the machine has AVX2.
-        return unsafe { run_by_avx2(work) };
-    }
+unsafe fn run_with_avx512<W: VectorWork>(work: W) -> W::Output {
     work.run()
 }
 
-/// # Safety
-/// The machine has to have AVX2.
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "avx2")]
-unsafe fn run_by_avx2<W: Work>(work: W) -> W::Output {
-    work.run()
-}
-
-/// # Safety
-/// The machine [has AVX-512](has_avx512).
-#[cfg(all(avx512, feature = "alloc"))]
-#[target_feature(enable = "avx512vbmi2,avx512vl,avx512dq")]
-unsafe fn run_by_avx512<W: Work>(work: W) -> W::Output {
-    work.run()
-}
-
-/// Asks the memory for `item`, which is read soon: a light that was chosen, while other work is done. On machines where that cannot be asked
-/// nothing happens.
+/// Prefetches `item`, which is read soon: a light that was chosen, while other work is done. Does nothing on machines without such an
+/// instruction.
 #[inline(always)]
 pub fn prefetch_item<T>(item: &T) {
-    ask_memory(item, 1);
+    prefetch_lines(item, 1);
 }
 
-/// Asks the memory for `N` of `items`, which are read soon.
+/// Prefetches `N` of `items`, which are read soon, from `first` on.
 #[inline(always)]
 pub(crate) fn prefetch<const N: usize, T>(items: &[T], first: u32) {
-    ask_memory(items.as_ptr().wrapping_add(first as usize), N);
+    prefetch_lines(items.as_ptr().wrapping_add(first as usize), N);
 }
 
-/// Asks the memory for every cache line that `count` items are on.
+/// Prefetches every cache line that `count` items are on.
 #[inline(always)]
-fn ask_memory<T>(from: *const T, count: usize) {
+fn prefetch_lines<T>(from: *const T, count: usize) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     {
         use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         let (mut byte, last) = (0, (count * size_of::<T>()).saturating_sub(1));
         loop {
             let line = from.cast::<i8>().wrapping_add(byte);
-            // SAFETY: every machine of this kind has the instruction, and it may be given any address.
+            // SAFETY: every x86-64 processor has SSE, and a prefetch of any address is allowed: it never faults.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(line) };
             if byte == last {
                 break;
@@ -140,20 +105,23 @@ mod tests {
 
     use super::*;
     use crate::importance::glossy::GlossyReceiver;
+    use crate::importance::medium::MediumReceiver;
+    use crate::importance::receiver::Receiver;
     use crate::importance::segment::SegmentReceiver;
-    use crate::importance::surface::{MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver};
+    use crate::importance::surface::SurfaceReceiver;
+    use crate::importance::two_sided::TwoSidedReceiver;
     use crate::node::wide_node::{WIDTH, WideNode};
-    use crate::query::into_receiver::Oneself;
+    use crate::query::into_receiver::{Query, QueryFor};
     use crate::query::weights::Weights;
 
     /// The weights of a node's children and their roughness, as bits.
     struct Bits<'a>(&'a WideNode);
 
     impl Query for Bits<'_> {
-        type Answer = [[u32; WIDTH]; 2];
+        type Output = [[u32; WIDTH]; 2];
 
         #[inline(always)]
-        fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+        fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
             let (weights, roughness) = Weights::with_roughness(self.0, receiver);
             [weights.lanes, roughness].map(|lanes| lanes.map(f32::to_bits))
         }
@@ -163,12 +131,12 @@ mod tests {
     #[test]
     fn wide_vectors_give_the_bits_of_narrow_ones() {
         fn check<R: Receiver>(node: &WideNode, receiver: &R) {
-            let narrow = Bits(node).of(receiver);
-            let widest = answer(Oneself(receiver), Bits(node));
+            let narrow = Bits(node).run(receiver);
+            let widest = dispatch(QueryFor(receiver, Bits(node)));
             assert_eq!(narrow, widest, "weights of {node:?}");
             if std::arch::is_x86_feature_detected!("avx2") {
                 // SAFETY: the machine has AVX2.
-                let wide = unsafe { answer_by_avx2(Oneself(receiver), Bits(node)) };
+                let wide = unsafe { run_with_avx2(QueryFor(receiver, Bits(node))) };
                 assert_eq!(narrow, wide, "by AVX2, weights of {node:?}");
             }
         }

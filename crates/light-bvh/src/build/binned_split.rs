@@ -5,10 +5,10 @@ use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use crate::build::bins::{Grid, Plane};
-use crate::build::builder::{Crowd, Plot};
 use crate::build::cluster::{Prim, Sums};
 use crate::build::light_primitive::Lamp;
 use crate::build::split_group::Group;
+use crate::build::subtree::{Crowd, Plot};
 use crate::build::topology::Skeleton;
 use crate::node::wide_node::WIDTH;
 

@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::build::cluster::Prim;
 use crate::build::light_primitive::Lamp;
-use crate::build::morton::Range;
+use crate::build::morton_range::Range;
 use crate::build::split_group::Group;
 use crate::parallel::{join, map};
 

@@ -8,38 +8,28 @@ use light_math::glam::Vec3;
 
 use crate::build::light_primitive::NARROW;
 use crate::build::lights::{Lights, phi};
+use crate::build::morton_entry::Entry;
 use crate::build::options::DarkLights;
 use crate::build::radix_sort as radix;
 use crate::build::scan::is_held;
-use crate::build::split_group::Group;
 use crate::node::moments::Moments;
 use crate::parallel::map;
 
 /// Bits of a key for each axis.
 const BITS: u32 = 21;
 
-/// A light and its place on the curve.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Entry {
-    /// Its kind, and three interleaved coordinates of 21 bits.
-    pub(crate) key: u64,
-    pub(crate) light: u32,
-    /// As a share of the power of all lights.
-    pub(crate) power: f32,
-}
-
 /// The cells that keys number.
 #[derive(Clone, Copy, Debug)]
-struct Grid {
+pub(crate) struct Grid {
     low: Vec3,
     /// Side of the smallest cells.
-    cell: f32,
+    pub(crate) cell: f32,
     inv_cell: f32,
 }
 
 impl Grid {
     /// Cubic cells that fill the longest side of `bounds`; `None` if that is too short to divide.
-    fn new(bounds: &Aabb) -> Option<Self> {
+    pub(crate) fn new(bounds: &Aabb) -> Option<Self> {
         const FLAT: f32 = 1e-30;
         let side = bounds.diagonal().max_element();
         let cell = side / (1u32 << BITS) as f32;
@@ -56,7 +46,7 @@ impl Grid {
         clippy::cast_sign_loss,
         reason = "float to integer casts saturate"
     )]
-    fn key(&self, p: Vec3) -> u64 {
+    pub(crate) fn key(&self, p: Vec3) -> u64 {
         let place = ((p - self.low) * self.inv_cell).to_array();
         let [x, y, z] = place.map(|x| spread((x as u32).min((1 << BITS) - 1)));
         x << 2 | y << 1 | z
@@ -114,118 +104,6 @@ pub(crate) fn sorted(
         entries
     });
     (radix::sorted(chunks), grid.map_or(0.0, |grid| grid.cell))
-}
-
-/// A run of lights along the curve.
-#[derive(Debug)]
-pub(crate) struct Range<'a> {
-    entries: &'a mut [Entry],
-    lights: &'a Lights<'a>,
-    /// Side of the smallest cells of the keys.
-    cell: f32,
-}
-
-impl<'a> Range<'a> {
-    /// The lights of `entries`, which are in the order of their keys.
-    pub(crate) const fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
-        Self {
-            entries,
-            lights,
-            cell,
-        }
-    }
-
-    /// Gives lights of one cell new keys in a grid of their own.
-    fn look_closer(&mut self) {
-        let center = |e: &Entry| self.lights.bounds(e.light).bounds.center();
-        let bounds = Aabb::from_points(self.entries.iter().map(center));
-        if let Some(grid) = Grid::new(&bounds) {
-            for entry in self.entries.iter_mut() {
-                entry.key = grid.key(self.lights.bounds(entry.light).bounds.center());
-            }
-            radix::sort(self.entries);
-            self.cell = grid.cell;
-        }
-    }
-
-    fn split_at(self, middle: usize) -> (Self, Self) {
-        let (left, right) = self.entries.split_at_mut(middle);
-        (
-            Self::new(left, self.lights, self.cell),
-            Self::new(right, self.lights, self.cell),
-        )
-    }
-}
-
-impl Group for Range<'_> {
-    fn lights(&self) -> usize {
-        self.entries.len()
-    }
-
-    fn is_divisible(&self) -> bool {
-        self.entries.len() > 1
-    }
-
-    /// Power times the side of the smallest cell that holds the lights.
-    fn price(&self) -> f32 {
-        const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
-        let bits = top_bit(self.entries).map_or(0, |bit| bit + 1);
-        let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
-        power(self.entries) * side * self.cell.max(f32::MIN_POSITIVE)
-    }
-
-    fn split(mut self) -> (Self, Self) {
-        if top_bit(self.entries).is_none() {
-            self.look_closer();
-        }
-        match top_bit(self.entries) {
-            Some(bit) => {
-                let middle = self.entries.partition_point(|e| e.key >> bit & 1 == 0);
-                self.split_at(middle)
-            }
-            None => self.halve(),
-        }
-    }
-
-    fn halve(self) -> (Self, Self) {
-        let middle = self.entries.len() / 2;
-        self.split_at(middle)
-    }
-
-    fn each_light(&self, each: impl FnMut(u32)) {
-        self.entries.iter().map(|e| e.light).for_each(each);
-    }
-}
-
-/// The highest bit in which keys differ; `None` if all agree.
-fn top_bit(entries: &[Entry]) -> Option<u32> {
-    let (first, last) = (entries.first()?, entries.last()?);
-    (first.key ^ last.key).checked_ilog2()
-}
-
-/// The power of all; where they are many, in parts side by side.
-fn power(entries: &[Entry]) -> f32 {
-    /// Entries that are summed up in one go.
-    const CHUNK: usize = 1 << 14;
-    if entries.len() <= CHUNK {
-        return power_of_few(entries);
-    }
-    map(entries.chunks(CHUNK).collect(), power_of_few)
-        .iter()
-        .sum()
-}
-
-/// The same in four sums, which do not wait for each other.
-fn power_of_few(entries: &[Entry]) -> f32 {
-    let fours = entries.chunks_exact(4);
-    let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();
-    let mut sums = [0.0; 4];
-    for four in fours {
-        for (sum, entry) in sums.iter_mut().zip(four) {
-            *sum += entry.power;
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

@@ -1,28 +1,18 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::LightBvh;
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode, decode_power};
 
-impl LightBvh {
-    /// How little a step down the tree narrows a group of lights: the mean ratio of a child's spread to its parent's, each child weighted by
-    /// its intensity.
-    ///
-    /// Spread is what the builder minimises: the standard deviation of the positions, the larger the less the axes agree. 0 for a
-    /// tree of one node. Only relative to the figure of the freshly built tree does it say something: when
-    /// [refits](Self::refit) have raised it by a tenth, the noise has risen too, and it is time to build anew.
-    /// Linear in the nodes, without memory; scale does not matter.
-    #[must_use]
-    pub fn looseness(&self) -> f64 {
-        let mut steps = Steps::default();
-        if !self.nodes.is_empty() {
-            group(&self.nodes, 0, &mut steps);
-        }
-        if steps.weight > 0.0 {
-            steps.ratios / steps.weight
-        } else {
-            0.0
-        }
+/// [`LightBvh::looseness`](crate::LightBvh::looseness) of the tree of `nodes`.
+pub(crate) fn looseness(nodes: &[WideNode]) -> f64 {
+    let mut steps = Steps::default();
+    if !nodes.is_empty() {
+        group(nodes, 0, &mut steps);
+    }
+    if steps.weight > 0.0 {
+        steps.ratios / steps.weight
+    } else {
+        0.0
     }
 }
 

@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::build::morton::Entry;
+use crate::build::morton_entry::Entry;
 use crate::parallel::{map, table};
 
 /// Bits of a digit.

@@ -1,6 +1,5 @@
 use light_bounds::LightExtent;
 
-use crate::LightBvh;
 use crate::LightBvhError;
 use crate::build::lights::{Lights, phi};
 use crate::build::options::DarkLights;
@@ -12,38 +11,25 @@ use crate::parallel::{is_worth_a_thread, join};
 /// Subtrees of so many lights read them all before they make use of them.
 const BATCH: usize = 128;
 
-impl LightBvh {
-    /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
-    ///
-    /// Takes time linear in the lights and no memory. A light that is off keeps its place and has pmf 0 until it is on again. The
-    /// further lights move from where they were, the looser the tree gets: see [`looseness`](Self::looseness).
-    ///
-    /// # Errors
-    /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many lights as the tree was built for, and
-    /// [`LightBvhError::NoPlace`] for the first one that shines, or is somewhere, and was not when the tree was built. The tree is then
-    /// as it was.
-    pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
-        if lights.len() != self.slots.len() {
-            return Err(LightBvhError::OtherLights {
-                expected: self.slots.len(),
-            });
+/// A first look at lights that a tree is to follow, whose `slots` say which of them it holds.
+///
+/// # Errors
+/// The first light with invalid bounds, or one that has no place in the tree.
+pub(crate) fn scan(lights: &[LightExtent], slots: &[u32]) -> Result<Scan, LightBvhError> {
+    Scan::new(lights, 0, DarkLights::Kept, &|light, extent| {
+        let is_in_tree = slots
+            .get(light.index())
+            .is_some_and(|&slot| slot != NOWHERE);
+        let fits = match extent {
+            LightExtent::Bounded(_) | LightExtent::Lobe(..) => is_in_tree || phi(extent) == 0.0,
+            LightExtent::Infinite(_) => !is_in_tree,
+        };
+        if fits {
+            Ok(())
+        } else {
+            Err(LightBvhError::NoPlace { light })
         }
-        let scan = Scan::new(lights, 0, DarkLights::Kept, &|light, extent| {
-            let is_in_tree = self.view().slot(light) != NOWHERE;
-            let fits = match extent {
-                LightExtent::Bounded(_) | LightExtent::Lobe(..) => is_in_tree || phi(extent) == 0.0,
-                LightExtent::Infinite(_) => !is_in_tree,
-            };
-            if fits {
-                Ok(())
-            } else {
-                Err(LightBvhError::NoPlace { light })
-            }
-        })?;
-        self.power = scan.power;
-        fill(&mut self.nodes, &self.order, lights, self.power);
-        Ok(())
-    }
+    })
 }
 
 /// Tells all nodes, which know their places, what is below them; `lights` are valid and have `power` together.

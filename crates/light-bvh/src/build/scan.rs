@@ -4,7 +4,7 @@ use light_math::Aabb;
 use crate::LightBvhError;
 use crate::build::lights::phi;
 use crate::build::options::DarkLights;
-use crate::importance::surface::FAR;
+use crate::importance::position::FAR;
 use crate::parallel::join;
 use crate::validate::validate_light;
 

@@ -1,7 +1,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::build::builder::low_word;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::table;
 
@@ -100,4 +99,12 @@ struct Place {
     light_base: usize,
     /// Slot of the node.
     parent: u32,
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a tree holds fewer than 2^32 lights, and fewer nodes than lights"
+)]
+const fn low_word(x: usize) -> u32 {
+    x as u32
 }

@@ -1,18 +1,45 @@
 //! How a [`LightCut`] is grown.
 
+use light_bounds::LightSampleContext;
 use light_math::glam::Vec4;
 
 use crate::cut::light_cut::{CutDetail, LightCut, MAX_NODES};
-use crate::importance::surface::Receiver;
+use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::Query;
+use crate::query::into_receiver::{Query, QueryFor};
 use crate::query::select::{both, low};
 use crate::query::weights::{Weights, total};
+use crate::simd::dispatch;
 
 /// How much more a nearer node may count per unit of its weight: where distances differ by more than 2^30, weights lose their proportion
 /// and keep their sign.
 const MAX_ZOOM: f32 = 1_073_741_824.0;
+
+impl LightCut {
+    /// The cut of `tree` for `ctx`.
+    #[must_use]
+    pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
+        let mut cut = Self::EMPTY;
+        cut.look_at(tree, ctx, detail);
+        cut
+    }
+
+    /// Becomes the cut of `tree` for `ctx`, in the same place: [`at`](Self::at) without a copy.
+    pub fn look_at(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
+        let into = self;
+        dispatch(QueryFor(ctx, Grow { tree, detail, into }));
+    }
+
+    /// The cut of `tree` for `receiver`.
+    #[must_use]
+    pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {
+        let mut cut = Self::EMPTY;
+        let into = &mut cut;
+        dispatch(QueryFor(receiver, Grow { tree, detail, into }));
+        cut
+    }
+}
 
 /// [`LightCut::look_at`]: whatever the cut held is gone.
 pub(crate) struct Grow<'a, 'b> {
@@ -22,10 +49,10 @@ pub(crate) struct Grow<'a, 'b> {
 }
 
 impl Query for Grow<'_, '_> {
-    type Answer = ();
+    type Output = ();
 
     #[inline(always)]
-    fn of<R: Receiver>(self, receiver: &R) {
+    fn run<R: Receiver>(self, receiver: &R) {
         let Self {
             tree,
             detail,

@@ -1,15 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
-use light_bounds::{LightId, LightSampleContext, SampledLight};
-
-use crate::cut::grow::Grow;
-use crate::cut::sample::{Probability, Sample, SampleMany};
-use crate::importance::surface::Receiver;
 use crate::node::wide_node::WIDTH;
-use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::Oneself;
-use crate::simd::answer;
 
 /// Nodes that a cut may hold.
 pub(crate) const MAX_NODES: usize = 24;
@@ -94,7 +86,7 @@ impl Default for LightCut {
 
 impl LightCut {
     /// No node.
-    const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         nodes: [0; MAX_NODES + WIDTH],
         weights: [[0.0; WIDTH]; MAX_NODES],
         ends: [f64::INFINITY; MAX_NODES],
@@ -103,122 +95,6 @@ impl LightCut {
         count: 0,
         inv_unit: 1.0,
     };
-
-    /// The cut of `tree` for `ctx`.
-    #[must_use]
-    pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
-        let mut cut = Self::EMPTY;
-        cut.look_at(tree, ctx, detail);
-        cut
-    }
-
-    /// Becomes the cut of `tree` for `ctx`, in the same place: [`at`](Self::at) without a copy.
-    pub fn look_at(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
-        let into = self;
-        answer(ctx, Grow { tree, detail, into });
-    }
-
-    /// The cut of `tree` for `receiver`.
-    #[must_use]
-    pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {
-        let mut cut = Self::EMPTY;
-        let into = &mut cut;
-        answer(Oneself(receiver), Grow { tree, detail, into });
-        cut
-    }
-
-    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None` if no light in the tree can.
-    ///
-    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k` lights, call with `(i + u) / k` for `i` of
-    /// `0..k`.
-    #[inline]
-    #[must_use]
-    pub fn sample_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let cut = self;
-        answer(ctx, Sample { cut, tree, pmf, u })
-    }
-
-    /// Calls `each` with what [`sample_at`](Self::sample_at) gives for each of `us`, in their order: quicker than to ask one by one.
-    #[inline]
-    pub fn sample_many_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        us: impl IntoIterator<Item = f64>,
-        each: impl FnMut(SampledLight),
-    ) {
-        let sample = SampleMany {
-            cut: self,
-            tree,
-            pmf,
-            us,
-            each,
-        };
-        answer(ctx, sample);
-    }
-
-    /// Probability of `light` by [`sample_at`](Self::sample_at), to the bit.
-    #[inline]
-    #[must_use]
-    pub fn pmf_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        light: LightId,
-    ) -> f32 {
-        answer(
-            ctx,
-            Probability {
-                cut: self,
-                tree,
-                pmf,
-                light,
-            },
-        )
-    }
-
-    /// [`sample_at`](Self::sample_at) for the `receiver` of the cut.
-    #[inline]
-    #[must_use]
-    pub fn sample<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let cut = self;
-        answer(Oneself(receiver), Sample { cut, tree, pmf, u })
-    }
-
-    /// [`pmf_at`](Self::pmf_at) for the `receiver` of the cut.
-    #[inline]
-    #[must_use]
-    pub fn pmf<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        light: LightId,
-    ) -> f32 {
-        answer(
-            Oneself(receiver),
-            Probability {
-                cut: self,
-                tree,
-                pmf,
-                light,
-            },
-        )
-    }
 
     /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
     #[must_use]

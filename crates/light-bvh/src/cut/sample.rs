@@ -1,12 +1,108 @@
 //! How a [`LightCut`] is sampled.
 
-use light_bounds::{LightId, SampledLight};
+use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 use crate::cut::light_cut::LightCut;
-use crate::importance::surface::Receiver;
+use crate::importance::receiver::Receiver;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::Query;
+use crate::query::into_receiver::{Query, QueryFor};
 use crate::query::select::{both, low, pick, share};
+use crate::simd::dispatch;
+
+impl LightCut {
+    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None` if no light in the tree can.
+    ///
+    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k` lights, call with `(i + u) / k` for `i` of
+    /// `0..k`.
+    #[inline]
+    #[must_use]
+    pub fn sample_at(
+        &self,
+        tree: &LightBvhRef<'_>,
+        ctx: &LightSampleContext,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        let cut = self;
+        dispatch(QueryFor(ctx, Sample { cut, tree, pmf, u }))
+    }
+
+    /// Calls `each` with what [`sample_at`](Self::sample_at) gives for each of `us`, in their order: quicker than to ask one by one.
+    #[inline]
+    pub fn sample_many_at(
+        &self,
+        tree: &LightBvhRef<'_>,
+        ctx: &LightSampleContext,
+        pmf: f32,
+        us: impl IntoIterator<Item = f64>,
+        each: impl FnMut(SampledLight),
+    ) {
+        let sample = SampleMany {
+            cut: self,
+            tree,
+            pmf,
+            us,
+            each,
+        };
+        dispatch(QueryFor(ctx, sample));
+    }
+
+    /// Probability of `light` by [`sample_at`](Self::sample_at), to the bit.
+    #[inline]
+    #[must_use]
+    pub fn pmf_at(
+        &self,
+        tree: &LightBvhRef<'_>,
+        ctx: &LightSampleContext,
+        pmf: f32,
+        light: LightId,
+    ) -> f32 {
+        dispatch(QueryFor(
+            ctx,
+            Probability {
+                cut: self,
+                tree,
+                pmf,
+                light,
+            },
+        ))
+    }
+
+    /// [`sample_at`](Self::sample_at) for the `receiver` of the cut.
+    #[inline]
+    #[must_use]
+    pub fn sample<R: Receiver>(
+        &self,
+        tree: &LightBvhRef<'_>,
+        receiver: &R,
+        pmf: f32,
+        u: f64,
+    ) -> Option<SampledLight> {
+        let cut = self;
+        dispatch(QueryFor(receiver, Sample { cut, tree, pmf, u }))
+    }
+
+    /// [`pmf_at`](Self::pmf_at) for the `receiver` of the cut.
+    #[inline]
+    #[must_use]
+    pub fn pmf<R: Receiver>(
+        &self,
+        tree: &LightBvhRef<'_>,
+        receiver: &R,
+        pmf: f32,
+        light: LightId,
+    ) -> f32 {
+        dispatch(QueryFor(
+            receiver,
+            Probability {
+                cut: self,
+                tree,
+                pmf,
+                light,
+            },
+        ))
+    }
+}
 
 /// [`LightCut::sample_at`].
 pub(crate) struct Sample<'a, 'b> {
@@ -17,10 +113,10 @@ pub(crate) struct Sample<'a, 'b> {
 }
 
 impl Query for Sample<'_, '_> {
-    type Answer = Option<SampledLight>;
+    type Output = Option<SampledLight>;
 
     #[inline(always)]
-    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+    fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
         self.cut.choose(receiver, self.tree, self.pmf, self.u)
     }
 }
@@ -35,10 +131,10 @@ pub(crate) struct SampleMany<'a, 'b, U, F> {
 }
 
 impl<U: IntoIterator<Item = f64>, F: FnMut(SampledLight)> Query for SampleMany<'_, '_, U, F> {
-    type Answer = ();
+    type Output = ();
 
     #[inline(always)]
-    fn of<R: Receiver>(self, receiver: &R) {
+    fn run<R: Receiver>(self, receiver: &R) {
         let Self { cut, tree, pmf, .. } = self;
         let mut each = self.each;
         for u in self.us {
@@ -58,10 +154,10 @@ pub(crate) struct Probability<'a, 'b> {
 }
 
 impl Query for Probability<'_, '_> {
-    type Answer = f32;
+    type Output = f32;
 
     #[inline(always)]
-    fn of<R: Receiver>(self, receiver: &R) -> f32 {
+    fn run<R: Receiver>(self, receiver: &R) -> f32 {
         let Self { cut, pmf, .. } = self;
         self.tree.ascend(receiver, 0.0, self.light, |node, child| {
             let at = cut.nodes[..cut.count]

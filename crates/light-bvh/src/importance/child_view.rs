@@ -1,8 +1,10 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::surface::{DISTANCE, Receiver};
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
+
+/// How much of a child's squared width counts as variance of its distance. Chosen by V: see `docs/light-bvh.md`.
+pub(crate) const DISTANCE: f32 = 0.09;
 
 /// Round-off of a position, as a share of its distance and of the width of a node.
 const ROUND_OFF: f32 = 1e-5;
@@ -47,18 +49,18 @@ pub(crate) struct Frame {
 impl Frame {
     /// A code of the node is the unit: the quickest.
     #[inline(always)]
-    pub(crate) fn in_codes<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+    pub(crate) fn in_codes(node: &WideNode, position: Vec3) -> Self {
         Self {
-            origin: (Vec3::from(node.origin) - receiver.position()) * node.inv_scale,
+            origin: (Vec3::from(node.origin) - position) * node.inv_scale,
             code: 1.0,
             inv_unit: node.inv_scale,
         }
     }
 
     /// The unit is near the distance to the node or its extent, whichever is larger: right for all finite lengths.
-    pub(crate) fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        let origin = Vec3::from(node.origin) - receiver.position();
-        let away = origin.abs().element_sum() + receiver.reach();
+    pub(crate) fn from_afar(node: &WideNode, position: Vec3, reach: f32) -> Self {
+        let origin = Vec3::from(node.origin) - position;
+        let away = origin.abs().element_sum() + reach;
         let inv_unit = inverse_power_of_two(away.max(256.0 / node.inv_scale));
         Self {
             origin: origin * inv_unit,

@@ -3,7 +3,9 @@ use light_math::glam::Vec3;
 use light_math::{direction, float};
 
 use crate::importance::child_view::{Lane, dist_sq};
-use crate::importance::surface::{Receiver, SurfaceReceiver, at_least, at_most};
+use crate::importance::receiver::Receiver;
+use crate::importance::surface::SurfaceReceiver;
+use crate::lane_math::{larger, smaller};
 
 /// How much of a group's squared extent over its squared distance widens the facets, and how much of its squared width is variance of that
 /// distance: less than elsewhere, for lights on the far side of the receiver lie in other directions.
@@ -74,15 +76,15 @@ impl GlossyReceiver {
         } = *self;
         let dist_sq = dist_sq(lane.mean, lane.extent, DISTANCE, lane.slack * lane.slack);
         let inv_dist = 1.0 / float::sqrt(dist_sq);
-        let cos_i = at_most(1.0, height * inv_dist);
+        let cos_i = smaller(1.0, height * inv_dist);
         // The squared length of the half vector, and of its part along the normal.
         let half_sq = 2.0 + 2.0 * (vx * wo.x + vy * wo.y + vz * wo.z) * inv_dist;
-        let half_sq = at_least(MIN_HALF_SQ, half_sq);
+        let half_sq = larger(MIN_HALF_SQ, half_sq);
         let cos_sum = cos_i + cos_o;
-        let upright = at_most(half_sq, cos_sum * cos_sum);
+        let upright = smaller(half_sq, cos_sum * cos_sum);
         let extent_sq = hx * hx + hy * hy + hz * hz;
         let widening = WIDENING * extent_sq / (dist_sq + extent_sq);
-        let alpha_sq = at_most(1.0, alpha * alpha + widening);
+        let alpha_sq = smaller(1.0, alpha * alpha + widening);
         let spread = half_sq - (1.0 - alpha_sq) * upright;
         let facets = alpha_sq * half_sq * half_sq / (spread * spread);
         let shadowing = 0.5 / ((1.0 - alpha) * 2.0 * cos_i * cos_o + alpha * cos_sum);

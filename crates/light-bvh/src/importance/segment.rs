@@ -3,8 +3,10 @@ use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
-use crate::importance::surface::{DISTANCE, Receiver, at_least, at_most, near};
+use crate::importance::child_view::{DISTANCE, Lane};
+use crate::importance::position::near;
+use crate::importance::receiver::Receiver;
+use crate::lane_math::{larger, smaller};
 
 /// Places along the segment at which the emission is looked at.
 const PLACES: usize = 4;
@@ -58,23 +60,23 @@ impl Receiver for SegmentReceiver {
     #[inline(always)]
     fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32 {
         // Far from a short segment, or at a segment without length, all places are the same.
-        let length = at_least(1e-3 * lane.dist, self.length * inv_unit);
+        let length = larger(1e-3 * lane.dist, self.length * inv_unit);
         let w = self.direction;
         let nearest = Vec3::from(lane.mean).dot(w);
         let aside = Vec3::from(lane.mean) - w * nearest;
         let blur_sq = DISTANCE * Vec3::from(lane.extent).length_squared();
         let height_sq = aside.length_squared() + 2.0 * blur_sq + lane.slack * lane.slack;
         let least_sq = (NEAREST * length) * (NEAREST * length);
-        let height_sq = at_least(least_sq, height_sq);
+        let height_sq = larger(least_sq, height_sq);
         let height = float::sqrt(height_sq);
         let begin = angle(-nearest / height);
         let span = angle((length - nearest) / height) - begin;
-        let span = at_least(1e-6, span);
+        let span = larger(1e-6, span);
         let mut sum = 0.0;
         for i in 0..PLACES {
             let theta = begin + span * ((i as f32 + 0.5) / PLACES as f32);
             let t = nearest + height * tangent(theta);
-            let t = at_most(length, at_least(0.0, t));
+            let t = smaller(length, larger(0.0, t));
             let from_nearest = t - nearest;
             let here = lane.seen_from(w * t, least_sq);
             sum += here.fluence() * (height_sq + from_nearest * from_nearest);
@@ -90,7 +92,7 @@ fn angle(x: f32) -> f32 {
     let low = magnitude / (1.0 + 0.28 * square);
     let high = FRAC_PI_2 - magnitude / (square + 0.28);
     let angle = if magnitude <= 1.0 { low } else { high };
-    at_most(FRAC_PI_2 - 1e-4, angle).copysign(x)
+    smaller(FRAC_PI_2 - 1e-4, angle).copysign(x)
 }
 
 /// Tangent of an angle below a right one, to within a fiftieth: a rational function with its slopes at 0 and its poles.

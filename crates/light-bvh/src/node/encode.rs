@@ -1,8 +1,8 @@
+use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::Brood;
-use crate::node::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::moments::Moments;
 use crate::node::wide_node::{WIDTH, WideNode, encode_power};
-use crate::simd::{Work, widely};
+use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
 const MIN_SCALE: f32 = 1e-30;
@@ -20,7 +20,7 @@ impl WideNode {
     /// Makes what the node knows of its children what these moments say, of no more children than it has slots; where they are, and
     /// how many are nodes, stays as it is.
     pub(crate) fn tell(&mut self, children: &[Moments]) {
-        widely(Encoding {
+        dispatch(Encoding {
             node: self,
             children,
         });
@@ -133,7 +133,7 @@ struct Encoding<'a> {
     children: &'a [Moments],
 }
 
-impl Work for Encoding<'_> {
+impl VectorWork for Encoding<'_> {
     type Output = ();
 
     #[inline(always)]

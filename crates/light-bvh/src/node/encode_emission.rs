@@ -1,7 +1,7 @@
 use light_math::float;
 
+use crate::lane_math::{larger, low_byte, nearest, smaller};
 use crate::node::children_soa::Brood;
-use crate::node::lane_math::{larger, low_byte, nearest, smaller};
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {

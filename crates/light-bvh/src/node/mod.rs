@@ -7,7 +7,5 @@ pub(crate) mod encode;
 #[cfg(feature = "alloc")]
 pub(crate) mod encode_emission;
 #[cfg(feature = "alloc")]
-pub(crate) mod lane_math;
-#[cfg(feature = "alloc")]
 pub(crate) mod moments;
 pub(crate) mod wide_node;

@@ -1,6 +1,9 @@
 /// Children of a node.
 pub(crate) const WIDTH: usize = 16;
 
+/// Levels of nodes that a tree may have: the builder keeps to it whatever the lights are.
+pub const MAX_DEPTH: usize = 24;
+
 /// `slots` entry of a light that is not in the tree, and `parent` of the root.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 

@@ -2,61 +2,74 @@ use light_bounds::{LightSampleContext, ReceiverSides};
 use light_math::glam::Vec3;
 
 use crate::importance::glossy::GlossyReceiver;
+use crate::importance::medium::MediumReceiver;
+use crate::importance::position::is_far;
+use crate::importance::receiver::Receiver;
 use crate::importance::segment::SegmentReceiver;
-use crate::importance::surface::{
-    MediumReceiver, Receiver, SurfaceReceiver, TwoSidedReceiver, is_far,
-};
+use crate::importance::surface::SurfaceReceiver;
+use crate::importance::two_sided::TwoSidedReceiver;
+use crate::simd::VectorWork;
 
-/// A question to a tree that any receiver may ask.
+/// A computation over a tree that is compiled for each kind of receiver.
 pub(crate) trait Query {
-    type Answer;
+    type Output;
 
-    /// The answer as `receiver` sees the tree. To be inlined where it is asked: there the vectors are chosen.
-    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer;
+    /// Runs it for `receiver`. Every implementation is `#[inline(always)]`: its caller chooses the vectors.
+    fn run<R: Receiver>(self, receiver: &R) -> Self::Output;
 }
 
-/// Who turns into a receiver to ask a [`Query`].
-pub(crate) trait Asker {
-    fn ask<Q: Query>(self, query: Q) -> Q::Answer;
+/// A receiver, or what becomes one.
+pub(crate) trait IntoReceiver {
+    /// Runs `query` for the receiver that this becomes.
+    fn run<Q: Query>(self, query: Q) -> Q::Output;
 }
 
-/// A receiver asks as it is.
-pub(crate) struct Oneself<'a, R>(pub(crate) &'a R);
-
-impl<R: Receiver> Asker for Oneself<'_, R> {
+impl<R: Receiver> IntoReceiver for &R {
     #[inline(always)]
-    fn ask<Q: Query>(self, query: Q) -> Q::Answer {
-        query.of(self.0)
+    fn run<Q: Query>(self, query: Q) -> Q::Output {
+        query.run(self)
     }
 }
 
-/// A context asks as the receiver that it stands for: a ray segment, a point in a medium, or a point on a surface by its shading normal.
-impl Asker for &LightSampleContext {
+/// A ray segment, a point in a medium, or a point on a surface by its shading normal.
+impl IntoReceiver for &LightSampleContext {
     #[inline(always)]
-    fn ask<Q: Query>(self, query: Q) -> Q::Answer {
+    fn run<Q: Query>(self, query: Q) -> Q::Output {
         if self.segment != Vec3::ZERO {
-            return query.of(&SegmentReceiver::new(self.p, self.segment));
+            return query.run(&SegmentReceiver::new(self.p, self.segment));
         }
-        // Where coordinates had to be clamped, directions to lights mean nothing.
+        // Where coordinates were clamped, directions to lights mean nothing.
         let normal = self.unit_ns().filter(|_| !is_far(self.p));
         let Some(ns) = normal else {
-            return query.of(&MediumReceiver::new(self.p));
+            return query.run(&MediumReceiver::new(self.p));
         };
         match (self.sides, &self.gloss) {
-            (ReceiverSides::Front, None) => query.of(&SurfaceReceiver::facing(self.p, ns)),
+            (ReceiverSides::Front, None) => query.run(&SurfaceReceiver::facing(self.p, ns)),
             (ReceiverSides::Front, Some(gloss)) => {
-                query.of(&GlossyReceiver::facing(self.p, ns, gloss))
+                query.run(&GlossyReceiver::facing(self.p, ns, gloss))
             }
-            (ReceiverSides::Both, _) => query.of(&TwoSidedReceiver::facing(self.p, ns)),
+            (ReceiverSides::Both, _) => query.run(&TwoSidedReceiver::facing(self.p, ns)),
         }
     }
 }
 
-#[cfg(test)]
+/// A query and for whom it is run.
+pub(crate) struct QueryFor<A, Q>(pub(crate) A, pub(crate) Q);
+
+impl<A: IntoReceiver, Q: Query> VectorWork for QueryFor<A, Q> {
+    type Output = Q::Output;
+
+    #[inline(always)]
+    fn run(self) -> Q::Output {
+        self.0.run(self.1)
+    }
+}
+
+#[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
     use crate::LightBvh;
-    use crate::importance::surface::FAR;
+    use crate::importance::position::FAR;
     use light_bounds::{LightBounds, LightExtent, LightId};
     use light_math::Aabb;
 

@@ -1,7 +1,10 @@
 //! How a light is chosen, and how its probability is found.
 
+pub(crate) mod ascent;
 pub(crate) mod bvh_ref;
+pub(crate) mod descent;
 pub(crate) mod into_receiver;
+mod queries;
 pub(crate) mod select;
 pub(crate) mod weights;
-pub(crate) mod with_infinite;
+mod with_infinite;

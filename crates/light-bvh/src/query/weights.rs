@@ -1,5 +1,5 @@
 use crate::importance::child_view::{Frame, Lane};
-use crate::importance::surface::Receiver;
+use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{WIDTH, WideNode};
 
 /// The least sum of weights in codes that is trusted. A child's weight may be 10^18 times smaller than the largest, and what it is the
@@ -21,7 +21,12 @@ impl Weights {
     /// What the children of `node` are worth to `receiver`.
     #[inline(always)]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        let weights = Self::in_frame(node, receiver, &Frame::in_codes(node, receiver), |_, _| ());
+        let weights = Self::in_frame(
+            node,
+            receiver,
+            &Frame::in_codes(node, receiver.position()),
+            |_, _| (),
+        );
         if is_trusted(weights.total) {
             weights
         } else {
@@ -36,7 +41,7 @@ impl Weights {
         receiver: &R,
     ) -> (Self, [f32; WIDTH]) {
         let mut roughness = [0.0; WIDTH];
-        let frame = Frame::in_codes(node, receiver);
+        let frame = Frame::in_codes(node, receiver.position());
         let weights = Self::in_frame(node, receiver, &frame, |k, lane| {
             let [hx, hy, hz] = lane.extent;
             let width = hx + hy + hz;
@@ -61,7 +66,12 @@ impl Weights {
     /// The weights of lights so far away, or nodes so large, that they vanish in codes.
     #[cold]
     fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        Self::in_frame(node, receiver, &Frame::from_afar(node, receiver), |_, _| ())
+        Self::in_frame(
+            node,
+            receiver,
+            &Frame::from_afar(node, receiver.position(), receiver.reach()),
+            |_, _| (),
+        )
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that depends on another child.

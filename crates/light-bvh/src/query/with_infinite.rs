@@ -2,12 +2,12 @@ use core::ops::ControlFlow;
 
 use light_bounds::{LightSampleContext, SampledLight};
 
-use crate::importance::surface::Receiver;
+use crate::importance::receiver::Receiver;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::Query;
+use crate::query::into_receiver::{Query, QueryFor};
 use crate::query::select::both;
 use crate::query::weights::Weights;
-use crate::simd::answer;
+use crate::simd::dispatch;
 
 impl LightBvhRef<'_> {
     /// One light, by a first choice between the tree and other lights.
@@ -22,7 +22,7 @@ impl LightBvhRef<'_> {
         ctx: &LightSampleContext,
         first: impl FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>,
     ) -> Option<SampledLight> {
-        answer(ctx, SampleBeside { tree: self, first })
+        dispatch(QueryFor(ctx, SampleBeside { tree: self, first }))
     }
 }
 
@@ -35,10 +35,10 @@ struct SampleBeside<'a, 'b, F> {
 impl<F: FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>> Query
     for SampleBeside<'_, '_, F>
 {
-    type Answer = Option<SampledLight>;
+    type Output = Option<SampledLight>;
 
     #[inline(always)]
-    fn of<R: Receiver>(self, receiver: &R) -> Self::Answer {
+    fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
         let Some(root) = self.tree.nodes().first() else {
             return (self.first)(0.0).break_value()?;
         };

@@ -1,20 +1,29 @@
-//! Arithmetic of which the compiler makes a few instructions for several lanes at once; numbers are never NaN.
+//! Arithmetic that the compiler vectorises: no branches, nothing that one lane asks of another.
 
+#[cfg(feature = "alloc")]
 use crate::node::wide_node::WIDTH;
 
-/// The larger one, in one instruction.
+/// The larger one, in one instruction; `b` if either is NaN.
 #[inline(always)]
 pub(crate) fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The smaller one, in one instruction.
+/// The smaller one, in one instruction; `b` if either is NaN.
 #[inline(always)]
 pub(crate) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
+/// `x` where `keep`, otherwise 0, without a branch.
+#[inline(always)]
+pub(crate) fn masked(x: f32, keep: bool) -> f32 {
+    let mask = if keep { u32::MAX } else { 0 };
+    f32::from_bits(x.to_bits() & mask)
+}
+
 /// All lanes joined in pairs.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) -> f32 {
     let mut half = WIDTH / 2;
@@ -28,22 +37,25 @@ pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) ->
 }
 
 /// Between the integers of this many bits no fractions fit: adding it rounds to the nearest integer.
+#[cfg(feature = "alloc")]
 const INTEGERS: f32 = 12_582_912.0;
 
 /// The nearest integer, for numbers below 2^22.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn nearest(x: f32) -> f32 {
     (x + INTEGERS) - INTEGERS
 }
 
 /// The low byte of an integer below 2^22, as two's complement.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn low_byte(integer: f32) -> u8 {
     let [byte, ..] = (integer + INTEGERS).to_bits().to_le_bytes();
     byte
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
 

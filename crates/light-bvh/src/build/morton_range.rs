@@ -1,0 +1,130 @@
+use light_math::Aabb;
+
+use crate::build::lights::Lights;
+use crate::build::morton::Grid;
+use crate::build::morton_entry::Entry;
+use crate::build::radix_sort;
+use crate::build::split_group::Group;
+use crate::build::subtree::{Crowd, Plot};
+use crate::build::topology::Skeleton;
+use crate::parallel::map;
+
+/// A run of lights along the curve.
+#[derive(Debug)]
+pub(crate) struct Range<'a> {
+    entries: &'a mut [Entry],
+    lights: &'a Lights<'a>,
+    /// Side of the smallest cells of the keys.
+    cell: f32,
+}
+
+impl<'a> Range<'a> {
+    /// The lights of `entries`, which are in the order of their keys.
+    pub(crate) const fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
+        Self {
+            entries,
+            lights,
+            cell,
+        }
+    }
+
+    /// Gives lights of one cell new keys in a grid of their own.
+    fn look_closer(&mut self) {
+        let center = |e: &Entry| self.lights.bounds(e.light).bounds.center();
+        let bounds = Aabb::from_points(self.entries.iter().map(center));
+        if let Some(grid) = Grid::new(&bounds) {
+            for entry in self.entries.iter_mut() {
+                entry.key = grid.key(self.lights.bounds(entry.light).bounds.center());
+            }
+            radix_sort::sort(self.entries);
+            self.cell = grid.cell;
+        }
+    }
+
+    fn split_at(self, middle: usize) -> (Self, Self) {
+        let (left, right) = self.entries.split_at_mut(middle);
+        (
+            Self::new(left, self.lights, self.cell),
+            Self::new(right, self.lights, self.cell),
+        )
+    }
+}
+
+impl Group for Range<'_> {
+    fn lights(&self) -> usize {
+        self.entries.len()
+    }
+
+    fn is_divisible(&self) -> bool {
+        self.entries.len() > 1
+    }
+
+    /// Power times the side of the smallest cell that holds the lights.
+    fn price(&self) -> f32 {
+        const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
+        let bits = top_bit(self.entries).map_or(0, |bit| bit + 1);
+        let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
+        power(self.entries) * side * self.cell.max(f32::MIN_POSITIVE)
+    }
+
+    fn split(mut self) -> (Self, Self) {
+        if top_bit(self.entries).is_none() {
+            self.look_closer();
+        }
+        match top_bit(self.entries) {
+            Some(bit) => {
+                let middle = self.entries.partition_point(|e| e.key >> bit & 1 == 0);
+                self.split_at(middle)
+            }
+            None => self.halve(),
+        }
+    }
+
+    fn halve(self) -> (Self, Self) {
+        let middle = self.entries.len() / 2;
+        self.split_at(middle)
+    }
+
+    fn each_light(&self, each: impl FnMut(u32)) {
+        self.entries.iter().map(|e| e.light).for_each(each);
+    }
+}
+
+/// The highest bit in which keys differ; `None` if all agree.
+fn top_bit(entries: &[Entry]) -> Option<u32> {
+    let (first, last) = (entries.first()?, entries.last()?);
+    (first.key ^ last.key).checked_ilog2()
+}
+
+/// The power of all; where they are many, in parts side by side.
+fn power(entries: &[Entry]) -> f32 {
+    /// Entries that are summed up in one go.
+    const CHUNK: usize = 1 << 14;
+    if entries.len() <= CHUNK {
+        return power_of_few(entries);
+    }
+    map(entries.chunks(CHUNK).collect(), power_of_few)
+        .iter()
+        .sum()
+}
+
+/// The same in four sums, which do not wait for each other.
+fn power_of_few(entries: &[Entry]) -> f32 {
+    let fours = entries.chunks_exact(4);
+    let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();
+    let mut sums = [0.0; 4];
+    for four in fours {
+        for (sum, entry) in sums.iter_mut().zip(four) {
+            *sum += entry.power;
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+impl Crowd for Range<'_> {
+    const PLOT: usize = 2048;
+
+    fn plant(self, plot: Plot<'_>) -> Skeleton {
+        plot.grow(self)
+    }
+}

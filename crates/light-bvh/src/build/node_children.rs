@@ -1,0 +1,138 @@
+use crate::build::split_group::Group;
+use crate::node::wide_node::WIDTH;
+
+/// The groups that become the children of a node.
+pub(crate) struct Children<G> {
+    /// In the order of space.
+    groups: [Option<G>; WIDTH],
+    /// What splitting each of them may gain; below 0 if it is not to be split.
+    gains: [f32; WIDTH],
+    count: usize,
+    /// Bit `k`: the lights of group `k` become children themselves.
+    singles: u16,
+}
+
+/// Whether a node has so many lights below it that only halves of the same size are sure to fit below so few levels.
+pub(crate) const fn is_tight(lights: usize, levels: usize) -> bool {
+    const BITS: usize = WIDTH.ilog2() as usize;
+    levels <= 28 / BITS && lights > 1 << (BITS * (levels - 1))
+}
+
+impl<G: Group> Children<G> {
+    /// Divides `whole` among at most [`WIDTH`] children, so that each fits below `levels - 1` more levels.
+    pub(crate) fn new(whole: G, levels: usize) -> Self {
+        let tight = is_tight(whole.lights(), levels);
+        let mut children = Self {
+            groups: [const { None }; WIDTH],
+            gains: [0.0; WIDTH],
+            count: 1,
+            singles: 0,
+        };
+        children.gains[0] = gain(&whole, tight);
+        children.groups[0] = Some(whole);
+        while let Some(index) = children.costliest() {
+            let Some(group) = children.groups[index].take() else {
+                break;
+            };
+            let (left, right) = if tight { group.halve() } else { group.split() };
+            children.groups[index + 1..=children.count].rotate_right(1);
+            children.gains[index + 1..=children.count].rotate_right(1);
+            children.gains[index] = gain(&left, tight);
+            children.gains[index + 1] = gain(&right, tight);
+            children.groups[index] = Some(left);
+            children.groups[index + 1] = Some(right);
+            children.count += 1;
+        }
+        children.dissolve();
+        children
+    }
+
+    /// Which group to split next; the last of those with the highest gain.
+    fn costliest(&self) -> Option<usize> {
+        if self.count == WIDTH {
+            return None;
+        }
+        let (mut best, mut most) = (None, 0.0);
+        for (k, &gain) in self.gains[..self.count].iter().enumerate() {
+            if gain >= most {
+                (best, most) = (Some(k), gain);
+            }
+        }
+        best
+    }
+
+    /// Puts the lights of small groups into the places that are left.
+    fn dissolve(&mut self) {
+        let mut free = WIDTH - self.count;
+        for (k, group) in self.groups.iter().enumerate() {
+            self.singles |= u16::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
+        }
+        while let Some(k) = self.best(|k, group| {
+            let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
+            fits.then(|| group.price())
+        }) {
+            free -= self.groups[k].as_ref().map_or(1, G::lights) - 1;
+            self.singles |= 1 << k;
+        }
+    }
+
+    /// The last of the groups with the highest worth.
+    fn best(&self, worth: impl Fn(usize, &G) -> Option<f32>) -> Option<usize> {
+        let mut best = None;
+        for (k, group) in self.groups[..self.count].iter().flatten().enumerate() {
+            if let Some(worth) = worth(k, group) {
+                best = match best {
+                    Some((_, most)) if worth < most => best,
+                    _ => Some((k, worth)),
+                };
+            }
+        }
+        best.map(|(k, _)| k)
+    }
+
+    /// How many lights become children themselves.
+    pub(crate) fn lights(&self) -> usize {
+        self.parts()
+            .filter(|(_, single)| *single)
+            .map(|(g, _)| g.lights())
+            .sum()
+    }
+
+    /// Calls `each` with every light that becomes a child itself.
+    pub(crate) fn each_light(&self, mut each: impl FnMut(u32)) {
+        for (group, single) in self.parts() {
+            if single {
+                group.each_light(&mut each);
+            }
+        }
+    }
+
+    /// The groups that become nodes.
+    pub(crate) fn into_nodes(self) -> impl Iterator<Item = G> {
+        let singles = self.singles;
+        let groups = self.groups.into_iter().enumerate();
+        groups.filter_map(move |(k, group)| group.filter(|_| singles >> k & 1 == 0))
+    }
+
+    /// How many groups become nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.count - self.singles.count_ones() as usize
+    }
+
+    fn parts(&self) -> impl Iterator<Item = (&G, bool)> {
+        let singles = self.singles;
+        let groups = self.groups[..self.count].iter().flatten().enumerate();
+        groups.map(move |(k, group)| (group, singles >> k & 1 == 1))
+    }
+}
+
+/// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if it is not to be split.
+fn gain<G: Group>(group: &G, tight: bool) -> f32 {
+    if group.lights() <= WIDTH || !group.is_divisible() {
+        -1.0
+    } else if tight {
+        group.lights() as f32
+    } else {
+        group.price().max(0.0)
+    }
+}

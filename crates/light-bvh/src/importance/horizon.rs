@@ -1,0 +1,43 @@
+use light_math::float;
+use light_math::glam::Vec3;
+
+use crate::importance::child_view::Lane;
+
+/// How much of the squared support of a child counts as variance of its height over the horizon. Chosen by V: see `docs/light-bvh.md`.
+const HEIGHT: f32 = 0.35;
+
+/// How much of the support is taken off the expected height again, for no light is beyond it. Chosen by V.
+const BEYOND: f32 = 0.14;
+
+/// The plane through a receiver, with its normal up.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Horizon {
+    n: Vec3,
+    abs_n: Vec3,
+}
+
+impl Horizon {
+    #[inline(always)]
+    pub(crate) fn new(n: Vec3) -> Self {
+        Self { n, abs_n: n.abs() }
+    }
+
+    /// Mean height over the plane, and by how much the highest point of the box may exceed it.
+    #[inline(always)]
+    pub(crate) fn height(&self, lane: &Lane) -> (f32, f32) {
+        let Self { n, abs_n } = self;
+        let [vx, vy, vz] = lane.mean;
+        let [hx, hy, hz] = lane.extent;
+        (
+            n.x * vx + n.y * vy + n.z * vz,
+            abs_n.x * hx + abs_n.y * hy + abs_n.z * hz,
+        )
+    }
+}
+
+/// About the mean distance from the horizon, up or down, of lights whose height varies as `support` allows: more than `-height` even where
+/// the support just reaches the horizon.
+#[inline(always)]
+pub(crate) fn expected_abs(height: f32, support: f32) -> f32 {
+    float::sqrt(height * height + HEIGHT * (support * support)) - BEYOND * support
+}

@@ -1,0 +1,32 @@
+use light_math::glam::Vec3;
+
+use crate::importance::child_view::Lane;
+use crate::importance::position::near;
+use crate::importance::receiver::Receiver;
+
+/// A point in a medium, where light counts from all directions alike.
+#[derive(Clone, Copy, Debug)]
+pub struct MediumReceiver {
+    p: Vec3,
+}
+
+impl MediumReceiver {
+    /// The point `p`.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(p: Vec3) -> Self {
+        Self { p: near(p) }
+    }
+}
+
+impl Receiver for MediumReceiver {
+    #[inline(always)]
+    fn position(&self) -> Vec3 {
+        self.p
+    }
+
+    #[inline(always)]
+    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
+        lane.fluence()
+    }
+}

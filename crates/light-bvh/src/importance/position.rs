@@ -1,0 +1,16 @@
+use light_math::glam::Vec3;
+
+/// Coordinates are clamped to this on either side, so that no difference of two overflows.
+pub(crate) const FAR: f32 = 1e36;
+
+/// Whether `p` is beyond ±1e36 on any axis, where it is taken to be nearer and directions from it mean nothing.
+#[inline(always)]
+#[must_use]
+pub fn is_far(p: Vec3) -> bool {
+    near(p) != p
+}
+
+#[inline(always)]
+pub(crate) fn near(p: Vec3) -> Vec3 {
+    p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
+}
