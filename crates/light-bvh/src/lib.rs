@@ -32,7 +32,7 @@ mod validate;
 pub use build::options::{BuildMode, DarkLights, LightBvhOptions};
 pub use cut::light_cut::{CutDetail, CutDetailError, LightCut};
 pub use error::LightBvhError;
-pub use importance::child_view::Lane;
+pub use importance::child_view::ChildView;
 pub use importance::glossy::GlossyReceiver;
 pub use importance::medium::MediumReceiver;
 pub use importance::position::is_far;

@@ -44,12 +44,12 @@ impl LightBvh {
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
-        let (skeleton, order) = build(lights, &scan, options);
-        let mut nodes = skeleton.nodes();
+        let (topology, order) = build(lights, &scan, options);
+        let mut nodes = topology.nodes();
         let ((), slots) = join(
             lights.len(),
             || refit::fill(&mut nodes, &order, lights, scan.power),
-            || skeleton.slots(&order, lights.len()),
+            || topology.slots(&order, lights.len()),
         );
         Ok(Self {
             nodes,
@@ -62,7 +62,7 @@ impl LightBvh {
     /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
     ///
     /// Takes time linear in the lights and no memory. A light that is off keeps its place and has pmf 0 until it is on again. The
-    /// further lights move from where they were, the looser the tree gets: see [`looseness`](Self::looseness).
+    /// further lights move from where they were, the looser the tree gets: see [`degradation`](Self::degradation).
     ///
     /// # Errors
     /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many lights as the tree was built for, and
@@ -121,8 +121,8 @@ impl LightBvh {
     /// [refits](Self::refit) have raised it by a tenth, the noise has risen too, and it is time to build anew.
     /// Linear in the nodes, without memory; scale does not matter.
     #[must_use]
-    pub fn looseness(&self) -> f64 {
-        quality::looseness(&self.nodes)
+    pub fn degradation(&self) -> f64 {
+        quality::degradation(&self.nodes)
     }
 
     /// Bytes that queries may touch.

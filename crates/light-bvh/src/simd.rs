@@ -114,7 +114,7 @@ mod tests {
     use crate::query::into_receiver::{Query, QueryFor};
     use crate::query::weights::Weights;
 
-    /// The weights of a node's children and their roughness, as bits.
+    /// The weights of a node's children and their angular_size_sq, as bits.
     struct Bits<'a>(&'a WideNode);
 
     impl Query for Bits<'_> {
@@ -122,8 +122,8 @@ mod tests {
 
         #[inline(always)]
         fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-            let (weights, roughness) = Weights::with_roughness(self.0, receiver);
-            [weights.lanes, roughness].map(|lanes| lanes.map(f32::to_bits))
+            let (weights, angular_size_sq) = Weights::with_angular_size(self.0, receiver);
+            [weights.lanes, angular_size_sq].map(|lanes| lanes.map(f32::to_bits))
         }
     }
 

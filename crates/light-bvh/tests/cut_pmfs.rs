@@ -38,7 +38,7 @@ fn a_cut_does_as_its_pmfs_say() {
     let mut looked = LightCut::default();
     for (ctx, before) in contexts.iter().flat_map(|c| [(c, 1.0f32), (c, 0.25)]) {
         let cut = LightCut::at(&view, ctx, CutDetail::default());
-        looked.look_at(&view, ctx, CutDetail::default());
+        looked.rebuild(&view, ctx, CutDetail::default());
         let pmf = |id| cut.pmf_at(&view, ctx, before, LightId(id));
         let pmfs: Vec<f32> = (0..COUNT).map(pmf).collect();
         let sum: f64 = pmfs.iter().copied().map(f64::from).sum();

@@ -135,7 +135,7 @@ fn all_lights_may_be_off() {
     assert!((pmf_sum(&tree, 100, &ctx) - 1.0).abs() < 1e-4, "on");
     tree.refit(&lights).expect("as many");
     assert_eq!(tree.sample(&ctx, 0.5), None, "off again");
-    assert_eq!(tree.looseness(), 0.0, "no groups");
+    assert_eq!(tree.degradation(), 0.0, "no groups");
 }
 
 #[test]
@@ -187,19 +187,19 @@ fn errors_leave_the_tree_as_it_was() {
 fn a_tree_gets_looser_as_its_lights_mix_and_not_by_scale() {
     let lights = lamps(3000, 8);
     let mut tree = LightBvh::build(&lights).expect("valid lights");
-    let fresh = tree.looseness();
+    let fresh = tree.degradation();
     assert!(fresh > 0.0 && fresh < 1.0, "{fresh}");
     let grown: Vec<LightExtent> = lights.iter().map(|e| moved(e, |p| p * 1024.0)).collect();
     tree.refit(&grown).expect("as many");
-    assert!((tree.looseness() / fresh - 1.0).abs() < 1e-3, "scaled");
+    assert!((tree.degradation() / fresh - 1.0).abs() < 1e-3, "scaled");
     let mut rng = Rng::new(9);
     let mut last = fresh;
     for amount in [0.1, 0.3, 1.0] {
         let mut jitter = |p: Vec3| p + amount * (rng.vec3() - 0.5);
         let mixed: Vec<LightExtent> = lights.iter().map(|e| moved(e, &mut jitter)).collect();
         tree.refit(&mixed).expect("as many");
-        assert!(tree.looseness() > last * 1.02, "moved by up to {amount}");
-        last = tree.looseness();
+        assert!(tree.degradation() > last * 1.02, "moved by up to {amount}");
+        last = tree.degradation();
     }
 }
 

@@ -83,14 +83,14 @@ fn a_first_choice_beside_the_tree_gives_the_bits_of_two_questions() {
         for ctx in &contexts {
             for u in [0.0, 0.3, 0.999] {
                 let mut told = None;
-                let inside = view.sample_beside(ctx, |irradiance| {
+                let inside = view.sample_with_infinite(ctx, |irradiance| {
                     told = Some(irradiance);
                     ControlFlow::Continue((0.375, u))
                 });
                 assert_eq!(told, Some(view.irradiance(ctx)), "the irradiance");
                 assert_eq!(inside, view.sample_after(ctx, 0.375, u), "into the tree");
             }
-            let elsewhere = view.sample_beside(ctx, |_| ControlFlow::Break(Some(other)));
+            let elsewhere = view.sample_with_infinite(ctx, |_| ControlFlow::Break(Some(other)));
             assert_eq!(elsewhere, Some(other), "past the tree");
         }
     }
@@ -265,7 +265,7 @@ fn a_cut_forgets_where_it_was() {
         let ctx = LightSampleContext::surface(p, n, n);
         let detail = CutDetail::new(0.3 * numbers.next()).expect("at least 0");
         let view = tree.view();
-        cut.look_at(&view, &ctx, detail);
+        cut.rebuild(&view, &ctx, detail);
         let alone = LightCut::at(&view, &ctx, detail);
         for i in 0..16 {
             let u = (f64::from(i) + 0.5) / 16.0;

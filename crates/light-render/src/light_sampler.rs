@@ -136,11 +136,11 @@ impl AnyLightSampler {
     }
 
     /// How little a step down the hierarchy narrows a group of lights (see
-    /// [`LightBvh::looseness`](lights::bvh::LightBvh::looseness)); `None` for samplers that do not know.
+    /// [`LightBvh::degradation`](lights::bvh::LightBvh::degradation)); `None` for samplers that do not know.
     #[must_use]
-    pub fn looseness(&self) -> Option<f64> {
+    pub fn degradation(&self) -> Option<f64> {
         match self {
-            Self::Bvh(sampler) => Some(sampler.tree().looseness()),
+            Self::Bvh(sampler) => Some(sampler.tree().degradation()),
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
         }
     }

@@ -88,7 +88,7 @@ impl BvhLightSampler {
             return self.tree.sample(ctx, u);
         }
         let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
-        self.tree.view().sample_beside(ctx, |irradiance| {
+        self.tree.view().sample_with_infinite(ctx, |irradiance| {
             let in_tree = irradiance * self.tree.power();
             *look = Seen::FromAfar { in_tree };
             match self.sky.first(u, in_tree, worth) {
@@ -167,7 +167,7 @@ impl LightSampler for BvhLightSampler {
         } else {
             look.seen = Seen::Closely;
             let cut = &mut look.cut;
-            cut.look_at(&self.tree.view(), ctx, CutDetail::default());
+            cut.rebuild(&self.tree.view(), ctx, CutDetail::default());
             SeenLights::new(&self.tree, &self.sky, ctx, cut).sample_many(u, count, each);
         }
     }

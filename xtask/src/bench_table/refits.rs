@@ -5,7 +5,7 @@ use super::{figure, measure, number};
 const SETS: [&str; 2] = ["uniform", "clusters"];
 
 const HEADER: &str = "\
-| set | moved by | looseness | refit: V mean | V 99 % | built anew: V mean | V 99 % |
+| set | moved by | degradation | refit: V mean | V 99 % | built anew: V mean | V 99 % |
 | --- | --- | --- | --- | --- | --- | --- |
 ";
 

@@ -1,7 +1,7 @@
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
-use crate::build::cluster::{Prim, Sums};
+use crate::build::cluster::{Cluster, Sums};
 
 /// Bins on each axis.
 pub(crate) const BINS: usize = 8;
@@ -37,22 +37,24 @@ impl Grid {
 
     /// The bins by position.
     #[inline]
-    pub(crate) fn position(&self, prim: &Prim) -> [usize; 3] {
-        ((prim.center - self.low) * self.scale).to_array().map(bin)
+    pub(crate) fn position(&self, cluster: &Cluster) -> [usize; 3] {
+        ((cluster.center - self.low) * self.scale)
+            .to_array()
+            .map(bin)
     }
 
     /// The bin by position along one axis.
     #[inline]
-    pub(crate) fn along(&self, prim: &Prim, axis: usize) -> usize {
-        bin((prim.center[axis] - self.low[axis]) * self.scale[axis])
+    pub(crate) fn along(&self, cluster: &Cluster, axis: usize) -> usize {
+        bin((cluster.center[axis] - self.low[axis]) * self.scale[axis])
     }
 
-    /// The sums of `prims` in bins by position along each of the [axes](Self::axes).
-    pub(crate) fn sums_by_position(&self, prims: &[Prim]) -> [Bins; 3] {
+    /// The sums of `clusters` in bins by position along each of the [axes](Self::axes).
+    pub(crate) fn sums_by_position(&self, clusters: &[Cluster]) -> [Bins; 3] {
         let mut bins = [Bins::EMPTY; 3];
-        for prim in prims {
-            let sums = Sums::of(prim, prim.center - self.low);
-            let position = self.position(prim);
+        for cluster in clusters {
+            let sums = Sums::of(cluster, cluster.center - self.low);
+            let position = self.position(cluster);
             for axis in self.axes() {
                 let bin = &mut bins[axis].0[position[axis]];
                 *bin = bin.plus(&sums);

@@ -3,16 +3,16 @@ use alloc::vec::Vec;
 
 use light_bounds::LightExtent;
 
-use crate::build::binned_split::Run;
+use crate::build::binned_split::BinnedSplit;
 use crate::build::clustering::{clusters, ends};
-use crate::build::light_primitive::Lamp;
+use crate::build::light_primitive::LightPrimitive;
 use crate::build::lights::Lights;
 use crate::build::morton;
-use crate::build::morton_range::Range;
+use crate::build::morton_range::MortonRange;
 use crate::build::options::{BuildMode, LightBvhOptions};
 use crate::build::scan::Scan;
-use crate::build::subtree::{Crowd, Plot};
-use crate::build::topology::Skeleton;
+use crate::build::subtree::{OutputSlice, ParallelGroup};
+use crate::build::topology::Topology;
 use crate::parallel::table;
 
 /// The shape of the tree of `lights`, and these in the order that its nodes refer to.
@@ -20,10 +20,10 @@ pub(crate) fn build(
     extents: &[LightExtent],
     scan: &Scan,
     options: &LightBvhOptions,
-) -> (Skeleton, Vec<u32>) {
+) -> (Topology, Vec<u32>) {
     let mut order = vec![0; scan.count];
     if scan.count == 0 {
-        return (Skeleton(Vec::new()), order);
+        return (Topology(Vec::new()), order);
     }
     /// So few lights are split one by one from the root on: clusters of them would be too coarse.
     const FEW: usize = 2048;
@@ -31,28 +31,28 @@ pub(crate) fn build(
     const AHEAD: usize = 24;
     let lights = Lights::new(extents, scan.power);
     let (mut entries, cell) = morton::sorted(extents, &lights, &scan.centers, options.dark);
-    let whole = Range::new(&mut entries, &lights, cell);
-    let plot = Plot {
+    let whole = MortonRange::new(&mut entries, &lights, cell);
+    let output = OutputSlice {
         order: &mut order,
         depth: 0,
     };
     let tree = match options.mode {
-        BuildMode::Morton => plot.build(whole),
+        BuildMode::Morton => output.build(whole),
         BuildMode::Binned => {
             let ends = ends(whole, 0);
-            let lamps = table(entries.len(), |i| {
+            let primitives = table(entries.len(), |i| {
                 let entry = &entries[i];
                 if let Some(later) = entries.get(i + AHEAD) {
                     lights.prefetch(later.light);
                 }
-                Lamp::new(entry.light, lights.bounds(entry.light), entry.power)
+                LightPrimitive::new(entry.light, lights.bounds(entry.light), entry.power)
             });
-            let mut clusters = clusters(&ends, &lamps);
-            let run = Run::new(&mut clusters, &lamps);
-            if lamps.len() <= FEW {
-                run.plant(plot)
+            let mut clusters = clusters(&ends, &primitives);
+            let whole = BinnedSplit::new(&mut clusters, &primitives);
+            if primitives.len() <= FEW {
+                whole.build_subtree(output)
             } else {
-                plot.build(run)
+                output.build(whole)
             }
         }
     };

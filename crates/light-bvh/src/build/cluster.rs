@@ -1,14 +1,14 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::build::light_primitive::{Lamp, NARROW};
+use crate::build::light_primitive::{LightPrimitive, NARROW};
 
 /// A light, or a few neighbours, as the builder sorts them.
 ///
 /// Three vectors of four, so that moving one waits for nothing.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
-pub(crate) struct Prim {
+pub(crate) struct Cluster {
     /// Mean position.
     pub(crate) center: Vec3,
     pub(crate) power: f32,
@@ -23,7 +23,7 @@ pub(crate) struct Prim {
     pub(crate) lights: u32,
 }
 
-impl Prim {
+impl Cluster {
     /// No lights.
     pub(crate) const NOTHING: Self = Self {
         center: Vec3::ZERO,
@@ -37,12 +37,12 @@ impl Prim {
 
     /// One light; `place` is its place along the curve.
     #[inline]
-    pub(crate) fn of_lamp(lamp: &Lamp, place: u32) -> Self {
+    pub(crate) fn of_primitive(primitive: &LightPrimitive, place: u32) -> Self {
         Self {
-            center: lamp.center,
-            power: lamp.power,
-            axis: lamp.axis,
-            axis_sq: lamp.axis.length_squared(),
+            center: primitive.center,
+            power: primitive.power,
+            axis: primitive.axis,
+            axis_sq: primitive.axis.length_squared(),
             variance: 0.0,
             first: place,
             lights: 1,
@@ -80,7 +80,7 @@ impl Prim {
     }
 }
 
-/// Sums over a group of lights, from which the price of keeping them together follows.
+/// Sums over a group of lights, from which the cost of keeping them together follows.
 ///
 /// Position, power, axis, squared position, squared axis: all but the second are times power. An array, so that the compiler adds
 /// several at once.
@@ -90,16 +90,16 @@ pub(crate) struct Sums(pub(crate) [f32; 9]);
 impl Sums {
     /// The sums of some lights; `position` is relative to a point near the group, so that the variance keeps its precision.
     #[inline]
-    pub(crate) fn of(prim: &Prim, position: Vec3) -> Self {
-        let p = position * prim.power;
-        let w = prim.axis * prim.power;
-        let position_sq = (position.length_squared() + prim.variance) * prim.power;
-        let axis_sq = prim.axis_sq * prim.power;
+    pub(crate) fn of(cluster: &Cluster, position: Vec3) -> Self {
+        let p = position * cluster.power;
+        let w = cluster.axis * cluster.power;
+        let position_sq = (position.length_squared() + cluster.variance) * cluster.power;
+        let axis_sq = cluster.axis_sq * cluster.power;
         Self([
             p.x,
             p.y,
             p.z,
-            prim.power,
+            cluster.power,
             w.x,
             w.y,
             w.z,

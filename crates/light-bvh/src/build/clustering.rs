@@ -1,15 +1,15 @@
 use alloc::vec::Vec;
 
-use crate::build::cluster::Prim;
-use crate::build::light_primitive::Lamp;
-use crate::build::morton_range::Range;
-use crate::build::split_group::Group;
+use crate::build::cluster::Cluster;
+use crate::build::light_primitive::LightPrimitive;
+use crate::build::morton_range::MortonRange;
+use crate::build::split_group::SplitGroup;
 use crate::parallel::{join, map};
 
 /// Lights of a cluster, at most.
 const CLUSTER: usize = 16;
 
-/// Ends of clusters that are turned into prims in one go.
+/// Ends of clusters that are turned into clusters in one go.
 const CHUNK: usize = 512;
 
 /// Where clusters of neighbours end, as places among all entries: cells of an octree that hold few lights. `first` is the place of
@@ -18,7 +18,7 @@ const CHUNK: usize = 512;
     clippy::cast_possible_truncation,
     reason = "a tree holds fewer than 2^32 lights"
 )]
-pub(crate) fn ends(range: Range<'_>, first: u32) -> Vec<u32> {
+pub(crate) fn ends(range: MortonRange<'_>, first: u32) -> Vec<u32> {
     /// Below it is not worth while to join two lists.
     const FORK: usize = 1 << 14;
     let lights = range.lights();
@@ -38,7 +38,7 @@ pub(crate) fn ends(range: Range<'_>, first: u32) -> Vec<u32> {
     clippy::cast_possible_truncation,
     reason = "a tree holds fewer than 2^32 lights"
 )]
-fn add_ends(range: Range<'_>, first: u32, ends: &mut Vec<u32>) {
+fn add_ends(range: MortonRange<'_>, first: u32, ends: &mut Vec<u32>) {
     let lights = range.lights();
     if lights <= CLUSTER {
         ends.push(first + lights as u32);
@@ -50,24 +50,24 @@ fn add_ends(range: Range<'_>, first: u32, ends: &mut Vec<u32>) {
     add_ends(right, middle, ends);
 }
 
-/// The clusters of `lamps` that end at `ends`.
-pub(crate) fn clusters(ends: &[u32], lamps: &[Lamp]) -> Vec<Prim> {
+/// The clusters of `primitives` that end at `ends`.
+pub(crate) fn clusters(ends: &[u32], primitives: &[LightPrimitive]) -> Vec<Cluster> {
     let mut start = 0;
     let chunks = ends.chunks(CHUNK).map(|ends| {
         let first = start;
         start = ends.last().copied().unwrap_or(first);
         (first, ends)
     });
-    let prims = map(chunks.collect(), |(first, ends): (u32, &[u32])| {
+    let clusters = map(chunks.collect(), |(first, ends): (u32, &[u32])| {
         let starts = core::iter::once(&first).chain(ends);
-        let mut prims = Vec::with_capacity(ends.len());
+        let mut clusters = Vec::with_capacity(ends.len());
         for (&start, &end) in starts.zip(ends) {
-            let lamps = (start..).zip(&lamps[start as usize..end as usize]);
-            prims.push(Prim::join(
-                lamps.map(|(place, lamp)| Prim::of_lamp(lamp, place)),
+            let primitives = (start..).zip(&primitives[start as usize..end as usize]);
+            clusters.push(Cluster::join(
+                primitives.map(|(place, primitive)| Cluster::of_primitive(primitive, place)),
             ));
         }
-        prims
+        clusters
     });
-    prims.concat()
+    clusters.concat()
 }

@@ -11,7 +11,7 @@ pub(crate) const NARROW: f32 = 8.4;
 
 /// A light as far as the builder looks at it to find its neighbours.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lamp {
+pub(crate) struct LightPrimitive {
     pub(crate) center: Vec3,
     /// As a share of the power of all lights.
     pub(crate) power: f32,
@@ -20,7 +20,7 @@ pub(crate) struct Lamp {
     pub(crate) axis: Vec3,
 }
 
-impl Lamp {
+impl LightPrimitive {
     #[inline]
     pub(crate) fn new(light: u32, bounds: &LightBounds, power: f32) -> Self {
         let LightBounds {

@@ -8,7 +8,7 @@ use light_math::glam::Vec3;
 
 use crate::build::light_primitive::NARROW;
 use crate::build::lights::{Lights, phi};
-use crate::build::morton_entry::Entry;
+use crate::build::morton_entry::MortonEntry;
 use crate::build::options::DarkLights;
 use crate::build::radix_sort as radix;
 use crate::build::scan::is_held;
@@ -83,7 +83,7 @@ pub(crate) fn sorted(
     lights: &Lights<'_>,
     centers: &Aabb,
     dark: DarkLights,
-) -> (Vec<Entry>, f32) {
+) -> (Vec<MortonEntry>, f32) {
     let grid = Grid::new(centers);
     let chunks: Vec<(u32, &[LightExtent])> = (0..)
         .step_by(radix::CHUNK)
@@ -94,7 +94,7 @@ pub(crate) fn sorted(
             .zip(chunk)
             .filter_map(|(i, e)| Some((i, e, e.bounded()?)));
         let held = bounded.filter(|(_, extent, _)| is_held(phi(extent), dark));
-        let entry = |(light, extent, bounds): (u32, &LightExtent, &LightBounds)| Entry {
+        let entry = |(light, extent, bounds): (u32, &LightExtent, &LightBounds)| MortonEntry {
             key: kind(bounds) | grid.map_or(0, |grid| grid.key(bounds.bounds.center())),
             light,
             power: lights.share(extent),

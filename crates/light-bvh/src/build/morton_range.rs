@@ -2,25 +2,29 @@ use light_math::Aabb;
 
 use crate::build::lights::Lights;
 use crate::build::morton::Grid;
-use crate::build::morton_entry::Entry;
+use crate::build::morton_entry::MortonEntry;
 use crate::build::radix_sort;
-use crate::build::split_group::Group;
-use crate::build::subtree::{Crowd, Plot};
-use crate::build::topology::Skeleton;
+use crate::build::split_group::SplitGroup;
+use crate::build::subtree::{OutputSlice, ParallelGroup};
+use crate::build::topology::Topology;
 use crate::parallel::map;
 
 /// A run of lights along the curve.
 #[derive(Debug)]
-pub(crate) struct Range<'a> {
-    entries: &'a mut [Entry],
+pub(crate) struct MortonRange<'a> {
+    entries: &'a mut [MortonEntry],
     lights: &'a Lights<'a>,
     /// Side of the smallest cells of the keys.
     cell: f32,
 }
 
-impl<'a> Range<'a> {
+impl<'a> MortonRange<'a> {
     /// The lights of `entries`, which are in the order of their keys.
-    pub(crate) const fn new(entries: &'a mut [Entry], lights: &'a Lights<'a>, cell: f32) -> Self {
+    pub(crate) const fn new(
+        entries: &'a mut [MortonEntry],
+        lights: &'a Lights<'a>,
+        cell: f32,
+    ) -> Self {
         Self {
             entries,
             lights,
@@ -30,7 +34,7 @@ impl<'a> Range<'a> {
 
     /// Gives lights of one cell new keys in a grid of their own.
     fn look_closer(&mut self) {
-        let center = |e: &Entry| self.lights.bounds(e.light).bounds.center();
+        let center = |e: &MortonEntry| self.lights.bounds(e.light).bounds.center();
         let bounds = Aabb::from_points(self.entries.iter().map(center));
         if let Some(grid) = Grid::new(&bounds) {
             for entry in self.entries.iter_mut() {
@@ -50,7 +54,7 @@ impl<'a> Range<'a> {
     }
 }
 
-impl Group for Range<'_> {
+impl SplitGroup for MortonRange<'_> {
     fn lights(&self) -> usize {
         self.entries.len()
     }
@@ -60,7 +64,7 @@ impl Group for Range<'_> {
     }
 
     /// Power times the side of the smallest cell that holds the lights.
-    fn price(&self) -> f32 {
+    fn cost(&self) -> f32 {
         const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
         let bits = top_bit(self.entries).map_or(0, |bit| bit + 1);
         let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
@@ -91,13 +95,13 @@ impl Group for Range<'_> {
 }
 
 /// The highest bit in which keys differ; `None` if all agree.
-fn top_bit(entries: &[Entry]) -> Option<u32> {
+fn top_bit(entries: &[MortonEntry]) -> Option<u32> {
     let (first, last) = (entries.first()?, entries.last()?);
     (first.key ^ last.key).checked_ilog2()
 }
 
 /// The power of all; where they are many, in parts side by side.
-fn power(entries: &[Entry]) -> f32 {
+fn power(entries: &[MortonEntry]) -> f32 {
     /// Entries that are summed up in one go.
     const CHUNK: usize = 1 << 14;
     if entries.len() <= CHUNK {
@@ -109,7 +113,7 @@ fn power(entries: &[Entry]) -> f32 {
 }
 
 /// The same in four sums, which do not wait for each other.
-fn power_of_few(entries: &[Entry]) -> f32 {
+fn power_of_few(entries: &[MortonEntry]) -> f32 {
     let fours = entries.chunks_exact(4);
     let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();
     let mut sums = [0.0; 4];
@@ -121,10 +125,10 @@ fn power_of_few(entries: &[Entry]) -> f32 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-impl Crowd for Range<'_> {
-    const PLOT: usize = 2048;
+impl ParallelGroup for MortonRange<'_> {
+    const MAX_SERIAL_LIGHTS: usize = 2048;
 
-    fn plant(self, plot: Plot<'_>) -> Skeleton {
-        plot.grow(self)
+    fn build_subtree(self, output: OutputSlice<'_>) -> Topology {
+        output.build_serial(self)
     }
 }

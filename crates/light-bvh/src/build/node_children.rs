@@ -1,8 +1,8 @@
-use crate::build::split_group::Group;
+use crate::build::split_group::SplitGroup;
 use crate::node::wide_node::WIDTH;
 
 /// The groups that become the children of a node.
-pub(crate) struct Children<G> {
+pub(crate) struct NodeChildren<G> {
     /// In the order of space.
     groups: [Option<G>; WIDTH],
     /// What splitting each of them may gain; below 0 if it is not to be split.
@@ -13,32 +13,36 @@ pub(crate) struct Children<G> {
 }
 
 /// Whether a node has so many lights below it that only halves of the same size are sure to fit below so few levels.
-pub(crate) const fn is_tight(lights: usize, levels: usize) -> bool {
+pub(crate) const fn is_depth_limited(lights: usize, levels: usize) -> bool {
     const BITS: usize = WIDTH.ilog2() as usize;
     levels <= 28 / BITS && lights > 1 << (BITS * (levels - 1))
 }
 
-impl<G: Group> Children<G> {
+impl<G: SplitGroup> NodeChildren<G> {
     /// Divides `whole` among at most [`WIDTH`] children, so that each fits below `levels - 1` more levels.
     pub(crate) fn new(whole: G, levels: usize) -> Self {
-        let tight = is_tight(whole.lights(), levels);
+        let depth_limited = is_depth_limited(whole.lights(), levels);
         let mut children = Self {
             groups: [const { None }; WIDTH],
             gains: [0.0; WIDTH],
             count: 1,
             singles: 0,
         };
-        children.gains[0] = gain(&whole, tight);
+        children.gains[0] = gain(&whole, depth_limited);
         children.groups[0] = Some(whole);
-        while let Some(index) = children.costliest() {
+        while let Some(index) = children.best_to_split() {
             let Some(group) = children.groups[index].take() else {
                 break;
             };
-            let (left, right) = if tight { group.halve() } else { group.split() };
+            let (left, right) = if depth_limited {
+                group.halve()
+            } else {
+                group.split()
+            };
             children.groups[index + 1..=children.count].rotate_right(1);
             children.gains[index + 1..=children.count].rotate_right(1);
-            children.gains[index] = gain(&left, tight);
-            children.gains[index + 1] = gain(&right, tight);
+            children.gains[index] = gain(&left, depth_limited);
+            children.gains[index + 1] = gain(&right, depth_limited);
             children.groups[index] = Some(left);
             children.groups[index + 1] = Some(right);
             children.count += 1;
@@ -48,7 +52,7 @@ impl<G: Group> Children<G> {
     }
 
     /// Which group to split next; the last of those with the highest gain.
-    fn costliest(&self) -> Option<usize> {
+    fn best_to_split(&self) -> Option<usize> {
         if self.count == WIDTH {
             return None;
         }
@@ -69,21 +73,21 @@ impl<G: Group> Children<G> {
         }
         while let Some(k) = self.best(|k, group| {
             let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
-            fits.then(|| group.price())
+            fits.then(|| group.cost())
         }) {
             free -= self.groups[k].as_ref().map_or(1, G::lights) - 1;
             self.singles |= 1 << k;
         }
     }
 
-    /// The last of the groups with the highest worth.
-    fn best(&self, worth: impl Fn(usize, &G) -> Option<f32>) -> Option<usize> {
+    /// The last of the groups with the highest key.
+    fn best(&self, key: impl Fn(usize, &G) -> Option<f32>) -> Option<usize> {
         let mut best = None;
         for (k, group) in self.groups[..self.count].iter().flatten().enumerate() {
-            if let Some(worth) = worth(k, group) {
+            if let Some(key) = key(k, group) {
                 best = match best {
-                    Some((_, most)) if worth < most => best,
-                    _ => Some((k, worth)),
+                    Some((_, most)) if key < most => best,
+                    _ => Some((k, key)),
                 };
             }
         }
@@ -127,12 +131,12 @@ impl<G: Group> Children<G> {
 }
 
 /// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if it is not to be split.
-fn gain<G: Group>(group: &G, tight: bool) -> f32 {
+fn gain<G: SplitGroup>(group: &G, depth_limited: bool) -> f32 {
     if group.lights() <= WIDTH || !group.is_divisible() {
         -1.0
-    } else if tight {
+    } else if depth_limited {
         group.lights() as f32
     } else {
-        group.price().max(0.0)
+        group.cost().max(0.0)
     }
 }

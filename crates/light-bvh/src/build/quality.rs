@@ -3,11 +3,11 @@ use light_math::glam::Vec3;
 
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode, decode_power};
 
-/// [`LightBvh::looseness`](crate::LightBvh::looseness) of the tree of `nodes`.
-pub(crate) fn looseness(nodes: &[WideNode]) -> f64 {
+/// [`LightBvh::degradation`](crate::LightBvh::degradation) of the tree of `nodes`.
+pub(crate) fn degradation(nodes: &[WideNode]) -> f64 {
     let mut steps = Steps::default();
     if !nodes.is_empty() {
-        group(nodes, 0, &mut steps);
+        spread_of(nodes, 0, &mut steps);
     }
     if steps.weight > 0.0 {
         steps.ratios / steps.weight
@@ -25,24 +25,24 @@ struct Steps {
 
 /// What is below a node.
 #[derive(Clone, Copy, Default)]
-struct Group {
+struct GroupSpread {
     /// Variance of the positions.
     variance: f64,
     spread_sq: f64,
 }
 
 /// The group below node `index`. Recursive, as deep as the tree at most.
-fn group(nodes: &[WideNode], index: usize, steps: &mut Steps) -> Group {
+fn spread_of(nodes: &[WideNode], index: usize, steps: &mut Steps) -> GroupSpread {
     let node = &nodes[index];
     let slots = || 0..usize::from(node.count);
     let weight = |k: usize| decode_power(node.power[k]);
     let total: f32 = slots().map(weight).sum();
     if !(total > 0.0) {
-        return Group::default();
+        return GroupSpread::default();
     }
-    let mut groups = [Group::default(); WIDTH];
-    for (k, group_of) in groups.iter_mut().enumerate().take(usize::from(node.inner)) {
-        *group_of = group(nodes, node.child_base as usize + k, steps);
+    let mut groups = [GroupSpread::default(); WIDTH];
+    for (k, spread) in groups.iter_mut().enumerate().take(usize::from(node.inner)) {
+        *spread = spread_of(nodes, node.child_base as usize + k, steps);
     }
     // Positions in codes, from the node's origin; emission in the children's common units.
     let [mut mean, mut axis] = [Vec3::ZERO; 2];
@@ -73,7 +73,7 @@ fn group(nodes: &[WideNode], index: usize, steps: &mut Steps) -> Group {
             steps.weight += weight;
         }
     }
-    Group {
+    GroupSpread {
         variance,
         spread_sq,
     }

@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::build::morton_entry::Entry;
+use crate::build::morton_entry::MortonEntry;
 use crate::parallel::{map, table};
 
 /// Bits of a digit.
@@ -13,54 +13,54 @@ const DIGIT: u32 = 11;
 pub(crate) const CHUNK: usize = 1 << 15;
 
 /// Sorts `entries`, whose lights are in ascending order.
-pub(crate) fn sort(entries: &mut [Entry]) {
-    if entries.len() <= VERY_FEW {
+pub(crate) fn sort(entries: &mut [MortonEntry]) {
+    if entries.len() <= COMPARISON_SORT_MAX {
         sort_by_comparing(entries);
     } else if entries.len() <= CHUNK {
         sort_into(&mut entries.to_vec(), entries);
     } else {
-        let chunks = entries.chunks(CHUNK).map(<[Entry]>::to_vec);
+        let chunks = entries.chunks(CHUNK).map(<[MortonEntry]>::to_vec);
         entries.copy_from_slice(&sorted(chunks.collect()));
     }
 }
 
 /// Fewer are compared at once.
-const VERY_FEW: usize = 32;
+const COMPARISON_SORT_MAX: usize = 32;
 
 /// Makes `to` what `from` is when sorted; what becomes of `from` does not matter.
-fn sort_into(from: &mut [Entry], to: &mut [Entry]) {
+fn sort_into(from: &mut [MortonEntry], to: &mut [MortonEntry]) {
     /// So many are worth a full digit; fewer go by a short one, which leaves little to be compared.
     const MANY: usize = 1024;
     const SHORT: u32 = 8;
     let first = from.first().map_or(0, |e| e.key);
     let differing = from.iter().fold(0, |bits, e| bits | (e.key ^ first));
     let top = match u64::checked_ilog2(differing) {
-        Some(top) if from.len() > VERY_FEW => top + 1,
+        Some(top) if from.len() > COMPARISON_SORT_MAX => top + 1,
         _ => {
             to.copy_from_slice(from);
             return sort_by_comparing(to);
         }
     };
     if from.len() > MANY {
-        let ends = pile(from, top.saturating_sub(DIGIT), to, [0; 1 << DIGIT]);
-        sort_piles(&ends, from, to);
+        let ends = bucket(from, top.saturating_sub(DIGIT), to, [0; 1 << DIGIT]);
+        sort_buckets(&ends, from, to);
     } else {
-        let ends = pile(from, top.saturating_sub(SHORT), to, [0; 1 << SHORT]);
-        sort_piles(&ends, from, to);
+        let ends = bucket(from, top.saturating_sub(SHORT), to, [0; 1 << SHORT]);
+        sort_buckets(&ends, from, to);
     }
 }
 
 /// Sorts the parts of `entries` that end at `ends`; there is as much `room`.
-fn sort_piles(ends: &[usize], room: &mut [Entry], entries: &mut [Entry]) {
+fn sort_buckets(ends: &[usize], room: &mut [MortonEntry], entries: &mut [MortonEntry]) {
     let mut start = 0;
     for &end in ends {
-        let pile = &mut entries[start..end];
-        if pile.len() <= VERY_FEW {
-            sort_by_comparing(pile);
+        let bucket = &mut entries[start..end];
+        if bucket.len() <= COMPARISON_SORT_MAX {
+            sort_by_comparing(bucket);
         } else {
-            let room = &mut room[..pile.len()];
-            room.copy_from_slice(pile);
-            sort_into(room, pile);
+            let room = &mut room[..bucket.len()];
+            room.copy_from_slice(bucket);
+            sort_into(room, bucket);
         }
         start = end;
     }
@@ -68,10 +68,10 @@ fn sort_piles(ends: &[usize], room: &mut [Entry], entries: &mut [Entry]) {
 
 /// The same for a few, mostly a handful.
 #[inline]
-fn sort_by_comparing(entries: &mut [Entry]) {
+fn sort_by_comparing(entries: &mut [MortonEntry]) {
     /// Fewer are put in order one by one.
-    const HANDFUL: usize = 12;
-    if entries.len() > HANDFUL {
+    const INSERTION_SORT_MAX: usize = 12;
+    if entries.len() > INSERTION_SORT_MAX {
         return entries.sort_unstable_by_key(|e| (e.key, e.light));
     }
     for end in 1..entries.len() {
@@ -86,20 +86,20 @@ fn sort_by_comparing(entries: &mut [Entry]) {
 }
 
 /// All entries in the order of their keys, those of one key in the order of the lights, as they come.
-pub(crate) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
+pub(crate) fn sorted(chunks: Vec<Vec<MortonEntry>>) -> Vec<MortonEntry> {
     /// Entries that are worth a job of their own.
     const JOB: usize = 1 << 13;
     let Some(shift) = top_digit(&chunks) else {
         return chunks.concat();
     };
-    let piles = map(chunks, |chunk| Piles::new(&chunk, shift));
-    let mut out = table(piles.iter().map(|p| p.entries.len()).sum(), |_| {
-        Entry::default()
+    let buckets = map(chunks, |chunk| Buckets::new(&chunk, shift));
+    let mut out = table(buckets.iter().map(|p| p.entries.len()).sum(), |_| {
+        MortonEntry::default()
     });
     let mut rest = &mut *out;
     let (mut jobs, mut job, mut entries) = (Vec::new(), Vec::new(), 0);
     for digit in 0..1 << DIGIT {
-        let count: usize = piles.iter().map(|p| p.get(digit).len()).sum();
+        let count: usize = buckets.iter().map(|p| p.get(digit).len()).sum();
         let (part, behind) = core::mem::take(&mut rest).split_at_mut(count);
         rest = behind;
         if count > 0 {
@@ -112,12 +112,12 @@ pub(crate) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
         }
     }
     jobs.push(job);
-    map(jobs, |job: Vec<(usize, &mut [Entry])>| {
+    map(jobs, |job: Vec<(usize, &mut [MortonEntry])>| {
         let mut room = Vec::new();
         for (digit, part) in job {
             room.clear();
-            for piles in &piles {
-                room.extend_from_slice(piles.get(digit));
+            for buckets in &buckets {
+                room.extend_from_slice(buckets.get(digit));
             }
             if part.len() > CHUNK {
                 part.copy_from_slice(&room);
@@ -131,9 +131,9 @@ pub(crate) fn sorted(chunks: Vec<Vec<Entry>>) -> Vec<Entry> {
 }
 
 /// How far right a key is shifted to leave the highest digit in which entries differ; `None` if all keys agree.
-fn top_digit(chunks: &[Vec<Entry>]) -> Option<u32> {
+fn top_digit(chunks: &[Vec<MortonEntry>]) -> Option<u32> {
     let first = chunks.iter().flatten().next()?.key;
-    let differing = map(chunks.iter().collect(), |chunk: &Vec<Entry>| {
+    let differing = map(chunks.iter().collect(), |chunk: &Vec<MortonEntry>| {
         chunk.iter().fold(0, |bits, e| bits | (e.key ^ first))
     });
     let differing = differing.into_iter().fold(0, |all, bits| all | bits);
@@ -141,21 +141,21 @@ fn top_digit(chunks: &[Vec<Entry>]) -> Option<u32> {
 }
 
 /// Entries by a digit of their keys.
-struct Piles {
+struct Buckets {
     /// In the order of the digit, otherwise as they came.
-    entries: Vec<Entry>,
+    entries: Vec<MortonEntry>,
     /// Where the entries of each digit end.
     ends: [usize; 1 << DIGIT],
 }
 
-impl Piles {
-    fn new(chunk: &[Entry], shift: u32) -> Self {
-        let mut entries = vec![Entry::default(); chunk.len()];
-        let ends = pile(chunk, shift, &mut entries, [0; 1 << DIGIT]);
+impl Buckets {
+    fn new(chunk: &[MortonEntry], shift: u32) -> Self {
+        let mut entries = vec![MortonEntry::default(); chunk.len()];
+        let ends = bucket(chunk, shift, &mut entries, [0; 1 << DIGIT]);
         Self { entries, ends }
     }
 
-    fn get(&self, digit: usize) -> &[Entry] {
+    fn get(&self, digit: usize) -> &[MortonEntry] {
         let start = digit.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.entries[start..self.ends[digit]]
     }
@@ -164,25 +164,25 @@ impl Piles {
 /// Puts `entries` into the order of the digit that `shift` leaves at the right, and returns where those of each digit end; of `ends`,
 /// all 0, there are as many as digits, a power of two.
 #[inline]
-fn pile<const DIGITS: usize>(
-    entries: &[Entry],
+fn bucket<const DIGITS: usize>(
+    entries: &[MortonEntry],
     shift: u32,
-    piles: &mut [Entry],
+    buckets: &mut [MortonEntry],
     mut ends: [usize; DIGITS],
 ) -> [usize; DIGITS] {
     #[expect(clippy::cast_possible_truncation, reason = "masked to a digit")]
-    let digit = |entry: &Entry| (entry.key >> shift) as usize & (DIGITS - 1);
+    let digit = |entry: &MortonEntry| (entry.key >> shift) as usize & (DIGITS - 1);
     for entry in entries {
         ends[digit(entry)] += 1;
     }
     let mut end = 0;
     for next in &mut ends {
-        // The start of each pile, which moves on to its end as the pile grows.
+        // The start of each bucket, which moves on to its end as the bucket grows.
         (*next, end) = (end, end + *next);
     }
     for entry in entries {
         let next = &mut ends[digit(entry)];
-        piles[*next] = *entry;
+        buckets[*next] = *entry;
         *next += 1;
     }
     ends
@@ -192,8 +192,8 @@ fn pile<const DIGITS: usize>(
 mod tests {
     use super::*;
 
-    fn entries(n: u32, key: impl Fn(u64) -> u64) -> Vec<Entry> {
-        let entry = |light| Entry {
+    fn entries(n: u32, key: impl Fn(u64) -> u64) -> Vec<MortonEntry> {
+        let entry = |light| MortonEntry {
             key: key(u64::from(light)),
             light,
             power: 1.0,
@@ -201,10 +201,11 @@ mod tests {
         (0..n).map(entry).collect()
     }
 
-    fn check(entries: &[Entry]) {
+    fn check(entries: &[MortonEntry]) {
         let mut expected = entries.to_vec();
         expected.sort_by_key(|e| e.key);
-        let chunks: Vec<Vec<Entry>> = entries.chunks(777).map(<[Entry]>::to_vec).collect();
+        let chunks: Vec<Vec<MortonEntry>> =
+            entries.chunks(777).map(<[MortonEntry]>::to_vec).collect();
         assert_eq!(sorted(chunks), expected, "{} entries", entries.len());
     }
 

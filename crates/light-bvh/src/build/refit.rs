@@ -82,14 +82,21 @@ impl Filling<'_> {
             .subtree(node, below, base);
         }
         let inner = usize::from(node.inner);
-        let mut brood = [Moments::NOTHING; WIDTH];
+        let mut moments = [Moments::NOTHING; WIDTH];
         let own = usize::from(node.count) - inner;
-        for (moments, &light) in brood[inner..].iter_mut().zip(&lights[..own]) {
-            *moments = self.lights.moments(light);
+        for (own, &light) in moments[inner..].iter_mut().zip(&lights[..own]) {
+            *own = self.lights.moments(light);
         }
         let (children, rest) = below.split_at_mut(inner);
-        self.side_by_side(children, rest, base + inner, end, room, &mut brood[..inner]);
-        encode(node, &brood)
+        self.side_by_side(
+            children,
+            rest,
+            base + inner,
+            end,
+            room,
+            &mut moments[..inner],
+        );
+        encode(node, &moments)
     }
 
     /// The same for nodes side by side; `below` are the nodes below all of them, in their order.
@@ -144,20 +151,20 @@ impl Batch<'_> {
     fn subtree(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
         let (inner, count) = (usize::from(node.inner), usize::from(node.count));
         let child_base = node.child_base as usize;
-        let mut brood = [Moments::NOTHING; WIDTH];
+        let mut moments = [Moments::NOTHING; WIDTH];
         let own = &self.moments[node.light_base as usize - self.first..][..count - inner];
-        brood[inner..count].copy_from_slice(own);
+        moments[inner..count].copy_from_slice(own);
         let (children, rest) = below[child_base - base..].split_at_mut(inner);
-        for (moments, child) in brood.iter_mut().zip(children) {
-            *moments = self.subtree(child, rest, child_base + inner);
+        for (of_child, child) in moments.iter_mut().zip(children) {
+            *of_child = self.subtree(child, rest, child_base + inner);
         }
-        encode(node, &brood)
+        encode(node, &moments)
     }
 }
 
-/// Tells `node` what its children are, which are the first ones of `brood`.
-fn encode(node: &mut WideNode, brood: &[Moments; WIDTH]) -> Moments {
-    let brood = &brood[..usize::from(node.count)];
-    node.tell(brood);
-    Moments::join(brood)
+/// Tells `node` what its children are, which are the first ones of `children`.
+fn encode(node: &mut WideNode, children: &[Moments; WIDTH]) -> Moments {
+    let children = &children[..usize::from(node.count)];
+    node.encode_children(children);
+    Moments::join(children)
 }

@@ -1,5 +1,5 @@
 /// Lights on their way into a tree, at least one.
-pub(crate) trait Group: Sized + Send {
+pub(crate) trait SplitGroup: Sized + Send {
     /// How many they are.
     fn lights(&self) -> usize;
 
@@ -7,7 +7,7 @@ pub(crate) trait Group: Sized + Send {
     fn is_divisible(&self) -> bool;
 
     /// What splitting them may gain.
-    fn price(&self) -> f32;
+    fn cost(&self) -> f32;
 
     /// Two groups that cost less together; neither is empty.
     fn split(self) -> (Self, Self);

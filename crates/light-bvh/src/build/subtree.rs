@@ -1,66 +1,68 @@
 use alloc::vec::Vec;
 
-use crate::build::node_children::{Children, is_tight};
-use crate::build::split_group::Group;
-use crate::build::topology::{Fan, Skeleton};
+use crate::build::node_children::{NodeChildren, is_depth_limited};
+use crate::build::split_group::SplitGroup;
+use crate::build::topology::{NodeCounts, Topology};
 use crate::node::wide_node::MAX_DEPTH;
 use crate::parallel::map;
 
 /// A group that may be so large that its parts are built side by side.
-pub(crate) trait Crowd: Group {
+pub(crate) trait ParallelGroup: SplitGroup {
     /// A group of no more lights is built in one go.
-    const PLOT: usize;
+    const MAX_SERIAL_LIGHTS: usize;
 
     /// Builds the whole subtree in one go.
-    fn plant(self, plot: Plot<'_>) -> Skeleton;
+    fn build_subtree(self, output: OutputSlice<'_>) -> Topology;
 }
 
 /// Where a group goes.
-pub(crate) struct Plot<'o> {
+pub(crate) struct OutputSlice<'o> {
     /// Room for the ids of its lights.
     pub(crate) order: &'o mut [u32],
     /// Levels above it.
     pub(crate) depth: usize,
 }
 
-impl<'o> Plot<'o> {
+impl<'o> OutputSlice<'o> {
     /// The subtree over a group of any size.
-    pub(crate) fn build<C: Crowd>(self, crowd: C) -> Skeleton {
+    pub(crate) fn build<G: ParallelGroup>(self, group: G) -> Topology {
         let levels = MAX_DEPTH - self.depth;
-        if crowd.lights() <= C::PLOT || is_tight(crowd.lights(), levels) {
-            return crowd.plant(self);
+        if group.lights() <= G::MAX_SERIAL_LIGHTS || is_depth_limited(group.lights(), levels) {
+            return group.build_subtree(self);
         }
-        let children = Children::new(crowd, levels);
+        let children = NodeChildren::new(group, levels);
         let (root, rest) = self.node(&children);
-        let jobs = rest.share(children.into_nodes()).collect();
-        let subtrees = map(jobs, |(group, plot): (C, Plot<'_>)| plot.build(group));
-        Skeleton::join(root, &subtrees)
+        let jobs = rest.split_among(children.into_nodes()).collect();
+        let subtrees = map(jobs, |(group, output): (G, OutputSlice<'_>)| {
+            output.build(group)
+        });
+        Topology::join(root, &subtrees)
     }
 
-    /// The subtree over a group that is built in one go.
-    pub(crate) fn grow<G: Group>(self, group: G) -> Skeleton {
-        let mut fans = Vec::with_capacity(group.lights() / 4 + 1);
-        fans.push(Fan::default());
-        self.grow_at(0, group, &mut fans);
-        Skeleton(fans)
+    /// The subtree over a group, built by one thread.
+    pub(crate) fn build_serial<G: SplitGroup>(self, group: G) -> Topology {
+        let mut counts = Vec::with_capacity(group.lights() / 4 + 1);
+        counts.push(NodeCounts::default());
+        self.build_serial_at(0, group, &mut counts);
+        Topology(counts)
     }
 
-    /// Grows the subtree of the node at `index` of `fans`.
-    fn grow_at<G: Group>(self, index: usize, group: G, fans: &mut Vec<Fan>) {
-        let children = Children::new(group, MAX_DEPTH - self.depth);
-        let (fan, rest) = self.node(&children);
-        fans[index] = fan;
-        let base = fans.len();
-        fans.resize(base + usize::from(fan.inner), Fan::default());
-        for (child, (group, plot)) in (base..).zip(rest.share(children.into_nodes())) {
-            plot.grow_at(child, group, fans);
+    /// Builds the subtree of the node at `index` of `counts`.
+    fn build_serial_at<G: SplitGroup>(self, index: usize, group: G, counts: &mut Vec<NodeCounts>) {
+        let children = NodeChildren::new(group, MAX_DEPTH - self.depth);
+        let (node, rest) = self.node(&children);
+        counts[index] = node;
+        let base = counts.len();
+        counts.resize(base + usize::from(node.inner), NodeCounts::default());
+        for (child, (group, output)) in (base..).zip(rest.split_among(children.into_nodes())) {
+            output.build_serial_at(child, group, counts);
         }
     }
 
     /// The node over `children`, whose lights are put into their places, and the room that is left for what is below.
-    fn node<G: Group>(self, children: &Children<G>) -> (Fan, Self) {
+    fn node<G: SplitGroup>(self, children: &NodeChildren<G>) -> (NodeCounts, Self) {
         let (own, order) = self.order.split_at_mut(children.lights());
-        let fan = Fan {
+        let counts = NodeCounts {
             inner: low_byte(children.nodes()),
             count: low_byte(children.nodes() + own.len()),
         };
@@ -71,16 +73,19 @@ impl<'o> Plot<'o> {
             }
         });
         let depth = self.depth + 1;
-        (fan, Plot { order, depth })
+        (counts, OutputSlice { order, depth })
     }
 
     /// Each group with its part of the room.
-    fn share<G: Group>(self, groups: impl Iterator<Item = G>) -> impl Iterator<Item = (G, Self)> {
+    fn split_among<G: SplitGroup>(
+        self,
+        groups: impl Iterator<Item = G>,
+    ) -> impl Iterator<Item = (G, Self)> {
         let (mut order, depth) = (self.order, self.depth);
         groups.map(move |group| {
             let (mine, rest) = core::mem::take(&mut order).split_at_mut(group.lights());
             order = rest;
-            (group, Plot { order: mine, depth })
+            (group, OutputSlice { order: mine, depth })
         })
     }
 }

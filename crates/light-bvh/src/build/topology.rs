@@ -6,7 +6,7 @@ use crate::parallel::table;
 
 /// How many children a node has.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Fan {
+pub(crate) struct NodeCounts {
     /// Those that are nodes; they come first.
     pub(crate) inner: u8,
     pub(crate) count: u8,
@@ -16,15 +16,15 @@ pub(crate) struct Fan {
 ///
 /// The root comes first, then the children of a node side by side, then what is below the first of them, and so on.
 #[derive(Debug)]
-pub(crate) struct Skeleton(pub(crate) Vec<Fan>);
+pub(crate) struct Topology(pub(crate) Vec<NodeCounts>);
 
-impl Skeleton {
+impl Topology {
     /// A root above `subtrees`, which are its first children.
-    pub(crate) fn join(root: Fan, subtrees: &[Self]) -> Self {
+    pub(crate) fn join(root: NodeCounts, subtrees: &[Self]) -> Self {
         let roots = subtrees.iter().filter_map(|s| s.0.first());
-        let mut all: Vec<Fan> = core::iter::once(&root).chain(roots).copied().collect();
-        for Self(fans) in subtrees {
-            all.extend_from_slice(&fans[1..]);
+        let mut all: Vec<NodeCounts> = core::iter::once(&root).chain(roots).copied().collect();
+        for Self(counts) in subtrees {
+            all.extend_from_slice(&counts[1..]);
         }
         Self(all)
     }
@@ -34,7 +34,7 @@ impl Skeleton {
         let mut nodes = table(self.0.len(), |_| WideNode::EMPTY);
         self.place(|place| {
             let node = &mut nodes[place.index];
-            (node.inner, node.count) = (place.fan.inner, place.fan.count);
+            (node.inner, node.count) = (place.counts.inner, place.counts.count);
             node.child_base = low_word(place.child_base);
             node.light_base = low_word(place.light_base);
             node.parent = place.parent;
@@ -46,7 +46,7 @@ impl Skeleton {
     pub(crate) fn slots(&self, order: &[u32], lights: usize) -> Vec<u32> {
         let mut slots = vec![NOWHERE; lights];
         self.place(|place| {
-            let children = usize::from(place.fan.inner)..usize::from(place.fan.count);
+            let children = usize::from(place.counts.inner)..usize::from(place.counts.count);
             for (child, &light) in children.zip(&order[place.light_base..]) {
                 slots[light as usize] = low_word(place.index * WIDTH + child);
             }
@@ -56,10 +56,10 @@ impl Skeleton {
 
     /// Calls `each` with every node, parents before their children.
     fn place(&self, mut each: impl FnMut(&Place)) {
-        if let Some(&fan) = self.0.first() {
+        if let Some(&counts) = self.0.first() {
             let root = Place {
                 index: 0,
-                fan,
+                counts,
                 child_base: 1,
                 light_base: 0,
                 parent: NOWHERE,
@@ -71,14 +71,14 @@ impl Skeleton {
     /// Returns the first node, and the first place for a light, behind all that is below `node`. Recursive, as deep as the tree at most.
     fn place_below(&self, node: Place, each: &mut impl FnMut(&Place)) -> (usize, usize) {
         each(&node);
-        let inner = usize::from(node.fan.inner);
+        let inner = usize::from(node.counts.inner);
         let mut child_base = node.child_base + inner;
-        let mut light_base = node.light_base + usize::from(node.fan.count) - inner;
+        let mut light_base = node.light_base + usize::from(node.counts.count) - inner;
         for child in 0..inner {
             let index = node.child_base + child;
             let child = Place {
                 index,
-                fan: self.0[index],
+                counts: self.0[index],
                 child_base,
                 light_base,
                 parent: low_word(node.index * WIDTH + child),
@@ -92,7 +92,7 @@ impl Skeleton {
 /// Where a node and what belongs to it are.
 struct Place {
     index: usize,
-    fan: Fan,
+    counts: NodeCounts,
     /// The first of its children that are nodes.
     child_base: usize,
     /// The first of its lights in the order.

@@ -8,7 +8,7 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{Query, QueryFor};
-use crate::query::select::{both, low};
+use crate::query::select::{mul_prob, to_f32};
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
@@ -21,12 +21,12 @@ impl LightCut {
     #[must_use]
     pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
         let mut cut = Self::EMPTY;
-        cut.look_at(tree, ctx, detail);
+        cut.rebuild(tree, ctx, detail);
         cut
     }
 
     /// Becomes the cut of `tree` for `ctx`, in the same place: [`at`](Self::at) without a copy.
-    pub fn look_at(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
+    pub fn rebuild(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
         let into = self;
         dispatch(QueryFor(ctx, Grow { tree, detail, into }));
     }
@@ -41,7 +41,7 @@ impl LightCut {
     }
 }
 
-/// [`LightCut::look_at`]: whatever the cut held is gone.
+/// [`LightCut::rebuild`]: whatever the cut held is gone.
 pub(crate) struct Grow<'a, 'b> {
     pub(crate) tree: &'b LightBvhRef<'a>,
     pub(crate) detail: CutDetail,
@@ -69,7 +69,7 @@ impl Query for Grow<'_, '_> {
             let Some(node) = tree.nodes().get(cut.nodes[index] as usize) else {
                 break;
             };
-            let (weights, roughness) = Weights::with_roughness(node, receiver);
+            let (weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }
@@ -78,35 +78,39 @@ impl Query for Grow<'_, '_> {
             let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
             let mut lanes = weights.lanes;
             for weight in &mut lanes {
-                *weight = both(*weight, scale);
+                *weight = mul_prob(*weight, scale);
             }
             if index == 0 {
                 // Not a number counts as 0.
                 limit = detail.threshold.max(0.0) * total(lanes);
             }
             let inner = usize::from(node.inner);
-            let mut worth = [0.0; WIDTH];
+            let mut open_weights = [0.0; WIDTH];
             for k in 0..WIDTH {
-                worth[k] = if k < inner {
-                    lanes[k] * roughness[k]
+                open_weights[k] = if k < inner {
+                    lanes[k] * angular_size_sq[k]
                 } else {
                     0.0
                 };
             }
-            let mask = above(&worth, limit);
+            let mask = mask_above(&open_weights, limit);
             // A node whose children do not all fit opens none.
-            let opened = note(&mut cut.nodes, count, mask, node.child_base);
+            let opened = append_set_bits(&mut cut.nodes, count, mask, node.child_base);
             if count + opened <= MAX_NODES {
                 count += opened;
                 for k in 0..WIDTH {
-                    lanes[k] = if worth[k] > limit { 0.0 } else { lanes[k] };
+                    lanes[k] = if open_weights[k] > limit {
+                        0.0
+                    } else {
+                        lanes[k]
+                    };
                 }
             }
             cut.sum += total(lanes);
             end += precise_total(&lanes);
             cut.weights[index] = lanes;
             cut.ends[index] = end;
-            cut.about[index] = low(end);
+            cut.about[index] = to_f32(end);
             index += 1;
         }
         cut.count = index;
@@ -131,7 +135,7 @@ fn precise_total(lanes: &[f32; WIDTH]) -> f64 {
 
 /// Bit `k` says whether number `k` is above `limit`.
 #[inline(always)]
-fn above(numbers: &[f32; WIDTH], limit: f32) -> usize {
+fn mask_above(numbers: &[f32; WIDTH], limit: f32) -> usize {
     let limit = Vec4::splat(limit);
     let mut mask = 0;
     for (i, four) in numbers.chunks_exact(4).enumerate() {
@@ -144,21 +148,26 @@ fn above(numbers: &[f32; WIDTH], limit: f32) -> usize {
 ///
 /// By tables instead of branches, which could not be foretold.
 #[inline(always)]
-fn note(nodes: &mut [u32; MAX_NODES + WIDTH], at: usize, mask: usize, first: u32) -> usize {
-    let (mut mask, mut first, mut noted) = (mask, first, 0);
+fn append_set_bits(
+    nodes: &mut [u32; MAX_NODES + WIDTH],
+    at: usize,
+    mask: usize,
+    first: u32,
+) -> usize {
+    let (mut mask, mut first, mut appended) = (mask, first, 0);
     for _ in 0..WIDTH / 8 {
         let bits = mask & 0xff;
-        for (i, place) in nodes[at + noted..][..8].iter_mut().enumerate() {
+        for (i, place) in nodes[at + appended..][..8].iter_mut().enumerate() {
             *place = first.wrapping_add(PLACES[bits] >> (4 * i) & 0xf);
         }
-        noted += usize::from(COUNTS[bits]);
+        appended += usize::from(COUNTS[bits]);
         mask >>= 8;
         first = first.wrapping_add(8);
     }
-    noted
+    appended
 }
 
-const _: () = assert!(WIDTH % 8 == 0, "bits are noted by bytes");
+const _: () = assert!(WIDTH % 8 == 0, "bits are appended by bytes");
 
 /// For every byte the places of its bits, four bits each, the first one lowest.
 static PLACES: [u32; 256] = places();
@@ -201,12 +210,12 @@ mod tests {
     fn bits_are_noted_in_their_order() {
         for mask in (0..1 << WIDTH).step_by(97) {
             let mut nodes = [0; MAX_NODES + WIDTH];
-            let noted = note(&mut nodes, MAX_NODES, mask, 1000);
+            let appended = append_set_bits(&mut nodes, MAX_NODES, mask, 1000);
             let expected = (0..WIDTH).zip(1000..).filter(|(k, _)| mask >> k & 1 == 1);
             let expected = expected.map(|(_, node)| node);
-            assert_eq!(noted, expected.clone().count(), "{mask:b}");
+            assert_eq!(appended, expected.clone().count(), "{mask:b}");
             assert!(
-                nodes[MAX_NODES..][..noted].iter().copied().eq(expected),
+                nodes[MAX_NODES..][..appended].iter().copied().eq(expected),
                 "{mask:b}: {nodes:?}"
             );
         }
@@ -216,6 +225,6 @@ mod tests {
     fn only_numbers_above_count() {
         let mut numbers = [0.5; WIDTH];
         (numbers[1], numbers[WIDTH - 1], numbers[3]) = (0.6, 2.0, f32::NAN);
-        assert_eq!(above(&numbers, 0.5), 1 << 1 | 1 << (WIDTH - 1));
+        assert_eq!(mask_above(&numbers, 0.5), 1 << 1 | 1 << (WIDTH - 1));
     }
 }

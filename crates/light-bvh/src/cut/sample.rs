@@ -6,7 +6,7 @@ use crate::cut::light_cut::LightCut;
 use crate::importance::receiver::Receiver;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{Query, QueryFor};
-use crate::query::select::{both, low, pick, share};
+use crate::query::select::{mul_prob, pick, share, to_f32};
 use crate::simd::dispatch;
 
 impl LightCut {
@@ -163,7 +163,7 @@ impl Query for Probability<'_, '_> {
             let at = cut.nodes[..cut.count]
                 .iter()
                 .position(|&n| n as usize == node)?;
-            Some(both(pmf, share(cut.weights[at][child], cut.sum)))
+            Some(mul_prob(pmf, share(cut.weights[at][child], cut.sum)))
         })
     }
 }
@@ -183,8 +183,8 @@ impl LightCut {
         }
         let target = u * total;
         let (index, within) = self.node_at(target)?;
-        let (child, u) = pick(&self.weights[index], |_| within, low(within))?;
-        let pmf = both(pmf, share(self.weights[index][child], self.sum));
+        let (child, u) = pick(&self.weights[index], |_| within, to_f32(within))?;
+        let pmf = mul_prob(pmf, share(self.weights[index][child], self.sum));
         tree.descend_from(receiver, self.nodes[index], child, pmf, u)
     }
 
@@ -192,7 +192,7 @@ impl LightCut {
     #[inline(always)]
     fn node_at(&self, target: f64) -> Option<(usize, f64)> {
         // All are compared, for a search that stops could not be foretold; in single precision, which is right but for the nearest of misses.
-        let about = low(target);
+        let about = to_f32(target);
         let guess: u32 = self.about.iter().map(|&end| u32::from(end <= about)).sum();
         let guess = guess as usize;
         let start = |index: usize| match index {
@@ -229,7 +229,7 @@ mod tests {
     fn cut(ends: &[f64]) -> LightCut {
         let mut cut = LightCut::default();
         cut.ends[..ends.len()].copy_from_slice(ends);
-        cut.about = cut.ends.map(low);
+        cut.about = cut.ends.map(to_f32);
         cut.count = ends.len();
         cut
     }

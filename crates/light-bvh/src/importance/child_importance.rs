@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::{DISTANCE, Lane, dist_sq};
+use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
 use crate::lane_math::{larger, masked};
 
 /// How much of a child's squared width counts as variance of its emission, in codes of the axis. Chosen by V: see `docs/light-bvh.md`.
@@ -20,10 +20,10 @@ const NEARNESS: f32 = 0.28;
 /// sum: 127 (2 + 0.3 + 0.0034) < 293. An emitter in the corner of a cube, beside a receiver in the cube, needs 210.
 const BOX_EMISSION: f32 = 297.0;
 
-impl Lane {
+impl ChildView {
     /// Whether any of the child may emit toward the receiver's position. Sound there only: not for other places of a segment.
     #[inline(always)]
-    pub(crate) fn shines_here(&self) -> bool {
+    pub(crate) fn may_reach(&self) -> bool {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
@@ -35,7 +35,7 @@ impl Lane {
 
     /// The same child from a place `offset` away from the receiver's position, and no nearer than the root of `least_sq`.
     #[inline(always)]
-    pub(crate) fn seen_from(&self, offset: Vec3, least_sq: f32) -> Self {
+    pub(crate) fn from_offset(&self, offset: Vec3, least_sq: f32) -> Self {
         let mean = (Vec3::from(self.mean) - offset).to_array();
         let dist_sq = dist_sq(mean, self.extent, DISTANCE, self.slack * self.slack);
         let dist_sq = larger(least_sq, dist_sq);

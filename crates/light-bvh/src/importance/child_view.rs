@@ -13,7 +13,7 @@ const ROUND_OFF: f32 = 1e-5;
 ///
 /// Lengths are in a unit of the node's choice, in which no power of them that a weight needs overflows or vanishes.
 #[derive(Clone, Copy, Debug)]
-pub struct Lane {
+pub struct ChildView {
     /// From the receiver to the mean position.
     pub mean: [f32; 3],
     /// Half extents of a box about that position that holds all emitting points.
@@ -38,7 +38,7 @@ pub struct Lane {
 }
 
 /// Where a receiver sees the children of a node, and in which unit of length.
-pub(crate) struct Frame {
+pub(crate) struct NodeFrame {
     origin: Vec3,
     /// The length of a code.
     code: f32,
@@ -46,7 +46,7 @@ pub(crate) struct Frame {
     pub(crate) inv_unit: f32,
 }
 
-impl Frame {
+impl NodeFrame {
     /// A code of the node is the unit: the quickest.
     #[inline(always)]
     pub(crate) fn in_codes(node: &WideNode, position: Vec3) -> Self {
@@ -71,7 +71,7 @@ impl Frame {
 
     /// Child `k` of the node.
     #[inline(always)]
-    pub(crate) fn lane(&self, node: &WideNode, k: usize) -> Lane {
+    pub(crate) fn child(&self, node: &WideNode, k: usize) -> ChildView {
         let Self { origin, code, .. } = *self;
         let mean = [
             origin.x + code * f32::from(node.mean[0][k]),
@@ -86,7 +86,7 @@ impl Frame {
         let dist_sq = dist_sq(mean, extent, DISTANCE, 1e-4 * code * code);
         let dist = float::sqrt(dist_sq);
         let both_sides = node.offset[k] == BOTH_SIDES;
-        Lane {
+        ChildView {
             mean,
             extent,
             dist,

@@ -2,7 +2,7 @@ use light_bounds::Gloss;
 use light_math::glam::Vec3;
 use light_math::{direction, float};
 
-use crate::importance::child_view::{Lane, dist_sq};
+use crate::importance::child_view::{ChildView, dist_sq};
 use crate::importance::receiver::Receiver;
 use crate::importance::surface::SurfaceReceiver;
 use crate::lane_math::{larger, smaller};
@@ -68,13 +68,18 @@ impl GlossyReceiver {
 
     /// The reflection of the child's light toward the viewer over that of a matt surface; above 0.
     #[inline(always)]
-    fn reflected(&self, lane: &Lane, height: f32) -> f32 {
-        let [hx, hy, hz] = lane.extent;
-        let [vx, vy, vz] = lane.mean;
+    fn reflected(&self, child: &ChildView, height: f32) -> f32 {
+        let [hx, hy, hz] = child.extent;
+        let [vx, vy, vz] = child.mean;
         let Self {
             wo, cos_o, alpha, ..
         } = *self;
-        let dist_sq = dist_sq(lane.mean, lane.extent, DISTANCE, lane.slack * lane.slack);
+        let dist_sq = dist_sq(
+            child.mean,
+            child.extent,
+            DISTANCE,
+            child.slack * child.slack,
+        );
         let inv_dist = 1.0 / float::sqrt(dist_sq);
         let cos_i = smaller(1.0, height * inv_dist);
         // The squared length of the half vector, and of its part along the normal.
@@ -99,9 +104,9 @@ impl Receiver for GlossyReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32 {
-        let height = 0.5 * self.surface.expected_height(lane);
-        self.surface.weigh(lane, inv_unit) * self.reflected(lane, height)
+    fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
+        let height = 0.5 * self.surface.expected_height(child);
+        self.surface.weigh(child, inv_unit) * self.reflected(child, height)
     }
 }
 
@@ -110,8 +115,8 @@ mod tests {
     use super::*;
 
     /// A child without extent in direction `v`, which shines alike in all directions.
-    fn lane(v: Vec3) -> Lane {
-        Lane {
+    fn child(v: Vec3) -> ChildView {
+        ChildView {
             mean: v.to_array(),
             extent: [0.0; 3],
             dist: v.length(),
@@ -134,7 +139,7 @@ mod tests {
     fn lights_in_the_mirror_direction_count_most() {
         let weigh = |x: f32| {
             let v = Vec3::new(x, 0.0, 0.8).normalize();
-            polished(0.1, 0.0).weigh(&lane(v), 1.0)
+            polished(0.1, 0.0).weigh(&child(v), 1.0)
         };
         assert!(
             weigh(0.6) > 20.0 * weigh(0.0),
@@ -152,13 +157,13 @@ mod tests {
         let matt = SurfaceReceiver::new(Vec3::ZERO, Vec3::Z);
         for v in [Vec3::Z, Vec3::X + Vec3::Z, Vec3::NEG_X + 0.1 * Vec3::Z] {
             let (a, b) = (
-                polished(0.3, 1.0).weigh(&lane(v), 1.0),
-                matt.weigh(&lane(v), 1.0),
+                polished(0.3, 1.0).weigh(&child(v), 1.0),
+                matt.weigh(&child(v), 1.0),
             );
             assert!((a - b).abs() <= 1e-6 * b, "{v}: {a} and {b}");
         }
         assert_eq!(
-            polished(0.1, 0.0).weigh(&lane(Vec3::NEG_Z), 1.0),
+            polished(0.1, 0.0).weigh(&child(Vec3::NEG_Z), 1.0),
             0.0,
             "below the horizon"
         );
@@ -167,7 +172,7 @@ mod tests {
     #[test]
     fn lights_far_from_the_mirror_direction_keep_a_fiftieth() {
         for v in [Vec3::Z, Vec3::new(-0.6, 0.0, 0.8), Vec3::Y + 0.1 * Vec3::Z] {
-            let w = polished(0.01, 0.0).reflected(&lane(v), v.z);
+            let w = polished(0.01, 0.0).reflected(&child(v), v.z);
             assert!(w >= 0.02, "{v}: {w}");
         }
     }
@@ -180,7 +185,7 @@ mod tests {
                 Vec3::new(0.6, 0.0, -0.79),
                 Vec3::new(0.6, 0.0, 1e-6),
             ] {
-                let w = polished(alpha, f32::NAN).reflected(&lane(v), 1e-6);
+                let w = polished(alpha, f32::NAN).reflected(&child(v), 1e-6);
                 assert!(w > 0.0 && w.is_finite(), "{alpha}, {v}: {w}");
             }
         }

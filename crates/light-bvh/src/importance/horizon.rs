@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
+use crate::importance::child_view::ChildView;
 
 /// How much of the squared support of a child counts as variance of its height over the horizon. Chosen by V: see `docs/light-bvh.md`.
 const HEIGHT: f32 = 0.35;
@@ -24,10 +24,10 @@ impl Horizon {
 
     /// Mean height over the plane, and by how much the highest point of the box may exceed it.
     #[inline(always)]
-    pub(crate) fn height(&self, lane: &Lane) -> (f32, f32) {
+    pub(crate) fn height(&self, child: &ChildView) -> (f32, f32) {
         let Self { n, abs_n } = self;
-        let [vx, vy, vz] = lane.mean;
-        let [hx, hy, hz] = lane.extent;
+        let [vx, vy, vz] = child.mean;
+        let [hx, hy, hz] = child.extent;
         (
             n.x * vx + n.y * vy + n.z * vz,
             abs_n.x * hx + abs_n.y * hy + abs_n.z * hz,

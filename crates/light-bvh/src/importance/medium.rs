@@ -1,6 +1,6 @@
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
+use crate::importance::child_view::ChildView;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
 
@@ -26,7 +26,7 @@ impl Receiver for MediumReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        lane.fluence()
+    fn weigh(&self, child: &ChildView, _: f32) -> f32 {
+        child.fluence()
     }
 }

@@ -1,6 +1,6 @@
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
+use crate::importance::child_view::ChildView;
 
 /// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
 ///
@@ -17,9 +17,9 @@ pub trait Receiver: Copy {
 
     /// About four times the group's irradiance, in units of its power over the squared `1 / inv_unit`.
     ///
-    /// `inv_unit` converts lengths to those of the lane. To be computed for all children together it has to be `#[inline]`, without
+    /// `inv_unit` converts lengths to those of the child. To be computed for all children together it has to be `#[inline]`, without
     /// branches.
-    fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32;
+    fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32;
 }
 
 /// Nobody in particular: groups count by their peak intensity.
@@ -33,7 +33,7 @@ impl Receiver for NoReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        lane.power
+    fn weigh(&self, child: &ChildView, _: f32) -> f32 {
+        child.power
     }
 }

@@ -3,7 +3,7 @@ use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::{DISTANCE, Lane};
+use crate::importance::child_view::{ChildView, DISTANCE};
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
 use crate::lane_math::{larger, smaller};
@@ -58,14 +58,14 @@ impl Receiver for SegmentReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, inv_unit: f32) -> f32 {
+    fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
         // Far from a short segment, or at a segment without length, all places are the same.
-        let length = larger(1e-3 * lane.dist, self.length * inv_unit);
+        let length = larger(1e-3 * child.dist, self.length * inv_unit);
         let w = self.direction;
-        let nearest = Vec3::from(lane.mean).dot(w);
-        let aside = Vec3::from(lane.mean) - w * nearest;
-        let blur_sq = DISTANCE * Vec3::from(lane.extent).length_squared();
-        let height_sq = aside.length_squared() + 2.0 * blur_sq + lane.slack * lane.slack;
+        let nearest = Vec3::from(child.mean).dot(w);
+        let aside = Vec3::from(child.mean) - w * nearest;
+        let blur_sq = DISTANCE * Vec3::from(child.extent).length_squared();
+        let height_sq = aside.length_squared() + 2.0 * blur_sq + child.slack * child.slack;
         let least_sq = (NEAREST * length) * (NEAREST * length);
         let height_sq = larger(least_sq, height_sq);
         let height = float::sqrt(height_sq);
@@ -78,7 +78,7 @@ impl Receiver for SegmentReceiver {
             let t = nearest + height * tangent(theta);
             let t = smaller(length, larger(0.0, t));
             let from_nearest = t - nearest;
-            let here = lane.seen_from(w * t, least_sq);
+            let here = child.from_offset(w * t, least_sq);
             sum += here.fluence() * (height_sq + from_nearest * from_nearest);
         }
         sum * (span / (PLACES as f32 * height * length))

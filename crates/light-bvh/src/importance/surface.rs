@@ -1,7 +1,7 @@
 use light_math::direction;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
+use crate::importance::child_view::ChildView;
 use crate::importance::horizon::{Horizon, expected_abs};
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
@@ -33,9 +33,9 @@ impl SurfaceReceiver {
 
     /// About twice the mean height of the child's lights above the horizon, those below counting as 0.
     #[inline(always)]
-    pub(crate) fn expected_height(&self, lane: &Lane) -> f32 {
-        let (height, support) = self.horizon.height(lane);
-        larger(lane.slack, height + expected_abs(height, support))
+    pub(crate) fn expected_height(&self, child: &ChildView) -> f32 {
+        let (height, support) = self.horizon.height(child);
+        larger(child.slack, height + expected_abs(height, support))
     }
 }
 
@@ -46,9 +46,9 @@ impl Receiver for SurfaceReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        let (height, support) = self.horizon.height(lane);
-        let lit = (height + support > -lane.slack) & lane.shines_here();
-        masked(lane.weight(self.expected_height(lane)), lit)
+    fn weigh(&self, child: &ChildView, _: f32) -> f32 {
+        let (height, support) = self.horizon.height(child);
+        let lit = (height + support > -child.slack) & child.may_reach();
+        masked(child.weight(self.expected_height(child)), lit)
     }
 }

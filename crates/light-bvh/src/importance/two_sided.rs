@@ -1,7 +1,7 @@
 use light_math::direction;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::Lane;
+use crate::importance::child_view::ChildView;
 use crate::importance::horizon::{Horizon, expected_abs};
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
@@ -39,9 +39,9 @@ impl Receiver for TwoSidedReceiver {
     }
 
     #[inline(always)]
-    fn weigh(&self, lane: &Lane, _: f32) -> f32 {
-        let (height, support) = self.horizon.height(lane);
-        let expected = larger(lane.slack, expected_abs(height, support));
-        masked(lane.weight(2.0 * expected), lane.shines_here())
+    fn weigh(&self, child: &ChildView, _: f32) -> f32 {
+        let (height, support) = self.horizon.height(child);
+        let expected = larger(child.slack, expected_abs(height, support));
+        masked(child.weight(2.0 * expected), child.may_reach())
     }
 }

@@ -2,7 +2,7 @@ use crate::node::moments::{Moments, Shape};
 use crate::node::wide_node::WIDTH;
 
 /// The children of a node side by side, so that the compiler computes all of them together.
-pub(crate) struct Brood {
+pub(crate) struct ChildrenSoa {
     /// 0 where there is no child, or one that is off; such lanes repeat another one.
     pub(crate) power: [f32; WIDTH],
     pub(crate) low: [[f32; WIDTH]; 3],
@@ -14,12 +14,12 @@ pub(crate) struct Brood {
     pub(crate) both_sides: [bool; WIDTH],
 }
 
-impl Brood {
+impl ChildrenSoa {
     /// `some` is one of them that is on.
     #[inline(always)]
     pub(crate) fn new(children: &[Moments], some: &Moments) -> Self {
         let child = |k: usize| children.get(k).filter(|c| c.power > 0.0);
-        let mut brood = Self {
+        let mut children = Self {
             power: core::array::from_fn(|k| child(k).map_or(0.0, |c| c.power)),
             low: [[0.0; WIDTH]; 3],
             high: [[0.0; WIDTH]; 3],
@@ -32,15 +32,15 @@ impl Brood {
         for k in 0..WIDTH {
             let child = child(k).unwrap_or(some);
             for axis in 0..3 {
-                brood.low[axis][k] = child.bounds.min[axis];
-                brood.high[axis][k] = child.bounds.max[axis];
-                brood.mean[axis][k] = child.mean[axis];
-                brood.axis[axis][k] = child.axis[axis];
+                children.low[axis][k] = child.bounds.min[axis];
+                children.high[axis][k] = child.bounds.max[axis];
+                children.mean[axis][k] = child.mean[axis];
+                children.axis[axis][k] = child.axis[axis];
             }
-            brood.offset[k] = child.offset;
-            brood.spread_sq[k] = child.spread_sq;
-            brood.both_sides[k] = child.shape == Shape::BothSides;
+            children.offset[k] = child.offset;
+            children.spread_sq[k] = child.spread_sq;
+            children.both_sides[k] = child.shape == Shape::BothSides;
         }
-        brood
+        children
     }
 }

@@ -1,5 +1,5 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
-use crate::node::children_soa::Brood;
+use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
 use crate::node::wide_node::{WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
@@ -13,14 +13,14 @@ impl WideNode {
     #[cfg(test)]
     pub(crate) fn encode(children: &[Moments]) -> Self {
         let mut node = Self::EMPTY;
-        node.tell(children);
+        node.encode_children(children);
         node
     }
 
     /// Makes what the node knows of its children what these moments say, of no more children than it has slots; where they are, and
     /// how many are nodes, stays as it is.
-    pub(crate) fn tell(&mut self, children: &[Moments]) {
-        dispatch(Encoding {
+    pub(crate) fn encode_children(&mut self, children: &[Moments]) {
+        dispatch(EncodeChildren {
             node: self,
             children,
         });
@@ -45,19 +45,23 @@ impl WideNode {
             };
             return;
         };
-        let brood = Brood::new(children, some);
-        self.set_frame(&brood);
-        self.set_boxes(&brood);
-        let units = self.set_emission(&brood);
-        self.set_power(&brood, &units);
-        self.clear_unlit(&brood);
+        let children = ChildrenSoa::new(children, some);
+        self.set_frame(&children);
+        self.set_boxes(&children);
+        let units = self.set_emission(&children);
+        self.set_power(&children, &units);
+        self.clear_unlit(&children);
     }
 
     #[inline(always)]
-    fn set_frame(&mut self, brood: &Brood) {
+    fn set_frame(&mut self, children: &ChildrenSoa) {
         let mut scale = MIN_SCALE;
         for axis in 0..3 {
-            let (low, mean, high) = (&brood.low[axis], &brood.mean[axis], &brood.high[axis]);
+            let (low, mean, high) = (
+                &children.low[axis],
+                &children.mean[axis],
+                &children.high[axis],
+            );
             let origin = reduce(*mean, smaller);
             let mut needed = [0.0; WIDTH];
             for k in 0..WIDTH {
@@ -76,16 +80,16 @@ impl WideNode {
     /// A difference of two floats is off by half an epsilon of itself, however far from zero they are. Twice 255 codes are so known to
     /// within 1e-4 of a code, which the margin outweighs.
     #[inline(always)]
-    fn set_boxes(&mut self, brood: &Brood) {
+    fn set_boxes(&mut self, children: &ChildrenSoa) {
         const MARGIN: f32 = 0.001;
         let inv_scale = self.inv_scale;
         for axis in 0..3 {
             let origin = self.origin[axis];
             for k in 0..WIDTH {
                 let codes = |x: f32| (x - origin) * inv_scale;
-                let mean = nearest(codes(brood.mean[axis][k]));
-                let above = codes(brood.high[axis][k]) - mean;
-                let below = mean - codes(brood.low[axis][k]);
+                let mean = nearest(codes(children.mean[axis][k]));
+                let above = codes(children.high[axis][k]) - mean;
+                let below = mean - codes(children.low[axis][k]);
                 self.mean[axis][k] = low_byte(mean);
                 // Rounded up, and never to 0: a child without extent keeps a floor of uncertainty.
                 self.extent[axis][k] = low_byte(nearest(larger(above, below) + (0.5 + MARGIN)));
@@ -94,11 +98,11 @@ impl WideNode {
     }
 
     #[inline(always)]
-    fn set_power(&mut self, brood: &Brood, units: &[f32; WIDTH]) {
+    fn set_power(&mut self, children: &ChildrenSoa, units: &[f32; WIDTH]) {
         let mut powers = [0.0; WIDTH];
         for k in 0..WIDTH {
-            let sides = if brood.both_sides[k] { 2.0 } else { 1.0 };
-            powers[k] = sides * brood.power[k] * units[k];
+            let sides = if children.both_sides[k] { 2.0 } else { 1.0 };
+            powers[k] = sides * children.power[k] * units[k];
         }
         let max_power = larger(reduce(powers, larger), f32::MIN_POSITIVE);
         self.gain = encode_gain(max_power);
@@ -107,8 +111,8 @@ impl WideNode {
 
     /// What is off leaves its slot empty.
     #[inline(always)]
-    fn clear_unlit(&mut self, brood: &Brood) {
-        let lit = brood.power.map(|power| power > 0.0);
+    fn clear_unlit(&mut self, children: &ChildrenSoa) {
+        let lit = children.power.map(|power| power > 0.0);
         if lit == [true; WIDTH] {
             return;
         }
@@ -128,12 +132,12 @@ impl WideNode {
 }
 
 /// A node that is told its children.
-struct Encoding<'a> {
+struct EncodeChildren<'a> {
     node: &'a mut WideNode,
     children: &'a [Moments],
 }
 
-impl VectorWork for Encoding<'_> {
+impl VectorWork for EncodeChildren<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -1,29 +1,33 @@
 use light_math::float;
 
 use crate::lane_math::{larger, low_byte, nearest, smaller};
-use crate::node::children_soa::Brood;
+use crate::node::children_soa::ChildrenSoa;
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {
     /// Axes, offsets and spreads; returns their units.
     #[inline(always)]
-    pub(crate) fn set_emission(&mut self, brood: &Brood) -> [f32; WIDTH] {
+    pub(crate) fn set_emission(&mut self, children: &ChildrenSoa) -> [f32; WIDTH] {
         let (mut units, mut spreads) = ([0.0; WIDTH], [0.0; WIDTH]);
         for k in 0..WIDTH {
-            let [x, y, z] = [brood.axis[0][k], brood.axis[1][k], brood.axis[2][k]];
-            let offset = brood.offset[k];
+            let [x, y, z] = [
+                children.axis[0][k],
+                children.axis[1][k],
+                children.axis[2][k],
+            ];
+            let offset = children.offset[k];
             // Less than the true spread where narrow cones make the axes long, for few of their deviations matter to one receiver.
             // Measured: half the variance is best.
             let is_narrow = larger(x * x + y * y + z * z, offset * offset) > 1.1;
             let counted = if is_narrow { 0.5 } else { 1.0 };
-            spreads[k] = float::sqrt(counted * brood.spread_sq[k]);
+            spreads[k] = float::sqrt(counted * children.spread_sq[k]);
             // What makes the largest of them fit its code.
             let widest = larger(larger(x.abs(), y.abs()), larger(z.abs(), offset.abs()));
             units[k] = larger(larger(widest, 0.5 * spreads[k]), 1e-6) * (1.0 / 127.0);
         }
         let inv_units = units.map(|unit| 1.0 / unit);
         let mut axes = [[0.0; WIDTH]; 3];
-        for (axes, exact) in axes.iter_mut().zip(&brood.axis) {
+        for (axes, exact) in axes.iter_mut().zip(&children.axis) {
             for k in 0..WIDTH {
                 axes[k] = nearest(exact[k] * inv_units[k]);
             }
@@ -32,15 +36,16 @@ impl WideNode {
         let mut offsets = [0.0; WIDTH];
         for k in 0..WIDTH {
             let exact = [
-                brood.axis[0][k] * inv_units[k],
-                brood.axis[1][k] * inv_units[k],
-                brood.axis[2][k] * inv_units[k],
+                children.axis[0][k] * inv_units[k],
+                children.axis[1][k] * inv_units[k],
+                children.axis[2][k] * inv_units[k],
             ];
             let decoded = [axes[0][k], axes[1][k], axes[2][k]];
-            let offset = brood.offset[k] * inv_units[k];
+            let offset = children.offset[k] * inv_units[k];
             let below = offset_below(decoded, lengths[k], exact, offset);
             // Only lights that are all alike have no spread.
-            let sharp = (brood.spread_sq[k] == 0.0) & (below >= -127.0) & !brood.both_sides[k];
+            let sharp =
+                (children.spread_sq[k] == 0.0) & (below >= -127.0) & !children.both_sides[k];
             offsets[k] = if sharp { below } else { nearest(offset) };
             let spread = larger(nearest(spreads[k] * inv_units[k] + 0.5), 1.0);
             spreads[k] = if sharp { 0.0 } else { spread };
@@ -48,7 +53,7 @@ impl WideNode {
         for k in 0..WIDTH {
             let (code, both_sides) = (
                 low_byte(larger(offsets[k], -127.0)) as i8,
-                brood.both_sides[k],
+                children.both_sides[k],
             );
             self.offset[k] = if both_sides { BOTH_SIDES } else { code };
             self.spread[k] = low_byte(spreads[k]);

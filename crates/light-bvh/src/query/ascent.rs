@@ -4,7 +4,7 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
-use crate::query::select::both;
+use crate::query::select::mul_prob;
 use crate::query::weights::Weights;
 
 /// [`LightBvhRef::pmf_after`].
@@ -59,6 +59,6 @@ impl LightBvhRef<'_> {
         shares[..levels]
             .iter()
             .rev()
-            .fold(pmf, |pmf, &s| both(pmf, s))
+            .fold(pmf, |pmf, &s| mul_prob(pmf, s))
     }
 }

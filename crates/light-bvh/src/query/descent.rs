@@ -4,7 +4,7 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
-use crate::query::select::both;
+use crate::query::select::mul_prob;
 use crate::query::weights::Weights;
 
 /// How many levels below the start of a descent the caches near a processor hold: the memory need not be asked early for those.
@@ -43,7 +43,7 @@ impl LightBvhRef<'_> {
                 self.prefetch_below(node);
             }
             let choice = Weights::new(node, receiver).choose(u)?;
-            pmf = both(pmf, choice.probability);
+            pmf = mul_prob(pmf, choice.probability);
             u = choice.u;
             match self.child(node, choice.child)? {
                 Child::Light(light) => return Some(SampledLight { light, pmf, u }),

@@ -19,7 +19,7 @@ impl Weights {
         if !(self.total > 0.0) {
             return None;
         }
-        let (child, u) = pick(&self.lanes, |sum| u * sum, low(u) * self.total)?;
+        let (child, u) = pick(&self.lanes, |sum| u * sum, to_f32(u) * self.total)?;
         Some(Choice {
             child,
             probability: share(self.lanes[child], self.total),
@@ -86,7 +86,7 @@ fn guess(lanes: &[f32; WIDTH], about: f32) -> usize {
 /// `x` with less precision.
 #[expect(clippy::cast_possible_truncation, reason = "as it says")]
 #[inline(always)]
-pub(crate) const fn low(x: f64) -> f32 {
+pub(crate) const fn to_f32(x: f64) -> f32 {
     x as f32
 }
 
@@ -109,7 +109,7 @@ pub(crate) fn share(weight: f32, total: f32) -> f32 {
 
 /// The probability of two choices in turn, which never vanishes by rounding alone.
 #[inline(always)]
-pub(crate) fn both(a: f32, b: f32) -> f32 {
+pub(crate) fn mul_prob(a: f32, b: f32) -> f32 {
     if a > 0.0 && b > 0.0 {
         (a * b).max(f32::MIN_POSITIVE)
     } else {
@@ -136,7 +136,7 @@ mod tests {
             for near in [0.0, 3.0, 3.001, 1e9, total] {
                 let target = near + (f64::from(i) - 500.0) * 1e-9;
                 if target >= 0.0 {
-                    let found = pick(&lanes, |_| target, low(target)).map(|(child, _)| child);
+                    let found = pick(&lanes, |_| target, to_f32(target)).map(|(child, _)| child);
                     assert_eq!(found, search(&lanes, &starts(&lanes), target), "{target}");
                 }
             }
@@ -150,19 +150,23 @@ mod tests {
     #[test]
     fn what_is_left_of_u_is_how_far_into_the_child_it_falls() {
         let lanes = lanes(&[1.0, 0.0, 2.0, 4.0, 0.0, 0.0, 1.0]);
-        assert_eq!(pick(&lanes, |_| 0.0, low(0.0)), Some((0, 0.0)), "the first");
         assert_eq!(
-            pick(&lanes, |_| 1.0, low(1.0)),
+            pick(&lanes, |_| 0.0, to_f32(0.0)),
+            Some((0, 0.0)),
+            "the first"
+        );
+        assert_eq!(
+            pick(&lanes, |_| 1.0, to_f32(1.0)),
             Some((2, 0.0)),
             "begins where the first ends"
         );
         assert_eq!(
-            pick(&lanes, |_| 4.0, low(4.0)),
+            pick(&lanes, |_| 4.0, to_f32(4.0)),
             Some((3, 0.25)),
             "a quarter of the way"
         );
         assert_eq!(
-            pick(&lanes, |_| 8.0, low(8.0)),
+            pick(&lanes, |_| 8.0, to_f32(8.0)),
             Some((6, SampledLight::MAX_U)),
             "beyond the end"
         );

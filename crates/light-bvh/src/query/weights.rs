@@ -1,4 +1,4 @@
-use crate::importance::child_view::{Frame, Lane};
+use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{WIDTH, WideNode};
 
@@ -24,7 +24,7 @@ impl Weights {
         let weights = Self::in_frame(
             node,
             receiver,
-            &Frame::in_codes(node, receiver.position()),
+            &NodeFrame::in_codes(node, receiver.position()),
             |_, _| (),
         );
         if is_trusted(weights.total) {
@@ -36,19 +36,19 @@ impl Weights {
 
     /// The same, and for each child how rough its estimate is: its squared width over its squared distance.
     #[inline(always)]
-    pub(crate) fn with_roughness<R: Receiver>(
+    pub(crate) fn with_angular_size<R: Receiver>(
         node: &WideNode,
         receiver: &R,
     ) -> (Self, [f32; WIDTH]) {
-        let mut roughness = [0.0; WIDTH];
-        let frame = Frame::in_codes(node, receiver.position());
-        let weights = Self::in_frame(node, receiver, &frame, |k, lane| {
-            let [hx, hy, hz] = lane.extent;
+        let mut angular_size_sq = [0.0; WIDTH];
+        let frame = NodeFrame::in_codes(node, receiver.position());
+        let weights = Self::in_frame(node, receiver, &frame, |k, child| {
+            let [hx, hy, hz] = child.extent;
             let width = hx + hy + hz;
-            roughness[k] = width * width * (1.0 / lane.dist_sq);
+            angular_size_sq[k] = width * width * (1.0 / child.dist_sq);
         });
         if is_trusted(weights.total) {
-            (weights, roughness)
+            (weights, angular_size_sq)
         } else {
             // So far away, all are points.
             (Self::from_afar(node, receiver), [0.0; WIDTH])
@@ -69,7 +69,7 @@ impl Weights {
         Self::in_frame(
             node,
             receiver,
-            &Frame::from_afar(node, receiver.position(), receiver.reach()),
+            &NodeFrame::from_afar(node, receiver.position(), receiver.reach()),
             |_, _| (),
         )
     }
@@ -79,14 +79,14 @@ impl Weights {
     fn in_frame<R: Receiver>(
         node: &WideNode,
         receiver: &R,
-        frame: &Frame,
-        mut note: impl FnMut(usize, &Lane),
+        frame: &NodeFrame,
+        mut note: impl FnMut(usize, &ChildView),
     ) -> Self {
         let mut lanes = [0.0; WIDTH];
         for (k, weight) in lanes.iter_mut().enumerate() {
-            let lane = frame.lane(node, k);
-            *weight = receiver.weigh(&lane, frame.inv_unit);
-            note(k, &lane);
+            let child = frame.child(node, k);
+            *weight = receiver.weigh(&child, frame.inv_unit);
+            note(k, &child);
         }
         Self {
             lanes,

@@ -5,7 +5,7 @@ use light_bounds::{LightSampleContext, SampledLight};
 use crate::importance::receiver::Receiver;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{Query, QueryFor};
-use crate::query::select::both;
+use crate::query::select::mul_prob;
 use crate::query::weights::Weights;
 use crate::simd::dispatch;
 
@@ -17,23 +17,23 @@ impl LightBvhRef<'_> {
     /// but the root is looked at only once.
     #[inline]
     #[must_use]
-    pub fn sample_beside(
+    pub fn sample_with_infinite(
         &self,
         ctx: &LightSampleContext,
         first: impl FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>,
     ) -> Option<SampledLight> {
-        dispatch(QueryFor(ctx, SampleBeside { tree: self, first }))
+        dispatch(QueryFor(ctx, SampleWithInfinite { tree: self, first }))
     }
 }
 
-/// [`LightBvhRef::sample_beside`].
-struct SampleBeside<'a, 'b, F> {
+/// [`LightBvhRef::sample_with_infinite`].
+struct SampleWithInfinite<'a, 'b, F> {
     tree: &'b LightBvhRef<'a>,
     first: F,
 }
 
 impl<F: FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>> Query
-    for SampleBeside<'_, '_, F>
+    for SampleWithInfinite<'_, '_, F>
 {
     type Output = Option<SampledLight>;
 
@@ -47,7 +47,7 @@ impl<F: FnOnce(f64) -> ControlFlow<Option<SampledLight>, (f32, f64)>> Query
             ControlFlow::Break(other) => other,
             ControlFlow::Continue((pmf, u)) => {
                 let choice = weights.choose(u)?;
-                let pmf = both(pmf, choice.probability);
+                let pmf = mul_prob(pmf, choice.probability);
                 self.tree
                     .descend_from(receiver, 0, choice.child, pmf, choice.u)
             }

@@ -49,8 +49,8 @@ impl Candidate {
     }
 
     /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that follow no lights.
-    pub(super) fn looseness(&self) -> Option<f64> {
-        self.sampler.looseness()
+    pub(super) fn degradation(&self) -> Option<f64> {
+        self.sampler.degradation()
     }
 
     pub(super) const fn kind(&self) -> SamplerKind {

@@ -29,7 +29,7 @@ pub struct RefitRow {
     /// How far each light is from where it was at first, in mean distances of neighbours.
     pub moved: f32,
     /// Looseness of the refitted hierarchy, over what it was at first.
-    pub looseness: f64,
+    pub degradation: f64,
     /// Variance with the refitted hierarchy.
     pub refitted: Variance,
     /// Variance with one that is built anew.
@@ -58,7 +58,7 @@ pub fn refits(
     let mut rows = Vec::new();
     for &sampler in &options.samplers {
         let mut following = Candidate::new(sampler, &extents(set))?;
-        let Some(at_first) = following.looseness() else {
+        let Some(at_first) = following.degradation() else {
             continue;
         };
         for moved in (0..=steps).map(distance_after) {
@@ -77,7 +77,7 @@ pub fn refits(
                 n_lights: set.lights.len(),
                 sampler,
                 moved,
-                looseness: following.looseness().map_or(0.0, |now| now / at_first),
+                degradation: following.degradation().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
                 built_anew: variance(&Candidate::new(sampler, &extents(&set))?),
             });
@@ -124,7 +124,7 @@ impl RefitRow {
             "lights",
             "sampler",
             "moved",
-            "looseness",
+            "degradation",
             "V refit",
             "V 99 %",
             "V new build",
@@ -140,7 +140,7 @@ impl RefitRow {
             "n_lights": self.n_lights,
             "sampler": self.sampler.name(),
             "moved": self.moved,
-            "looseness_ratio": self.looseness,
+            "looseness_ratio": self.degradation,
             "v_mean": self.refitted.mean,
             "v_median": self.refitted.median,
             "v_p99": self.refitted.p99,
@@ -161,7 +161,7 @@ impl fmt::Display for RefitRow {
             self.n_lights,
             self.sampler.name(),
             self.moved,
-            self.looseness,
+            self.degradation,
             self.refitted.mean,
             self.refitted.p99,
             self.built_anew.mean,
@@ -192,9 +192,13 @@ mod tests {
         assert_eq!(rows.len(), 8, "uniform sampling follows nothing");
         let (first, last) = (&rows[0], &rows[7]);
         assert_eq!(first.moved, 0.0, "where they were");
-        assert!((first.looseness - 1.0).abs() < 1e-6, "{}", first.looseness);
+        assert!(
+            (first.degradation - 1.0).abs() < 1e-6,
+            "{}",
+            first.degradation
+        );
         assert_eq!(last.moved, 1.0, "a whole distance");
-        assert!(last.looseness > 1.1, "{}", last.looseness);
+        assert!(last.degradation > 1.1, "{}", last.degradation);
         assert!(
             rows.iter().all(|row| row.refitted.lost_energy == 0.0),
             "no light is lost on the way"

@@ -28,7 +28,7 @@ struct Tree {
     /// The relative variance of one choice; `None` where no light arrives.
     quality: Option<f64>,
     /// How little a step down the tree narrows a group.
-    looseness: Option<f64>,
+    degradation: Option<f64>,
 }
 
 impl InfoArgs {
@@ -89,7 +89,7 @@ impl InfoArgs {
                 "bytes": tree.bytes,
                 "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
                 "quality": tree.quality,
-                "looseness": tree.looseness,
+                "degradation": tree.degradation,
             },
             "bytes": {
                 "vertices": bytes.vertices,
@@ -155,9 +155,9 @@ impl InfoArgs {
                 "  quality    {quality:.3}: relative variance of one choice, nothing in the way, the median over points"
             )?;
         }
-        if let Some(looseness) = tree.looseness {
+        if let Some(degradation) = tree.degradation {
             say!(
-                "  looseness  {looseness:.3}: spread of a group over that of its parent; lights that move raise it"
+                "  degradation  {degradation:.3}: spread of a group over that of its parent; lights that move raise it"
             )?;
         }
         for warning in warnings {
@@ -177,7 +177,7 @@ impl Tree {
             sampler: kind,
             build_ms,
             quality: choice_variance(world, &sampler),
-            looseness: sampler.looseness(),
+            degradation: sampler.degradation(),
             depth: sampler.depth(),
             bytes: sampler.bytes(world.lights().len()),
         })
