@@ -20,7 +20,8 @@ pub enum LightBvhError {
         /// What is wrong with it.
         reason: InfiniteBoundsError,
     },
-    /// A coordinate is beyond ±1e36, where the default tree cannot take differences of positions any more.
+    /// A coordinate is beyond ±1e36, where the default tree cannot take differences of positions
+    /// any more.
     TooFar {
         /// Of which light.
         light: LightId,
@@ -32,7 +33,8 @@ pub enum LightBvhError {
         /// How many the tree was built for.
         expected: usize,
     },
-    /// A refit cannot place a light: it had no power, or was at infinity, when the tree was built; or it is at infinity now and was not.
+    /// A refit cannot place a light: it had no power, or was at infinity, when the tree was built;
+    /// or it is at infinity now and was not.
     NoPlace {
         /// Which light.
         light: LightId,

@@ -1,4 +1,4 @@
-//! Arithmetic that the compiler vectorises: no branches, nothing that one lane asks of another.
+//! Arithmetic that the compiler vectorises: no branches, and no lane depends on another.
 
 #[cfg(feature = "alloc")]
 use crate::node::wide_node::WIDTH;
@@ -36,7 +36,8 @@ pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) ->
     lanes[0]
 }
 
-/// Between the integers of this many bits no fractions fit: adding it rounds to the nearest integer.
+/// Between the integers of this many bits no fractions fit: adding it rounds to the nearest
+/// integer.
 #[cfg(feature = "alloc")]
 const INTEGERS: f32 = 12_582_912.0;
 

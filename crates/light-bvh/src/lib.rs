@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
-// Not forbidden where one private module, `simd`, calls code for wider vectors after asking whether the machine has them.
+// Not forbidden where one private module, `simd`, calls code for wider vectors after asking whether
+// the machine has them.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), forbid(unsafe_code))]
 #![deny(unsafe_code, clippy::undocumented_unsafe_blocks)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]

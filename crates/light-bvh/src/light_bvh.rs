@@ -14,8 +14,8 @@ use crate::query::bvh_ref::LightBvhRef;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
-/// Sixteen children a node, each described by moments of its lights: expected irradiance instead of a bound of it, and zero only where
-/// no light can contribute. About 32 bytes a light.
+/// Sixteen children a node, each described by moments of its lights: the expected irradiance
+/// instead of a bound of it, and zero only where no light can contribute. About 27 bytes a light.
 #[derive(Clone, Debug, Default)]
 pub struct LightBvh {
     pub(crate) nodes: Vec<WideNode>,
@@ -25,7 +25,8 @@ pub struct LightBvh {
 }
 
 impl LightBvh {
-    /// The hierarchy of the bounded lights of `lights`, in which the index of an entry is its [`LightId`].
+    /// The hierarchy of the bounded lights of `lights`, in which the index of an entry is its
+    /// [`LightId`].
     ///
     /// Infinite lights, and lights without power, are not in the tree and have pmf 0.
     ///
@@ -59,15 +60,17 @@ impl LightBvh {
         })
     }
 
-    /// Follows lights that moved, turned, or changed their power: the same tree, with what its nodes know made anew.
+    /// Refits the tree to lights that moved, turned, or changed their power: same topology, new
+    /// moments.
     ///
-    /// Takes time linear in the lights and no memory. A light that is off keeps its place and has pmf 0 until it is on again. The
-    /// further lights move from where they were, the looser the tree gets: see [`degradation`](Self::degradation).
+    /// Linear in the lights, allocates nothing. A light that is off keeps its place and has pmf 0
+    /// until it is on again. V grows as lights move away from their neighbours: see
+    /// [`degradation`](Self::degradation).
     ///
     /// # Errors
-    /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many lights as the tree was built for, and
-    /// [`LightBvhError::NoPlace`] for the first one that shines, or is somewhere, and was not when the tree was built. The tree is then
-    /// as it was.
+    /// Those of [`build`](Self::build), [`LightBvhError::OtherLights`] if these are not as many
+    /// lights as the tree was built for, and [`LightBvhError::NoPlace`] for the first one that
+    /// emits, or is bounded, and was not when the tree was built. The tree does not change then.
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
         if lights.len() != self.slots.len() {
             return Err(LightBvhError::OtherLights {
@@ -101,7 +104,8 @@ impl LightBvh {
         self.view().pmf(ctx, light)
     }
 
-    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of the tree; 0 only if none of them can contribute.
+    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of the tree; 0 only
+    /// if none of them can contribute.
     #[must_use]
     pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
         self.view().irradiance(ctx) * self.power
@@ -113,13 +117,14 @@ impl LightBvh {
         self.power
     }
 
-    /// How little a step down the tree narrows a group of lights: the mean ratio of a child's spread to its parent's, each child weighted by
-    /// its intensity.
+    /// How much refits have degraded the tree: the mean ratio of the spread of a child to that of
+    /// its parent, weighted by intensity.
     ///
-    /// Spread is what the builder minimises: the standard deviation of the positions, the larger the less the axes agree. 0 for a
-    /// tree of one node. Only relative to the figure of the freshly built tree does it say something: when
-    /// [refits](Self::refit) have raised it by a tenth, the noise has risen too, and it is time to build anew.
-    /// Linear in the nodes, without memory; scale does not matter.
+    /// The spread is what the builder minimises: the standard deviation of the positions times
+    /// `(1 + d)^(5/8)`, where `d` is the relative variance of the axes. 0 for a tree of one node.
+    /// Compare it with the value of the freshly built tree: when [refits](Self::refit) have raised
+    /// it by a tenth, V has grown too, and a new build pays. Linear in the nodes, allocates
+    /// nothing, independent of scale.
     #[must_use]
     pub fn degradation(&self) -> f64 {
         quality::degradation(&self.nodes)

@@ -3,7 +3,8 @@ use alloc::vec::Vec;
 #[cfg(feature = "rayon")]
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-/// Runs both, on two threads where the feature `rayon` allows it and `work` is worth it.
+/// Runs both, on two threads with the feature `rayon` if `work`, a number of lights, is large
+/// enough.
 pub(crate) fn join<A: Send, B: Send>(
     work: usize,
     a: impl FnOnce() -> A + Send,
@@ -17,12 +18,12 @@ pub(crate) fn join<A: Send, B: Send>(
     (a(), b())
 }
 
-/// Whether work on so many lights is not done before another thread has woken up.
+/// Whether work on so many lights takes longer than waking another thread.
 pub(crate) const fn is_worth_a_thread(work: usize) -> bool {
     work >= 2048
 }
 
-/// What `each` makes of every one of `jobs`, in their order, on all threads that the feature `rayon` allows.
+/// The results of `each` for all `jobs`, in their order, on all threads with the feature `rayon`.
 pub(crate) fn map<J: Send, T: Send>(jobs: Vec<J>, each: impl Fn(J) -> T + Send + Sync) -> Vec<T> {
     #[cfg(feature = "rayon")]
     return jobs.into_par_iter().map(each).collect();
@@ -30,9 +31,10 @@ pub(crate) fn map<J: Send, T: Send>(jobs: Vec<J>, each: impl Fn(J) -> T + Send +
     jobs.into_iter().map(each).collect()
 }
 
-/// What `each` makes of every number below `count`, in their order, on all threads that the feature `rayon` allows.
+/// The results of `each` for all numbers below `count`, in their order, on all threads with the
+/// feature `rayon`.
 pub(crate) fn table<T: Send>(count: usize, each: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
-    /// Fewer are made before another thread has woken up.
+    /// Fewer are done before another thread wakes.
     #[cfg(feature = "rayon")]
     const WORTH_A_THREAD: usize = 4096;
 

@@ -8,8 +8,9 @@
 
 //! The vector width, and the only `unsafe` code of the crate.
 //!
-//! Queries and the encoding of nodes run in the widest vectors that the machine has, asked at run time where there is an operating
-//! system. The arithmetic and its order are the same in every width, and nothing is fused: the same bits.
+//! Queries and the encoding of nodes run in the widest vectors that the machine has, asked at run
+//! time where there is an operating system. The arithmetic and its order are the same in every
+//! width, and nothing is fused: the same bits.
 
 /// Bytes that memory delivers at once.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -25,7 +26,8 @@ pub(crate) trait VectorWork {
 
 /// Runs `work` in the widest vectors that the machine has.
 ///
-/// The whole work is one function for each width, so that what a receiver knows stays in registers on its way down a tree.
+/// The whole work is one function for each width, so that what a receiver knows stays in registers
+/// on its way down a tree.
 #[inline(always)]
 pub(crate) fn dispatch<W: VectorWork>(work: W) -> W::Output {
     #[cfg(avx512)]
@@ -65,8 +67,8 @@ unsafe fn run_with_avx512<W: VectorWork>(work: W) -> W::Output {
     work.run()
 }
 
-/// Prefetches `item`, which is read soon: a light that was chosen, while other work is done. Does nothing on machines without such an
-/// instruction.
+/// Prefetches `item`, which is read soon: a light that was chosen, while other work is done. Does
+/// nothing on machines without such an instruction.
 #[inline(always)]
 pub fn prefetch_item<T>(item: &T) {
     prefetch_lines(item, 1);
@@ -87,7 +89,8 @@ fn prefetch_lines<T>(from: *const T, count: usize) {
         let (mut byte, last) = (0, (count * size_of::<T>()).saturating_sub(1));
         loop {
             let line = from.cast::<i8>().wrapping_add(byte);
-            // SAFETY: every x86-64 processor has SSE, and a prefetch of any address is allowed: it never faults.
+            // SAFETY: every x86-64 processor has SSE, and a prefetch of any address is allowed: it
+            // never faults.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(line) };
             if byte == last {
                 break;

@@ -1,4 +1,5 @@
-//! Groups of cones lose no light: a spot that shines at a point by its falloff has a pmf above 0 there, in every arrangement.
+//! Groups of cones lose no light: a spot that shines at a point by its falloff has a pmf above 0
+//! there, in every arrangement.
 #![cfg(feature = "alloc")]
 
 use core::f64::consts::PI;
@@ -59,7 +60,8 @@ const EXTENTS: [Vec3; 5] = [
     Vec3::ONE,
 ];
 
-/// An arrangement of cones: the axis, the half angle and how much of it is the rim, of one light after another.
+/// An arrangement of cones: the axis, the half angle and how much of it is the rim, of one light
+/// after another.
 type Arrangement = fn(&mut Rng, usize) -> (Vec3, f32, f32);
 
 const ARRANGEMENTS: [(&str, Arrangement); 7] = [
@@ -107,7 +109,8 @@ fn spots(
     (0..count).map(spot).collect()
 }
 
-/// A point in the light of one of the spots, or just beside it: in the middle, anywhere, at the edge.
+/// A point in the light of one of the spots, or just beside it: in the middle, anywhere, at the
+/// edge.
 fn receiver(rng: &mut Rng, spots: &[Spot]) -> Vec3 {
     let spot = spots[rng.below(spots.len())];
     let share = [rng.f64(), 1.1 * rng.f64(), 0.999][rng.below(3)];

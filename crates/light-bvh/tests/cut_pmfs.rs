@@ -23,8 +23,8 @@ fn tree() -> LightBvh {
     LightBvh::build(&lights).expect("valid lights")
 }
 
-/// Pmfs after another choice sum to its probability, samples have the bits of the query, and light comes as often as its pmf says:
-/// halving any of them fails.
+/// Pmfs after another choice sum to its probability, samples have the bits of the query, and light
+/// comes as often as its pmf says: halving any of them fails.
 #[test]
 fn a_cut_does_as_its_pmfs_say() {
     let tree = tree();
@@ -66,7 +66,8 @@ fn a_cut_does_as_its_pmfs_say() {
     }
 }
 
-/// Every light owns a part of `[0, 1)`, though the sum of all weights in single precision does not know of it.
+/// Every light owns a part of `[0, 1)`, though the sum of all weights in single precision does not
+/// know of it.
 #[test]
 fn lights_below_the_precision_of_the_sum_are_chosen() {
     let places = [Vec3::new(0.0, 0.0, 100.0), Vec3::new(10.0, 0.0, 100.0)];

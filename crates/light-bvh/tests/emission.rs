@@ -14,7 +14,8 @@ mod support;
 use double::{angle, between, double, tilted};
 use support::lamp;
 
-/// Cosines of every kind: both ends and the middle, a few units in the last place away from them, and what lies between.
+/// Cosines of every kind: both ends and the middle, a few units in the last place away from them,
+/// and what lies between.
 fn cosines() -> Vec<f32> {
     let ulps = |x: f32, n: u32| f32::from_bits(x.to_bits() - n);
     let magnitudes = [
@@ -61,7 +62,8 @@ fn lights_of_every_pair(rng: &mut Rng, at: Vec3, size: f32) -> Vec<LightBounds> 
     lights
 }
 
-/// Whether the light may emit from the point `from` of its box toward `p`, by its bounds: in double precision, without a margin.
+/// Whether the light may emit from the point `from` of its box toward `p`, by its bounds: in double
+/// precision, without a margin.
 fn may_emit(light: &LightBounds, from: Vec3, p: Vec3) -> bool {
     let [o, e] = [light.cos_theta_o, light.cos_theta_e].map(|cos| f64::from(cos).acos());
     // Beyond half a turn there is nothing.
@@ -70,7 +72,8 @@ fn may_emit(light: &LightBounds, from: Vec3, p: Vec3) -> bool {
     away <= reach || (light.two_sided && PI - away <= reach)
 }
 
-/// Points around `from`: all over, on the axis, and at the edge of the emission and a hair within it.
+/// Points around `from`: all over, on the axis, and at the edge of the emission and a hair within
+/// it.
 fn receivers(rng: &mut Rng, light: &LightBounds, from: Vec3) -> Vec<Vec3> {
     let [o, e] = [light.cos_theta_o, light.cos_theta_e].map(|cos| f64::from(cos).acos());
     let reach = (o + e).min(PI);
@@ -135,7 +138,8 @@ fn a_light_among_others_is_found_wherever_it_may_emit() {
     }
 }
 
-/// Lights whose angles add up to half a turn emit everywhere; 1e-4 less, and they do not emit backward.
+/// Lights whose angles add up to half a turn emit everywhere; 1e-4 less, and they do not emit
+/// backward.
 #[test]
 fn what_emits_everywhere_is_no_needle() {
     #[expect(clippy::cast_possible_truncation, reason = "bounds are rounded")]

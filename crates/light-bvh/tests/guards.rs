@@ -1,4 +1,5 @@
-//! The inputs that need the guards of the default tree: each test fails without the one that it names.
+//! The inputs that need the guards of the default tree: each test fails without the one that it
+//! names.
 #![cfg(feature = "alloc")]
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
@@ -81,7 +82,8 @@ fn a_light_just_above_the_horizon_counts() {
     assert!(grazing > 1000, "{grazing}");
 }
 
-/// `LEAST_TOTAL`: in codes the weight of the fainter light vanishes where that of the other is still a number.
+/// `LEAST_TOTAL`: in codes the weight of the fainter light vanishes where that of the other is
+/// still a number.
 #[test]
 fn a_faint_light_beside_a_strong_one_counts_at_any_distance() {
     for exponent in 0..120 {
@@ -94,7 +96,8 @@ fn a_faint_light_beside_a_strong_one_counts_at_any_distance() {
     }
 }
 
-/// `MAX_ZOOM`: lengths of nodes in one cut that differ by more than the square root of what a float holds.
+/// `MAX_ZOOM`: lengths of nodes in one cut that differ by more than the square root of what a float
+/// holds.
 #[test]
 fn a_cut_joins_nodes_of_any_sizes() {
     for size in [1e-3, 1e-9, 1e-15, 1e-20] {
@@ -136,7 +139,8 @@ fn a_perfect_mirror_finds_the_light_that_it_shows() {
     }
 }
 
-/// `MIN_HALF_SQ`: the light is straight behind the floor's farthest point, and no direction is between it and the viewer.
+/// `MIN_HALF_SQ`: the light is straight behind the floor's farthest point, and no direction is
+/// between it and the viewer.
 #[test]
 fn a_light_opposite_to_a_grazing_viewer_counts() {
     for to_light in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y] {

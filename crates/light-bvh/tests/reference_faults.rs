@@ -33,8 +33,8 @@ fn build(lights: impl IntoIterator<Item = LightBounds>) -> ReferenceLightBvh {
     ReferenceLightBvh::build(&lights).expect("valid lights")
 }
 
-/// All pmfs at `ctx`, after checking that they are probabilities, that samples repeat them, and that they add up to
-/// the share of `u` that finds a light.
+/// All pmfs at `ctx`, after checking that they are probabilities, that samples repeat them, and
+/// that they add up to the share of `u` that finds a light.
 fn lawful_pmfs(tree: &ReferenceLightBvh, ctx: &LightSampleContext) -> Vec<f32> {
     let count = u32::try_from(tree.view().trails().len()).expect("few lights");
     let pmfs: Vec<f32> = (0..count).map(|i| tree.pmf(ctx, LightId(i))).collect();
@@ -78,7 +78,8 @@ fn a_spot_without_falloff_is_picked() {
 
 #[test]
 fn nested_clusters_stay_within_the_trail() {
-    // Each cluster is much smaller than the one around it: a split by cost takes off a few lights at a time.
+    // Each cluster is much smaller than the one around it: a split by cost takes off a few lights
+    // at a time.
     let tree = build((0..4000).map(|i| {
         let size = 0.5f32.powi(i / 40);
         point_light(Vec3::new(

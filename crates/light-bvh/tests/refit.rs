@@ -1,4 +1,5 @@
-//! Refits: the same tree for the same lights, every law kept for others, nothing allocated, nothing harmed by an error.
+//! Refits: the same tree for the same lights, every law kept for others, nothing allocated, nothing
+//! harmed by an error.
 
 #![cfg(feature = "alloc")]
 

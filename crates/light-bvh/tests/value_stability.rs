@@ -1,5 +1,5 @@
-//! Pins what the tree answers, bit for bit and on every platform: a change here breaks reproducibility and belongs in the
-//! changelog as value-breaking.
+//! Pins what the tree answers, bit for bit and on every platform: a change here breaks
+//! reproducibility and belongs in the changelog as value-breaking.
 #![cfg(all(feature = "libm", feature = "alloc"))]
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};

@@ -134,7 +134,8 @@ fn many_lights_at_one_point_along_a_line_or_in_nested_clusters_make_no_deep_tree
 
 #[test]
 fn lights_far_closer_than_the_cells_of_the_whole_set_part_by_place() {
-    // Two clusters of 300 lights in turn, 1e-3 apart, and a lamp so far away that a cell of the whole is wider than both.
+    // Two clusters of 300 lights in turn, 1e-3 apart, and a lamp so far away that a cell of the
+    // whole is wider than both.
     let place = |i: u16| match i {
         600 => Vec3::splat(1e6),
         _ => Vec3::X * 1e-3 * (f32::from(i % 2) + 0.1 * f32::from(i) / 600.0),
@@ -169,7 +170,8 @@ impl Numbers {
     }
 }
 
-/// Every point of a surface that shines at a point by however little, and every direction within a cone, has a probability above 0.
+/// Every point of a surface that shines at a point by however little, and every direction within a
+/// cone, has a probability above 0.
 #[test]
 fn lights_are_given_up_only_where_no_part_of_them_shines() {
     let mut numbers = Numbers(5);

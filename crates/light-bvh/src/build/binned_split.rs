@@ -12,10 +12,11 @@ use crate::build::subtree::{OutputSlice, ParallelGroup};
 use crate::build::topology::Topology;
 use crate::node::wide_node::WIDTH;
 
-/// Runs of so many are split across their widest axis, the first part as large as a node, so that the lowest nodes come out full.
+/// Groups of these sizes are split across their widest axis, the first part as large as a node, so
+/// that the lowest nodes are full.
 const SNAP: RangeInclusive<usize> = WIDTH + 1..=2 * WIDTH;
 
-/// Lights, or clusters of a few, that are split where the halves cost least.
+/// A group of lights, or of clusters of a few, that is split where the halves cost least.
 #[derive(Debug)]
 pub(crate) struct BinnedSplit<'a> {
     clusters: &'a mut [Cluster],
@@ -25,7 +26,7 @@ pub(crate) struct BinnedSplit<'a> {
     /// Box of the centres.
     bounds: Aabb,
     cost: f32,
-    /// Prims before the first narrow one, in the order of the curve; 0 if all are of one kind.
+    /// Clusters before the first narrow one, in the order of the curve; 0 if all are of one kind.
     wide: usize,
 }
 
@@ -121,7 +122,7 @@ impl SplitGroup for BinnedSplit<'_> {
         }
         let grid = Grid::new(&self.bounds);
         let Some((axis, plane)) = self.best_plane(&grid) else {
-            // Nothing tells them apart: centres in one point, or too close to each other.
+            // No plane separates them: all centres are in one point, or too close to each other.
             let costs = [self.cost / 2.0; 2];
             let (middle, bounds) = (self.clusters.len() / 2, [self.bounds; 2]);
             return self.split_at(middle, bounds, costs);
@@ -153,7 +154,7 @@ impl SplitGroup for BinnedSplit<'_> {
 impl ParallelGroup for BinnedSplit<'_> {
     const MAX_SERIAL_LIGHTS: usize = 256;
 
-    /// From here on lights are split one by one.
+    /// Below this size lights are split one by one, not by clusters.
     fn build_subtree(self, output: OutputSlice<'_>) -> Topology {
         let primitives = self.primitives;
         let mut clusters = Vec::with_capacity(self.lights);
@@ -170,7 +171,7 @@ fn primitives_of<'a>(primitives: &'a [LightPrimitive], cluster: &Cluster) -> &'a
     &primitives[cluster.first as usize..][..cluster.lights as usize]
 }
 
-/// Numbers in the order of the centres along `axis`; of the places on the curve where they agree.
+/// A key in the order of the centres along `axis`; equal centres are in the order of the curve.
 fn key_along(cluster: &Cluster, axis: usize) -> u64 {
     let bits = cluster.center[axis].to_bits();
     let is_negative = bits >> 31 == 1;

@@ -25,9 +25,10 @@ pub(crate) fn build(
     if scan.count == 0 {
         return (Topology(Vec::new()), order);
     }
-    /// So few lights are split one by one from the root on: clusters of them would be too coarse.
+    /// At most so many lights are split one by one from the root on: clusters of them would be too
+    /// coarse.
     const FEW: usize = 2048;
-    /// So many lights are on their way from memory while one is read.
+    /// How many lights ahead of the one that is read are prefetched.
     const AHEAD: usize = 24;
     let lights = Lights::new(extents, scan.power);
     let (mut entries, cell) = morton::sorted(extents, &lights, &scan.centers, options.dark);

@@ -3,9 +3,9 @@ use light_math::glam::Vec3;
 
 use crate::build::light_primitive::{LightPrimitive, NARROW};
 
-/// A light, or a few neighbours, as the builder sorts them.
+/// A light, or a few neighbours on the curve, as the builder splits them.
 ///
-/// Three vectors of four, so that moving one waits for nothing.
+/// Aligned as three vectors of four floats, which move in three instructions.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub(crate) struct Cluster {
@@ -49,7 +49,7 @@ impl Cluster {
         }
     }
 
-    /// Whether they shine into narrow cones; neighbours on the curve all do, or none of them.
+    /// Whether the cones are narrow; all lights of a cluster have narrow cones, or none has.
     pub(crate) fn is_narrow(&self) -> bool {
         self.axis_sq > NARROW
     }
@@ -82,13 +82,14 @@ impl Cluster {
 
 /// Sums over a group of lights, from which the cost of keeping them together follows.
 ///
-/// Position, power, axis, squared position, squared axis: all but the second are times power. An array, so that the compiler adds
-/// several at once.
+/// Position, power, axis, squared position, squared axis: all but the second are times power. An
+/// array, so that the compiler adds several at once.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sums(pub(crate) [f32; 9]);
 
 impl Sums {
-    /// The sums of some lights; `position` is relative to a point near the group, so that the variance keeps its precision.
+    /// The sums of some lights; `position` is relative to a point near the group, so that the
+    /// variance keeps its precision.
     #[inline]
     pub(crate) fn of(cluster: &Cluster, position: Vec3) -> Self {
         let p = position * cluster.power;

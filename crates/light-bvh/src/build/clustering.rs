@@ -9,17 +9,17 @@ use crate::parallel::{join, map};
 /// Lights of a cluster, at most.
 const CLUSTER: usize = 16;
 
-/// Ends of clusters that are turned into clusters in one go.
+/// Clusters that one job makes.
 const CHUNK: usize = 512;
 
-/// Where clusters of neighbours end, as places among all entries: cells of an octree that hold few lights. `first` is the place of
-/// the range's first entry.
+/// The ends of clusters of neighbours, as positions among all entries: the cells of an octree that
+/// hold few lights. `first` is the position of the first entry of the range.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "a tree holds fewer than 2^32 lights"
 )]
 pub(crate) fn ends(range: MortonRange<'_>, first: u32) -> Vec<u32> {
-    /// Below it is not worth while to join two lists.
+    /// Fewer lights are listed by one thread.
     const FORK: usize = 1 << 14;
     let lights = range.lights();
     if lights <= FORK {

@@ -3,20 +3,21 @@ use light_math::glam::Vec3;
 
 use crate::node::moments::Moments;
 
-/// How long the builder takes the axes of narrow cones to be: where they point matters more than how narrow they are.
+/// The longest axis that the builder counts: for narrow cones the direction matters more than the
+/// width.
 const LONGEST_AXIS: f32 = 3.0;
 
 /// Squared length of an axis beyond which a cone is narrow; that of a diffuse light is at most 1.
 pub(crate) const NARROW: f32 = 8.4;
 
-/// A light as far as the builder looks at it to find its neighbours.
+/// What the builder reads of a light to group it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPrimitive {
     pub(crate) center: Vec3,
     /// As a share of the power of all lights.
     pub(crate) power: f32,
     pub(crate) light: u32,
-    /// Axis of its moments, as far as the builder looks at it.
+    /// Axis of its moments, at most [`LONGEST_AXIS`] long.
     pub(crate) axis: Vec3,
 }
 

@@ -34,7 +34,7 @@ impl<'a> Lights<'a> {
         &self.extents[light as usize]
     }
 
-    /// Asks the memory for a light that is read soon.
+    /// Prefetches a light that is read soon.
     #[inline]
     pub(crate) fn prefetch(&self, light: u32) {
         prefetch::<1, _>(self.extents, light);
@@ -50,7 +50,8 @@ impl<'a> Lights<'a> {
         Moments::of_light(extent, self.inv_power)
     }
 
-    /// Power of a light as a share of that of all lights; above 0, so that lights that are off split somehow.
+    /// Power of a light as a share of that of all lights; above 0, so that lights that are off
+    /// split somehow.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn share(&self, extent: &LightExtent) -> f32 {
@@ -58,7 +59,8 @@ impl<'a> Lights<'a> {
     }
 }
 
-/// How strong a light is: its power, and that of a beam as if it shone in all directions. 0 of lights that are off or infinitely far away.
+/// The power of a light in the builder: that of a beam as if it emitted alike in all directions; 0
+/// for lights that are off or infinite.
 #[inline]
 pub(crate) fn phi(extent: &LightExtent) -> f32 {
     match extent {

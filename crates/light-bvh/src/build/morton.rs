@@ -1,4 +1,4 @@
-//! Lights along a space-filling curve: neighbours of it are neighbours in space.
+//! Lights along a Morton curve: neighbours on it are neighbours in space.
 
 use alloc::vec::Vec;
 
@@ -64,7 +64,8 @@ const fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// The highest bit of a key: lights with narrow cones come after all others, for mixed kinds are best parted early.
+/// The highest bit of a key: lights with narrow cones follow all others, because groups of mixed
+/// kinds are best split early.
 fn kind(bounds: &LightBounds) -> u64 {
     let LightBounds {
         cos_theta_o,
@@ -77,7 +78,8 @@ fn kind(bounds: &LightBounds) -> u64 {
     u64::from(is_narrow) << 63
 }
 
-/// The lights that the tree holds, along the curve through `centers`; the side of the smallest cells.
+/// The lights that the tree holds, along the curve through `centers`; the side of the smallest
+/// cells.
 pub(crate) fn sorted(
     extents: &[LightExtent],
     lights: &Lights<'_>,

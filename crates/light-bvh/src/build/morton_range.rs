@@ -9,7 +9,7 @@ use crate::build::subtree::{OutputSlice, ParallelGroup};
 use crate::build::topology::Topology;
 use crate::parallel::map;
 
-/// A run of lights along the curve.
+/// A range of lights along the curve.
 #[derive(Debug)]
 pub(crate) struct MortonRange<'a> {
     entries: &'a mut [MortonEntry],
@@ -32,7 +32,7 @@ impl<'a> MortonRange<'a> {
         }
     }
 
-    /// Gives lights of one cell new keys in a grid of their own.
+    /// Gives the lights of one cell new keys in a finer grid.
     fn look_closer(&mut self) {
         let center = |e: &MortonEntry| self.lights.bounds(e.light).bounds.center();
         let bounds = Aabb::from_points(self.entries.iter().map(center));
@@ -100,9 +100,9 @@ fn top_bit(entries: &[MortonEntry]) -> Option<u32> {
     (first.key ^ last.key).checked_ilog2()
 }
 
-/// The power of all; where they are many, in parts side by side.
+/// The power of all entries, in parallel where they are many.
 fn power(entries: &[MortonEntry]) -> f32 {
-    /// Entries that are summed up in one go.
+    /// Entries that one job adds up.
     const CHUNK: usize = 1 << 14;
     if entries.len() <= CHUNK {
         return power_of_few(entries);
@@ -112,7 +112,7 @@ fn power(entries: &[MortonEntry]) -> f32 {
         .sum()
 }
 
-/// The same in four sums, which do not wait for each other.
+/// The same in four independent sums.
 fn power_of_few(entries: &[MortonEntry]) -> f32 {
     let fours = entries.chunks_exact(4);
     let rest: f32 = fours.remainder().iter().map(|e| e.power).sum();

@@ -3,7 +3,7 @@ use crate::node::wide_node::WIDTH;
 
 /// The groups that become the children of a node.
 pub(crate) struct NodeChildren<G> {
-    /// In the order of space.
+    /// Neighbours are next to each other.
     groups: [Option<G>; WIDTH],
     /// What splitting each of them may gain; below 0 if it is not to be split.
     gains: [f32; WIDTH],
@@ -12,14 +12,15 @@ pub(crate) struct NodeChildren<G> {
     singles: u16,
 }
 
-/// Whether a node has so many lights below it that only halves of the same size are sure to fit below so few levels.
+/// Whether only halves of equal size are sure to fit so many lights into so few levels.
 pub(crate) const fn is_depth_limited(lights: usize, levels: usize) -> bool {
     const BITS: usize = WIDTH.ilog2() as usize;
     levels <= 28 / BITS && lights > 1 << (BITS * (levels - 1))
 }
 
 impl<G: SplitGroup> NodeChildren<G> {
-    /// Divides `whole` among at most [`WIDTH`] children, so that each fits below `levels - 1` more levels.
+    /// Divides `whole` among at most [`WIDTH`] children, so that each fits below `levels - 1` more
+    /// levels.
     pub(crate) fn new(whole: G, levels: usize) -> Self {
         let depth_limited = is_depth_limited(whole.lights(), levels);
         let mut children = Self {
@@ -65,7 +66,7 @@ impl<G: SplitGroup> NodeChildren<G> {
         best
     }
 
-    /// Puts the lights of small groups into the places that are left.
+    /// Puts the lights of small groups into the slots that are free.
     fn dissolve(&mut self) {
         let mut free = WIDTH - self.count;
         for (k, group) in self.groups.iter().enumerate() {
@@ -130,7 +131,8 @@ impl<G: SplitGroup> NodeChildren<G> {
     }
 }
 
-/// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if it is not to be split.
+/// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if
+/// it is not to be split.
 fn gain<G: SplitGroup>(group: &G, depth_limited: bool) -> f32 {
     if group.lights() <= WIDTH || !group.is_divisible() {
         -1.0

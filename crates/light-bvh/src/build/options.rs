@@ -9,9 +9,9 @@
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightBvhOptions {
-    /// What groups of lights are made of.
+    /// How lights are grouped.
     pub mode: BuildMode,
-    /// What becomes of lights that are switched off.
+    /// Whether lights that are off have a place in the tree.
     pub dark: DarkLights,
 }
 
@@ -19,21 +19,22 @@ pub struct LightBvhOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BuildMode {
-    /// Where the groups cost least: by power, by how far they spread, and by how little their axes agree.
+    /// Where the groups cost least: by power, by how far they spread, and by how little their axes
+    /// agree.
     #[default]
     Binned,
     /// By the cells of an octree that they lie in: built in less time, sampled with more noise.
     Morton,
 }
 
-/// What becomes of lights without power when a tree is built.
+/// Whether lights without power have a place in a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DarkLights {
-    /// They get no place in the tree: no memory, and no way to switch them on by a refit.
+    /// They have no place in the tree: they take no memory, and a refit cannot switch them on.
     #[default]
     LeftOut,
-    /// They get a place, unreachable until a [refit](crate::LightBvh::refit) switches them on.
+    /// They have a place, unreachable until a [refit](crate::LightBvh::refit) switches them on.
     Kept,
 }
 

@@ -1,4 +1,5 @@
-//! Sorting by key from the top digit down: every digit makes parts that are sorted apart from each other.
+//! Radix sort by key, most significant digit first: the buckets of a digit are sorted
+//! independently.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +10,7 @@ use crate::parallel::{map, table};
 /// Bits of a digit.
 const DIGIT: u32 = 11;
 
-/// Entries that are put in the order of a digit in one go.
+/// Entries that one job distributes by a digit.
 pub(crate) const CHUNK: usize = 1 << 15;
 
 /// Sorts `entries`, whose lights are in ascending order.
@@ -24,12 +25,12 @@ pub(crate) fn sort(entries: &mut [MortonEntry]) {
     }
 }
 
-/// Fewer are compared at once.
+/// At most so many are sorted by comparison.
 const COMPARISON_SORT_MAX: usize = 32;
 
-/// Makes `to` what `from` is when sorted; what becomes of `from` does not matter.
+/// Makes `to` what `from` is when sorted; `from` is scratch memory afterwards.
 fn sort_into(from: &mut [MortonEntry], to: &mut [MortonEntry]) {
-    /// So many are worth a full digit; fewer go by a short one, which leaves little to be compared.
+    /// More entries use a full digit, fewer a short one, whose buckets are small.
     const MANY: usize = 1024;
     const SHORT: u32 = 8;
     let first = from.first().map_or(0, |e| e.key);
@@ -66,10 +67,10 @@ fn sort_buckets(ends: &[usize], room: &mut [MortonEntry], entries: &mut [MortonE
     }
 }
 
-/// The same for a few, mostly a handful.
+/// The same for few entries.
 #[inline]
 fn sort_by_comparing(entries: &mut [MortonEntry]) {
-    /// Fewer are put in order one by one.
+    /// At most so many are sorted by insertion.
     const INSERTION_SORT_MAX: usize = 12;
     if entries.len() > INSERTION_SORT_MAX {
         return entries.sort_unstable_by_key(|e| (e.key, e.light));
@@ -85,9 +86,10 @@ fn sort_by_comparing(entries: &mut [MortonEntry]) {
     }
 }
 
-/// All entries in the order of their keys, those of one key in the order of the lights, as they come.
+/// All entries in the order of their keys, those of one key in the order of the lights, as they
+/// come.
 pub(crate) fn sorted(chunks: Vec<Vec<MortonEntry>>) -> Vec<MortonEntry> {
-    /// Entries that are worth a job of their own.
+    /// Entries of a job.
     const JOB: usize = 1 << 13;
     let Some(shift) = top_digit(&chunks) else {
         return chunks.concat();
@@ -130,7 +132,8 @@ pub(crate) fn sorted(chunks: Vec<Vec<MortonEntry>>) -> Vec<MortonEntry> {
     out
 }
 
-/// How far right a key is shifted to leave the highest digit in which entries differ; `None` if all keys agree.
+/// How far right a key is shifted to leave the highest digit in which entries differ; `None` if all
+/// keys agree.
 fn top_digit(chunks: &[Vec<MortonEntry>]) -> Option<u32> {
     let first = chunks.iter().flatten().next()?.key;
     let differing = map(chunks.iter().collect(), |chunk: &Vec<MortonEntry>| {
@@ -161,8 +164,8 @@ impl Buckets {
     }
 }
 
-/// Puts `entries` into the order of the digit that `shift` leaves at the right, and returns where those of each digit end; of `ends`,
-/// all 0, there are as many as digits, a power of two.
+/// Puts `entries` into the order of the digit that `shift` leaves at the right, and returns where
+/// those of each digit end; of `ends`, all 0, there are as many as digits, a power of two.
 #[inline]
 fn bucket<const DIGITS: usize>(
     entries: &[MortonEntry],

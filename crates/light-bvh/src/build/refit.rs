@@ -8,10 +8,10 @@ use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::{is_worth_a_thread, join};
 
-/// Subtrees of so many lights read them all before they make use of them.
+/// A subtree of at most so many lights reads all of them first.
 const BATCH: usize = 128;
 
-/// A first look at lights that a tree is to follow, whose `slots` say which of them it holds.
+/// Validates the lights of a refit; `slots` say which of them are in the tree.
 ///
 /// # Errors
 /// The first light with invalid bounds, or one that has no place in the tree.
@@ -32,7 +32,8 @@ pub(crate) fn scan(lights: &[LightExtent], slots: &[u32]) -> Result<Scan, LightB
     })
 }
 
-/// Tells all nodes, which know their places, what is below them; `lights` are valid and have `power` together.
+/// Encodes the moments of all nodes, whose places are set; `lights` are valid and have the total
+/// power `power`.
 pub(crate) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent], power: f64) {
     let filling = Filling {
         lights: Lights::new(lights, power),
@@ -43,7 +44,7 @@ pub(crate) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent]
     }
 }
 
-/// What all steps share.
+/// The lights and their order.
 struct Filling<'a> {
     lights: Lights<'a>,
     order: &'a [u32],
@@ -53,8 +54,8 @@ struct Filling<'a> {
 type Room = [Moments; BATCH];
 
 impl Filling<'_> {
-    /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below `node`, and perhaps more;
-    /// `base` is the place of the first of them in the tree.
+    /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below
+    /// `node`, and perhaps more; `base` is the place of the first of them in the tree.
     fn subtree(
         &self,
         node: &mut WideNode,
@@ -66,7 +67,8 @@ impl Filling<'_> {
         let first = node.light_base as usize;
         let lights = &self.order[first..end];
         if lights.len() <= BATCH {
-            // Lights are far from each other in memory: those of the next batches are on their way while these are looked at.
+            // Lights are far from each other in memory: those of the next batch are prefetched
+            // while these are read.
             let later = self.order.get(first + BATCH..).unwrap_or_default();
             let mut later = later.iter();
             for (moments, &light) in room.iter_mut().zip(lights) {
@@ -162,7 +164,7 @@ impl Batch<'_> {
     }
 }
 
-/// Tells `node` what its children are, which are the first ones of `children`.
+/// Encodes the first of `children`, as many as `node` has, and returns the moments of all of them.
 fn encode(node: &mut WideNode, children: &[Moments; WIDTH]) -> Moments {
     let children = &children[..usize::from(node.count)];
     node.encode_children(children);

@@ -8,10 +8,10 @@ use crate::importance::position::FAR;
 use crate::parallel::join;
 use crate::validate::validate_light;
 
-/// Lights that are looked at in one go.
+/// Lights that one job validates.
 const CHUNK: usize = 8192;
 
-/// What a first look at all lights tells.
+/// The sums of a first pass over all lights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scan {
     /// The power of all lights together.
@@ -23,12 +23,14 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
-    /// Looks at `lights`, of which `first` is the id of the first one, and lets `check` refuse some.
+    /// Validates `lights`, of which `first` is the id of the first one; `check` may refuse more of
+    /// them.
     ///
-    /// Halves are added to each other the same way on any number of threads.
+    /// The order of additions does not depend on the number of threads.
     ///
     /// # Errors
-    /// The first light with invalid bounds, a coordinate beyond the reach of the tree, or an error by `check`.
+    /// The first light with invalid bounds, a coordinate beyond the reach of the tree, or an error
+    /// by `check`.
     pub(crate) fn new(
         lights: &[LightExtent],
         first: u32,

@@ -6,16 +6,16 @@ use crate::build::topology::{NodeCounts, Topology};
 use crate::node::wide_node::MAX_DEPTH;
 use crate::parallel::map;
 
-/// A group that may be so large that its parts are built side by side.
+/// A group whose parts may be built in parallel.
 pub(crate) trait ParallelGroup: SplitGroup {
-    /// A group of no more lights is built in one go.
+    /// A group of at most so many lights is built by one thread.
     const MAX_SERIAL_LIGHTS: usize;
 
-    /// Builds the whole subtree in one go.
+    /// Builds the whole subtree by one thread.
     fn build_subtree(self, output: OutputSlice<'_>) -> Topology;
 }
 
-/// Where a group goes.
+/// Where the lights of a subtree are written.
 pub(crate) struct OutputSlice<'o> {
     /// Room for the ids of its lights.
     pub(crate) order: &'o mut [u32],
@@ -59,7 +59,8 @@ impl<'o> OutputSlice<'o> {
         }
     }
 
-    /// The node over `children`, whose lights are put into their places, and the room that is left for what is below.
+    /// The node over `children`, whose lights are put into their places, and the room that is left
+    /// for what is below.
     fn node<G: SplitGroup>(self, children: &NodeChildren<G>) -> (NodeCounts, Self) {
         let (own, order) = self.order.split_at_mut(children.lights());
         let counts = NodeCounts {

@@ -14,7 +14,8 @@ pub(crate) struct NodeCounts {
 
 /// A subtree before its nodes know anything of their lights.
 ///
-/// The root comes first, then the children of a node side by side, then what is below the first of them, and so on.
+/// The root comes first, then the children of a node side by side, then what is below the first of
+/// them, and so on.
 #[derive(Debug)]
 pub(crate) struct Topology(pub(crate) Vec<NodeCounts>);
 
@@ -68,7 +69,8 @@ impl Topology {
         }
     }
 
-    /// Returns the first node, and the first place for a light, behind all that is below `node`. Recursive, as deep as the tree at most.
+    /// Returns the first node, and the first place for a light, behind all that is below `node`.
+    /// Recursive, as deep as the tree at most.
     fn place_below(&self, node: Place, each: &mut impl FnMut(&Place)) -> (usize, usize) {
         each(&node);
         let inner = usize::from(node.counts.inner);

@@ -12,8 +12,8 @@ use crate::query::select::{mul_prob, to_f32};
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
-/// How much more a nearer node may count per unit of its weight: where distances differ by more than 2^30, weights lose their proportion
-/// and keep their sign.
+/// How much more a nearer node may count per unit of its weight: where distances differ by more
+/// than 2^30, weights lose their proportion and keep their sign.
 const MAX_ZOOM: f32 = 1_073_741_824.0;
 
 impl LightCut {
@@ -144,7 +144,8 @@ fn mask_above(numbers: &[f32; WIDTH], limit: f32) -> usize {
     mask
 }
 
-/// Writes `first + k` for every bit `k` of `mask` from `at` on, and anything in the rest of the next [`WIDTH`] places; returns how many.
+/// Writes `first + k` for every bit `k` of `mask` from `at` on, and anything in the rest of the
+/// next [`WIDTH`] places; returns how many.
 ///
 /// By tables instead of branches, which could not be foretold.
 #[inline(always)]

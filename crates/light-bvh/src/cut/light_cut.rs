@@ -6,7 +6,7 @@ use crate::node::wide_node::WIDTH;
 /// Nodes that a cut may hold.
 pub(crate) const MAX_NODES: usize = 24;
 
-/// Where a cut stops to look closer.
+/// How far a cut is refined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutDetail {
     pub(crate) threshold: f32,
@@ -21,8 +21,8 @@ pub enum CutDetailError {
 }
 
 impl CutDetail {
-    /// A group of lights is opened while its share of the whole, times its squared width over its squared distance, is above
-    /// `threshold`, a number of at least 0.
+    /// A group of lights is opened while its share of the whole, times its squared width over its
+    /// squared distance, is above `threshold`, a number of at least 0.
     ///
     /// # Errors
     /// When `threshold` is negative or NaN.
@@ -56,17 +56,20 @@ impl Default for CutDetail {
     }
 }
 
-/// A cut through the tree for one receiver: where the estimate is rough, it is looked at more closely before anything is chosen.
+/// A cut through the tree for one receiver: groups whose estimate is rough are opened before any
+/// light is chosen.
 ///
-/// A value of its own, without memory elsewhere: a pure function of tree, receiver and [`CutDetail`]. It pays when several lights are chosen
-/// for the same receiver, each by a part of one stratified `u`. At most 24 nodes, about 2 KB.
+/// A pure function of tree, receiver and [`CutDetail`] that allocates nothing. It pays when several
+/// lights are chosen for the same receiver, each by a part of one stratified `u`. At most 24 nodes,
+/// about 2 KB.
 #[derive(Clone, Copy, Debug)]
 pub struct LightCut {
-    /// The nodes that are in the cut, each with the weights of those children that are not; and room to note all children of one.
+    /// The nodes that are in the cut, each with the weights of those children that are not; and
+    /// room to note all children of one.
     pub(crate) nodes: [u32; MAX_NODES + WIDTH],
     pub(crate) weights: [[f32; WIDTH]; MAX_NODES],
-    /// Sums of the weights of all nodes up to each; infinite beyond the last. In double precision, so that a node of any weight above 2^-53 of the
-    /// whole owns a part of it.
+    /// Sums of the weights of all nodes up to each; infinite beyond the last. In double precision,
+    /// so that a node of any weight above 2^-53 of the whole owns a part of it.
     pub(crate) ends: [f64; MAX_NODES],
     /// The same in single precision, to search in.
     pub(crate) about: [f32; MAX_NODES],
@@ -96,7 +99,8 @@ impl LightCut {
         inv_unit: 1.0,
     };
 
-    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
+    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only
+    /// if none of them can contribute.
     #[must_use]
     pub fn irradiance(&self) -> f64 {
         let inv_unit = f64::from(self.inv_unit);

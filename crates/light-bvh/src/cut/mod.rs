@@ -1,4 +1,4 @@
-//! Several choices at one place: a cut through the tree, looked at closely first.
+//! Several choices at one receiver: a cut through the tree, refined where the estimate is rough.
 
 pub(crate) mod grow;
 pub(crate) mod light_cut;

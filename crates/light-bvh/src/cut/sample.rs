@@ -10,10 +10,11 @@ use crate::query::select::{mul_prob, pick, share, to_f32};
 use crate::simd::dispatch;
 
 impl LightCut {
-    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None` if no light in the tree can.
+    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None`
+    /// if no light in the tree can.
     ///
-    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k` lights, call with `(i + u) / k` for `i` of
-    /// `0..k`.
+    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k`
+    /// lights, call with `(i + u) / k` for `i` of `0..k`.
     #[inline]
     #[must_use]
     pub fn sample_at(
@@ -27,7 +28,8 @@ impl LightCut {
         dispatch(QueryFor(ctx, Sample { cut, tree, pmf, u }))
     }
 
-    /// Calls `each` with what [`sample_at`](Self::sample_at) gives for each of `us`, in their order: quicker than to ask one by one.
+    /// Calls `each` with what [`sample_at`](Self::sample_at) gives for each of `us`, in their
+    /// order: faster than one by one.
     #[inline]
     pub fn sample_many_at(
         &self,
@@ -191,7 +193,8 @@ impl LightCut {
     /// The node that `target`, from 0 to the sum of the weights, falls on, and how far into it.
     #[inline(always)]
     fn node_at(&self, target: f64) -> Option<(usize, f64)> {
-        // All are compared, for a search that stops could not be foretold; in single precision, which is right but for the nearest of misses.
+        // All are compared, for a search that stops could not be foretold; in single precision,
+        // which is right but for the nearest of misses.
         let about = to_f32(target);
         let guess: u32 = self.about.iter().map(|&end| u32::from(end <= about)).sum();
         let guess = guess as usize;
@@ -209,7 +212,8 @@ impl LightCut {
         Some((index, target - start(index)))
     }
 
-    /// The same, looked for; the last node with any weight takes what rounding leaves beyond the sum.
+    /// The same by binary search; the last node with any weight takes a target that rounding puts
+    /// beyond the sum.
     #[cold]
     fn search(&self, target: f64) -> Option<usize> {
         let ends = self.ends.get(..self.count)?;

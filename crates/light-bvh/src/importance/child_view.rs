@@ -3,7 +3,8 @@ use light_math::glam::Vec3;
 
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
 
-/// How much of a child's squared width counts as variance of its distance. Chosen by V: see `docs/light-bvh.md`.
+/// How much of a child's squared width counts as variance of its distance. Chosen by V: see
+/// `docs/light-bvh.md`.
 pub(crate) const DISTANCE: f32 = 0.09;
 
 /// Round-off of a position, as a share of its distance and of the width of a node.
@@ -11,14 +12,16 @@ const ROUND_OFF: f32 = 1e-5;
 
 /// A child of a node as a receiver sees it.
 ///
-/// Lengths are in a unit of the node's choice, in which no power of them that a weight needs overflows or vanishes.
+/// Lengths are in a unit of the node's choice, in which no power of them that a weight needs
+/// overflows or vanishes.
 #[derive(Clone, Copy, Debug)]
 pub struct ChildView {
     /// From the receiver to the mean position.
     pub mean: [f32; 3],
     /// Half extents of a box about that position that holds all emitting points.
     pub extent: [f32; 3],
-    /// About the root mean square distance of the emitting points, above 0 and not below the length of `mean`.
+    /// About the root mean square distance of the emitting points, above 0 and not below the length
+    /// of `mean`.
     pub dist: f32,
     /// Its square.
     pub dist_sq: f32,
@@ -26,10 +29,11 @@ pub struct ChildView {
     pub slack: f32,
     /// Mean emission axis, no component of which is above 127.
     pub axis: [f32; 3],
-    /// Mean emission offset, of `[-127, 127]`: the child emits about `power * max(0, dot(axis, w) - offset)` toward a unit vector `w`.
+    /// Mean emission offset, of `[-127, 127]`: the child emits about
+    /// `power * max(0, dot(axis, w) - offset)` toward a unit vector `w`.
     pub offset: f32,
-    /// Root mean square deviation of axis and offset. 0 if no light of the child emits beyond its axis and offset: where these say that
-    /// nothing is emitted, nothing is.
+    /// Root mean square deviation of axis and offset. 0 if no light of the child emits beyond its
+    /// axis and offset: where these say that nothing is emitted, nothing is.
     pub spread: f32,
     /// Whether the child emits alike to both sides, about `power / 2 * |dot(axis, w)|`.
     pub both_sides: bool,
@@ -57,7 +61,8 @@ impl NodeFrame {
         }
     }
 
-    /// The unit is near the distance to the node or its extent, whichever is larger: right for all finite lengths.
+    /// The unit is near the distance to the node or its extent, whichever is larger: right for all
+    /// finite lengths.
     pub(crate) fn from_afar(node: &WideNode, position: Vec3, reach: f32) -> Self {
         let origin = Vec3::from(node.origin) - position;
         let away = origin.abs().element_sum() + reach;
@@ -109,7 +114,8 @@ impl NodeFrame {
     }
 }
 
-/// The mean squared distance of a box about `mean` of which `variance` is the share of its squared width that counts, and a little more.
+/// The mean squared distance of a box about `mean` of which `variance` is the share of its squared
+/// width that counts, and a little more.
 #[inline(always)]
 pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32, more: f32) -> f32 {
     let [x, y, z] = mean;

@@ -7,8 +7,9 @@ use crate::importance::receiver::Receiver;
 use crate::importance::surface::SurfaceReceiver;
 use crate::lane_math::{larger, smaller};
 
-/// How much of a group's squared extent over its squared distance widens the facets, and how much of its squared width is variance of that
-/// distance: less than elsewhere, for lights on the far side of the receiver lie in other directions.
+/// How much of a group's squared extent over its squared distance widens the facets, and how much
+/// of its squared width is variance of that distance: less than elsewhere, for lights on the far
+/// side of the receiver lie in other directions.
 const WIDENING: f32 = 0.375;
 const DISTANCE: f32 = 0.03;
 
@@ -24,12 +25,15 @@ const MIN_HALF_SQ: f32 = 1e-5;
 /// Keeps grazing views from dividing by nothing.
 const MIN_COS: f32 = 1e-3;
 
-/// A point on a surface that mirrors: what a [`SurfaceReceiver`] counts, times the reflection toward the viewer.
+/// A point on a surface that mirrors: what a [`SurfaceReceiver`] counts, times the reflection
+/// toward the viewer.
 ///
-/// The facets are widened by how large a group of lights appears, so that its reflection is not missed beside its centre.
+/// The facets are widened by the angular size of a group of lights, so that a reflection beside its
+/// centre still counts.
 ///
 /// # Source
-/// The distribution of facets is that of `[PBRT4]` 9.6; its shadowing is the rational approximation of `[Hammon2017]`.
+/// The distribution of facets is that of `[PBRT4]` 9.6; its shadowing is the rational approximation
+/// of `[Hammon2017]`.
 #[derive(Clone, Copy, Debug)]
 pub struct GlossyReceiver {
     surface: SurfaceReceiver,
@@ -40,8 +44,8 @@ pub struct GlossyReceiver {
 }
 
 impl GlossyReceiver {
-    /// The point `p` with the normal `n`, of any length, seen from its side of `n`. Values outside of their domain are moved into it; without
-    /// a direction to the viewer the surface is matt.
+    /// The point `p` with the normal `n`, of any length, seen from its side of `n`. Values outside
+    /// of their domain are moved into it; without a direction to the viewer the surface is matt.
     #[inline(always)]
     #[must_use]
     pub fn new(p: Vec3, n: Vec3, gloss: &Gloss) -> Self {
@@ -114,7 +118,7 @@ impl Receiver for GlossyReceiver {
 mod tests {
     use super::*;
 
-    /// A child without extent in direction `v`, which shines alike in all directions.
+    /// A child without extent in direction `v`, which emits alike in all directions.
     fn child(v: Vec3) -> ChildView {
         ChildView {
             mean: v.to_array(),

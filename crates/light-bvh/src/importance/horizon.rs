@@ -3,10 +3,12 @@ use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
 
-/// How much of the squared support of a child counts as variance of its height over the horizon. Chosen by V: see `docs/light-bvh.md`.
+/// How much of the squared support of a child counts as variance of its height over the horizon.
+/// Chosen by V: see `docs/light-bvh.md`.
 const HEIGHT: f32 = 0.35;
 
-/// How much of the support is taken off the expected height again, for no light is beyond it. Chosen by V.
+/// How much of the support is taken off the expected height again, for no light is beyond it.
+/// Chosen by V.
 const BEYOND: f32 = 0.14;
 
 /// The plane through a receiver, with its normal up.
@@ -35,8 +37,8 @@ impl Horizon {
     }
 }
 
-/// About the mean distance from the horizon, up or down, of lights whose height varies as `support` allows: more than `-height` even where
-/// the support just reaches the horizon.
+/// About the mean distance from the horizon, up or down, of lights whose height varies as `support`
+/// allows: more than `-height` even where the support just reaches the horizon.
 #[inline(always)]
 pub(crate) fn expected_abs(height: f32, support: f32) -> f32 {
     float::sqrt(height * height + HEIGHT * (support * support)) - BEYOND * support

@@ -1,4 +1,4 @@
-//! What the children of a node are worth to a receiver: one policy a file.
+//! The importance of the children of a node to a receiver: one kind of receiver a file.
 
 mod child_importance;
 pub(crate) mod child_view;

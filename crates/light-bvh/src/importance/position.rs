@@ -3,7 +3,8 @@ use light_math::glam::Vec3;
 /// Coordinates are clamped to this on either side, so that no difference of two overflows.
 pub(crate) const FAR: f32 = 1e36;
 
-/// Whether `p` is beyond ±1e36 on any axis, where it is taken to be nearer and directions from it mean nothing.
+/// Whether `p` is beyond ±1e36 on any axis. Queries clamp such a point, and directions from it mean
+/// nothing.
 #[inline(always)]
 #[must_use]
 pub fn is_far(p: Vec3) -> bool {

@@ -2,9 +2,11 @@ use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
 
-/// Who asks a [`LightBvh`](crate::LightBvh), and what a group of lights is worth to it.
+/// A receiver of light, and the importance of a group of lights to it: the policy of a query to a
+/// [`LightBvh`](crate::LightBvh).
 ///
-/// A policy may return 0 only when no light of the group can contribute: that test has to be sound. Everything else is an estimate.
+/// An importance of 0 has to be sound: no light of the group can contribute. Any other value is an
+/// estimate.
 pub trait Receiver: Copy {
     /// The point that groups are seen from.
     fn position(&self) -> Vec3;
@@ -15,14 +17,15 @@ pub trait Receiver: Copy {
         0.0
     }
 
-    /// About four times the group's irradiance, in units of its power over the squared `1 / inv_unit`.
+    /// About four times the group's irradiance, in units of its power over the squared
+    /// `1 / inv_unit`.
     ///
-    /// `inv_unit` converts lengths to those of the child. To be computed for all children together it has to be `#[inline]`, without
-    /// branches.
+    /// `inv_unit` converts lengths to those of the child. To be computed for all children together
+    /// it has to be `#[inline]`, without branches.
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32;
 }
 
-/// Nobody in particular: groups count by their peak intensity.
+/// No receiver: groups count by the power that their node encodes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NoReceiver;
 

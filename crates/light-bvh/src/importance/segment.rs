@@ -8,16 +8,17 @@ use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
 use crate::lane_math::{larger, smaller};
 
-/// Places along the segment at which the emission is looked at.
+/// Points along the segment at which the emission is evaluated.
 const PLACES: usize = 4;
 
-/// How near a light may be to a segment, as a share of its length: nearer ones count as there, so that the weights of neighbours stay within what
-/// floats hold, whatever the length.
+/// How near a light may be to a segment, as a share of its length: nearer ones count as there, so
+/// that the weights of neighbours stay within what floats hold, whatever the length.
 const NEAREST: f32 = 1e-8;
 
 /// A ray segment in a medium: lights count by their mean fluence along it.
 ///
-/// The places are equally spaced in the angle under which the light sees the segment, so that a light close to it is not missed.
+/// The places are equally spaced in the angle under which the light sees the segment, so that a
+/// light close to it is not missed.
 #[derive(Clone, Copy, Debug)]
 pub struct SegmentReceiver {
     p: Vec3,
@@ -34,7 +35,8 @@ impl SegmentReceiver {
     pub fn new(p: Vec3, extent: Vec3) -> Self {
         let p = near(p);
         let extent = near(p + extent) - p;
-        // Scaled before it is squared: the length of any finite segment is finite, and above 0 unless the segment is a point.
+        // Scaled before it is squared: the length of any finite segment is finite, and above 0
+        // unless the segment is a point.
         let largest = extent.abs().max_element().max(f32::MIN_POSITIVE);
         let length = (extent / largest).length() * largest;
         Self {
@@ -85,7 +87,8 @@ impl Receiver for SegmentReceiver {
     }
 }
 
-/// Arc tangent to within 0.005, by arithmetic alone, and never at a right angle, where its tangent would be infinite.
+/// Arc tangent to within 0.005, by arithmetic alone, and never at a right angle, where its tangent
+/// would be infinite.
 #[inline(always)]
 fn angle(x: f32) -> f32 {
     let (magnitude, square) = (x.abs(), x * x);
@@ -95,7 +98,8 @@ fn angle(x: f32) -> f32 {
     smaller(FRAC_PI_2 - 1e-4, angle).copysign(x)
 }
 
-/// Tangent of an angle below a right one, to within a fiftieth: a rational function with its slopes at 0 and its poles.
+/// Tangent of an angle below a right one, to within a fiftieth: a rational function with its slopes
+/// at 0 and its poles.
 #[inline(always)]
 fn tangent(x: f32) -> f32 {
     const BENT: f32 = 1.0 - 8.0 / (PI * PI);

@@ -31,7 +31,8 @@ impl SurfaceReceiver {
         }
     }
 
-    /// About twice the mean height of the child's lights above the horizon, those below counting as 0.
+    /// About twice the mean height of the child's lights above the horizon, those below counting as
+    /// 0.
     #[inline(always)]
     pub(crate) fn expected_height(&self, child: &ChildView) -> f32 {
         let (height, support) = self.horizon.height(child);

@@ -8,8 +8,8 @@ use crate::simd::{VectorWork, dispatch};
 const MIN_SCALE: f32 = 1e-30;
 
 impl WideNode {
-    /// A node whose children have the given moments, no more than it has slots; `child_base`, `light_base`, `inner` and `parent` are
-    /// left to the caller.
+    /// A node whose children have the given moments, no more than it has slots; `child_base`,
+    /// `light_base`, `inner` and `parent` are left to the caller.
     #[cfg(test)]
     pub(crate) fn encode(children: &[Moments]) -> Self {
         let mut node = Self::EMPTY;
@@ -17,8 +17,8 @@ impl WideNode {
         node
     }
 
-    /// Makes what the node knows of its children what these moments say, of no more children than it has slots; where they are, and
-    /// how many are nodes, stays as it is.
+    /// Encodes the moments of the children, at most as many as the node has slots. Their places,
+    /// and how many are nodes, do not change.
     pub(crate) fn encode_children(&mut self, children: &[Moments]) {
         dispatch(EncodeChildren {
             node: self,
@@ -77,8 +77,8 @@ impl WideNode {
 
     /// Mean positions, and boxes around them that hold what they must.
     ///
-    /// A difference of two floats is off by half an epsilon of itself, however far from zero they are. Twice 255 codes are so known to
-    /// within 1e-4 of a code, which the margin outweighs.
+    /// A difference of two floats is off by half an epsilon of itself, however far from zero they
+    /// are. Twice 255 codes are so known to within 1e-4 of a code, which the margin outweighs.
     #[inline(always)]
     fn set_boxes(&mut self, children: &ChildrenSoa) {
         const MARGIN: f32 = 0.001;
@@ -131,7 +131,7 @@ impl WideNode {
     }
 }
 
-/// A node that is told its children.
+/// A node and the children that it encodes.
 struct EncodeChildren<'a> {
     node: &'a mut WideNode,
     children: &'a [Moments],
@@ -213,7 +213,8 @@ mod tests {
         }
     }
 
-    /// Over all directions in which the exact line shines, and from its codes: what rounding in receivers may take is left.
+    /// Over all directions in which the exact line shines, and from its codes: what rounding in
+    /// receivers may take is left.
     #[test]
     fn offsets_leave_what_receivers_round_off() {
         /// In codes; nine tenths of the margin, the rest is the encoder's own round-off.
@@ -235,7 +236,8 @@ mod tests {
                 let along = dot(decoded, axis) / length;
                 let aside = (dot(decoded, decoded) - along * along).max(0.0).sqrt();
                 let sin = (1.0 - cos * cos).sqrt();
-                // Seen from the exact axis, the direction opposite to the decoded one is at the angle of cosine `-along / |decoded|`.
+                // Seen from the exact axis, the direction opposite to the decoded one is at the
+                // angle of cosine `-along / |decoded|`.
                 let opposite_is_lit = -along / dot(decoded, decoded).sqrt() >= cos;
                 let least = if opposite_is_lit {
                     -dot(decoded, decoded).sqrt()

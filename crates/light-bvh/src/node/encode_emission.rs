@@ -16,8 +16,8 @@ impl WideNode {
                 children.axis[2][k],
             ];
             let offset = children.offset[k];
-            // Less than the true spread where narrow cones make the axes long, for few of their deviations matter to one receiver.
-            // Measured: half the variance is best.
+            // Less than the true spread where narrow cones make the axes long, for few of their
+            // deviations matter to one receiver. Measured: half the variance is best.
             let is_narrow = larger(x * x + y * y + z * z, offset * offset) > 1.1;
             let counted = if is_narrow { 0.5 } else { 1.0 };
             spreads[k] = float::sqrt(counted * children.spread_sq[k]);
@@ -72,12 +72,14 @@ fn lengths([x, y, z]: &[[f32; WIDTH]; 3]) -> [f32; WIDTH] {
     core::array::from_fn(|k| float::sqrt(x[k] * x[k] + y[k] * y[k] + z[k] * z[k]))
 }
 
-/// The code of an offset so that `dot(decoded, w)` is above it wherever `dot(axis, w)` is above `offset`, for all unit vectors `w`;
-/// below -127 if there is no such code. `length` is that of the decoded axis.
+/// The code of an offset so that `dot(decoded, w)` is above it wherever `dot(axis, w)` is above
+/// `offset`, for all unit vectors `w`; below -127 if there is no such code. `length` is that of the
+/// decoded axis.
 #[inline(always)]
 fn offset_below(decoded: [f32; 3], length: f32, axis: [f32; 3], offset: f32) -> f32 {
-    /// What is left to round-off, in codes: less than 0.0005 of it here, 0.0012 because a light's axis may be too short by 5e-6, and less than
-    /// 0.001 where a receiver computes the same product and its distance, in single precision from numbers of at most 220.
+    /// What is left to round-off, in codes: less than 0.0005 of it here, 0.0012 because a light's
+    /// axis may be too short by 5e-6, and less than 0.001 where a receiver computes the same
+    /// product and its distance, in single precision from numbers of at most 220.
     const MARGIN: f32 = 0.01;
     let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let length_sq = dot(axis, axis);
@@ -90,8 +92,8 @@ fn offset_below(decoded: [f32; 3], length: f32, axis: [f32; 3], offset: f32) -> 
         decoded[2] - axis[2] * t,
     ];
     let aside = float::sqrt(dot(aside, aside));
-    // The edge of the lit directions, seen from the exact axis, and the decoded axis' least component in it: at the edge on the far side,
-    // or opposite to the decoded axis if that is lit.
+    // The edge of the lit directions, seen from the exact axis, and the decoded axis' least
+    // component in it: at the edge on the far side, or opposite to the decoded axis if that is lit.
     let cos = smaller(larger(offset * inv_length, -1.0), 1.0);
     let cos = if length_sq > 0.0 { cos } else { -1.0 };
     let sin = float::sqrt(larger(1.0 - cos * cos, 0.0));

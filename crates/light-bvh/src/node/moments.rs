@@ -7,13 +7,15 @@ use light_math::{Aabb, float};
 /// Cosine of `theta_e` below which an emitter counts as diffuse.
 const DIFFUSE: f32 = 1e-3;
 
-/// Offset of the widest lobe that counts as a spot: one that ends at a cosine of -1/2, as for bounds.
+/// Offset of the widest lobe that counts as a spot: one that ends at a cosine of -1/2, as for
+/// bounds.
 const WIDEST_SPOT: f32 = -1.0 / 3.0;
 
-/// Where the spread of a lobe is cut off, squared: beyond this it says nothing of where the light shines.
+/// The largest squared spread of a lobe: a larger one does not change where the light emits.
 const MAX_SPREAD_SQ: f32 = 1.0;
 
-/// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak intensity.
+/// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak
+/// intensity.
 ///
 /// Toward a unit vector `w` the group emits about `power * max(0, dot(axis, w) - offset)`.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +84,7 @@ impl Moments {
         }
     }
 
-    /// The length of the mean axis of one light: 1 for a flat one, more the narrower the cone that it shines into.
+    /// The length of the mean axis of one light: 1 for a flat light, longer for a narrower cone.
     #[inline]
     pub(crate) fn axis_length(cos_theta_o: f32, cos_theta_e: f32, two_sided: bool) -> f32 {
         Lobe::new(cos_theta_o, cos_theta_e, two_sided).axis
@@ -134,15 +136,17 @@ impl Moments {
             let deviation_sq = part.spread_sq + shape.deviation_sq(axis, offset, along);
             joined.spread_sq += share * deviation_sq;
         }
-        // Deviations that cancel, or vanish by rounding, are deviations: a group without spread is given up beyond its line.
+        // Deviations may cancel or underflow, but they are deviations: a spread of 0 makes the
+        // emission test a hard one.
         joined.spread_sq = joined.spread_sq.max(f32::MIN_POSITIVE);
         joined
     }
 
-    /// Axis and offset of these lights, if all of `parts` emit within the same cone, to the bit, and none beyond it.
+    /// Axis and offset of these lights, if all of `parts` emit within the same cone, to the bit,
+    /// and none beyond it.
     ///
-    /// Then, and only then, the line of the group is as exact as that of each light: no light of it emits where the line says that nothing
-    /// is emitted.
+    /// Then, and only then, the line of the group is as exact as that of each light: no light of it
+    /// emits where the line says that nothing is emitted.
     fn common_line<'a>(&self, mut parts: impl Iterator<Item = &'a Self>) -> Option<(Vec3, f32)> {
         let is_alike = |p: &Self| {
             p.spread_sq == 0.0
@@ -160,7 +164,8 @@ impl Moments {
                 axis: -self.axis,
                 ..*self
             },
-            // Mean and variance of |cos| over the sphere: what is left when the axis may not be averaged.
+            // The axis has no sign and cannot be averaged: mean and variance of |cos| over the
+            // sphere.
             (Shape::BothSides, Shape::Mixed) => Self {
                 axis: Vec3::ZERO,
                 offset: -0.5,
@@ -173,10 +178,12 @@ impl Moments {
 }
 
 impl Shape {
-    /// How much a part that deviates by `axis` and `offset` from the mean adds to the squared spread.
+    /// How much a part that deviates by `axis` and `offset` from the mean adds to the squared
+    /// spread.
     fn deviation_sq(self, axis: Vec3, offset: f32, along: Vec3) -> f32 {
         if self == Self::Spots {
-            // Only directions near the common axis matter, where deviations of axis and offset cancel.
+            // Only directions near the common axis matter, where deviations of axis and offset
+            // cancel.
             let forward = axis.dot(along);
             let aside_sq = (axis.length_squared() - forward * forward).max(0.0);
             aside_sq + (forward - offset) * (forward - offset)
@@ -211,7 +218,8 @@ impl Emission {
         }
     }
 
-    /// As a light in one point with a lobe emits. However small the spread, it keeps what is emitted beyond the line alive.
+    /// As a light in one point with a lobe emits. However small the spread, it keeps what is
+    /// emitted beyond the line alive.
     #[inline(always)]
     fn of_lobe(lobe: &EmissionLobe) -> Self {
         let line = lobe.line();
@@ -245,7 +253,8 @@ impl Lobe {
         if cos_e.abs() < DIFFUSE {
             return Self::diffuse(cos_o, cos_e, two_sided);
         }
-        // The sum of the angles is pi or more where `cos(o) <= cos(pi - e)`; the sign of the sum of two floats is exact.
+        // The sum of the angles is pi or more where `cos(o) <= cos(pi - e)`; the sign of the sum of
+        // two floats is exact.
         let is_everywhere = cos_o + cos_e <= 0.0;
         let sin = |cos: f32| float::sqrt((1.0 - cos) * (1.0 + cos));
         let cos_total = cos_o * cos_e - sin(cos_o) * sin(cos_e);
@@ -263,8 +272,9 @@ impl Lobe {
         }
     }
 
-    /// A diffuse surface whose normals fill a cone of half angle `theta_o`; a point or a sphere fills all directions. What it emits
-    /// beyond a right angle, if `theta_e` is a little more, is not given up.
+    /// A diffuse surface whose normals fill a cone of half angle `theta_o`; a point or a sphere
+    /// fills all directions. What it emits beyond a right angle, if `theta_e` is a little more, is
+    /// not given up.
     fn diffuse(cos_theta_o: f32, cos_theta_e: f32, two_sided: bool) -> Self {
         let mean_cos = 0.5 + 0.5 * cos_theta_o;
         let rest = 1.0 - mean_cos;

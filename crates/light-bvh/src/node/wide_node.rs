@@ -7,12 +7,13 @@ pub const MAX_DEPTH: usize = 24;
 /// `slots` entry of a light that is not in the tree, and `parent` of the root.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
-/// A node of the default tree: up to sixteen children, each a subtree or one light, described by 8-bit moments.
+/// A node of the default tree: up to sixteen children, each a subtree or one light, described by
+/// 8-bit moments.
 ///
-/// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector `w` is about
-/// `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a unit that is folded into `power`.
-/// The first `inner` children are subtrees, in the nodes `child_base..`; the others are lights, in the order entries
-/// `light_base..`.
+/// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector
+/// `w` is about `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a
+/// unit that is folded into `power`. The first `inner` children are subtrees, in the nodes
+/// `child_base..`; the others are lights, in the order entries `light_base..`.
 ///
 /// Aligned so that none is on more than four cache lines.
 ///
@@ -92,10 +93,10 @@ impl WideNode {
     }
 }
 
-/// What the bits of code 0 would stand for.
+/// The power that the bits of code 0 would mean without the subtraction.
 const POWER_OF_CODE_0: f32 = f32::from_bits(96 << 23);
 
-/// The power that a code stands for: 0 for 0, otherwise a number of `[2^-34, 2)`.
+/// The power of a code: 0 for 0, otherwise a number of `[2^-34, 2)`.
 #[inline(always)]
 pub(crate) const fn decode_power(code: u8) -> f32 {
     f32::from_bits(((code as u32) << 20) + (96 << 23)) - POWER_OF_CODE_0

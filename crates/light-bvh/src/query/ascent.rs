@@ -25,7 +25,8 @@ impl Query for Ascent<'_, '_> {
 }
 
 impl LightBvhRef<'_> {
-    /// The probability of `light`, if `pmf` is that of the root; or of the first child of a node on the way up from it that `known` tells.
+    /// The probability of `light`, where the root has the probability `pmf`. The way up ends at the
+    /// first child (node, slot) whose probability `known` returns.
     #[inline(always)]
     pub(crate) fn ascend<R: Receiver>(
         &self,
@@ -40,7 +41,8 @@ impl LightBvhRef<'_> {
             return 0.0;
         }
         let (mut pmf, mut levels) = (pmf, 0);
-        // Up along the parents: which nodes to visit does not depend on what they weigh, so their latencies overlap.
+        // Up along the parents: which nodes to visit does not depend on what they weigh, so their
+        // latencies overlap.
         while slot != NOWHERE {
             let (index, child) = (slot as usize / WIDTH, slot as usize % WIDTH);
             if let Some(known) = known(index, child) {

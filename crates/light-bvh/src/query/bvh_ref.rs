@@ -3,10 +3,10 @@ use light_bounds::LightId;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::simd::prefetch;
 
-/// How many nodes the caches near a processor hold: the memory need not be asked early for those of a smaller tree.
+/// How many nodes the caches hold: a smaller tree is not prefetched.
 const CACHED_NODES: usize = 1 << 8;
 
-/// The default light hierarchy on borrowed memory: what queries need and nothing else.
+/// The default light hierarchy on borrowed slices: all that queries need.
 ///
 /// Three plain arrays that can be copied to a GPU as they are.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +23,8 @@ pub(crate) enum Child {
 }
 
 impl<'a> LightBvhRef<'a> {
-    /// A view of the arrays of a [`LightBvh`](crate::LightBvh). Arrays of another origin give answers without meaning, but no panic and no
-    /// endless loop.
+    /// A view of the arrays of a [`LightBvh`](crate::LightBvh). Other arrays give meaningless
+    /// results, but neither a panic nor an endless loop.
     #[must_use]
     pub const fn new(nodes: &'a [WideNode], order: &'a [u32], slots: &'a [u32]) -> Self {
         Self {
@@ -58,7 +58,8 @@ impl<'a> LightBvhRef<'a> {
         self.nodes.is_empty()
     }
 
-    /// Asks the memory for what a choice among the children of `node` may lead to, unless the caches hold all of the tree.
+    /// Prefetches all that a choice among the children of `node` may lead to, unless the tree is
+    /// small.
     #[inline(always)]
     pub(crate) fn prefetch_below(&self, node: &WideNode) {
         if self.nodes.len() <= CACHED_NODES {

@@ -7,7 +7,7 @@ use crate::query::into_receiver::Query;
 use crate::query::select::mul_prob;
 use crate::query::weights::Weights;
 
-/// How many levels below the start of a descent the caches near a processor hold: the memory need not be asked early for those.
+/// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
 
 /// [`LightBvhRef::sample_after`].

@@ -14,7 +14,8 @@ use crate::simd::VectorWork;
 pub(crate) trait Query {
     type Output;
 
-    /// Runs it for `receiver`. Every implementation is `#[inline(always)]`: its caller chooses the vectors.
+    /// Runs it for `receiver`. Every implementation is `#[inline(always)]`: its caller chooses the
+    /// vectors.
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output;
 }
 

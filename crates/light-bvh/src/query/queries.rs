@@ -61,21 +61,23 @@ impl LightBvhRef<'_> {
         dispatch(QueryFor(receiver, Ascent { tree, pmf, light }))
     }
 
-    /// One light to emit from, about in proportion to its peak intensity, after another choice of probability `pmf` led to the tree;
-    /// `None` if the tree is empty.
+    /// One light to emit from, about in proportion to its peak intensity, after another choice of
+    /// probability `pmf` led to the tree; `None` if the tree is empty.
     #[must_use]
     pub fn sample_emitter_after(&self, pmf: f32, u: f64) -> Option<SampledLight> {
         dispatch(QueryFor(&NoReceiver, Descent { tree: self, pmf, u }))
     }
 
-    /// Probability that [`sample_emitter_after`](Self::sample_emitter_after) returns `light`, to the bit.
+    /// Probability that [`sample_emitter_after`](Self::sample_emitter_after) returns `light`, to
+    /// the bit.
     #[must_use]
     pub fn pmf_emitter_after(&self, pmf: f32, light: LightId) -> f32 {
         let tree = self;
         dispatch(QueryFor(&NoReceiver, Ascent { tree, pmf, light }))
     }
 
-    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of a tree of power 1; 0 only if none of them can contribute.
+    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of a tree of power
+    /// 1; 0 only if none of them can contribute.
     #[must_use]
     pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
         self.nodes()

@@ -34,10 +34,12 @@ impl Weights {
     }
 }
 
-/// The child that `target` of the sum of the weights, from 0 to that sum, falls on, and how far into it as a part of 1.
+/// The child that `target` of the sum of the weights, from 0 to that sum, falls on, and how far
+/// into it as a part of 1.
 ///
-/// The sum is that of double precision, for the one in single precision may end before the last child begins. In double precision: 24 bits cannot address the lights below children that differ much. Sums in single precision guess the child,
-/// which is looked for only if they are wrong.
+/// In double precision: 24 bits cannot address the lights below children whose weights differ much,
+/// and a sum in single precision may end before the last child begins. Sums in single precision
+/// guess the child; a search follows only where the guess is wrong.
 #[inline(always)]
 pub(crate) fn pick(
     lanes: &[f32; WIDTH],
@@ -83,14 +85,15 @@ fn guess(lanes: &[f32; WIDTH], about: f32) -> usize {
     (ended.trailing_ones() as usize).min(WIDTH - 1)
 }
 
-/// `x` with less precision.
-#[expect(clippy::cast_possible_truncation, reason = "as it says")]
+/// `x` rounded to single precision.
+#[expect(clippy::cast_possible_truncation, reason = "the rounding is intended")]
 #[inline(always)]
 pub(crate) const fn to_f32(x: f64) -> f32 {
     x as f32
 }
 
-/// The last child with any weight that begins before `target`: it also takes what rounding leaves beyond the sum.
+/// The last child with any weight that begins before `target`: it also takes a target that rounding
+/// puts beyond the sum.
 #[cold]
 fn search(lanes: &[f32; WIDTH], starts: &[f64; WIDTH + 1], target: f64) -> Option<usize> {
     let begins = |&child: &usize| lanes[child] > 0.0 && starts[child] <= target;

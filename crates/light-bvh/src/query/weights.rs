@@ -2,11 +2,11 @@ use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{WIDTH, WideNode};
 
-/// The least sum of weights in codes that is trusted. A child's weight may be 10^18 times smaller than the largest, and what it is the
-/// product of 10^27 times, which a float still holds.
+/// The least sum of weights in codes that is trusted: a weight 10^18 times smaller than the
+/// largest, and its factors 10^27 times smaller, are still normal floats.
 const LEAST_TOTAL: f32 = 1e-10;
 
-/// What the children of a node are worth to a receiver.
+/// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights {
     /// One number a child: 0 only if it cannot contribute.
@@ -18,7 +18,7 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// What the children of `node` are worth to `receiver`.
+    /// The weights of the children of `node` for `receiver`.
     #[inline(always)]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let weights = Self::in_frame(
@@ -34,7 +34,8 @@ impl Weights {
         }
     }
 
-    /// The same, and for each child how rough its estimate is: its squared width over its squared distance.
+    /// The same, and for each child the square of its angular size: squared width over squared
+    /// distance.
     #[inline(always)]
     pub(crate) fn with_angular_size<R: Receiver>(
         node: &WideNode,
@@ -55,7 +56,8 @@ impl Weights {
         }
     }
 
-    /// About the irradiance by the lights of `node`, of which these are the weights, where all lights of the tree have power 1.
+    /// About the irradiance by the lights of `node`, of which these are the weights, where all
+    /// lights of the tree have power 1.
     #[inline(always)]
     pub(crate) fn irradiance(&self, node: &WideNode) -> f64 {
         let inv_unit = f64::from(self.inv_unit);
@@ -63,7 +65,8 @@ impl Weights {
         0.25 * f64::from(self.total) * f64::from(node.gain()) * inv_unit * inv_unit
     }
 
-    /// The weights of lights so far away, or nodes so large, that they vanish in codes.
+    /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
+    /// weights in codes underflow.
     #[cold]
     fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         Self::in_frame(
@@ -74,7 +77,8 @@ impl Weights {
         )
     }
 
-    /// Written so that the compiler computes all children together: no branches, and nothing that depends on another child.
+    /// Written so that the compiler computes all children together: no branches, and nothing that
+    /// depends on another child.
     #[inline(always)]
     fn in_frame<R: Receiver>(
         node: &WideNode,
@@ -96,7 +100,8 @@ impl Weights {
     }
 }
 
-/// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor infinite, nor not a number.
+/// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor
+/// infinite, nor not a number.
 #[inline(always)]
 fn is_trusted(total: f32) -> bool {
     (LEAST_TOTAL..=f32::MAX).contains(&total)

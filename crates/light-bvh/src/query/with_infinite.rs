@@ -10,11 +10,12 @@ use crate::query::weights::Weights;
 use crate::simd::dispatch;
 
 impl LightBvhRef<'_> {
-    /// One light, by a first choice between the tree and other lights.
+    /// One light, by a first choice between the tree and infinite lights.
     ///
-    /// `first` is told the [`irradiance`](Self::irradiance) of the tree at `ctx`, and goes on into it with the probability of that and the unused
-    /// part of its `u`, or ends with another light. The same light as by [`sample_after`](Self::sample_after) with the same pmf, to the bit,
-    /// but the root is looked at only once.
+    /// `first` gets the [`irradiance`](Self::irradiance) of the tree at `ctx`. It continues into
+    /// the tree with the probability of that choice and the unused part of its `u`, or breaks with
+    /// another light. The result has the bits of [`sample_after`](Self::sample_after), but the root
+    /// is evaluated only once.
     #[inline]
     #[must_use]
     pub fn sample_with_infinite(

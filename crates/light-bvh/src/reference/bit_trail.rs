@@ -7,10 +7,11 @@ pub enum Side {
     Second,
 }
 
-/// The way from the root to a light's leaf, in 4 bytes: one bit a level from the lowest bit up, 1 for the second child.
+/// The way from the root to a light's leaf, in 4 bytes: one bit a level from the lowest bit up, 1
+/// for the second child.
 ///
-/// The bit above the last one of the way is set too, which says where the way ends. [`NONE`](Self::NONE) is the trail of
-/// lights that are not in the tree.
+/// The bit above the last one of the way is set too, which says where the way ends.
+/// [`NONE`](Self::NONE) is the trail of lights that are not in the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(transparent)]
@@ -26,7 +27,8 @@ impl BitTrail {
     /// The trail of a root that is a leaf.
     pub const ROOT: Self = Self(1);
 
-    /// The trail one level further down; `None` if it does not fit, or if `self` is [`NONE`](Self::NONE).
+    /// The trail one level further down; `None` if it does not fit, or if `self` is
+    /// [`NONE`](Self::NONE).
     #[must_use]
     pub fn then(self, side: Side) -> Option<Self> {
         let depth = self.depth()?;

@@ -72,7 +72,8 @@ impl Subtree<'_> {
         clippy::cast_possible_truncation,
         reason = "there are fewer nodes than a link can number"
     )]
-    /// Fills `nodes`, one less than twice the `lights`, and returns what bounds them. Recursive, never deeper than a trail.
+    /// Fills `nodes`, one less than twice the `lights`, and returns what bounds them. Recursive,
+    /// never deeper than a trail.
     fn build(self, lights: &mut [Leaf], nodes: &mut [ReferenceNode]) -> LightBounds {
         let (root, nodes) = match nodes.split_first_mut() {
             Some(nodes) => nodes,
@@ -108,7 +109,8 @@ impl Subtree<'_> {
         bounds
     }
 
-    /// Brings the lights of the first child to the front and returns their number, at least one and not all.
+    /// Brings the lights of the first child to the front and returns their number, at least one and
+    /// not all.
     fn divide(self, lights: &mut [Leaf]) -> usize {
         let bounds = lights
             .iter()
@@ -133,7 +135,8 @@ impl Subtree<'_> {
     }
 }
 
-/// Moves the lights of the first side to the front and returns their number; exchanges from both ends inward.
+/// Moves the lights of the first side to the front and returns their number; exchanges from both
+/// ends inward.
 fn partition(lights: &mut [Leaf], split: &Split) -> usize {
     let is_first = |light: &Leaf| split.is_first(light.centroid);
     let (mut front, mut back) = (0, lights.len());
@@ -153,7 +156,8 @@ fn partition(lights: &mut [Leaf], split: &Split) -> usize {
     }
 }
 
-/// Moves the half of the lights that is lower along the widest axis to the front and returns its number.
+/// Moves the half of the lights that is lower along the widest axis to the front and returns its
+/// number.
 fn balance(lights: &mut [Leaf], centroids: &Aabb) -> usize {
     let axis = (0.5 * centroids.max - 0.5 * centroids.min).max_position();
     let middle = lights.len() / 2;

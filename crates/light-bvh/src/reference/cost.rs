@@ -4,14 +4,16 @@ use light_bounds::LightBounds;
 use light_bounds::light_math::Aabb;
 use light_bounds::light_math::float::{cos, safe_acos, safe_sqrt};
 
-/// Relative cost of a group of lights on one side of a split along `axis` of a node with the box `node`.
+/// Relative cost of a group of lights on one side of a split along `axis` of a node with the box
+/// `node`.
 ///
-/// Power times solid angle of emission times size, and for a split across a short axis that many times more. In `f64`,
-/// so that it is finite for any finite bounds.
+/// Power times solid angle of emission times size, and for a split across a short axis that many
+/// times more. In `f64`, so that it is finite for any finite bounds.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.6.3; `[ContyEstevez2018]`, section 4. Where the node's box has no area its length takes the place of
-/// area: lights on a line would otherwise cost nothing however they are split.
+/// `[PBRT4]`, section 12.6.3; `[ContyEstevez2018]`, section 4. Where the node's box has no area its
+/// length takes the place of area: lights on a line would otherwise cost nothing however they are
+/// split.
 pub(super) fn side_cost(side: &LightBounds, node: &Aabb, axis: usize) -> f64 {
     let extents = extents(node);
     let longest = extents.into_iter().fold(0.0, f64::max);
@@ -24,7 +26,8 @@ pub(super) fn side_cost(side: &LightBounds, node: &Aabb, axis: usize) -> f64 {
     f64::from(side.phi) * f64::from(emission_measure(side)) * regularity * size
 }
 
-/// Integral of the emission profile over the sphere: the solid angle of the normals, and a cosine lobe beyond it.
+/// Integral of the emission profile over the sphere: the solid angle of the normals, and a cosine
+/// lobe beyond it.
 fn emission_measure(bounds: &LightBounds) -> f32 {
     let theta_o = safe_acos(bounds.cos_theta_o);
     let theta_e = safe_acos(bounds.cos_theta_e);

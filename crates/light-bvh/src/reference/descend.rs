@@ -4,9 +4,11 @@ use super::fork::Fork;
 use super::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
 
 impl ReferenceLightBvhRef<'_> {
-    /// One light that may light `ctx`, chosen in proportion to importance at every fork, for `u` in `[0, 1)`.
+    /// One light that may light `ctx`, chosen in proportion to importance at every fork, for `u` in
+    /// `[0, 1)`.
     ///
-    /// `None` where the walk ends above lights none of which can contribute: bounds tighten on the way down.
+    /// `None` where the walk ends above lights none of which can contribute: bounds tighten on the
+    /// way down.
     ///
     /// # Source
     /// `[PBRT4]`, section 12.6.3.

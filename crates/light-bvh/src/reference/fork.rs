@@ -2,7 +2,8 @@ use light_bounds::SampledLight;
 
 use super::Side;
 
-/// The choice between two children: in proportion to their weights, in sampling and in asking alike.
+/// The choice between two children: in proportion to their weights, in sampling and in asking
+/// alike.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fork {
     first: f32,
@@ -16,7 +17,8 @@ impl Fork {
         Self { first, second }
     }
 
-    /// One side and the unused part of `u`; `None` if both weights are 0. A side of weight 0 is never taken.
+    /// One side and the unused part of `u`; `None` if both weights are 0. A side of weight 0 is
+    /// never taken.
     ///
     /// Multiplies where others divide: the threshold is exact although probabilities are rounded.
     #[inline]

@@ -1,7 +1,7 @@
 //! The published tree, made robust: the baseline that everything is measured against.
 //!
-//! Binary, 32 bytes a node, one importance per child and level. It keeps the published importance and cost where they
-//! are merely weak. For rendering use the default tree.
+//! Binary, 32 bytes a node, one importance per child and level. It keeps the published importance
+//! and cost where they are merely weak. For rendering use the default tree.
 
 mod bit_trail;
 #[cfg(feature = "alloc")]

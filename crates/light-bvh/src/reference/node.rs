@@ -34,7 +34,8 @@ impl ReferenceNode {
         }
     }
 
-    /// A node above others; the index of its second child is below [`INDEX_LIMIT`](Self::INDEX_LIMIT).
+    /// A node above others; the index of its second child is below
+    /// [`INDEX_LIMIT`](Self::INDEX_LIMIT).
     #[must_use]
     pub fn interior(bounds: CompactLightBounds, second_child: u32) -> Self {
         debug_assert!(second_child < LEAF_BIT, "31 bits");

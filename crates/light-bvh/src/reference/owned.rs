@@ -18,12 +18,15 @@ pub struct ReferenceLightBvh {
 }
 
 impl ReferenceLightBvh {
-    /// The tree of the lights in `lights` that are somewhere and have power; the index of a light is its id.
+    /// The tree of the lights in `lights` that are somewhere and have power; the index of a light
+    /// is its id.
     ///
-    /// Takes time in proportion to `n log n`. The same lights give the same tree, whatever the number of threads.
+    /// Takes time in proportion to `n log n`. The same lights give the same tree, whatever the
+    /// number of threads.
     ///
     /// # Errors
-    /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than 2^30 lights.
+    /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than
+    /// 2^30 lights.
     pub fn build(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
         let (nodes, bounds) = builder::build(lights)?;
         let mut trails = alloc::vec![BitTrail::NONE; lights.len()];

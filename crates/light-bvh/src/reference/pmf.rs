@@ -4,8 +4,8 @@ use super::descend::{above_zero, child_index, power_weight};
 use super::{BitTrail, Link, ReferenceLightBvhRef};
 
 impl ReferenceLightBvhRef<'_> {
-    /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the same bits; 0 for a light that is not
-    /// in the tree.
+    /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the same bits; 0 for
+    /// a light that is not in the tree.
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         self.follow(light, |bounds| bounds.importance(self.bounds, ctx))

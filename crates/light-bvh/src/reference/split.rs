@@ -22,11 +22,12 @@ impl Split {
     }
 }
 
-/// The cheapest split of the lights between two buckets of any axis, each side with at least one light; `None` if all
-/// centroids are the same.
+/// The cheapest split of the lights between two buckets of any axis, each side with at least one
+/// light; `None` if all centroids are the same.
 ///
-/// The first and the last bucket of an axis are never empty. The first two always stay together, as in the source. A split
-/// that costs nothing is taken, unlike there, except that two such lights stay in their order.
+/// The first and the last bucket of an axis are never empty. The first two always stay together, as
+/// in the source. A split that costs nothing is taken, unlike there, except that two such lights
+/// stay in their order.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3, and its implementation.

@@ -7,7 +7,8 @@ use super::{BitTrail, Link, ReferenceNode, Side};
 
 /// The tree on borrowed memory: all that sampling needs, without an allocator.
 ///
-/// A query costs one importance per child and level: `2 log2(n)` of them for `n` lights, and no more than 62.
+/// A query costs one importance per child and level: `2 log2(n)` of them for `n` lights, and no
+/// more than 62.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceLightBvhRef<'a> {
     pub(super) nodes: &'a [ReferenceNode],
@@ -28,11 +29,12 @@ impl fmt::Display for MalformedTree {
 impl core::error::Error for MalformedTree {}
 
 impl<'a> ReferenceLightBvhRef<'a> {
-    /// The tree of the given parts, as another tree returned them; one trail per light, in the order of ids.
+    /// The tree of the given parts, as another tree returned them; one trail per light, in the
+    /// order of ids.
     ///
     /// # Errors
-    /// If any walk over the nodes could leave them or not end, or a trail does not lead to its light. Looks at every node
-    /// once.
+    /// If any walk over the nodes could leave them or not end, or a trail does not lead to its
+    /// light. Looks at every node once.
     pub fn new(
         nodes: &'a [ReferenceNode],
         trails: &'a [BitTrail],
