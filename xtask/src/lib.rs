@@ -39,7 +39,7 @@ usage: cargo xtask [COMMAND]
                               change each of our answers and demand that its case fails
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
-  bench --table [TABLE...]    measure light hierarchies for the first page of light-bvh: hierarchies, receivers, adversarial, refits
+  bench --table [TABLE...]    measure light hierarchies for docs/light-bvh.md: hierarchies, receivers, adversarial, refits
                               (numbers instead: print the first of sets of so many lights)
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   gallery                     remake the pictures of the README and the references of the demo

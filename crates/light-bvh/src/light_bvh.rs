@@ -6,7 +6,7 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use crate::LightBvhError;
 use crate::build::builder::build;
 use crate::build::options::LightBvhOptions;
-use crate::build::scan::Scan;
+use crate::build::scan::{Scan, is_addressable};
 use crate::build::{quality, refit};
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::join;
@@ -31,7 +31,7 @@ impl LightBvh {
     /// Infinite lights, and lights without power, are not in the tree and have pmf 0.
     ///
     /// # Errors
-    /// The first light with invalid bounds or a coordinate beyond ±1e36.
+    /// More than 2^28 lights; the first light with invalid bounds or a coordinate beyond ±1e36.
     pub fn build(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
         Self::build_with(lights, &LightBvhOptions::default())
     }
@@ -44,6 +44,9 @@ impl LightBvh {
         lights: &[LightExtent],
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
+        if !is_addressable(lights.len()) {
+            return Err(LightBvhError::TooManyLights);
+        }
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
         let (topology, order) = build(lights, &scan, options);
         let mut nodes = topology.nodes();

@@ -1,4 +1,4 @@
-//! `cargo xtask bench --table [TABLE...]`: measures light hierarchies and writes the tables of light-bvh's first page.
+//! `cargo xtask bench --table [TABLE...]`: measures light hierarchies and writes the tables of `docs/light-bvh.md`.
 
 use std::fs;
 use std::process::Command;
@@ -13,7 +13,7 @@ mod receivers;
 mod refits;
 
 /// The page that the tables are on, each between a line with its name and the same line at the end.
-const PAGE: &str = "crates/light-bvh/README.md";
+const PAGE: &str = "docs/light-bvh.md";
 const END: &str = "<!-- end of the table -->";
 
 /// A table: its name, and who makes its lines.

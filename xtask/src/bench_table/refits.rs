@@ -18,7 +18,7 @@ pub(super) fn table() -> Result<String, String> {
             let mut line = format!(
                 "| {set} | {} | {:.2} |",
                 number(&row, "moved")?,
-                number(&row, "looseness_ratio")?
+                number(&row, "degradation_ratio")?
             );
             for field in ["v_mean", "v_p99", "v_mean_built_anew", "v_p99_built_anew"] {
                 line += &format!(" {} |", figure(number(&row, field)?));

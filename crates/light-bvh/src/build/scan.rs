@@ -8,6 +8,15 @@ use crate::importance::position::FAR;
 use crate::parallel::join;
 use crate::validate::validate_light;
 
+/// Lights of a tree, at most: a slot of 32 bits names a node, of which there are fewer than lights,
+/// and one of sixteen children.
+const MAX_LIGHTS: usize = 1 << 28;
+
+/// Whether slots of 32 bits can name the places of so many lights.
+pub(crate) const fn is_addressable(lights: usize) -> bool {
+    lights <= MAX_LIGHTS
+}
+
 /// Lights that one job validates.
 const CHUNK: usize = 8192;
 
@@ -98,9 +107,11 @@ fn is_far(bounds: &Aabb) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use light_math::float::next_up;
     use light_math::glam::Vec3;
+
+    use super::*;
+    use crate::node::wide_node::{NOWHERE, WIDTH};
 
     #[test]
     fn a_box_is_far_beyond_any_of_its_faces() {
@@ -111,5 +122,14 @@ mod tests {
             assert!(is_far(&Aabb::new(Vec3::ZERO, beyond)), "up {axis}");
             assert!(is_far(&Aabb::new(-beyond, Vec3::ZERO)), "down {axis}");
         }
+    }
+
+    #[test]
+    fn slots_of_the_largest_tree_fit() {
+        // Each node has two children at least, so that there are fewer nodes than lights.
+        let slots = (MAX_LIGHTS - 1) * WIDTH;
+        assert!(is_addressable(MAX_LIGHTS), "so many");
+        assert!(slots <= NOWHERE as usize, "no slot is that of no place");
+        assert!(!is_addressable(MAX_LIGHTS + 1), "one more");
     }
 }

@@ -42,7 +42,7 @@ impl ChildView {
     /// The same child as seen from a point `offset` away from the receiver's position, and no
     /// nearer than the root of `least_sq`.
     #[inline(always)]
-    pub(crate) fn from_offset(&self, offset: Vec3, least_sq: f32) -> Self {
+    pub(crate) fn at_offset(&self, offset: Vec3, least_sq: f32) -> Self {
         let mean = (Vec3::from(self.mean) - offset).to_array();
         let dist_sq = dist_sq(mean, self.extent, DISTANCE, self.slack * self.slack);
         let dist_sq = larger(least_sq, dist_sq);

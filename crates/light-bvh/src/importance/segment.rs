@@ -80,7 +80,7 @@ impl Receiver for SegmentReceiver {
             let t = nearest + height * tangent(theta);
             let t = smaller(length, larger(0.0, t));
             let from_nearest = t - nearest;
-            let here = child.from_offset(w * t, least_sq);
+            let here = child.at_offset(w * t, least_sq);
             sum += here.fluence() * (height_sq + from_nearest * from_nearest);
         }
         sum * (span / (PLACES as f32 * height * length))

@@ -140,7 +140,7 @@ impl RefitRow {
             "n_lights": self.n_lights,
             "sampler": self.sampler.name(),
             "moved": self.moved,
-            "looseness_ratio": self.degradation,
+            "degradation_ratio": self.degradation,
             "v_mean": self.refitted.mean,
             "v_median": self.refitted.median,
             "v_p99": self.refitted.p99,
