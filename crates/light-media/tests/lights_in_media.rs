@@ -1,64 +1,32 @@
 //! Light from lights of every kind, scattered at one point: closed forms and quadrature, with and without the weights of
 //! multiple importance sampling.
 
-use light_math::glam::{Affine3A, Vec2, Vec3};
+#[path = "support/ball.rs"]
+mod ball;
+
+use ball::{Ball, CENTRE, RADIUS};
+use light_math::glam::{Affine3A, Vec3};
+use light_media::PhaseFunction;
 use light_media::phase::HenyeyGreenstein;
 use light_media::{
-    FirstHit, Homogeneous, Intersection, Phase, PhaseFunction, Region, ScatteringNumbers,
-    ScatteringPoint, StepSize, Substance, Visibility, VolumeIntegrator,
+    FirstHit, Homogeneous, Intersection, Phase, Region, ScatteringNumbers, ScatteringPoint,
+    StepSize, Substance, Visibility, VolumeIntegrator,
 };
 use light_samplers::{LightSampler, PowerLightSampler, UniformLightSampler};
 use light_sources::shape::ShapeDesc;
 use light_sources::{
     AreaLightDesc, DiffuseEmissionDesc, DistantLightDesc, IntensityAmount, IrradianceAmount,
     LightDesc, LightSet, LightSetBuilder, MediumInterface, PointLightDesc, RadianceAmount, Rgb,
-    SceneSphere, SurfaceColor, SurfacePoint, UniformInfiniteLightDesc,
+    SceneSphere, SurfaceColor, UniformInfiniteLightDesc,
 };
 use light_testkit::{Cap, Estimate, Rng};
 
-const CENTRE: Vec3 = Vec3::new(0.4, 0.0, 2.0);
-const RADIUS: f32 = 1.2;
 const HALF_SIZE: f32 = 4.0;
 const G: f32 = 0.5;
 const AT: ScatteringPoint = ScatteringPoint {
     p: Vec3::new(0.1, -0.2, 0.3),
     wo: Vec3::NEG_Z,
 };
-
-/// One ball, and nothing else.
-struct Ball;
-
-impl Ball {
-    fn distance(from: Vec3, wi: Vec3) -> Option<f32> {
-        let to = CENTRE - from;
-        let along = to.dot(wi);
-        let root = along * along - to.length_squared() + RADIUS * RADIUS;
-        (root > 0.0 && along > 0.0).then(|| along - root.sqrt())
-    }
-}
-
-impl Visibility for Ball {
-    fn unoccluded(&self, from: Vec3, to: Vec3) -> bool {
-        let way = to - from;
-        let hit = Self::distance(from, way.normalize());
-        hit.is_none_or(|t| t > way.length() * 0.999)
-    }
-}
-
-impl Intersection for Ball {
-    fn first(&self, from: Vec3, wi: Vec3) -> FirstHit {
-        let Some(t) = Self::distance(from, wi) else {
-            return FirstHit::Nothing;
-        };
-        let p = from + wi * t;
-        let at = SurfacePoint {
-            p,
-            n: (p - CENTRE).normalize(),
-            uv: Vec2::ZERO,
-        };
-        FirstHit::Light(light_bounds::LightId(0), at)
-    }
-}
 
 /// Nothing at all, or something dark all around.
 struct Emptiness(FirstHit);

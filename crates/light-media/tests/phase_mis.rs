@@ -1,57 +1,22 @@
 //! Light samples and phase samples, weighted, have the mean of either and less noise than light samples alone.
 
+#[path = "support/ball.rs"]
+mod ball;
+
+use ball::{Ball, CENTRE, RADIUS};
 use light_math::glam::{Affine3A, Vec2, Vec3};
 use light_media::phase::HenyeyGreenstein;
 use light_media::{
-    FirstHit, Homogeneous, Intersection, Phase, Region, ScatteringNumbers, ScatteringPoint,
-    StepSize, Substance, Visibility, VolumeIntegrator,
+    Homogeneous, Phase, Region, ScatteringNumbers, ScatteringPoint, StepSize, Substance,
+    VolumeIntegrator,
 };
 use light_samplers::UniformLightSampler;
 use light_sources::shape::ShapeDesc;
 use light_sources::{
     AreaLightDesc, DiffuseEmissionDesc, LightDesc, LightSetBuilder, RadianceAmount, Rgb,
-    SceneSphere, SurfaceColor, SurfacePoint, UniformInfiniteLightDesc,
+    SceneSphere, SurfaceColor, UniformInfiniteLightDesc,
 };
 use light_testkit::Rng;
-
-const CENTRE: Vec3 = Vec3::new(0.4, 0.0, 2.0);
-const RADIUS: f32 = 1.2;
-
-/// One shining ball and nothing else.
-struct Ball;
-
-impl Ball {
-    /// The distance at which a ray from outside meets it.
-    fn distance(from: Vec3, wi: Vec3) -> Option<f32> {
-        let to = CENTRE - from;
-        let along = to.dot(wi);
-        let root = along * along - to.length_squared() + RADIUS * RADIUS;
-        (root > 0.0 && along > 0.0).then(|| along - root.sqrt())
-    }
-}
-
-impl Visibility for Ball {
-    fn unoccluded(&self, from: Vec3, to: Vec3) -> bool {
-        let way = to - from;
-        let hit = Self::distance(from, way.normalize());
-        hit.is_none_or(|t| t > way.length() * 0.999)
-    }
-}
-
-impl Intersection for Ball {
-    fn first(&self, from: Vec3, wi: Vec3) -> FirstHit {
-        let Some(t) = Self::distance(from, wi) else {
-            return FirstHit::Nothing;
-        };
-        let p = from + wi * t;
-        let at = SurfacePoint {
-            p,
-            n: (p - CENTRE).normalize(),
-            uv: Vec2::ZERO,
-        };
-        FirstHit::Light(light_bounds::LightId(0), at)
-    }
-}
 
 #[test]
 fn both_strategies_have_one_mean_and_together_less_noise() {

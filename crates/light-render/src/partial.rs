@@ -1,5 +1,3 @@
-use core::error::Error;
-use core::fmt;
 use core::ops::Range;
 use std::path::Path;
 
@@ -7,6 +5,8 @@ use light_scene::{ChannelFile, Diagnostic, Files, write_whole};
 use lights::glam::Vec3;
 
 use crate::file_checksum::{self, CHECKSUM, NO_CHECKSUM};
+use crate::partial_error::PartialPictureError;
+use crate::sum_words::{LOW_WORDS, WORDS, from_words, words};
 use crate::{ExactSum, Film, PictureIdentity};
 
 /// A picture of some of its samples, with exact sums: parts of one picture add up to the same bits as if it had been
@@ -24,35 +24,9 @@ pub struct PartialPicture {
     pub identity: PictureIdentity,
 }
 
-/// Why pictures do not add up.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PartialPictureError {
-    /// The file holds no sums: it was not rendered as a part.
-    NoPart,
-    /// The file is not as it was written.
-    Damaged,
-    /// The parts are not of one picture.
-    OtherPicture {
-        /// Where they differ.
-        difference: String,
-    },
-    /// Two parts hold the same samples.
-    Overlap {
-        /// The samples of the later part.
-        samples: Range<u32>,
-    },
-    /// There is nothing to add.
-    Nothing,
-}
-
 const SAMPLES: &str = "lights.samples";
 const IDENTITY: &str = "lights.picture";
 const COLORS: [&str; 3] = ["R", "G", "B"];
-
-/// How many integers hold the sum of a channel, and how many of them are always there; the others are 0 if they are not.
-const WORDS: usize = 4;
-const LOW_WORDS: usize = 2;
 
 impl PartialPicture {
     /// Bytes a pixel that are taken to write or read a file, the film itself left out.
@@ -217,44 +191,6 @@ impl PartialPicture {
 fn channel_name(word: usize, color: usize) -> String {
     format!("sum.{word}.{}", COLORS[color])
 }
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the parts of a number"
-)]
-fn words(steps: i128) -> [u32; WORDS] {
-    core::array::from_fn(|word| (steps >> (32 * word)) as u32)
-}
-
-fn from_words(words: [u32; WORDS]) -> i128 {
-    let mut steps = 0;
-    for (i, word) in words.into_iter().enumerate() {
-        steps |= i128::from(word) << (32 * i);
-    }
-    steps
-}
-
-impl fmt::Display for PartialPictureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoPart => {
-                f.write_str("expected a picture rendered with --samples or a checkpoint")
-            }
-            Self::Damaged => f.write_str("is damaged: its bytes do not fit its checksum"),
-            Self::OtherPicture { difference } => {
-                write!(f, "expected a part of the same picture: {difference}")
-            }
-            Self::Overlap { samples } => {
-                let Range { start, end } = samples;
-                write!(f, "samples {start}..{end} are in another part too")
-            }
-            Self::Nothing => f.write_str("expected at least one part"),
-        }
-    }
-}
-
-impl Error for PartialPictureError {}
 
 #[cfg(test)]
 mod tests {

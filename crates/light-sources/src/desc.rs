@@ -12,7 +12,8 @@ use crate::portal_infinite::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::projection::{ProjectionLightDesc, ProjectionLightError};
 use crate::scaled_emission::EmissionError;
 use crate::spot::{SpotLightDesc, SpotLightError};
-use crate::sun::{SunLightDesc, SunLightError};
+use crate::sun::SunLightError;
+use crate::sun_desc::SunLightDesc;
 use crate::uniform_infinite::UniformInfiniteLightDesc;
 
 /// A light as a user describes it, in the user's units; it may hold nonsense, which the built light cannot.

@@ -1,4 +1,3 @@
-use alloc::vec::Vec;
 use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
@@ -6,6 +5,7 @@ use core::marker::PhantomData;
 
 use crate::amount::RadianceAmount;
 use crate::color::ColorModel;
+use crate::compensated::compensate;
 use crate::coverage::PdfCoverage;
 use crate::distant::ray_through_scene;
 use crate::glam::{Affine3A, Vec2, Vec3};
@@ -219,21 +219,6 @@ impl EnvironmentMap {
     }
 }
 
-/// The distribution for samples that may leave out directions of little light: what is above the mean.
-///
-/// # Source
-/// `[Karlik2019]`, with the constant for an image that is the same everywhere.
-fn compensate(averages: &[f32]) -> Vec<f32> {
-    let sum: f64 = averages.iter().copied().map(f64::from).sum();
-    let mean = single(sum / averages.len() as f64);
-    let above: Vec<f32> = averages.iter().map(|a| (a - mean).max(0.0)).collect();
-    if mean > 0.0 && above.iter().all(|&a| a == 0.0) {
-        alloc::vec![1.0; averages.len()]
-    } else {
-        above
-    }
-}
-
 /// What a light sampler knows of an image of `n` rows.
 fn extent(averages: &[f32], n: u32, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
     let (mut sum, mut weighted) = (0.0, RgbSum::default());
@@ -272,17 +257,6 @@ mod tests {
     use super::*;
     use crate::channels::Channels;
     use crate::rgb::Rgb;
-
-    #[test]
-    fn compensation_leaves_what_is_above_the_mean() {
-        assert_eq!(
-            compensate(&[1.0, 2.0, 3.0, 6.0]),
-            [0.0, 0.0, 0.0, 3.0],
-            "above 3"
-        );
-        assert_eq!(compensate(&[5.0; 4]), [1.0; 4], "the same everywhere");
-        assert_eq!(compensate(&[0.0; 4]), [0.0; 4], "black stays black");
-    }
 
     #[test]
     fn a_constant_sky_is_sampled_evenly_when_samples_may_leave_out_directions() {

@@ -22,6 +22,8 @@ mod block_means;
 #[cfg(feature = "alloc")]
 mod channels;
 mod color;
+#[cfg(feature = "alloc")]
+mod compensated;
 mod coverage;
 #[cfg(feature = "alloc")]
 mod desc;
@@ -91,6 +93,7 @@ mod spectral_emission;
 mod sphere_table;
 mod spot;
 mod sun;
+mod sun_desc;
 mod surface_point;
 #[cfg(feature = "alloc")]
 mod surface_texture;
@@ -169,7 +172,8 @@ pub use sides::Sides;
 pub use spectral::Spectral;
 pub use spectral_emission::SpectralEmission;
 pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
-pub use sun::{SunAmount, SunLight, SunLightDesc, SunLightError};
+pub use sun::{SunLight, SunLightError};
+pub use sun_desc::{SunAmount, SunLightDesc};
 pub use surface_point::SurfacePoint;
 #[cfg(feature = "alloc")]
 pub use texture::Texture;

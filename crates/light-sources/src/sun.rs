@@ -2,7 +2,6 @@ use core::error::Error;
 use core::f32::consts::{PI, TAU};
 use core::fmt;
 
-use crate::amount::{IrradianceAmount, RadianceAmount};
 use crate::color::{ColorModel, Radiance};
 use crate::coverage::PdfCoverage;
 use crate::distant::ray_through_scene;
@@ -12,39 +11,11 @@ use crate::light::{InfiniteLight, Light};
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::scene_sphere::SceneSphere;
+use crate::sun_desc::{SunAmount, SunLightDesc};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
 use light_math::float::sin;
 use light_math::warp::uniform_cone;
 use light_math::{DirectionCone, Frame, direction};
-
-/// A [`SunLight`] as a user describes it.
-#[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize),
-    serde(bound = "C::Emission: serde::Serialize")
-)]
-pub struct SunLightDesc<C: ColorModel> {
-    /// Direction toward the middle of the sun, of any length above 0.
-    pub direction: Vec3,
-    /// The angle that the sun's disk spans, in `(0, pi]`; that of the earth's sun is 0.0093.
-    pub angular_diameter: f32,
-    /// Colour of the light.
-    pub emission: C::Emission,
-    /// How bright it is.
-    pub amount: SunAmount,
-}
-
-/// How bright a sun is, as the user states it; the emission then gives the colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum SunAmount {
-    /// The radiance of its disk.
-    Radiance(RadianceAmount),
-    /// The irradiance of a plane that faces it.
-    Irradiance(IrradianceAmount),
-}
 
 /// A disk in the sky, of the same radiance all over: a [`DistantLight`](crate::DistantLight) that casts soft shadows,
 /// is seen, and takes part in multiple importance sampling.
@@ -224,6 +195,7 @@ impl From<EmissionError> for SunLightError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::amount::{IrradianceAmount, RadianceAmount};
     use crate::rgb::Rgb;
 
     fn sun(

@@ -2,24 +2,21 @@ use alloc::sync::Arc;
 use core::f32::consts::PI;
 
 use light_math::glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
-use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 use light_sources::shape::ShapeDesc;
 use light_sources::{
-    AreaLightDesc, Channels, DiffuseEmissionDesc, DistantLightDesc, EmissionMask, EnvironmentMap,
-    GoniometricLightDesc, Image, ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount,
-    LightDesc, MediumInterface, MeshIndices, MeshLightDesc, PointLightDesc,
-    PortalInfiniteLightDesc, ProjectionLightDesc, RadianceAmount, Rgb, SceneSphere, Sides,
-    SpotLightDesc, SunAmount, SunLightDesc, SurfaceAmount, SurfaceColor, Texture, TextureMapping,
+    AreaLightDesc, Channels, DiffuseEmissionDesc, DistantLightDesc, EmissionMask,
+    GoniometricLightDesc, ImageInfiniteLightDesc, LightDesc, MediumInterface, MeshIndices,
+    MeshLightDesc, PointLightDesc, PortalInfiniteLightDesc, ProjectionLightDesc, Rgb, SceneSphere,
+    Sides, SpotLightDesc, SunAmount, SunLightDesc, SurfaceColor, Texture, TextureMapping,
     UniformInfiniteLightDesc, Wrap,
 };
 
+use super::amounts::{BRIGHTEST, intensity, irradiance, radiance, surface_amount};
+use super::images::{environment, image, square};
 use super::input::Input;
 
 /// The largest coordinate and size of a described light.
 const LARGEST: f32 = 1e6;
-
-/// The largest brightness of a described light.
-const BRIGHTEST: f32 = 1e9;
 
 /// Any description of a light, which may or may not make sense.
 pub(super) fn light(input: &mut Input<'_>) -> LightDesc<Rgb> {
@@ -143,80 +140,6 @@ fn transform(input: &mut Input<'_>) -> Affine3A {
         Vec3::new(-1.0, 1.0, 1.0)
     };
     Affine3A::from_scale_rotation_translation(mirror, rotation, place(input))
-}
-
-fn bright(input: &mut Input<'_>) -> f32 {
-    input.amount(BRIGHTEST)
-}
-
-fn intensity(input: &mut Input<'_>) -> IntensityAmount {
-    let (kind, amount) = (input.byte() % 6, bright(input));
-    match kind {
-        0 => IntensityAmount::LuminousIntensity(Candela(amount)),
-        1 => IntensityAmount::LuminousPower(Lumen(amount)),
-        2 => IntensityAmount::RadiantPower(Watt(amount)),
-        _ => IntensityAmount::Radiometric(amount),
-    }
-}
-
-fn irradiance(input: &mut Input<'_>) -> IrradianceAmount {
-    let (kind, amount) = (input.byte() % 4, bright(input));
-    match kind {
-        0 => IrradianceAmount::Illuminance(Lux(amount)),
-        _ => IrradianceAmount::Radiometric(amount),
-    }
-}
-
-fn radiance(input: &mut Input<'_>) -> RadianceAmount {
-    let (kind, amount) = (input.byte() % 4, bright(input));
-    match kind {
-        0 => RadianceAmount::Luminance(Nit(amount)),
-        _ => RadianceAmount::Radiometric(amount),
-    }
-}
-
-fn surface_amount(input: &mut Input<'_>) -> SurfaceAmount {
-    match input.byte() % 4 {
-        0 => SurfaceAmount::LuminousPower(Lumen(bright(input))),
-        1 => SurfaceAmount::RadiantPower(Watt(bright(input))),
-        _ => radiance(input).into(),
-    }
-}
-
-/// An image of a few texels, many of them black.
-fn image(input: &mut Input<'_>) -> Image {
-    let size = [input.below(4) + 1, input.below(4) + 1];
-    let channels = if input.byte() % 2 == 0 {
-        Channels::Gray
-    } else {
-        Channels::Rgb
-    };
-    texels(input, size, channels)
-}
-
-fn square(input: &mut Input<'_>, channels: Channels) -> Image {
-    let side = input.below(4) + 1;
-    texels(input, [side, side], channels)
-}
-
-fn texels(input: &mut Input<'_>, [width, height]: [usize; 2], channels: Channels) -> Image {
-    let count = width * height * channels.count();
-    let texel = |byte: u8| {
-        if byte < 128 {
-            0.0
-        } else {
-            f32::from(byte - 127) / 128.0
-        }
-    };
-    let numbers: Vec<f32> = (0..count).map(|_| texel(input.byte())).collect();
-    Image::from_f32([width as u32, height as u32], channels, numbers).expect("texels of light")
-}
-
-fn environment(input: &mut Input<'_>) -> EnvironmentMap {
-    match input.byte() % 2 {
-        0 => EnvironmentMap::EqualArea(square(input, Channels::Rgb)),
-        _ => EnvironmentMap::LatLong(image(input)),
-    }
 }
 
 fn shape(input: &mut Input<'_>) -> ShapeDesc {

@@ -2,10 +2,12 @@
 //!
 //! Each panics when a promise is broken, and answers nothing otherwise.
 
+mod amounts;
 mod choices;
 mod command_lines;
 mod compact_bounds;
 mod distributions;
+mod images;
 mod input;
 mod light_sources;
 mod light_trees;

@@ -38,23 +38,9 @@ pub(super) fn triangle_area(case: &Case<'_>, findings: &mut Findings) -> Result<
         findings.exempt(&OPPOSITE);
         return Ok(());
     }
-    let mut comparison = Comparison::default();
-    let ours = findings.ours("area", ours);
-    comparison.number(
-        "area",
-        ours,
-        Some(case.get("area")?.float()?),
-        Tolerance::GENERAL,
-    );
-    comparison.settle(
-        findings,
-        || &SINGLE,
-        |jitter| {
-            let v = v.map(|v| moved(v, 1.0, jitter));
-            Some(vec![DVec3::X * signed_area(v, jitter).abs()])
-        },
-    );
-    Ok(())
+    compare_area(case, findings, ours, &SINGLE, |jitter| {
+        signed_area(v.map(|v| moved(v, 1.0, jitter)), jitter).abs()
+    })
 }
 
 /// The solid angle of four directions.
@@ -69,22 +55,25 @@ pub(super) fn quad_area(case: &Case<'_>, findings: &mut Findings) -> Result<(), 
         findings.exempt(&OPPOSITE);
         return Ok(());
     }
+    compare_area(case, findings, ours, &QUAD, |jitter| {
+        two_triangles(v.map(|v| moved(v, 1.0, jitter)), jitter)
+    })
+}
+
+/// Compares our solid angle with the reference's and, where they differ by `rule`, with `exact`.
+fn compare_area(
+    case: &Case<'_>,
+    findings: &mut Findings,
+    ours: f32,
+    rule: &'static Rule,
+    exact: impl Fn(&mut Jitter) -> f64,
+) -> Result<(), Malformed> {
     let mut comparison = Comparison::default();
     let ours = findings.ours("area", ours);
-    comparison.number(
-        "area",
-        ours,
-        Some(case.get("area")?.float()?),
-        Tolerance::GENERAL,
-    );
-    comparison.settle(
-        findings,
-        || &QUAD,
-        |jitter| {
-            let v = v.map(|v| moved(v, 1.0, jitter));
-            Some(vec![DVec3::X * two_triangles(v, jitter)])
-        },
-    );
+    let theirs = Some(case.get("area")?.float()?);
+    comparison.number("area", ours, theirs, Tolerance::GENERAL);
+    let exact = |jitter: &mut Jitter| Some(vec![DVec3::X * exact(jitter)]);
+    comparison.settle(findings, || rule, exact);
     Ok(())
 }
 

@@ -1,20 +1,19 @@
 //! Light in media, against what can be said in closed form or by quadrature.
 
+mod fog;
+mod furnace;
+#[path = "../support/mod.rs"]
 mod support;
 
-use light_render::integrator::{Estimator, Integrator, SingleScattering};
+use light_render::integrator::{Estimator, Integrator};
 use light_scene::glam::{Affine3A, DVec3, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
 use lights::math::Aabb;
 use lights::media::phase::{HenyeyGreenstein, Isotropic};
 use lights::media::{
-    AnyMedium, DensityGrid, Glow, GridMedium, Homogeneous, Phase, PhaseFunction, Region, StepSize,
-    Substance,
+    AnyMedium, DensityGrid, Glow, GridMedium, Homogeneous, Phase, Region, Substance,
 };
-use lights::sources::{
-    IntensityAmount, LightDesc, MediumInterface, PointLightDesc, RadianceAmount, Rgb,
-    UniformInfiniteLightDesc,
-};
+use lights::sources::{LightDesc, MediumInterface, RadianceAmount, Rgb, UniformInfiniteLightDesc};
 use support::{Shot, agree, assert_estimators_agree, cornell, room};
 
 const ISOTROPIC: Phase = Phase::Isotropic(Isotropic);
@@ -83,60 +82,6 @@ fn assert_mean(scene: &Scene, shot: &Shot, expected: Vec3, what: &str) {
     assert!(agree(mean, expected), "{what}: {mean:?}, not {expected:?}");
 }
 
-/// Long paths in few pixels.
-fn furnace_shot(estimator: Estimator) -> Shot {
-    Shot {
-        size: 4,
-        spp: 64,
-        max_depth: 400,
-        estimator,
-        ..Shot::default()
-    }
-}
-
-#[test]
-fn what_only_scatters_vanishes_in_a_white_furnace() {
-    let sigma_s = Vec3::new(1.0, 2.5, 4.0);
-    for (name, medium) in [
-        ("homogeneous", homogeneous(Vec3::ZERO, sigma_s, Vec3::ZERO)),
-        ("grid", grid(Vec3::ZERO, sigma_s, Vec3::ZERO)),
-    ] {
-        let mut scene = filled_cube(medium, Surface::Interface);
-        scene.lights.push(sky(1.0));
-        for estimator in [Estimator::Mis, Estimator::Light, Estimator::Bsdf] {
-            let shot = furnace_shot(estimator);
-            assert_mean(&scene, &shot, Vec3::ONE, &format!("{name}, {estimator:?}"));
-        }
-    }
-}
-
-#[test]
-fn the_furnace_is_white_from_inside_of_the_medium_too() {
-    let medium = homogeneous(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO);
-    let mut scene = filled_cube(medium, Surface::Interface);
-    scene.camera_medium = scene.meshes.first().and_then(|mesh| {
-        let material = scene.material(mesh.material);
-        material.media.inside
-    });
-    scene.camera = Camera::look_at(Vec3::splat(0.4), Vec3::ONE, Vec3::Y, 1.0).ok();
-    scene.lights.push(sky(1.0));
-    let shot = furnace_shot(Estimator::Light);
-    assert_mean(&scene, &shot, Vec3::ONE, "camera inside");
-}
-
-#[test]
-fn a_scattering_medium_in_glass_vanishes_in_a_white_furnace() {
-    let medium = homogeneous(Vec3::ZERO, Vec3::splat(2.0), Vec3::ZERO);
-    let glass = Surface::Dielectric {
-        eta: 1.5,
-        alpha: light_scene::glam::Vec2::ZERO,
-    };
-    let mut scene = filled_cube(medium, glass);
-    scene.lights.push(sky(1.0));
-    let shot = furnace_shot(Estimator::Mis);
-    assert_mean(&scene, &shot, Vec3::ONE, "glass");
-}
-
 #[test]
 fn light_dies_out_by_beer_and_lambert() {
     let sigma_a = Vec3::new(0.3, 1.0, 2.0);
@@ -168,60 +113,6 @@ fn a_glowing_slab_emits_what_it_absorbs() {
     };
     let expected = le * (Vec3::ONE - (-sigma_a).exp());
     assert_mean(&scene, &shot, expected, "(1 - exp(-sigma_a d)) Le");
-}
-
-/// A lamp in fog without bounds, and what a ray along z sees of it after one collision, by the midpoint rule.
-fn lamp_in_fog() -> (Scene, f64) {
-    let g = HenyeyGreenstein::new(0.6).expect("in range");
-    let mut scene = Scene::default();
-    let fog = Homogeneous {
-        substance: substance(Vec3::splat(0.1), Vec3::splat(0.3), Vec3::ZERO),
-        phase: Phase::HenyeyGreenstein(g),
-        region: Region::UNBOUNDED,
-    };
-    scene.camera_medium = Some(scene.add_medium("fog", fog));
-    let lamp = Vec3::new(1.0, 0.5, -2.0);
-    scene.lights.push(LightDesc::Point(PointLightDesc {
-        position: lamp,
-        emission: Vec3::splat(5.0),
-        amount: IntensityAmount::default(),
-        media: MediumInterface::default(),
-    }));
-    scene.camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y, 1e-4).ok();
-    let (n, length) = (200_000, 60.0);
-    let h = length / f64::from(n);
-    let seen = (0..n).map(|i| {
-        let t = (f64::from(i) + 0.5) * h;
-        let to_lamp = lamp.as_dvec3() - DVec3::NEG_Z * t;
-        let d = to_lamp.length();
-        let cos_theta = DVec3::NEG_Z.dot(to_lamp / d);
-        #[expect(clippy::cast_possible_truncation, reason = "a cosine")]
-        let phase = f64::from(g.value(cos_theta as f32));
-        (-0.4 * (t + d)).exp() * 0.3 * phase * 5.0 / (d * d) * h
-    });
-    (scene, seen.sum())
-}
-
-#[test]
-fn a_lamp_in_endless_fog_is_seen_as_by_quadrature() {
-    let (scene, expected) = lamp_in_fog();
-    let shot = Shot {
-        size: 8,
-        spp: 256,
-        max_depth: 2,
-        ..Shot::default()
-    };
-    let mean = shot.mean(&scene);
-    let expected = (DVec3::splat(expected), DVec3::ZERO);
-    assert!(agree(mean, expected), "{mean:?}, not {expected:?}");
-}
-
-#[test]
-fn the_sky_is_not_seen_through_fog_without_end() {
-    let (mut scene, _) = lamp_in_fog();
-    scene.lights = vec![sky(1.0)];
-    let shot = furnace_shot(Estimator::Light);
-    assert_mean(&scene, &shot, Vec3::ZERO, "infinitely thick");
 }
 
 /// The room of the other tests, full of thin coloured smoke.
@@ -298,40 +189,4 @@ fn without_media_both_integrators_make_the_same_picture() {
     };
     let (path, volpath) = (picture(Integrator::Path), picture(Integrator::VolPath));
     assert!(path == volpath, "bit for bit");
-}
-
-#[test]
-fn three_ways_to_scatter_once_agree() {
-    let (mut scene, _) = lamp_in_fog();
-    let floor = scene.add_material(Material::diffuse("floor", Vec3::splat(0.5)));
-    let lamp = scene.add_material(Material {
-        emission: Some(Emission::two_sided(Vec3::splat(8.0))),
-        ..Material::diffuse("lamp", Vec3::ZERO)
-    });
-    let at = |scale: f32, place: Vec3| move |p: Vec3| (p - 0.5) * scale + place;
-    let corners = room()[0].map(at(6.0, Vec3::new(0.0, 2.0, -3.0)));
-    scene.meshes.push(Mesh::quad("floor", floor, corners));
-    let corners = room()[1].map(at(0.4, Vec3::new(-0.8, 0.6, -2.5)));
-    scene.meshes.push(Mesh::quad("lamp", lamp, corners));
-    scene.camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y, 1.0).ok();
-    let of = |integrator| {
-        let shot = Shot {
-            max_depth: 2,
-            spp: 32,
-            integrator: Some(integrator),
-            ..Shot::default()
-        };
-        shot.mean(&scene)
-    };
-    let step = StepSize::new(0.25).expect("positive");
-    let paths = of(Integrator::VolPath);
-    let asked = of(Integrator::SingleScattering(SingleScattering::NextEvent));
-    let marched = of(Integrator::SingleScattering(SingleScattering::Classic(
-        step,
-    )));
-    assert!(agree(asked, paths), "asked {asked:?}, paths {paths:?}");
-    assert!(
-        agree(marched, paths),
-        "marched {marched:?}, paths {paths:?}"
-    );
 }

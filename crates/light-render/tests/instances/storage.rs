@@ -1,0 +1,111 @@
+//! What is stored once, what is copied, and what is refused.
+
+use light_render::{World, WorldError};
+use light_scene::glam::{Affine3A, Vec3};
+use light_scene::{Alpha, Color, Emission, Material, Placement};
+
+use super::{flattened, green, grove, world};
+use crate::support::{Shot, agree};
+
+#[test]
+fn what_shines_is_copied_and_the_rest_is_stored_once() {
+    let tree = grove(green());
+    let own = tree
+        .prototype(tree.placements[0].prototype)
+        .triangle_count();
+    let room: usize = tree.meshes.iter().map(|mesh| mesh.indices.len()).sum();
+    let dark = world(&tree);
+    assert_eq!(dark.stored_triangle_count(), room + own, "stored once");
+    assert_eq!(dark.triangle_count(), room + 4 * own, "seen four times");
+    assert_eq!(
+        (dark.prototype_count(), dark.placement_count()),
+        (1, 4),
+        "counted"
+    );
+
+    let shining = grove(Material {
+        emission: Some(Emission::one_sided(Vec3::ONE)),
+        ..green()
+    });
+    let (placed, flat) = (world(&shining), world(&flattened(&shining)));
+    assert_eq!(placed.lights().len(), flat.lights().len(), "all its lights");
+    let crown = own - 12;
+    assert_eq!(
+        placed.stored_triangle_count(),
+        room + 12 + 4 * crown,
+        "copies"
+    );
+    let means = [&shining, &flattened(&shining)].map(|scene| Shot::default().mean(scene));
+    assert!(agree(means[0], means[1]), "{means:?}");
+}
+
+#[test]
+fn a_forest_takes_the_memory_of_a_tree() {
+    let mut scene = grove(green());
+    let stored = world(&scene).stored_triangle_count();
+    let prototype = scene.placements[0].prototype;
+    scene.placements.extend((0..10_000u16).map(|i| {
+        let at = Vec3::new(f32::from(i % 100), 0.0, f32::from(i / 100));
+        let place = Affine3A::from_translation(at) * Affine3A::from_scale(Vec3::splat(0.3));
+        Placement { prototype, place }
+    }));
+    let forest = world(&scene);
+    assert_eq!(forest.stored_triangle_count(), stored, "none more");
+    assert_eq!(forest.placement_count(), 10_004, "all are there");
+    let count = forest.triangle_count();
+    assert!(count > 2_000_000, "{count} triangles to be seen");
+    let last = forest.primitive(count - 1).expect("there");
+    assert!(last.placement().is_some(), "the last one is placed");
+    assert_eq!(forest.primitive(count), None, "no more");
+}
+
+/// Copies in exactly the same place are stored once, so that a ray does not visit all of them, unless each hides a share of
+/// what is behind: a long row of them and one place elsewhere.
+#[test]
+fn copies_in_the_same_place_are_one() {
+    let count = |crown: Material, copies: usize| {
+        let mut scene = grove(crown);
+        let first = scene.placements[0];
+        let others = scene.placements.len();
+        scene.placements.extend(vec![first; copies]);
+        let world = World::new(scene).expect("a world");
+        (world.placement_count(), others)
+    };
+    let (found, others) = count(green(), 20_000);
+    assert_eq!(found, others, "those that were there");
+    let half = Some(Alpha {
+        share: Color::Constant(Vec3::splat(0.5)),
+        cutoff: None,
+    });
+    let lace = || Material {
+        alpha: half,
+        ..green()
+    };
+    let (found, others) = count(lace(), 10);
+    assert_eq!(found, others + 10, "each of them");
+}
+
+#[test]
+fn impossible_objects_are_refused() {
+    let mut scene = grove(green());
+    scene.placements[1].place = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
+    let error = World::new(scene).err().map(|error| error.to_string());
+    let flat = "object tree: expected places that do not make it flat";
+    assert_eq!(error.as_deref(), Some(flat), "flat");
+
+    let mut scene = grove(Material {
+        emission: Some(Emission::one_sided(Vec3::ONE)),
+        ..green()
+    });
+    let placement = scene.placements[0];
+    scene.placements.resize(200_000, placement);
+    let error = World::new(scene).err();
+    assert_eq!(
+        error,
+        Some(WorldError::Copies {
+            name: "tree".into(),
+            most: 1 << 25
+        }),
+        "224 triangles 200,000 times"
+    );
+}

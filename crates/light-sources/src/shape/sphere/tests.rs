@@ -1,0 +1,75 @@
+use super::*;
+use crate::glam::Affine3A;
+
+fn sphere(center: Vec3, radius: f32) -> Sphere {
+    let transform = Affine3A::from_translation(center);
+    let transform = RigidTransform::new(transform).expect("a place");
+    Sphere::new(transform, radius).expect("a sphere")
+}
+
+fn numbers() -> impl Iterator<Item = Vec2> {
+    let along = |i: u16| (f32::from(i) / 15.0).min(light_math::float::ONE_MINUS_EPSILON);
+    (0..256).map(move |i| Vec2::new(along(i % 16), along(i / 16)))
+}
+
+/// Points lie on the side that is asked from by more than rounding: the sphere does not hide its own light.
+#[test]
+fn samples_lie_before_the_surface() {
+    for center in [Vec3::ZERO, Vec3::new(3e4, -1e3, 20.0)] {
+        let sphere = sphere(center, 0.7);
+        for (from, side) in [
+            (Vec3::new(1.5, 0.4, -2.0), 1.0),
+            (Vec3::new(0.3, 0.1, 0.2), -1.0),
+        ] {
+            let ctx = LightSampleContext::medium(center + from);
+            for u in numbers() {
+                let Some(sample) = sphere.sample_toward(&ctx, u) else {
+                    continue;
+                };
+                let distance = (sample.at.p.as_dvec3() - center.as_dvec3()).length();
+                assert!((distance - f64::from(0.7f32)) * side > 0.0, "{center}, {u}");
+            }
+        }
+    }
+}
+
+/// Where rounding may have put a point of the sphere's own surface outside of it, it sees no cone but all of the sphere.
+#[test]
+fn points_of_the_surface_are_not_outside() {
+    let sphere = sphere(Vec3::ZERO, 1.0);
+    let p = Vec3::new(0.6, 0.0, 0.8) * (1.0 + 2.0 * f32::EPSILON);
+    assert!(p.length() > 1.0, "outside, by rounding");
+    let without = LightSampleContext::medium(p);
+    let with = without.with_error(Vec3::splat(4.0 * f32::EPSILON));
+    let across = Vec3::new(0.8, 0.0, -0.6);
+    // Of the hemisphere above, of which the cone is nearly all, nothing is light.
+    assert!(sphere.pdf_toward(&without, across) >= 0.0, "a cone");
+    assert!(
+        sphere.cone(&without).is_some() && sphere.cone(&with).is_none(),
+        "or none"
+    );
+    let below = -p.normalize();
+    let through = 1.0 / (4.0 * PI) * 4.0;
+    assert!(
+        (sphere.pdf_toward(&with, below) / through - 1.0).abs() < 1e-5,
+        "d^2 / A"
+    );
+}
+
+/// Directions to the very rim are directions to the sphere.
+#[test]
+fn the_rim_is_met() {
+    for distance in [1.5, 30.0, 1e3, 1e5] {
+        let sphere = sphere(Vec3::ZERO, 1.0);
+        for i in 0..64u8 {
+            let (sin, cos) = sin_cos(f32::from(i) * 0.7);
+            let p = Vec3::new(cos, sin, 0.3 * cos).normalize() * distance;
+            let ctx = LightSampleContext::medium(p);
+            for y in [0.0, 0.2, 0.41, 0.77] {
+                let u = Vec2::new(light_math::float::ONE_MINUS_EPSILON, y);
+                let sample = sphere.sample_toward(&ctx, u).expect("outside");
+                assert_eq!(sphere.pdf_toward(&ctx, sample.wi), sample.pdf, "{p}, {y}");
+            }
+        }
+    }
+}

@@ -1,0 +1,32 @@
+use crate::amount::{IrradianceAmount, RadianceAmount};
+use crate::color::ColorModel;
+use crate::glam::Vec3;
+
+/// A [`SunLight`] as a user describes it.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound = "C::Emission: serde::Serialize")
+)]
+pub struct SunLightDesc<C: ColorModel> {
+    /// Direction toward the middle of the sun, of any length above 0.
+    pub direction: Vec3,
+    /// The angle that the sun's disk spans, in `(0, pi]`; that of the earth's sun is 0.0093.
+    pub angular_diameter: f32,
+    /// Colour of the light.
+    pub emission: C::Emission,
+    /// How bright it is.
+    pub amount: SunAmount,
+}
+
+/// How bright a sun is, as the user states it; the emission then gives the colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum SunAmount {
+    /// The radiance of its disk.
+    Radiance(RadianceAmount),
+    /// The irradiance of a plane that faces it.
+    Irradiance(IrradianceAmount),
+}
