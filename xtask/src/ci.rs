@@ -2,7 +2,7 @@
 
 use crate::steps::Steps;
 use crate::tools::Install;
-use crate::{check, conformance, counts, dependencies, fuzz, no_std, oldest};
+use crate::{api, check, conformance, counts, dependencies, fuzz, no_std, oldest};
 
 /// Seconds that each fuzz target gets.
 const FUZZ_SECONDS: u32 = 5;
@@ -17,5 +17,6 @@ pub fn add_steps(steps: &mut Steps) {
     steps.run("fuzz targets, a few seconds each", || {
         fuzz::smoke(FUZZ_SECONDS)
     });
+    steps.run("public items", || api::api(&[]));
     steps.run("instruction counts", || counts::counts(&[]));
 }
