@@ -69,6 +69,58 @@ fn subtended_directions_at_every_scale() {
     }
 }
 
+/// Boxes a few units in the last place wide, whose centres are rounded by as much as their widths, and points just outside of the sphere of a
+/// box, in double precision: all corners are in the cone.
+#[test]
+fn subtended_directions_hold_the_corners_to_the_last_digit() {
+    let mut rng = light_testkit::Rng::new(7);
+    let (mut narrow, mut wide) = (0, 0);
+    for round in 0..200_000 {
+        let (bounds, p) = if round % 2 == 0 {
+            let mut near_one = |n| {
+                Vec3::from_array([0; 3].map(|_| f32::from_bits(1.0f32.to_bits() + rng.u32() % n)))
+            };
+            (Aabb::new(near_one(8), near_one(8)), near_one(32))
+        } else {
+            let half = Vec3::from_array([0; 3].map(|_| rng.range(0.1, 1.0)));
+            let center = rng.direction();
+            let aside = half.cross(rng.direction()) * rng.log_range(1e-6, 1e-2);
+            let p = center + half + aside + half * rng.log_range(1e-8, 1e-5);
+            (Aabb::new(center - half, center + half), p)
+        };
+        let cone = DirectionCone::bound_subtended_directions(&bounds, p);
+        if cone.is_whole_sphere() {
+            continue;
+        }
+        *(if cone.cos_theta > 0.1 {
+            &mut narrow
+        } else {
+            &mut wide
+        }) += 1;
+        for i in 0..8 {
+            let corner = [0, 1, 2].map(|k| {
+                if i >> k & 1 == 0 {
+                    bounds.min[k]
+                } else {
+                    bounds.max[k]
+                }
+            });
+            let to: [f64; 3] = core::array::from_fn(|k| f64::from(corner[k]) - f64::from(p[k]));
+            let length = to.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let along: f64 = (0..3).map(|k| f64::from(cone.w[k]) * to[k]).sum();
+            assert!(
+                along >= (f64::from(cone.cos_theta) - f64::from(DOT_ERROR)) * length,
+                "{corner:?} of {bounds:?} from {p}: {} in {cone:?}",
+                along / length
+            );
+        }
+    }
+    assert!(
+        narrow > 10_000 && wide > 10_000,
+        "{narrow} narrow, {wide} wide"
+    );
+}
+
 #[test]
 fn subtended_directions_inside_and_empty() {
     let b = Aabb::new(Vec3::ZERO, Vec3::ONE);
@@ -80,7 +132,9 @@ fn subtended_directions_inside_and_empty() {
         );
     }
     let at_corner = DirectionCone::bound_subtended_directions(&b, Vec3::ZERO);
-    assert_eq!(at_corner.cos_theta, 0.0, "a corner sees one side");
+    assert!(at_corner.is_whole_sphere(), "on the sphere");
+    let far = DirectionCone::bound_subtended_directions(&b, Vec3::X * f32::INFINITY);
+    assert!(far.is_whole_sphere(), "no direction: {far:?}");
     let point = Aabb::from_point(Vec3::Z);
     let c = DirectionCone::bound_subtended_directions(&point, Vec3::ZERO);
     assert_eq!(c, DirectionCone::from_direction(Vec3::Z), "a point");
