@@ -1,11 +1,13 @@
 //! The one place where our answers enter the comparison, and where a self-test changes them.
 
+use std::fmt::Debug;
+
 use lights::math::glam::{Vec2, Vec3};
 
 /// What a self-test does to one answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Twice as much; 1 more where that is within tolerance, the other truth value, the next integer.
+    /// Twice as much; a half more where that is within tolerance, the other truth value, the next integer.
     Double,
     /// Half of it; the integer before.
     Halve,
@@ -24,7 +26,7 @@ impl Change {
 const TINY: f64 = 1e-5;
 
 /// An answer of the library under test.
-pub trait Answer: Copy {
+pub trait Answer: Copy + Debug {
     /// The changed answer; none where the change makes no sense or no difference.
     fn changed(self, change: Change) -> Option<Self>;
 }
@@ -35,7 +37,7 @@ impl<const N: usize> Answer for [f64; N] {
         let is_number = self.iter().all(|x| x.is_finite());
         match change {
             _ if !is_number => None,
-            Change::Double if is_tiny => Some(self.map(|x| x + 1.0)),
+            Change::Double if is_tiny => Some(self.map(|x| x + 0.5)),
             Change::Double => Some(self.map(|x| 2.0 * x)),
             Change::Halve if !is_tiny => Some(self.map(|x| 0.5 * x)),
             Change::Negate if !is_tiny => Some(self.map(|x| -x)),
@@ -101,6 +103,8 @@ pub struct Sabotage {
     pub(super) target: Option<(usize, Change)>,
     /// Whether it was.
     pub(super) is_done: bool,
+    /// What it was changed from and to.
+    pub(super) change: String,
     /// How many answers have been compared.
     settled: usize,
     /// Whether the changed answer passed because the inputs do not determine it.
@@ -113,6 +117,7 @@ impl Sabotage {
         match self.next(name).and_then(|change| answer.changed(change)) {
             Some(changed) => {
                 self.is_done = true;
+                self.change = format!("{answer:?} to {changed:?}");
                 changed
             }
             None => answer,
@@ -123,6 +128,7 @@ impl Sabotage {
     pub(super) fn pass_option<T>(&mut self, name: &'static str, answer: Option<T>) -> Option<T> {
         if self.next(name) == Some(Change::Lose) && answer.is_some() {
             self.is_done = true;
+            self.change = "an answer to none".to_owned();
             return None;
         }
         answer
@@ -157,7 +163,7 @@ mod tests {
         let answers = ["a", "b", "c"].map(|name| sabotage.pass(name, 0.25f32));
         assert_eq!(answers, [0.25, 0.5, 0.25], "the second");
         assert!(sabotage.is_done, "done");
-        assert_eq!(0.0f32.changed(Change::Double), Some(1.0), "not zero again");
+        assert_eq!(0.0f32.changed(Change::Double), Some(0.5), "not zero again");
         assert_eq!(0.0f32.changed(Change::Halve), None, "no difference");
     }
 }

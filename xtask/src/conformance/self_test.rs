@@ -39,19 +39,14 @@ pub struct Tally {
     detected: [usize; 4],
     /// Of which the truth is within a wide range, or none as well as some, as rounding falls.
     undetermined: usize,
-    /// The first line on which a changed answer passed, for each change.
-    missed: [Option<usize>; 4],
+    /// The changed answers that passed: the line, and what was changed.
+    missed: Vec<(usize, String)>,
 }
 
 impl Tally {
-    /// All but few changes: the others lie within a tolerance, as the sign of a cosine of 1e-4 does, or are such that
-    /// inputs moved by roundings have that answer.
+    /// Every change was found out, and there was one.
     fn is_complete(&self) -> bool {
-        let counts = self.detected.iter().zip(&self.changed);
-        let is_detected = |(&detected, &changed): (&usize, &usize)| {
-            changed == 0 || (detected > 0 && detected + 2 >= changed - changed / 10)
-        };
-        counts.clone().all(is_detected) && self.changed.iter().any(|&changed| changed > 0)
+        self.missed.is_empty() && self.changed.iter().any(|&changed| changed > 0)
     }
 
     fn add(&mut self, change: Change, line: usize, findings: &Findings) {
@@ -64,7 +59,7 @@ impl Tally {
         self.changed[i] += 1;
         self.detected[i] += usize::from(is_detected);
         if !is_detected {
-            self.missed[i].get_or_insert(line);
+            self.missed.push((line, findings.sabotage.change.clone()));
         }
     }
 }
@@ -76,7 +71,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Whether the changes of every answer were detected, but for few.
+    /// Whether every change of every answer was detected.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         !self.rows.is_empty() && self.rows.values().all(Tally::is_complete)
@@ -165,7 +160,7 @@ impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "detected of changed answers, by change; first line of an undetected one\n{:<64}{}",
+            "detected of changed answers, by change\n{:<64}{}",
             "kind, about, answer",
             Change::ALL.map(|c| format!("{c:>16?}")).concat()
         )?;
@@ -181,9 +176,9 @@ impl fmt::Display for Table {
             if tally.undetermined > 0 {
                 write!(f, "  {} undetermined", tally.undetermined)?;
             }
-            match tally.missed.iter().flatten().next() {
-                Some(line) => writeln!(f, "  MISSED, line {line}")?,
-                None => writeln!(f)?,
+            writeln!(f)?;
+            for (line, change) in &tally.missed {
+                writeln!(f, "  MISSED on line {line}: {change}")?;
             }
         }
         let total = |of: fn(&Tally) -> [usize; 4]| -> usize {

@@ -36,17 +36,16 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     let codes = compact_codes(&case.get("compact")?)?;
     let is_same = codes.w == ours.w() && codes.bounds == ours.bounds();
     let theirs = case.get("decoded")?;
-    let cosines = [ours.packed(), codes.packed].map(|packed| cosine_codes(i64::from(packed)));
-    let is_same_cos = [0, 1].map(|i| cosines[0][i] == cosines[1][i]);
-    compare_decoded(&decoded, &lb, &all, &theirs, is_same, is_same_cos, findings)?;
+    let cosines = cosine_codes(i64::from(ours.packed()));
+    compare_decoded(&decoded, &lb, &all, &theirs, is_same, cosines, findings)?;
 
     let [p, n] = [case.get("p")?.vec3()?, case.get("n")?.vec3()?];
     let ctx = LightSampleContext::surface(p, n, n);
     let theirs = case.get("importance")?.float()?;
-    let importance = findings.ours("importance", ours.importance(&all, &ctx));
+    let importance = ("importance", ours.importance(&all, &ctx));
     light_bounds_importance::compare(&decoded, [p, n], importance, theirs, findings);
     let theirs = case.get("importance_uncompressed")?.float()?;
-    let exact = findings.ours("uncompressed", lb.importance(&ctx));
+    let exact = ("uncompressed", lb.importance(&ctx));
     light_bounds_importance::compare(&lb, [p, n], exact, theirs, findings);
     Ok(())
 }
@@ -96,13 +95,40 @@ fn compare_codes(
         let low = findings.ours("qb min", i64::from(ours.bounds().min[axis]));
         let is_exact = codes::is_below(low, number(lb.bounds.min[axis]));
         let is_same = low == i64::from(qb.min[axis]);
-        judge("min", is_same, is_exact, rule, findings);
+        let is_held = decoded_coordinate(low, axis, all) <= lb.bounds.min[axis];
+        judge(
+            "min",
+            is_same && is_held,
+            is_exact && is_held,
+            rule,
+            findings,
+        );
         let high = findings.ours("qb max", i64::from(ours.bounds().max[axis]));
         let is_exact = codes::is_above(high, number(lb.bounds.max[axis]));
         let is_same = high == i64::from(qb.max[axis]);
-        judge("max", is_same, is_exact, rule, findings);
+        let is_held = decoded_coordinate(high, axis, all) >= lb.bounds.max[axis];
+        judge(
+            "max",
+            is_same && is_held,
+            is_exact && is_held,
+            rule,
+            findings,
+        );
     }
     Ok(())
+}
+
+/// What a code of a coordinate stands for, as the library decodes it; not a number if it is none.
+fn decoded_coordinate(code: i64, axis: usize, all: &Aabb) -> f32 {
+    let Ok(code) = u16::try_from(code) else {
+        return f32::NAN;
+    };
+    let codes = [code; 3];
+    let corner = QuantizedBox {
+        min: codes,
+        max: codes,
+    };
+    corner.decode(all).min[axis]
 }
 
 fn check_containment(decoded: &LightBounds, lb: &LightBounds, findings: &mut Findings) {
@@ -127,7 +153,7 @@ fn compare_decoded(
     all: &Aabb,
     theirs: &Case<'_>,
     is_same: bool,
-    is_same_cos: [bool; 2],
+    cosines: [i64; 2],
     findings: &mut Findings,
 ) -> Result<(), Malformed> {
     let bounds = read_box(&theirs.get("bounds")?)?;
@@ -146,19 +172,17 @@ fn compare_decoded(
     let our_w = findings.ours("decoded w", decoded.w);
     let tolerance = Tolerance::new(1e-5, if is_same { 1e-6 } else { 1e-4 });
     findings.near3("w", our_w, w, tolerance);
-    // By one code where the reference's is one too high.
-    let code = |is_same: bool| if is_same { 0.0 } else { 2.0 / 32767.0 };
-    let cos_theta_e = theirs.get("cos_theta_e")?.float()?;
+    // What our codes stand for; the reference's code may be one too high, and its cone is not widened.
+    let [code_o, code_e] = cosines.map(codes::cosine_of);
     let ours = findings.ours("decoded cos_theta_e", decoded.cos_theta_e);
-    let tolerance = Tolerance::new(1e-5, 1e-6 + code(is_same_cos[1]));
-    findings.near("cos_theta_e", ours, cos_theta_e, tolerance);
-
-    // Ours is wider by the largest error of an axis, and a unit in the last place.
-    let cos_theta_o = theirs.get("cos_theta_o")?.float()?;
-    let angle = OctahedralVector::MAX_ANGULAR_ERROR + code(is_same_cos[0]);
-    let widened = Tolerance::new(0.0, angle + f32::EPSILON);
+    let tolerance = Tolerance::new(0.0, f32::EPSILON);
+    findings.near("cos_theta_e", ours, code_e as f32, tolerance);
+    findings.settled(Certainty::Determined);
+    let widened = code_o.acos() + f64::from(OctahedralVector::MAX_ANGULAR_ERROR);
     let ours = findings.ours("decoded cos_theta_o", decoded.cos_theta_o);
-    findings.near("cos_theta_o", ours, cos_theta_o, widened);
+    let exact = widened.min(std::f64::consts::PI).cos() as f32;
+    let tolerance = Tolerance::new(0.0, 3.0 * f32::EPSILON);
+    findings.near("cos_theta_o", ours, exact, tolerance);
     findings.settled(Certainty::Determined);
     Ok(())
 }

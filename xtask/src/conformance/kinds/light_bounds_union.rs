@@ -48,8 +48,13 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         findings,
         || &SINGLE,
         |jitter| {
-            let [a, b] = [a, b].map(|lb| ExactCone::new(lb.w, lb.cos_theta_o));
-            let cone = a.union(b, jitter);
+            let [v, w] = [a, b].map(|lb| ExactCone::new(lb.w, lb.cos_theta_o));
+            // Lights without power do not count.
+            let cone = match [a, b].map(|lb| lb.phi == 0.0) {
+                [true, _] => w,
+                [_, true] => v,
+                _ => v.union(w, jitter),
+            };
             let mut truth = vec![DVec3::X * cone.cos_theta];
             if !is_whole {
                 truth.push(cone.w);

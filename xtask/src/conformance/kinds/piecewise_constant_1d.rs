@@ -1,6 +1,6 @@
 use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, refuses_signs};
 use crate::conformance::comparison::Comparison;
-use crate::conformance::oracle::Certainty;
+use crate::conformance::oracle::{Certainty, Jitter};
 use crate::conformance::{Case, Findings, Malformed, Tolerance};
 use glam::{DVec2, DVec3};
 use lights::math::distribution::{PiecewiseConstant1D, TableError};
@@ -34,30 +34,54 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     for sample in case.get("samples")?.items()? {
         let [u, x, pdf, offset] = sample.float_array()?;
         let ours = table.sample(u);
-        let mut comparison = Comparison::default();
+        let u = DVec2::new(f64::from(u), 0.5);
+        let reach = |i: usize, jitter: &mut Jitter| exact.sample_in(u, [i, 0], jitter);
+
+        // Any bin whose sums rounding may lead to.
+        let can_reach = |i: usize| reach(i, &mut Jitter::default()).is_some();
+        let index = findings.ours("index", ours.index as i64);
+        let is_same = index as f32 == offset;
+        let bin = usize::try_from(index).unwrap_or(weights.len());
+        let is_exact = bin < weights.len() && can_reach(bin);
+        // Of several bins near an edge ours is the one by its own running sums, which are compared above.
+        let is_own = table.cdf().get(bin).is_some_and(|&low| low <= u.x as f32)
+            && table
+                .cdf()
+                .get(bin + 1)
+                .is_some_and(|&high| (u.x as f32) < high);
+        findings.check((is_same || is_exact) && is_own, || {
+            format!("index {index}, reference {offset}")
+        });
+        findings.settled(Certainty::Determined);
+
+        // In our bin, if the reference takes another one. In a bin as narrow as rounding any place is right.
+        let theirs = |x: f32| (ours.index as f32 == offset).then_some(x);
+        let settle = |comparison: Comparison, part: usize, findings: &mut Findings| {
+            comparison.settle(
+                findings,
+                || &U_ROUNDING,
+                |jitter| {
+                    let (at, pdf) = reach(ours.index, jitter)?;
+                    let parts = [f64::from(min) + at.x * width, pdf / width];
+                    Some(vec![DVec3::X * parts[part]])
+                },
+            );
+        };
         let our_x = findings.ours("x", ours.x);
+        findings.settled(if exact.is_narrow(ours.index) {
+            Certainty::Undetermined
+        } else {
+            Certainty::Determined
+        });
+        let mut comparison = Comparison::default();
         let place = Tolerance::new(1e-5, 1e-5 * (max - min));
-        comparison.number("x", our_x, Some(x), place);
+        comparison.number("x", our_x, theirs(x), place);
         comparison.ill_conditioned();
+        settle(comparison, 0, findings);
         let our_pdf = findings.ours("pdf", ours.pdf);
-        comparison.number("pdf", our_pdf, Some(pdf), Tolerance::GENERAL);
-        let index = findings.ours("index", ours.index as i64) as f32;
-        comparison.number("index", index, Some(offset), Tolerance::new(0.0, 0.0));
-        comparison.settle(
-            findings,
-            || &U_ROUNDING,
-            |jitter| {
-                // Any bin whose sums rounding may lead to; ours is one of them.
-                let u = DVec2::new(f64::from(u), 0.5);
-                let (at, pdf) = exact.sample_in(u, [ours.index, 0], jitter)?;
-                let parts = [
-                    f64::from(min) + at.x * width,
-                    pdf / width,
-                    ours.index as f64,
-                ];
-                Some(parts.map(|x| DVec3::X * x).to_vec())
-            },
-        );
+        let mut comparison = Comparison::default();
+        comparison.number("pdf", our_pdf, theirs(pdf), Tolerance::GENERAL);
+        settle(comparison, 1, findings);
     }
     for inverse in case.get("inverts")?.items()? {
         let x = inverse.at(0)?.float()?;

@@ -34,13 +34,22 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         .is_ok_and(|i| i < weights.len() && before(i) - step <= u && u < before(i + 1) + step);
     let is_same = index == theirs as i64;
     judge("choice", is_same, is_exact, &ON_EDGE, findings);
+    let part = f64::from(*weights.get(ours.index).unwrap_or(&0.0)) / sum;
+    let rest = (u - before(ours.index)) / part;
+    let our_rest = findings.ours("u_remapped", ours.u as f32);
+    let tolerance = Tolerance::new(1e-6, 1e-6);
+    findings.near(
+        "u_remapped",
+        our_rest,
+        rest.clamp(0.0, 1.0) as f32,
+        tolerance,
+    );
+    findings.settled(Certainty::Determined);
     if ours.index == theirs {
-        // An ulp of u grows with what it is stretched by.
+        // The reference rounds to single precision: an ulp of u grows with what it is stretched by.
         let tolerance = Tolerance::new(1e-5, 2.0 * f32::EPSILON / pmf);
-        let rest = case.get("u_remapped")?.float()?;
-        let ours = findings.ours("u_remapped", ours.u as f32);
-        findings.near("u_remapped", ours, rest, tolerance);
-        findings.settled(Certainty::Determined);
+        let theirs = case.get("u_remapped")?.float()?;
+        findings.near("their u_remapped", ours.u as f32, theirs, tolerance);
     }
     Ok(())
 }

@@ -33,6 +33,11 @@ pub(in crate::conformance) fn cosine(cos_theta: f64) -> f64 {
     32767.0 * (cos_theta.clamp(-1.0, 1.0) + 1.0) / 2.0
 }
 
+/// What the code of a cosine stands for.
+pub(in crate::conformance) fn cosine_of(code: i64) -> f64 {
+    2.0 * code as f64 / 32767.0 - 1.0
+}
+
 /// How far the roundings of an encoder or a decoder of cosines in single precision move that number: three of a sum
 /// up to 2, in codes.
 const COSINE_ROUNDING: f64 = 3.0 * 32767.0 * 0.5 * f32::EPSILON as f64;

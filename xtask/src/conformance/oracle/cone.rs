@@ -42,8 +42,12 @@ impl ExactCone {
             return other;
         }
         let half = 0.5 * (a + between + b);
-        if half >= PI || turn.length_squared() == 0.0 {
+        let is_turned = turn.length_squared() > 0.0;
+        if half >= PI || !is_turned && v.dot(w) < 0.0 {
             return WHOLE;
+        }
+        if !is_turned {
+            return if a >= b { self } else { other };
         }
         // The direction in which to turn is lost where the axes are opposite.
         let turn = jitter.vector(turn, 1.0).normalize();
@@ -87,14 +91,12 @@ pub(in crate::conformance) fn importance(
         let theta_i = (n.dot(to_p) / dist).abs().min(1.0).acos();
         (theta_i - theta_b).max(0.0).cos()
     };
-    let importance = scale * cos_emission.max(0.0) * cos_incidence;
-    if scale > 0.0 {
-        // Light that may arrive matters, however little is left of its cosine.
-        importance.max(f64::MIN_POSITIVE)
-    } else {
-        importance
-    }
+    // Light that may arrive matters, however little is left of its cosines.
+    scale * cos_emission.max(LEAST_COSINE) * cos_incidence.max(LEAST_COSINE)
 }
+
+/// What bounds promise to take for a cosine of light that may arrive, so that rounding drops none.
+const LEAST_COSINE: f64 = 2e-6;
 
 /// How far beyond it light may count: bounds promise so much, as their axis may be too short by rounding.
 const BESIDE: f64 = 2e-5;

@@ -10,6 +10,7 @@ mod jitter;
 pub(super) mod lights;
 mod spherical_rectangle;
 mod spherical_triangle;
+pub(super) mod subtended;
 pub(super) mod table;
 pub(super) mod warp;
 mod window;

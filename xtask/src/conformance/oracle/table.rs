@@ -36,6 +36,12 @@ impl ExactTable {
         }
     }
 
+    /// Whether rounding of the sums may lead anywhere in bin `i` of the first row.
+    pub(in crate::conformance) fn is_narrow(&self, i: usize) -> bool {
+        let row = &self.weights[..self.nx];
+        row[i] <= 2.0 * SUMS * row.iter().sum::<f64>()
+    }
+
     /// The point for `u` in a texel, and its density there; none if the sums of no rounding lead there.
     pub(in crate::conformance) fn sample_in(
         &self,
