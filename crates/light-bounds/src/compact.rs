@@ -2,7 +2,7 @@ use light_math::float::sqrt;
 use light_math::quantize::{QuantizedBox, decode_cos, encode_cos};
 use light_math::{Aabb, OctahedralVector};
 
-use crate::{LightBounds, LightSampleContext};
+use crate::{ImportanceQuery, LightBounds, LightSampleContext};
 
 /// Bits of a cosine's code.
 const COS_BITS: u32 = 15;
@@ -67,6 +67,13 @@ impl CompactLightBounds {
     #[must_use]
     pub fn importance(&self, all: &Aabb, ctx: &LightSampleContext) -> f32 {
         self.decode(all).importance(ctx)
+    }
+
+    /// [`importance`](Self::importance), to the bit, for a context that is prepared.
+    #[inline(always)]
+    #[must_use]
+    pub fn importance_for(&self, all: &Aabb, query: &ImportanceQuery) -> f32 {
+        self.decode(all).importance_for(query)
     }
 
     /// Emitted power in W, or any common multiple of it.

@@ -1,6 +1,8 @@
 use alloc::vec::Vec;
 
-use light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
+use light_bounds::{
+    ImportanceQuery, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
+};
 use light_bvh::LightBvhError;
 use light_math::distribution::WeightedReservoir;
 
@@ -92,11 +94,13 @@ impl ExhaustiveLightSampler {
 
 impl LightSampler for ExhaustiveLightSampler {
     fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.choose(u, |bounds| bounds.importance(ctx))
+        let query = ImportanceQuery::new(ctx);
+        self.choose(u, |bounds| bounds.importance_for(&query))
     }
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.probability(light, |bounds| bounds.importance(ctx))
+        let query = ImportanceQuery::new(ctx);
+        self.probability(light, |bounds| bounds.importance_for(&query))
     }
 
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {

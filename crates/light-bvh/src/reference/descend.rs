@@ -1,4 +1,4 @@
-use light_bounds::{CompactLightBounds, LightSampleContext, SampledLight};
+use light_bounds::{CompactLightBounds, ImportanceQuery, LightSampleContext, SampledLight};
 
 use super::fork::Fork;
 use super::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
@@ -14,7 +14,8 @@ impl ReferenceLightBvhRef<'_> {
     /// `[PBRT4]`, section 12.6.3.
     #[must_use]
     pub fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.descend(u, |bounds| bounds.importance(self.bounds, ctx))
+        let query = ImportanceQuery::new(ctx);
+        self.descend(u, |bounds| bounds.importance_for(self.bounds, &query))
     }
 
     /// One light in proportion to its power, for `u` in `[0, 1)`; `None` if the tree is empty.
