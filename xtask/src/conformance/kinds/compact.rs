@@ -1,5 +1,5 @@
 use lights::bounds::{CompactLightBounds, LightBounds, LightSampleContext};
-use lights::math::{Aabb, OctahedralVector};
+use lights::math::{Aabb, OctahedralVector, quantize::QuantizedBox};
 
 use super::bounds::{read_box, read_light_bounds};
 use super::compact_codes::{compact_codes, judge};
