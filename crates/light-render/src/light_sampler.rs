@@ -5,8 +5,8 @@ use core::str::FromStr;
 use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
-    PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    PowerLightSamplerError, PreparedChoices, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
 
@@ -67,7 +67,7 @@ impl SamplerKind {
         Self::BvhMorton,
     ];
 
-    /// Those that do not look at every light for each choice.
+    /// Those that do not prepared at every light for each choice.
     pub const SUBLINEAR: [Self; 4] = [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
 
     /// The kind's name on the command line.
@@ -215,26 +215,26 @@ impl LightSampler for AnyLightSampler {
     }
 
     #[inline]
-    fn sample_many_looking(
+    fn sample_many_prepared(
         &self,
         ctx: &LightSampleContext,
         u: f64,
         count: u32,
-        look: &mut LightLook,
+        prepared: &mut PreparedChoices,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        for_each_kind!(self, sampler => sampler.sample_many_looking(ctx, u, count, look, each));
+        for_each_kind!(self, sampler => sampler.sample_many_prepared(ctx, u, count, prepared, each));
     }
 
     #[inline]
-    fn pmf_many_looking(
+    fn pmf_many_prepared(
         &self,
         ctx: &LightSampleContext,
         light: LightId,
         count: u32,
-        look: &LightLook,
+        prepared: &PreparedChoices,
     ) -> f32 {
-        for_each_kind!(self, sampler => sampler.pmf_many_looking(ctx, light, count, look))
+        for_each_kind!(self, sampler => sampler.pmf_many_prepared(ctx, light, count, prepared))
     }
 }
 

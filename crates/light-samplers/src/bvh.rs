@@ -3,24 +3,26 @@ use core::ops::ControlFlow;
 use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
-use crate::bvh_cut::{BvhLightCut, SeenLights};
-use crate::light_look::Seen;
+use crate::bvh_cut::{BvhLightCut, CutChoices};
+use crate::first_choice::FirstChoice;
+use crate::infinite_lights::{FirstPmf, InfiniteLights, irradiance};
 use crate::light_sampler::stratum;
-use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
-use crate::{LightLook, LightSampler};
+use crate::prepared_choices::Preparation;
+use crate::{LightSampler, PreparedChoices};
 
-/// Choices of one call from which on it pays to look at all lights more closely first.
+/// From so many choices of one call on, a cut pays.
 const FEWEST_OF_CUT: u32 = 2;
 
-/// The default: chooses about in proportion to the irradiance that each light would give without occlusion.
+/// The default: chooses about in proportion to the irradiance that each light would give without
+/// occlusion.
 ///
-/// Reads `ctx.ns`. Lights at infinity take part with their own estimated irradiance beside that of the tree, so that a strong sun and
-/// ten thousand lamps share sensibly by day and by night. About 27 bytes a light; a query takes a node of sixteen children a level,
-/// and looks at every light at infinity.
+/// Reads `ctx.ns`. Lights at infinity are weighed by their own estimated irradiance against that of
+/// the tree, by day and by night. About 27 bytes a light; a query evaluates a node of sixteen
+/// children a level, and every light at infinity.
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {
     tree: LightBvh,
-    sky: Sky,
+    infinite: InfiniteLights,
 }
 
 impl BvhLightSampler {
@@ -39,17 +41,18 @@ impl BvhLightSampler {
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         Ok(Self {
             tree: LightBvh::build_with(lights, options)?,
-            sky: Sky::new(lights),
+            infinite: InfiniteLights::new(lights),
         })
     }
 
-    /// Follows lights that moved, turned, or changed their power, in time linear in them; the lights at infinity are taken anew.
+    /// Refits the tree to lights that moved, turned, or changed their power, in linear time; the
+    /// lights at infinity are replaced.
     ///
     /// # Errors
     /// As for [`LightBvh::refit`]; the sampler is then as it was.
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
         self.tree.refit(lights)?;
-        self.sky = Sky::new(lights);
+        self.infinite = InfiniteLights::new(lights);
         Ok(())
     }
 
@@ -59,55 +62,56 @@ impl BvhLightSampler {
         &self.tree
     }
 
-    /// A closer look at the lights from `ctx`, which pays when several of them are chosen there.
+    /// A cut through the tree for `ctx`, which pays when several lights are chosen there.
     #[must_use]
     pub fn cut(&self, ctx: &LightSampleContext, detail: CutDetail) -> BvhLightCut<'_> {
-        BvhLightCut::new(&self.tree, &self.sky, ctx, detail)
+        BvhLightCut::new(&self.tree, &self.infinite, ctx, detail)
     }
 
-    /// About the irradiance at `ctx` by the lights of the tree, if there are others to compare them with.
+    /// About the irradiance at `ctx` by the lights of the tree, if there are others to compare them
+    /// with.
     #[inline]
-    fn worth_beside_sky(&self, ctx: &LightSampleContext) -> f64 {
-        if self.sky.is_empty() {
+    fn tree_irradiance(&self, ctx: &LightSampleContext) -> f64 {
+        if self.infinite.is_empty() {
             1.0
         } else {
             self.tree.irradiance(ctx)
         }
     }
 
-    /// One light, and in `look` what the tree is worth.
+    /// One light, and in `prepared` the irradiance by the tree.
     #[inline]
-    fn sample_looking(
+    fn sample_prepared(
         &self,
         ctx: &LightSampleContext,
         u: f64,
-        look: &mut Seen,
+        prepared: &mut Preparation,
     ) -> Option<SampledLight> {
-        if self.sky.is_empty() {
-            *look = Seen::FromAfar { in_tree: 1.0 };
+        if self.infinite.is_empty() {
+            *prepared = Preparation::Tree { in_tree: 1.0 };
             return self.tree.sample(ctx, u);
         }
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
         self.tree.view().sample_with_infinite(ctx, |irradiance| {
             let in_tree = irradiance * self.tree.power();
-            *look = Seen::FromAfar { in_tree };
-            match self.sky.first(u, in_tree, worth) {
-                FirstChoice::Tree { pmf, u } => ControlFlow::Continue((pmf, u)),
-                FirstChoice::Sky(light) => ControlFlow::Break(light),
+            *prepared = Preparation::Tree { in_tree };
+            match self.infinite.first(u, in_tree, weight) {
+                FirstChoice::Others { pmf, u } => ControlFlow::Continue((pmf, u)),
+                FirstChoice::Infinite(light) => ControlFlow::Break(light),
             }
         })
     }
 
-    /// The probability of `light`, where those of the tree are worth `in_tree` at `ctx`.
+    /// The probability of `light`, where `in_tree` is the irradiance by the tree at `ctx`.
     #[inline]
-    fn pmf_beside_sky(&self, ctx: &LightSampleContext, in_tree: f64, light: LightId) -> f32 {
-        if self.sky.is_empty() {
+    fn pmf_with_infinite(&self, ctx: &LightSampleContext, in_tree: f64, light: LightId) -> f32 {
+        if self.infinite.is_empty() {
             return self.tree.pmf(ctx, light);
         }
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
-        match self.sky.first_pmf(light, in_tree, worth) {
-            FirstPmf::Tree(pmf) => self.tree.view().pmf_after(ctx, pmf, light),
-            FirstPmf::Sky(pmf) => pmf,
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, ctx);
+        match self.infinite.first_pmf(light, in_tree, weight) {
+            FirstPmf::Others(pmf) => self.tree.view().pmf_after(ctx, pmf, light),
+            FirstPmf::Infinite(pmf) => pmf,
         }
     }
 }
@@ -115,25 +119,25 @@ impl BvhLightSampler {
 impl LightSampler for BvhLightSampler {
     #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.sample_looking(ctx, u, &mut Seen::default())
+        self.sample_prepared(ctx, u, &mut Preparation::default())
     }
 
     #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.pmf_beside_sky(ctx, self.worth_beside_sky(ctx), light)
+        self.pmf_with_infinite(ctx, self.tree_irradiance(ctx), light)
     }
 
     fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
-        match self.sky.first(u, self.tree.power(), fluence) {
-            FirstChoice::Tree { pmf, u } => self.tree.view().sample_emitter_after(pmf, u),
-            FirstChoice::Sky(light) => light,
+        match self.infinite.first(u, self.tree.power(), fluence) {
+            FirstChoice::Others { pmf, u } => self.tree.view().sample_emitter_after(pmf, u),
+            FirstChoice::Infinite(light) => light,
         }
     }
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
-        match self.sky.first_pmf(light, self.tree.power(), fluence) {
-            FirstPmf::Tree(pmf) => self.tree.view().pmf_emitter_after(pmf, light),
-            FirstPmf::Sky(pmf) => pmf,
+        match self.infinite.first_pmf(light, self.tree.power(), fluence) {
+            FirstPmf::Others(pmf) => self.tree.view().pmf_emitter_after(pmf, light),
+            FirstPmf::Infinite(pmf) => pmf,
         }
     }
 
@@ -144,46 +148,48 @@ impl LightSampler for BvhLightSampler {
         count: u32,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        self.sample_many_looking(ctx, u, count, &mut LightLook::default(), each);
+        self.sample_many_prepared(ctx, u, count, &mut PreparedChoices::default(), each);
     }
 
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
-        self.pmf_many_looking(ctx, light, count, &LightLook::default())
+        self.pmf_many_prepared(ctx, light, count, &PreparedChoices::default())
     }
 
-    fn sample_many_looking(
+    fn sample_many_prepared(
         &self,
         ctx: &LightSampleContext,
         u: f64,
         count: u32,
-        look: &mut LightLook,
+        prepared: &mut PreparedChoices,
         each: &mut dyn FnMut(SampledLight),
     ) {
         if count < FEWEST_OF_CUT {
-            look.seen = Seen::Never;
-            let seen = &mut look.seen;
-            let choice = |i| self.sample_looking(ctx, stratum(i, count, u), seen);
+            prepared.preparation = Preparation::Nothing;
+            let preparation = &mut prepared.preparation;
+            let choice = |i| self.sample_prepared(ctx, stratum(i, count, u), preparation);
             (0..count).filter_map(choice).for_each(each);
         } else {
-            look.seen = Seen::Closely;
-            let cut = &mut look.cut;
+            prepared.preparation = Preparation::Cut;
+            let cut = &mut prepared.cut;
             cut.rebuild(&self.tree.view(), ctx, CutDetail::default());
-            SeenLights::new(&self.tree, &self.sky, ctx, cut).sample_many(u, count, each);
+            CutChoices::new(&self.tree, &self.infinite, ctx, cut).sample_many(u, count, each);
         }
     }
 
-    fn pmf_many_looking(
+    fn pmf_many_prepared(
         &self,
         ctx: &LightSampleContext,
         light: LightId,
         count: u32,
-        look: &LightLook,
+        prepared: &PreparedChoices,
     ) -> f32 {
-        match look.seen {
-            Seen::FromAfar { in_tree } => self.pmf_beside_sky(ctx, in_tree, light),
-            Seen::Closely => SeenLights::new(&self.tree, &self.sky, ctx, &look.cut).pmf(light),
-            Seen::Never if count < FEWEST_OF_CUT => self.pmf(ctx, light),
-            Seen::Never => self.cut(ctx, CutDetail::default()).pmf(light),
+        match prepared.preparation {
+            Preparation::Tree { in_tree } => self.pmf_with_infinite(ctx, in_tree, light),
+            Preparation::Cut => {
+                CutChoices::new(&self.tree, &self.infinite, ctx, &prepared.cut).pmf(light)
+            }
+            Preparation::Nothing if count < FEWEST_OF_CUT => self.pmf(ctx, light),
+            Preparation::Nothing => self.cut(ctx, CutDetail::default()).pmf(light),
         }
     }
 }

@@ -1,26 +1,29 @@
 use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvh, LightCut};
 
+use crate::first_choice::FirstChoice;
+use crate::infinite_lights::{FirstPmf, InfiniteLights, irradiance};
 use crate::light_sampler::stratum;
-use crate::sky::{FirstChoice, FirstPmf, Sky, irradiance};
 
-/// The lights as one point sees them, looked at closely where that pays: several lights are chosen for little more than one.
+/// The lights at one context, by a cut through the tree: several lights are chosen for little more
+/// than one.
 ///
-/// Made by [`BvhLightSampler::cut`](crate::BvhLightSampler::cut). Its probabilities are its own: they are closer to the lights' contributions
-/// than those of the sampler, so a light's pmf has to be asked of the cut that chose it, or of an equal one.
+/// Made by [`BvhLightSampler::cut`](crate::BvhLightSampler::cut). Its probabilities are its own:
+/// they are closer to the lights' contributions than those of the sampler, so a light's pmf has to
+/// be asked of the cut that chose it, or of an equal one.
 #[derive(Clone, Debug)]
 pub struct BvhLightCut<'a> {
     tree: &'a LightBvh,
-    sky: &'a Sky,
+    infinite: &'a InfiniteLights,
     ctx: LightSampleContext,
     cut: LightCut,
 }
 
-/// The lights of a sampler as a cut that is kept elsewhere tells of them.
+/// The lights of a sampler by a cut that is kept elsewhere.
 #[derive(Clone, Copy)]
-pub(crate) struct SeenLights<'a> {
+pub(crate) struct CutChoices<'a> {
     tree: &'a LightBvh,
-    sky: &'a Sky,
+    infinite: &'a InfiniteLights,
     ctx: &'a LightSampleContext,
     cut: &'a LightCut,
     /// About the irradiance by the tree's lights.
@@ -30,51 +33,52 @@ pub(crate) struct SeenLights<'a> {
 impl<'a> BvhLightCut<'a> {
     pub(crate) fn new(
         tree: &'a LightBvh,
-        sky: &'a Sky,
+        infinite: &'a InfiniteLights,
         ctx: &LightSampleContext,
         detail: CutDetail,
     ) -> Self {
         Self {
             tree,
-            sky,
+            infinite,
             ctx: *ctx,
             cut: LightCut::at(&tree.view(), ctx, detail),
         }
     }
 
-    fn seen(&self) -> SeenLights<'_> {
-        SeenLights::new(self.tree, self.sky, &self.ctx, &self.cut)
+    fn choices(&self) -> CutChoices<'_> {
+        CutChoices::new(self.tree, self.infinite, &self.ctx, &self.cut)
     }
 
     /// One light that may light the point; `None` if none can.
     #[must_use]
     pub fn sample(&self, u: f64) -> Option<SampledLight> {
-        self.seen().sample(u)
+        self.choices().sample(u)
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
-        self.seen().pmf(light)
+        self.choices().pmf(light)
     }
 
-    /// `count` lights, one for each of the equal parts of `[0, 1)`, all at the place that `u` has within its part.
+    /// `count` lights, one for each of the equal parts of `[0, 1)`, all at the place that `u` has
+    /// within its part.
     pub fn sample_many(&self, u: f64, count: u32, each: &mut dyn FnMut(SampledLight)) {
-        self.seen().sample_many(u, count, each);
+        self.choices().sample_many(u, count, each);
     }
 }
 
-impl<'a> SeenLights<'a> {
+impl<'a> CutChoices<'a> {
     /// The lights of `tree` and `sky` by the cut that was made for `ctx`.
     pub(crate) fn new(
         tree: &'a LightBvh,
-        sky: &'a Sky,
+        infinite: &'a InfiniteLights,
         ctx: &'a LightSampleContext,
         cut: &'a LightCut,
     ) -> Self {
         Self {
             tree,
-            sky,
+            infinite,
             ctx,
             cut,
             in_tree: cut.irradiance() * tree.power(),
@@ -82,31 +86,31 @@ impl<'a> SeenLights<'a> {
     }
 
     fn sample(&self, u: f64) -> Option<SampledLight> {
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
-        if self.sky.is_empty() {
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
+        if self.infinite.is_empty() {
             return self.sample_tree(1.0, u);
         }
-        match self.sky.first(u, self.in_tree, worth) {
-            FirstChoice::Tree { pmf, u } => self.sample_tree(pmf, u),
-            FirstChoice::Sky(light) => light,
+        match self.infinite.first(u, self.in_tree, weight) {
+            FirstChoice::Others { pmf, u } => self.sample_tree(pmf, u),
+            FirstChoice::Infinite(light) => light,
         }
     }
 
     /// The probability of `light` by [`BvhLightCut::sample`].
     pub(crate) fn pmf(&self, light: LightId) -> f32 {
-        let worth = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
-        if self.sky.is_empty() {
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, self.ctx);
+        if self.infinite.is_empty() {
             return self.pmf_tree(1.0, light);
         }
-        match self.sky.first_pmf(light, self.in_tree, worth) {
-            FirstPmf::Tree(pmf) => self.pmf_tree(pmf, light),
-            FirstPmf::Sky(pmf) => pmf,
+        match self.infinite.first_pmf(light, self.in_tree, weight) {
+            FirstPmf::Others(pmf) => self.pmf_tree(pmf, light),
+            FirstPmf::Infinite(pmf) => pmf,
         }
     }
 
     /// [`BvhLightCut::sample_many`].
     pub(crate) fn sample_many(&self, u: f64, count: u32, mut each: impl FnMut(SampledLight)) {
-        if self.sky.is_empty() {
+        if self.infinite.is_empty() {
             let us = (0..count).map(|i| stratum(i, count, u));
             let tree = self.tree.view();
             return self.cut.sample_many_at(&tree, self.ctx, 1.0, us, each);

@@ -7,12 +7,15 @@ use light_bvh::LightBvhError;
 use light_math::distribution::WeightedReservoir;
 
 use crate::LightSampler;
-use crate::infinite::{FirstChoice, HasOthers, InfiniteShares};
+use crate::first_choice::FirstChoice;
+use crate::infinite_shares::{HasOthers, InfiniteShares};
 
-/// Every light in proportion to its importance, without a hierarchy: exact, and linear in the number of lights.
+/// Every light in proportion to its importance, without a hierarchy: exact, and linear in the
+/// number of lights.
 ///
-/// What a tree approximates; for tests, comparisons and a handful of lights. Reads `ctx.ns`. Without a context lights are
-/// chosen in proportion to power. Lights at infinity share one uniform choice with all others.
+/// What a tree approximates; for tests, comparisons and a handful of lights. Reads `ctx.ns`.
+/// Without a context lights are chosen in proportion to power. Lights at infinity share one uniform
+/// choice with all others.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.2, as its exhaustive sampler.
@@ -27,7 +30,8 @@ impl ExhaustiveLightSampler {
     /// A sampler of `lights`; the index of a light is its id.
     ///
     /// # Errors
-    /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than 2^32 - 1 lights.
+    /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than
+    /// 2^32 - 1 lights.
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
         if u32::try_from(lights.len()).is_err() {
             return Err(LightBvhError::TooManyLights);
@@ -50,8 +54,8 @@ impl ExhaustiveLightSampler {
 
     fn choose(&self, u: f64, weight: impl Fn(&LightBounds) -> f32) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => Some(sample),
-            FirstChoice::Others { u } => {
+            FirstChoice::Infinite(sample) => sample,
+            FirstChoice::Others { u, .. } => {
                 let mut reservoir = WeightedReservoir::new(u);
                 for (id, bounds) in (0..).map(LightId).zip(&self.bounds) {
                     let weight = weight(bounds);

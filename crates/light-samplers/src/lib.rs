@@ -16,15 +16,17 @@ mod bvh_cut;
 #[cfg(feature = "alloc")]
 mod exhaustive;
 #[cfg(feature = "alloc")]
-mod infinite;
-mod light_look;
+mod first_choice;
+#[cfg(feature = "alloc")]
+mod infinite_lights;
+#[cfg(feature = "alloc")]
+mod infinite_shares;
 mod light_sampler;
 #[cfg(feature = "alloc")]
 mod power;
+mod prepared_choices;
 #[cfg(feature = "alloc")]
 mod reference_bvh;
-#[cfg(feature = "alloc")]
-mod sky;
 mod uniform;
 
 #[cfg(feature = "alloc")]
@@ -33,10 +35,10 @@ pub use bvh::BvhLightSampler;
 pub use bvh_cut::BvhLightCut;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
-pub use light_look::LightLook;
 pub use light_sampler::LightSampler;
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};
+pub use prepared_choices::PreparedChoices;
 #[cfg(feature = "alloc")]
 pub use reference_bvh::ReferenceBvhLightSampler;
 pub use uniform::UniformLightSampler;

@@ -1,11 +1,12 @@
-use crate::LightLook;
-use crate::light_look::Seen;
+use crate::PreparedChoices;
+use crate::prepared_choices::Preparation;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 /// A way to choose one light of a set at random, with a probability that can be asked for.
 ///
-/// Every `u` is in `[0, 1)`: an `f64`, because the 24 bits of an `f32` cannot address a million lights. Samplers are
-/// immutable and deterministic in their arguments. For any input, and in every implementation:
+/// Every `u` is in `[0, 1)`: an `f64`, because the 24 bits of an `f32` cannot address a million
+/// lights. Samplers are immutable and deterministic in their arguments. For any input, and in every
+/// implementation:
 ///
 /// - the pmf of a sample has the same bits as the queried pmf of its light;
 /// - the pmfs of all lights and the probability of `None` add up to 1;
@@ -18,16 +19,16 @@ pub trait LightSampler {
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`.
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32;
 
-    /// One light to emit from when nobody asks, as in light tracing; `None` if nothing emits.
+    /// One light to emit from, without a receiver, as in light tracing; `None` if nothing emits.
     fn sample_emitter(&self, u: f64) -> Option<SampledLight>;
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`.
     fn pmf_emitter(&self, light: LightId) -> f32;
 
-    /// Calls `each` with `count` lights that may light `ctx`, or fewer: one for each of the equal parts of `[0, 1)`, at the place that `u` has
-    /// within its part.
+    /// Calls `each` with `count` lights that may light `ctx`, or fewer: one for each of the equal
+    /// parts of `[0, 1)`, at the place that `u` has within its part.
     ///
-    /// A sampler may look at the lights more closely for several choices than for one. Their probabilities are those of
+    /// A sampler may refine its estimates for several choices. Their probabilities are those of
     /// [`pmf_many`](Self::pmf_many) for the same `count` then.
     fn sample_many(
         &self,
@@ -43,40 +44,44 @@ pub trait LightSampler {
         }
     }
 
-    /// Probability that one of the `count` choices of [`sample_many`](Self::sample_many) at `ctx` is `light`, on average over them.
+    /// Probability that one of the `count` choices of [`sample_many`](Self::sample_many) at `ctx`
+    /// is `light`, on average over them.
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
         let _ = count;
         self.pmf(ctx, light)
     }
 
-    /// [`sample_many`](Self::sample_many), which keeps in `look` what [`pmf_many_looking`](Self::pmf_many_looking) may need.
-    fn sample_many_looking(
+    /// [`sample_many`](Self::sample_many), which keeps in `prepared` what
+    /// [`pmf_many_prepared`](Self::pmf_many_prepared) may need.
+    fn sample_many_prepared(
         &self,
         ctx: &LightSampleContext,
         u: f64,
         count: u32,
-        look: &mut LightLook,
+        prepared: &mut PreparedChoices,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        look.seen = Seen::Never;
+        prepared.preparation = Preparation::Nothing;
         self.sample_many(ctx, u, count, each);
     }
 
-    /// [`pmf_many`](Self::pmf_many), to the bit, where `look` is that of [`sample_many_looking`](Self::sample_many_looking) by the same sampler
-    /// at the same `ctx` with the same `count`, or an empty one.
-    fn pmf_many_looking(
+    /// [`pmf_many`](Self::pmf_many), to the bit, where `prepared` is that of
+    /// [`sample_many_prepared`](Self::sample_many_prepared) by the same sampler at the same `ctx`
+    /// with the same `count`, or an empty one.
+    fn pmf_many_prepared(
         &self,
         ctx: &LightSampleContext,
         light: LightId,
         count: u32,
-        look: &LightLook,
+        prepared: &PreparedChoices,
     ) -> f32 {
-        let _ = look;
+        let _ = prepared;
         self.pmf_many(ctx, light, count)
     }
 }
 
-/// The number in the `i`th of `count` equal parts of `[0, 1)` at the place that `u` has in the whole.
+/// The number in the `i`th of `count` equal parts of `[0, 1)` at the place that `u` has in the
+/// whole.
 pub(crate) fn stratum(i: u32, count: u32, u: f64) -> f64 {
     ((f64::from(i) + u) / f64::from(count)).min(SampledLight::MAX_U)
 }
@@ -119,25 +124,25 @@ impl<S: LightSampler + ?Sized> LightSampler for &S {
     }
 
     #[inline]
-    fn sample_many_looking(
+    fn sample_many_prepared(
         &self,
         ctx: &LightSampleContext,
         u: f64,
         count: u32,
-        look: &mut LightLook,
+        prepared: &mut PreparedChoices,
         each: &mut dyn FnMut(SampledLight),
     ) {
-        (**self).sample_many_looking(ctx, u, count, look, each);
+        (**self).sample_many_prepared(ctx, u, count, prepared, each);
     }
 
     #[inline]
-    fn pmf_many_looking(
+    fn pmf_many_prepared(
         &self,
         ctx: &LightSampleContext,
         light: LightId,
         count: u32,
-        look: &LightLook,
+        prepared: &PreparedChoices,
     ) -> f32 {
-        (**self).pmf_many_looking(ctx, light, count, look)
+        (**self).pmf_many_prepared(ctx, light, count, prepared)
     }
 }

@@ -6,13 +6,14 @@ use light_math::distribution::{AliasBin, AliasTable, TableError};
 
 use crate::{LightSampler, UniformLightSampler};
 
-/// The least share of the total power with which a light is chosen: its probability must not vanish by rounding.
+/// The least share of the total power with which a light is chosen: its probability must not vanish
+/// by rounding.
 const LEAST_SHARE: f64 = 2.0 * f32::MIN_POSITIVE as f64;
 
 /// Strong lights more often, wherever they are.
 ///
-/// 12 bytes a light; a query takes constant time. The baseline for scenes in which every light reaches every point; lights without
-/// power are never chosen, unless all are without.
+/// 12 bytes a light; a query takes constant time. The baseline for scenes in which every light
+/// reaches every point; lights without power are never chosen, unless all are without.
 #[derive(Clone, Debug)]
 pub struct PowerLightSampler {
     choice: Choice,
@@ -26,8 +27,8 @@ enum Choice {
 }
 
 impl PowerLightSampler {
-    /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or any other common unit, of a
-    /// spectrum its mean over wavelengths.
+    /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or any
+    /// other common unit, of a spectrum its mean over wavelengths.
     ///
     /// # Errors
     /// A power is negative or not finite, or there are more than 2^32 - 1 lights.

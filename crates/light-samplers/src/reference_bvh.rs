@@ -3,12 +3,14 @@ use light_bvh::LightBvhError;
 use light_bvh::reference::ReferenceLightBvh;
 
 use crate::LightSampler;
-use crate::infinite::{FirstChoice, HasOthers, InfiniteShares};
+use crate::first_choice::FirstChoice;
+use crate::infinite_shares::{HasOthers, InfiniteShares};
 
-/// The published way to use a light hierarchy: lights at infinity share one uniform choice with the reference tree.
+/// The published way to use a light hierarchy: lights at infinity share one uniform choice with the
+/// reference tree.
 ///
-/// Reads `ctx.ns`. Without a context, lights of the tree are chosen in proportion to power. 68 bytes a light; a query takes
-/// two importances a level.
+/// Reads `ctx.ns`. Without a context, lights of the tree are chosen in proportion to power. 68
+/// bytes a light; a query takes two importances a level.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3.
@@ -49,8 +51,8 @@ impl ReferenceBvhLightSampler {
         in_tree: impl FnOnce(&ReferenceLightBvh, f64) -> Option<SampledLight>,
     ) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => Some(sample),
-            FirstChoice::Others { u } => {
+            FirstChoice::Infinite(sample) => sample,
+            FirstChoice::Others { u, .. } => {
                 let sample = in_tree(&self.tree, u)?;
                 let pmf = self.infinite.pmf_share() * sample.pmf;
                 Some(SampledLight { pmf, ..sample })

@@ -4,7 +4,8 @@ use crate::LightSampler;
 
 /// Every light alike, wherever and however strong it is.
 ///
-/// Needs no memory; a query takes constant time. The baseline: noise grows with the number of lights that do not matter.
+/// Needs no memory; a query takes constant time. The baseline: noise grows with the number of
+/// lights that do not matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformLightSampler {
     count: u32,
@@ -50,7 +51,8 @@ impl LightSampler for UniformLightSampler {
     }
 }
 
-/// One of the numbers `0..count`, each as likely, and the unused part of `u`; `None` if `count` is 0.
+/// One of the numbers `0..count`, each as likely, and the unused part of `u`; `None` if `count` is
+/// 0.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,

@@ -6,7 +6,7 @@ use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{
     InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
 };
-use light_samplers::{BvhLightSampler, LightLook, LightSampler};
+use light_samplers::{BvhLightSampler, LightSampler, PreparedChoices};
 
 fn lamp(phi: f32) -> LightExtent {
     LightExtent::Bounded(LightBounds {
@@ -53,11 +53,11 @@ fn a_refit_knows_the_new_sky_and_the_new_power() {
 fn what_was_looked_at_gives_the_bits_of_a_new_look() {
     let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
     for count in [1, 2, 5] {
-        let mut look = LightLook::default();
+        let mut prepared = PreparedChoices::default();
         let mut chosen = Vec::new();
-        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| chosen.push(s));
+        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| chosen.push(s));
         for id in [0, 1].map(LightId) {
-            let looked = sampler.pmf_many_looking(&floor(), id, count, &look);
+            let looked = sampler.pmf_many_prepared(&floor(), id, count, &prepared);
             assert_eq!(
                 looked,
                 sampler.pmf_many(&floor(), id, count),
@@ -94,8 +94,10 @@ fn several_choices_without_a_kept_look_are_the_same_choices() {
     let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
     for count in [1, 2, 5] {
         let (mut looking, mut plain) = (Vec::new(), Vec::new());
-        let mut look = LightLook::default();
-        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| looking.push(s));
+        let mut prepared = PreparedChoices::default();
+        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| {
+            looking.push(s)
+        });
         sampler.sample_many(&floor(), 0.3, count, &mut |s| plain.push(s));
         assert_eq!(plain.len(), count as usize, "each choice finds a light");
         assert_eq!(plain, looking, "{count} choices");
@@ -121,8 +123,8 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
     let mut differ = 0;
     for id in (0..200).map(LightId) {
         let pmf = |count| {
-            let look = LightLook::default();
-            sampler.pmf_many_looking(&floor(), id, count, &look)
+            let prepared = PreparedChoices::default();
+            sampler.pmf_many_prepared(&floor(), id, count, &prepared)
         };
         let one = sampler.pmf(&floor(), id);
         assert_eq!(pmf(1).to_bits(), one.to_bits(), "{id:?}");
@@ -136,11 +138,11 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
 fn many_lamps_have_the_pmf_of_their_choices() {
     let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
     for count in [1, 2, 3, 16] {
-        let (mut chosen, mut look) = (Vec::new(), LightLook::default());
-        sampler.sample_many_looking(&floor(), 0.3, count, &mut look, &mut |s| chosen.push(s));
+        let (mut chosen, mut prepared) = (Vec::new(), PreparedChoices::default());
+        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| chosen.push(s));
         for sample in chosen {
-            let looked = sampler.pmf_many_looking(&floor(), sample.light, count, &look);
-            assert_eq!(sample.pmf, looked, "{sample:?} of {count}, by the look");
+            let looked = sampler.pmf_many_prepared(&floor(), sample.light, count, &prepared);
+            assert_eq!(sample.pmf, looked, "{sample:?} of {count}, by the prepared");
             let pmf = sampler.pmf_many(&floor(), sample.light, count);
             assert_eq!(sample.pmf, pmf, "{sample:?} of {count}");
         }

@@ -8,7 +8,7 @@ use light_samplers::light_bounds::{
     InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
 };
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 
@@ -78,17 +78,17 @@ fn check_many(name: &str, sampler: &impl LightSampler, count: u32, expected: [f6
     const CALLS: u32 = 1000;
     let name = format!("{name}, {count} choices");
     let (mut samples, mut looking) = (Vec::new(), Vec::new());
-    let mut look = LightLook::default();
+    let mut prepared = PreparedChoices::default();
     for i in 0..CALLS {
         let u = (f64::from(i) + 0.5) / f64::from(CALLS);
         sampler.sample_many(&floor(), u, count, &mut |sample| samples.push(sample));
         let each = &mut |sample| looking.push(sample);
-        sampler.sample_many_looking(&floor(), u, count, &mut look, each);
+        sampler.sample_many_prepared(&floor(), u, count, &mut prepared, each);
     }
     assert_eq!(samples, looking, "{name}");
     let pmf = |id| sampler.pmf_many(&floor(), id, count);
     for id in IDS {
-        let looked = sampler.pmf_many_looking(&floor(), id, count, &look);
+        let looked = sampler.pmf_many_prepared(&floor(), id, count, &prepared);
         assert_eq!(looked, pmf(id), "{name}: {id:?}");
     }
     check_samples(&name, expected, pmf, &samples, CALLS * count);

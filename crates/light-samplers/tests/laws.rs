@@ -3,7 +3,7 @@
 use light_bvh::{CutDetail, LightBvhOptions};
 use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 use light_testkit::LightSet;
@@ -98,7 +98,7 @@ fn exchanged(set: &LightSet) -> Vec<LightExtent> {
     extents.iter().map(other).collect()
 }
 
-/// Choices from a closer look, with the probabilities that several choices of one call have by it.
+/// Choices from a closer prepared, with the probabilities that several choices of one call have by it.
 struct OfCut(BvhLightSampler);
 
 impl LightSampler for OfCut {
@@ -107,11 +107,11 @@ impl LightSampler for OfCut {
     }
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        let mut look = LightLook::default();
+        let mut prepared = PreparedChoices::default();
         self.0
-            .sample_many_looking(ctx, 0.0, 2, &mut look, &mut |_| ());
-        let pmf = self.0.pmf_many_looking(ctx, light, 2, &look);
-        assert_eq!(pmf, self.0.pmf_many(ctx, light, 2), "the same look");
+            .sample_many_prepared(ctx, 0.0, 2, &mut prepared, &mut |_| ());
+        let pmf = self.0.pmf_many_prepared(ctx, light, 2, &prepared);
+        assert_eq!(pmf, self.0.pmf_many(ctx, light, 2), "the same prepared");
         pmf
     }
 

@@ -15,7 +15,7 @@ pub(super) fn reason(file: &str, line: &str, function: &str) -> Option<&'static 
     if function.contains("const fn ") {
         return Some("returns a field");
     }
-    if file == "light-bvh/src/wide/vectors.rs" {
+    if file == "light-bvh/src/simd.rs" {
         return Some("vectors of another width than this machine has");
     }
     None

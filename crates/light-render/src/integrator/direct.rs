@@ -2,7 +2,7 @@ use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::bvh::prefetch_item;
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
-use lights::samplers::{LightLook, LightSampler};
+use lights::samplers::{LightSampler, PreparedChoices};
 use lights::sources::{Light, LightType};
 
 use super::chosen::ChosenLights;
@@ -26,7 +26,7 @@ pub(super) struct DirectLight<'a, S> {
     pub(super) sampler: &'a S,
     pub(super) estimator: Estimator,
     /// What the sampler found out where it chose last.
-    look: LightLook,
+    prepared: PreparedChoices,
 }
 
 /// What scatters light at a point: a surface, or a surface or a medium.
@@ -92,7 +92,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
             world,
             sampler,
             estimator,
-            look: LightLook::default(),
+            prepared: PreparedChoices::default(),
         }
     }
 
@@ -108,9 +108,9 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
             }
             chosen.push(choice);
         };
-        let look = &mut self.look;
+        let prepared = &mut self.prepared;
         self.sampler
-            .sample_many_looking(ctx, numbers.light, *count, look, &mut each);
+            .sample_many_prepared(ctx, numbers.light, *count, prepared, &mut each);
         chosen
     }
 
@@ -157,7 +157,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         };
         let pmf = self
             .sampler
-            .pmf_many_looking(ctx, light, *count, &self.look);
+            .pmf_many_prepared(ctx, light, *count, &self.prepared);
         let pmf = *count as f32 * pmf;
         if pmf > 0.0 {
             pmf * source.pdf_li(ctx, wi, self.estimator.coverage())

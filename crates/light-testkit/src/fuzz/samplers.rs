@@ -4,7 +4,7 @@ use light_bounds::{LightExtent, LightId, LightSampleContext};
 use light_bvh::{BuildMode, CutDetail, DarkLights, LightBvhOptions};
 use light_math::glam::Vec3;
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 
@@ -162,7 +162,7 @@ pub(super) fn check(
             "{name}: {id:?} emits and is never chosen to: {light:?}"
         );
     }
-    let look = RefCell::new(LightLook::default());
+    let prepared = RefCell::new(PreparedChoices::default());
     for ctx in contexts {
         let choice = Choice {
             name: &format!("{name} at {ctx:?}"),
@@ -174,7 +174,7 @@ pub(super) fn check(
         choice.shares_fill_the_unit(us);
         choice.contributing_lights_are_possible(lights, &received(kind, ctx));
         for k in COUNTS {
-            check_many(kind, sampler, lights, ctx, us, k, &look);
+            check_many(kind, sampler, lights, ctx, us, k, &prepared);
         }
     }
 }
@@ -190,7 +190,7 @@ fn received(kind: Kind, ctx: &LightSampleContext) -> LightSampleContext {
     }
 }
 
-/// `k` choices at once, and their pmfs with and without a look.
+/// `k` choices at once, and their pmfs with and without a prepared.
 fn check_many(
     kind: Kind,
     sampler: &impl LightSampler,
@@ -198,7 +198,7 @@ fn check_many(
     ctx: &LightSampleContext,
     us: &[f64],
     k: u32,
-    look: &RefCell<LightLook>,
+    prepared: &RefCell<PreparedChoices>,
 ) {
     let name = kind.name;
     let received = received(kind, ctx);
@@ -206,9 +206,12 @@ fn check_many(
         let mut plain = Vec::new();
         sampler.sample_many(ctx, u, k, &mut |light| plain.push(light));
         let mut looked = Vec::new();
-        let look = &mut *look.borrow_mut();
-        sampler.sample_many_looking(ctx, u, k, look, &mut |light| looked.push(light));
-        assert_eq!(plain, looked, "{name}: {k} lights with a look at {ctx:?}");
+        let prepared = &mut *prepared.borrow_mut();
+        sampler.sample_many_prepared(ctx, u, k, prepared, &mut |light| looked.push(light));
+        assert_eq!(
+            plain, looked,
+            "{name}: {k} lights with a prepared at {ctx:?}"
+        );
         assert!(
             plain.len() <= k as usize,
             "{name}: more than {k} at {ctx:?}"
@@ -225,8 +228,8 @@ fn check_many(
         let mut sum = 0.0;
         for (id, light) in (0..).map(LightId).zip(lights) {
             let pmf = sampler.pmf_many(ctx, id, k);
-            let with_look = sampler.pmf_many_looking(ctx, id, k, look);
-            let without = sampler.pmf_many_looking(ctx, id, k, &LightLook::default());
+            let with_look = sampler.pmf_many_prepared(ctx, id, k, prepared);
+            let without = sampler.pmf_many_prepared(ctx, id, k, &PreparedChoices::default());
             assert!(
                 pmf.to_bits() == with_look.to_bits() && pmf.to_bits() == without.to_bits(),
                 "{name}: {pmf}, {with_look} and {without} of {id:?} and {k} at {ctx:?}"

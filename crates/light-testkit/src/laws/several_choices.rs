@@ -1,5 +1,5 @@
 use light_bounds::LightSampleContext;
-use light_samplers::{LightLook, LightSampler};
+use light_samplers::{LightSampler, PreparedChoices};
 
 use crate::{LightSet, Rng, chi_squared, kolmogorov_smirnov_uniform};
 
@@ -35,18 +35,22 @@ fn check(
         .ids()
         .map(|id| sampler.pmf_many(ctx, id, count))
         .collect();
-    let mut look = LightLook::default();
+    let mut prepared = PreparedChoices::default();
     let mut rests = vec![Vec::new(); pmfs.len()];
     for _ in 0..calls {
-        sampler.sample_many_looking(ctx, rng.f64(), count, &mut look, &mut |chosen| {
+        sampler.sample_many_prepared(ctx, rng.f64(), count, &mut prepared, &mut |chosen| {
             let pmf = pmfs[chosen.light.index()];
             assert_eq!(chosen.pmf.to_bits(), pmf.to_bits(), "{at}: {chosen:?}");
             rests[chosen.light.index()].push(chosen.u);
         });
     }
     for (id, pmf) in set.ids().zip(&pmfs) {
-        let kept = sampler.pmf_many_looking(ctx, id, count, &look);
-        assert_eq!(kept.to_bits(), pmf.to_bits(), "{at}: {id:?} by the look");
+        let kept = sampler.pmf_many_prepared(ctx, id, count, &prepared);
+        assert_eq!(
+            kept.to_bits(),
+            pmf.to_bits(),
+            "{at}: {id:?} by the prepared"
+        );
     }
 
     let draws = f64::from(calls * count);

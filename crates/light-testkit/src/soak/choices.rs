@@ -2,7 +2,7 @@ use light_bounds::{LightSampleContext, SampledLight};
 use light_bvh::LightBvhOptions;
 use light_math::glam::Vec3;
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightLook, LightSampler, PowerLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 
@@ -103,7 +103,7 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
     let mut rng = Rng::new(seed);
     let mut row = Row::default();
     let (low, high) = set.set.corners();
-    let mut look = LightLook::default();
+    let mut prepared = PreparedChoices::default();
     let mut turn = 0;
     // Where hardly anything is chosen, nearly all is none.
     while row.samples < count && row.none < MOST_NONE * count {
@@ -127,7 +127,7 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
         }
         asked.emitter(rng.f64());
         let k = SEVERAL[rng.below(SEVERAL.len())];
-        asked.several(rng.f64(), k, &mut look);
+        asked.several(rng.f64(), k, &mut prepared);
     }
     row
 }
@@ -156,14 +156,14 @@ impl Asked<'_> {
         self.note(chosen, pmf, "emitter, ", u);
     }
 
-    /// All of them by the look that is kept, the last also without.
-    fn several(&mut self, u: f64, k: u32, look: &mut LightLook) {
+    /// All of them by the prepared that is kept, the last also without.
+    fn several(&mut self, u: f64, k: u32, prepared: &mut PreparedChoices) {
         let mut all = Vec::with_capacity(k as usize);
         let sampler = self.sampler;
-        sampler.sample_many_looking(self.ctx, u, k, look, &mut |light| all.push(light));
+        sampler.sample_many_prepared(self.ctx, u, k, prepared, &mut |light| all.push(light));
         for &chosen in &all {
-            let pmf = sampler.pmf_many_looking(self.ctx, chosen.light, k, look);
-            self.note(Some(chosen), Some(pmf), "of several with a look, ", u);
+            let pmf = sampler.pmf_many_prepared(self.ctx, chosen.light, k, prepared);
+            self.note(Some(chosen), Some(pmf), "of several with a prepared, ", u);
         }
         if let Some(&last) = all.last() {
             let pmf = sampler.pmf_many(self.ctx, last.light, k);

@@ -2,12 +2,14 @@ use alloc::vec::Vec;
 
 use light_bounds::{LightExtent, LightId, SampledLight};
 
+use crate::first_choice::FirstChoice;
 use crate::uniform::choose_uniformly;
 
-/// The choice before any other: each light at infinity has one share, all lights that are somewhere have one together.
+/// The choice before any other: each light at infinity has one share, all lights that are somewhere
+/// have one together.
 ///
-/// `p_infinite = n / (n + 1)` for `n` lights at infinity, or `n / n` when there are no others. Lights without fluence stay
-/// out.
+/// `p_infinite = n / (n + 1)` for `n` lights at infinity, or `n / n` when there are no others.
+/// Lights without fluence stay out.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3.
@@ -17,15 +19,6 @@ pub(crate) struct InfiniteShares {
     lights: Vec<LightId>,
     /// All shares, one for each infinite light and one for the others if there are any.
     shares: u32,
-}
-
-/// What the first choice leads to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum FirstChoice {
-    /// A light at infinity.
-    Infinite(SampledLight),
-    /// One of the others, by what is left of `u`.
-    Others { u: f64 },
 }
 
 impl InfiniteShares {
@@ -53,12 +46,15 @@ impl InfiniteShares {
     pub(crate) fn choose(&self, u: f64) -> Option<FirstChoice> {
         let (share, u) = choose_uniformly(self.shares, u)?;
         Some(match self.lights.get(share as usize) {
-            Some(&light) => FirstChoice::Infinite(SampledLight {
+            Some(&light) => FirstChoice::Infinite(Some(SampledLight {
                 light,
                 pmf: self.pmf_share(),
                 u,
-            }),
-            None => FirstChoice::Others { u },
+            })),
+            None => FirstChoice::Others {
+                pmf: self.pmf_share(),
+                u,
+            },
         })
     }
 

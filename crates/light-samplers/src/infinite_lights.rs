@@ -6,17 +6,20 @@ use light_bounds::{
 use light_math::glam::Vec3;
 use light_math::{direction, float};
 
-/// Cosine that is never taken for less while any light may arrive, and what a test for none of it leaves to round-off.
+use crate::first_choice::FirstChoice;
+
+/// Cosine that is never taken for less while any light may arrive, and what a test for none of it
+/// leaves to round-off.
 const SLACK: f32 = 1e-5;
 
-/// The lights at infinity, and what each of them is worth to a point.
+/// The lights at infinity.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sky {
+pub(crate) struct InfiniteLights {
     /// In ascending order of ids; those without fluence stay out.
     lights: Vec<(LightId, InfiniteBounds)>,
 }
 
-impl Sky {
+impl InfiniteLights {
     /// The infinite ones of `lights`.
     pub(crate) fn new(lights: &[LightExtent]) -> Self {
         let infinite = (0..)
@@ -24,7 +27,8 @@ impl Sky {
             .zip(lights)
             .filter_map(|(id, extent)| Some((id, *extent.infinite()?)))
             .filter(|(_, bounds)| bounds.fluence > 0.0);
-        // Valid bounds have an axis of about length one: too rough for the test against the horizon.
+        // Valid bounds have an axis of about length one: too rough for the test against the
+        // horizon.
         let with_unit_axis = |(id, mut bounds): (LightId, InfiniteBounds)| {
             bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
             (id, bounds)
@@ -44,23 +48,23 @@ impl Sky {
         at.ok().map(|index| &self.lights[index].1)
     }
 
-    /// The choice between these and the lights of a tree, which is worth `in_tree`.
+    /// The choice between these and the lights of a tree, whose weight is `in_tree`.
     pub(crate) fn first(
         &self,
         u: f64,
         in_tree: f64,
-        worth: impl Fn(&InfiniteBounds) -> f64,
+        weight: impl Fn(&InfiniteBounds) -> f64,
     ) -> FirstChoice {
-        let total = in_tree + self.total(&worth);
+        let total = in_tree + self.total(&weight);
         let target = u * total;
         if target < in_tree {
-            return FirstChoice::Tree {
+            return FirstChoice::Others {
                 pmf: share(in_tree, total),
                 u: SampledLight::clamp_u(target / in_tree),
             };
         }
         let pmf = |weight| share(weight, total);
-        FirstChoice::Sky(self.choose(target - in_tree, &worth, pmf))
+        FirstChoice::Infinite(self.choose(target - in_tree, &weight, pmf))
     }
 
     /// The probability of the first choice that leads to `light`.
@@ -68,31 +72,32 @@ impl Sky {
         &self,
         light: LightId,
         in_tree: f64,
-        worth: impl Fn(&InfiniteBounds) -> f64,
+        weight: impl Fn(&InfiniteBounds) -> f64,
     ) -> FirstPmf {
-        let total = in_tree + self.total(&worth);
+        let total = in_tree + self.total(&weight);
         match self.get(light) {
-            Some(bounds) => FirstPmf::Sky(share(worth(bounds), total)),
-            None => FirstPmf::Tree(share(in_tree, total)),
+            Some(bounds) => FirstPmf::Infinite(share(weight(bounds), total)),
+            None => FirstPmf::Others(share(in_tree, total)),
         }
     }
 
-    /// The sum of `worth` over all lights.
-    fn total(&self, worth: impl Fn(&InfiniteBounds) -> f64) -> f64 {
-        self.lights.iter().map(|(_, bounds)| worth(bounds)).sum()
+    /// The sum of `weight` over all lights.
+    fn total(&self, weight: impl Fn(&InfiniteBounds) -> f64) -> f64 {
+        self.lights.iter().map(|(_, bounds)| weight(bounds)).sum()
     }
 
-    /// The light that `target` falls on, between 0 and the total, with a probability as it is given by `pmf`.
+    /// The light that `target` falls on, between 0 and the total, with a probability as it is given
+    /// by `pmf`.
     fn choose(
         &self,
         target: f64,
-        worth: impl Fn(&InfiniteBounds) -> f64,
+        weight: impl Fn(&InfiniteBounds) -> f64,
         pmf: impl Fn(f64) -> f32,
     ) -> Option<SampledLight> {
         let mut below = 0.0;
         let mut chosen = None;
         for (light, bounds) in &self.lights {
-            let weight = worth(bounds);
+            let weight = weight(bounds);
             if weight > 0.0 {
                 chosen = Some((*light, below, weight));
                 if target < below + weight {
@@ -110,20 +115,12 @@ impl Sky {
     }
 }
 
-/// What the first choice leads to.
-pub(crate) enum FirstChoice {
-    /// The tree, with this probability, and the unused part of `u`.
-    Tree { pmf: f32, u: f64 },
-    /// A light at infinity, or none.
-    Sky(Option<SampledLight>),
-}
-
 /// The probability of the first choice.
 pub(crate) enum FirstPmf {
-    /// The light is in the tree, if anywhere.
-    Tree(f32),
+    /// The light is one of the others, if anywhere.
+    Others(f32),
     /// The light is at infinity.
-    Sky(f32),
+    Infinite(f32),
 }
 
 /// About the irradiance at `ctx` by a light at infinity; 0 only if all of it is below the horizon.

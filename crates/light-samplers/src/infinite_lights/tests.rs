@@ -73,7 +73,7 @@ fn narrow_cones_count_to_their_edge() {
     }
 }
 
-/// A tree that is worth 2, and lights of fluence 1, 2 and 5.
+/// A tree of weight 2, and lights of fluence 1, 2 and 5.
 #[test]
 fn each_choice_has_its_share_of_u() {
     let lights = [1.0, 0.0, 2.0, 5.0].map(|fluence| {
@@ -82,7 +82,7 @@ fn each_choice_has_its_share_of_u() {
             ..InfiniteBounds::uniform(1.0)
         })
     });
-    let sky = Sky::new(&lights);
+    let sky = InfiniteLights::new(&lights);
     let fluence = |bounds: &InfiniteBounds| f64::from(bounds.fluence);
     for (u, light, pmf, rest) in [
         (0.1, None, 0.2, 0.5),
@@ -94,8 +94,8 @@ fn each_choice_has_its_share_of_u() {
         (1.0, Some(3), 0.5, SampledLight::MAX_U),
     ] {
         let (chosen, chosen_pmf, chosen_u) = match sky.first(u, 2.0, fluence) {
-            FirstChoice::Tree { pmf, u } => (None, pmf, u),
-            FirstChoice::Sky(choice) => {
+            FirstChoice::Others { pmf, u } => (None, pmf, u),
+            FirstChoice::Infinite(choice) => {
                 let SampledLight { light, pmf, u } = choice.expect("a light");
                 (Some(light.0), pmf, u)
             }
@@ -104,8 +104,8 @@ fn each_choice_has_its_share_of_u() {
         assert!((chosen_u - rest).abs() < 1e-9, "{u}: {chosen_u} is left");
     }
     let pmf = |light| match sky.first_pmf(LightId(light), 2.0, fluence) {
-        FirstPmf::Tree(pmf) => -pmf,
-        FirstPmf::Sky(pmf) => pmf,
+        FirstPmf::Others(pmf) => -pmf,
+        FirstPmf::Infinite(pmf) => pmf,
     };
     // A light without fluence is none of these.
     assert_eq!([0, 1, 2, 3].map(pmf), [0.1, -0.2, 0.2, 0.5], "pmfs");
@@ -118,7 +118,7 @@ fn only_what_has_no_weight_has_no_share() {
     assert_eq!(share(1e-30, 1e30), f32::MIN_POSITIVE, "never nothing");
 }
 
-/// Seen from both sides a sky counts by its distance from the horizon, or by how far it is spread.
+/// On a two-sided surface a light counts by its distance from the horizon, or by its spread.
 #[test]
 fn a_surface_that_transmits_has_light_from_both_sides() {
     let ctx = LightSampleContext::two_sided(Vec3::ZERO, Vec3::Z, Vec3::Z);
