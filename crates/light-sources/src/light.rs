@@ -15,6 +15,8 @@ pub trait Light<C: ColorModel> {
     fn light_type(&self) -> LightType;
 
     /// Emitted power in W, for lights at infinity the power that enters the scene's sphere.
+    ///
+    /// Infinite where it is more than a float holds, 3.4e38 W; the extent of such a light is refused by light samplers.
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance;
 
     /// A direction from which the light arrives at `ctx.p`, with its density; `None` when this light does not reach

@@ -92,8 +92,8 @@ impl<C: ColorModel> SpotLight<C> {
             transform,
             start,
             end,
-            cos_theta_o: cos(desc.falloff_start),
-            cos_theta_e: cos(desc.angle - desc.falloff_start),
+            cos_theta_o: cos_rounded_down(desc.falloff_start),
+            cos_theta_e: cos_rounded_down(desc.angle - desc.falloff_start),
             intensity: ScaledEmission::new(desc.emission, scale)?,
             media: desc.media,
         })
@@ -196,6 +196,18 @@ fn solid_angle(start: f32, end: f32) -> f32 {
 fn one_minus_cos(angle: f32) -> f32 {
     let half = sin(0.5 * angle);
     2.0 * half * half
+}
+
+/// The cosine, and of a narrow angle no more than it: a float that rounds to above would leave out a part of the cone.
+fn cos_rounded_down(angle: f32) -> f32 {
+    const NARROW: f32 = 1e-3;
+    let nearest = cos(angle);
+    // Next to 1 floats lie half an epsilon apart, and their distance from 1 is exact.
+    if angle < NARROW && 1.0 - nearest < one_minus_cos(angle) {
+        nearest - 0.5 * f32::EPSILON
+    } else {
+        nearest
+    }
 }
 
 impl fmt::Display for SpotLightError {

@@ -1,11 +1,9 @@
-use core::error::Error;
-use core::fmt;
-
+use super::bilinear_patch_error::BilinearPatchError;
 use super::flat_quad::FlatQuad;
 use super::patch_area;
 use super::{
     DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, hit_slack,
-    unit_normal,
+    normal_length, unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -40,16 +38,6 @@ enum Bend {
     Twisted,
 }
 
-/// Why four points are no patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BilinearPatchError {
-    /// A corner is not finite.
-    Corner,
-    /// The patch has no area, or one that is no positive number.
-    Area,
-}
-
 impl BilinearPatch {
     /// The patch with the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
     ///
@@ -68,11 +56,12 @@ impl BilinearPatch {
             area: 0.0,
             bend: Bend::Twisted,
         };
-        patch.area = patch_area::integrate(|uv| patch.scaled_normal(uv));
+        patch.area = patch_area::integrate(|uv| patch.area_density(uv));
         patch.bend = patch.measure_bend();
         // Normals are means of those at the corners, and no longer: what is more is rounding of a patch without area.
         let most = patch.weights().into_iter().fold(0.0, f32::max);
-        if !(patch.area > 0.0 && patch.area.is_finite() && patch.area <= ROUNDED * most) {
+        let is_area = patch.area.is_finite() && (1.0 / patch.area).is_finite();
+        if !(is_area && patch.area <= ROUNDED * most) {
             return Err(BilinearPatchError::Area);
         }
         Ok(patch)
@@ -93,6 +82,11 @@ impl BilinearPatch {
         (self.du + self.duv * uv.y).cross(self.dv + self.duv * uv.x)
     }
 
+    /// Area per area of the parameters at `uv`.
+    fn area_density(&self, uv: Vec2) -> f32 {
+        normal_length(self.scaled_normal(uv))
+    }
+
     fn at(&self, uv: Vec2) -> Option<SurfacePoint> {
         Some(SurfacePoint {
             p: self.point(uv),
@@ -103,11 +97,22 @@ impl BilinearPatch {
 
     /// Area per area of the parameters at the corners, by which points are chosen.
     fn weights(&self) -> [f32; 4] {
-        CORNERS.map(|uv| self.scaled_normal(uv).length())
+        CORNERS.map(|uv| self.area_density(uv))
     }
 
     fn pdf_at(&self, uv: Vec2) -> f32 {
-        bilinear::pdf(uv, self.weights()) / self.scaled_normal(uv).length()
+        bilinear::pdf(uv, self.weights()) / self.area_density(uv)
+    }
+
+    /// Unit direction and density of the point at `uv`, which is chosen by area.
+    fn by_area(&self, uv: Vec2, to_light: Vec3) -> Option<(Vec3, f32)> {
+        area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
+    }
+
+    /// Whether `uv` lies so near to a corner without area, where both sides have one direction, that a rounding of `uv` turns the normal.
+    fn is_pinched(&self, uv: Vec2) -> bool {
+        const PINCHED: f32 = 1e-3;
+        self.area_density(uv) < PINCHED * self.area
     }
 
     /// Flat where all normals at the corners are the same, up to rounding.
@@ -255,9 +260,13 @@ impl Shape for BilinearPatch {
         if self.bend == Bend::Twisted {
             // The same distance, but for what rounding takes off at a grazing angle.
             let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
-            let (_, t) = self.intersect(ctx.p, wi)?;
+            let (met, t) = self.intersect(ctx.p, wi)?;
             if t < same * to_light.length() {
                 return None;
+            }
+            if self.is_pinched(at.uv) {
+                let (_, pdf) = self.by_area(met, wi * t)?;
+                return Some(DirectionSample { at, wi, pdf });
             }
         }
         Some(DirectionSample { at, wi, pdf })
@@ -269,8 +278,7 @@ impl Shape for BilinearPatch {
         }
         let pdf = || {
             let (uv, t) = self.intersect(ctx.p, wi)?;
-            let at = self.at(uv)?;
-            area_to_solid_angle(self.pdf_at(uv), wi * t, at.n)
+            self.by_area(uv, wi * t)
         };
         pdf().map_or(0.0, |(_, pdf)| pdf)
     }
@@ -289,14 +297,3 @@ fn closest(start: Vec3, line: Vec3, direction: Vec3) -> f32 {
 
 /// The corners in the order of the weights of [`bilinear`].
 const CORNERS: [Vec2; 4] = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
-
-impl fmt::Display for BilinearPatchError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Corner => "corners: must be finite",
-            Self::Area => "corners: must span an area above 0",
-        })
-    }
-}
-
-impl Error for BilinearPatchError {}

@@ -2,6 +2,7 @@
 
 mod any;
 mod bilinear_patch;
+mod bilinear_patch_error;
 mod cylinder;
 mod cylinder_view;
 mod disk;
@@ -14,7 +15,8 @@ mod triangle;
 mod uv_area;
 
 pub use any::{AnyShape, ShapeDesc, ShapeError};
-pub use bilinear_patch::{BilinearPatch, BilinearPatchError};
+pub use bilinear_patch::BilinearPatch;
+pub use bilinear_patch_error::BilinearPatchError;
 pub use cylinder::{Cylinder, CylinderError};
 pub use disk::{Disk, DiskError};
 pub use rectangle::{Rectangle, RectangleError};
@@ -26,7 +28,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use core::f32::consts::TAU;
 use light_bounds::LightSampleContext;
-use light_math::float::{ONE_MINUS_EPSILON, atan2};
+use light_math::float::{ONE_MINUS_EPSILON, atan2, sqrt};
 use light_math::{Aabb, DirectionCone};
 
 /// A surface that area lights can shine from.
@@ -133,6 +135,13 @@ pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Opt
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
 }
 
+/// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the direction `to_light` visibly.
+#[inline]
+fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
+    const CLOSE: f32 = 1e-3;
+    to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
+}
+
 /// What a ray in a unit direction rounds off where it meets a surface at the given distance, as a length along the
 /// surface: the lower it comes in, the longer. Edges count that far out, so that a direction toward any point hits.
 ///
@@ -146,6 +155,28 @@ pub(crate) fn azimuth(p: Vec3) -> f32 {
     let turn = atan2(p.y, p.x) / TAU;
     let turn = if turn < 0.0 { turn + 1.0 } else { turn };
     turn.min(ONE_MINUS_EPSILON)
+}
+
+/// The length of a normal, as an area; also where that is so small that its square loses digits.
+#[inline]
+fn normal_length(normal: Vec3) -> f32 {
+    let length_sq = normal.length_squared();
+    if length_sq >= f32::MIN_POSITIVE {
+        sqrt(length_sq)
+    } else {
+        tiny_length(normal)
+    }
+}
+
+/// Divided by the largest component first, so that no square vanishes.
+#[cold]
+fn tiny_length(v: Vec3) -> f32 {
+    let largest = v.abs().max_element();
+    if largest > 0.0 {
+        largest * (v / largest).length()
+    } else {
+        0.0
+    }
 }
 
 /// The unit vector along a normal; also where that is so short, as of a tiny surface, that its square loses digits.

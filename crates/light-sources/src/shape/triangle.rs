@@ -2,7 +2,10 @@ use core::error::Error;
 use core::fmt;
 
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle, unit_normal};
+use super::{
+    DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle, is_within_rounding,
+    normal_length, unit_normal,
+};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -25,7 +28,7 @@ pub struct Triangle {
 pub enum TriangleError {
     /// A vertex is not finite.
     Vertex,
-    /// The vertices lie on a line, or so close that the area is no positive number.
+    /// The vertices lie on a line, or so close that one over the area is no finite number.
     Area,
 }
 
@@ -36,14 +39,14 @@ impl Triangle {
     /// The triangle with vertices `p`, and surface parameters `uv` at them.
     ///
     /// # Errors
-    /// When a vertex is not finite or the triangle has no area.
+    /// When a vertex is not finite or the triangle has no area, of at least 3e-39.
     pub fn new(p: [Vec3; 3], uv: [Vec2; 3]) -> Result<Self, TriangleError> {
         if !p.iter().all(|p| p.is_finite()) {
             return Err(TriangleError::Vertex);
         }
         let triangle = Self { p, uv };
         let area = triangle.area();
-        if !(area > 0.0 && area.is_finite()) {
+        if !(area.is_finite() && (1.0 / area).is_finite()) {
             return Err(TriangleError::Area);
         }
         Ok(triangle)
@@ -82,8 +85,13 @@ impl Triangle {
     #[inline]
     fn normal_and_inv_area(&self) -> Option<(Vec3, f32)> {
         let normal = self.scaled_normal();
-        let scale = 1.0 / normal.length();
-        (scale > 0.0 && scale.is_finite()).then(|| (normal * scale, 2.0 * scale))
+        let scale = 1.0 / normal_length(normal);
+        let n = if normal.length_squared() >= f32::MIN_POSITIVE {
+            normal * scale
+        } else {
+            light_math::direction(normal)?
+        };
+        (scale > 0.0 && scale.is_finite()).then_some((n, 2.0 * scale))
     }
 
     #[inline]
@@ -132,6 +140,19 @@ impl Triangle {
         ((at.p - origin).dot(direction) > 0.0).then_some((b, at))
     }
 
+    /// Direction and density of a point that is chosen by area.
+    fn by_area(&self, p: Vec3, at: SurfacePoint) -> Option<(Vec3, f32)> {
+        area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
+    }
+
+    /// The sample by area whose direction is `wi`, with the point that the direction meets, if it does.
+    #[cold]
+    fn met_by(&self, p: Vec3, wi: Vec3) -> Option<DirectionSample> {
+        let (_, at) = self.intersect(p, wi)?;
+        let (_, pdf) = self.by_area(p, at)?;
+        Some(DirectionSample { at, wi, pdf })
+    }
+
     /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the edges counts.
     ///
     /// Each edge and the origin span a plane, and the ray has to pass all three on the same side. What the products
@@ -154,7 +175,7 @@ impl Triangle {
 
 impl Shape for Triangle {
     fn area(&self) -> f32 {
-        0.5 * self.scaled_normal().length()
+        0.5 * normal_length(self.scaled_normal())
     }
 
     fn bounds(&self) -> Aabb {
@@ -185,7 +206,11 @@ impl Shape for Triangle {
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
             let ShapeSample { at, pdf } = self.sample(u)?;
-            let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            let to_light = at.p - ctx.p;
+            let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+            if is_within_rounding(to_light, at.p) {
+                return self.met_by(ctx.p, wi);
+            }
             return Some(DirectionSample { at, wi, pdf });
         };
         let (n, _) = self.normal_and_inv_area()?;
@@ -204,8 +229,7 @@ impl Shape for Triangle {
         };
         match self.seen_from(ctx.p) {
             Some(seen) => Self::receiver_cosine(ctx, &seen).pdf(|| seen.invert(b)) * seen.pdf(),
-            None => area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
-                .map_or(0.0, |(_, pdf)| pdf),
+            None => self.by_area(ctx.p, at).map_or(0.0, |(_, pdf)| pdf),
         }
     }
 
@@ -254,6 +278,7 @@ mod tests {
         }
         assert!(small > 10 * missed, "nearly all: {small} and {missed}");
     }
+
     #[test]
     fn the_normal_of_a_tiny_triangle_is_a_unit_vector() {
         for size in [1e-8, 1e-10, 1e-11, 1e-20] {

@@ -1,7 +1,7 @@
 use light_bounds::{LightExtent, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
-use light_sources::{Light, LightRef, LightSet, LightSetBuilder, PdfCoverage, Rgb};
+use light_sources::{Light, LightRef, LightSet, LightSetBuilder, LightType, PdfCoverage, Rgb};
 
 use super::input::Input;
 use super::lights;
@@ -102,6 +102,18 @@ fn check_power(light: &LightRef<'_, Rgb>) {
     assert!(is_valid, "{:?} of {light:?}", light.extent());
 }
 
+/// Whether the power of a surface may be a positive float: by its radiance and a box around it.
+fn has_power(light: &LightRef<'_, Rgb>, l: Vec3) -> bool {
+    match light.extent() {
+        LightExtent::Bounded(bounds) if light.light_type() == LightType::Area => {
+            let diagonal = bounds.bounds.diagonal().as_dvec3();
+            let most = 40.0 * f64::from(l.max_element()) * diagonal.length_squared();
+            most >= f64::from(f32::MIN_POSITIVE)
+        }
+        _ => true,
+    }
+}
+
 /// What arrives, by a sample of the light, has a pmf above zero.
 fn check_samplers(set: &LightSet<Rgb>, contexts: &[LightSampleContext], us: &[Vec2]) {
     let extents = set.extents();
@@ -114,7 +126,8 @@ fn check_samplers(set: &LightSet<Rgb>, contexts: &[LightSampleContext], us: &[Ve
                 let above = ctx.is_medium() || ctx.ns.dot(sample.wi) > 1e-4;
                 // Light that is no positive float is none.
                 let irradiance = sample.l.max_element() / sample.pdf;
-                (above && irradiance > 1e-30).then_some(sample)
+                let is_light = irradiance > 1e-30 && has_power(&light, sample.l);
+                (above && is_light).then_some(sample)
             });
             let Some(sample) = arrives else { continue };
             let pmfs = [default.pmf(ctx, id), reference.pmf(ctx, id)];

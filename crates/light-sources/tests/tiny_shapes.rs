@@ -1,0 +1,109 @@
+//! Shapes whose areas have squares below the smallest float, and receivers so near that rounding turns directions.
+
+use light_sources::glam::{Vec2, Vec3};
+use light_sources::light_bounds::LightSampleContext;
+use light_sources::shape::{BilinearPatch, BilinearPatchError, Shape, Triangle, TriangleError};
+
+#[test]
+fn samples_of_a_tiny_triangle_have_its_normal_and_area() {
+    for size in [1e-10f32, 2e-11, 3e-16, 1e-18, 1e-19] {
+        let corners = [Vec3::ZERO, Vec3::X * size, Vec3::new(0.3, 0.4, 0.5) * size];
+        let triangle = Triangle::new(corners, Triangle::DEFAULT_UV).expect("an area");
+        let sample = triangle.sample(Vec2::splat(0.3)).expect("a sample");
+        let n = sample.at.n;
+        assert!((n.length() - 1.0).abs() < 1e-5, "size {size}: {n}");
+        let exact = 0.5 * f64::from(size).powi(2) * 0.41f64.sqrt();
+        for pdf in [sample.pdf, triangle.pdf(&sample.at)] {
+            assert!((f64::from(pdf) * exact - 1.0).abs() < 1e-5, "{size}: {pdf}");
+        }
+    }
+    let corners = [Vec3::ZERO, Vec3::X * 1e-20, Vec3::Y * 1e-20];
+    let refused = Triangle::new(corners, Triangle::DEFAULT_UV);
+    assert_eq!(refused, Err(TriangleError::Area), "1e-40");
+}
+
+#[test]
+fn samples_next_to_a_vertex_are_found_again() {
+    let corners = [
+        Vec3::new(0.0, 5.125, -4.875),
+        Vec3::new(-4.875, 5.6875, 2.625),
+        Vec3::splat(-2.0),
+    ];
+    let triangle = Triangle::new(corners, Triangle::DEFAULT_UV).expect("an area");
+    let ctx = LightSampleContext::medium(corners[2]);
+    let mut missed = 0;
+    for i in 0..1000u16 {
+        let u = Vec2::new(f32::from(i % 10) * 0.1, f32::from(i) * 4e-9);
+        let Some(sample) = triangle.sample_toward(&ctx, u) else {
+            missed += 1;
+            continue;
+        };
+        if sample.at.n.dot(sample.wi).abs() < 1e-3 {
+            continue;
+        }
+        assert_eq!(
+            triangle.pdf_toward(&ctx, sample.wi),
+            sample.pdf,
+            "{sample:?}"
+        );
+    }
+    assert!(
+        missed > 0,
+        "in the plane of the triangle there is nothing to see"
+    );
+}
+
+#[test]
+fn a_narrow_patch_has_its_normal_and_area() {
+    for width in [1e-3f32, 1e-20, 1e-26, 1e-30] {
+        let (x, y) = (Vec3::X * width, Vec3::new(0.0, 0.6, 0.8) * 1e5);
+        let patch = BilinearPatch::new([Vec3::ZERO, x, y, x + y]).expect("an area");
+        let sample = patch.sample(Vec2::new(0.3, 0.4)).expect("a sample");
+        let n = sample.at.n;
+        let off = n.distance(Vec3::new(0.0, -0.8, 0.6));
+        assert!(off < 1e-5, "width {width}: {n}");
+        let area = f64::from(width) * 1e5;
+        for pdf in [sample.pdf, patch.pdf(&sample.at), 1.0 / patch.area()] {
+            assert!((f64::from(pdf) * area - 1.0).abs() < 1e-5, "{width}: {pdf}");
+        }
+    }
+    let [x, y] = [Vec3::X, Vec3::Y].map(|v| v * 1e-20);
+    let refused = BilinearPatch::new([Vec3::ZERO, x, y, x + y]);
+    assert_eq!(refused, Err(BilinearPatchError::Area), "1e-40");
+}
+
+/// Both sides leave the first corner in one direction: there is no normal.
+#[test]
+fn samples_at_a_corner_without_area_are_found_again() {
+    let patches = [
+        (
+            [2.3125, -2.375, -2.375],
+            [-2.375, -2.375, -2.375],
+            [2.375, 7.625, 2.375],
+        ),
+        ([0.0, 0.0, 0.0], [1.0, 0.5, 0.25], [-0.5, 1.0, 0.5]),
+        ([1.0, 2.0, 3.0], [-0.4, 0.7, 0.1], [3.0, 1.0, -2.0]),
+    ];
+    let mut compared = 0;
+    for (p00, side, bend) in patches {
+        let [p00, side, bend] = [p00, side, bend].map(Vec3::from_array);
+        let corners = [p00, p00 + side, p00 + side, p00 + 2.0 * side + bend];
+        let patch = BilinearPatch::new(corners).expect("an area");
+        for i in 0..1000u16 {
+            let u = Vec2::new(f32::from(i % 8), f32::from(i / 8 % 8)) * 1e-8;
+            let around = Vec3::new(f32::from(i % 13), f32::from(i % 17), f32::from(i % 7));
+            let ctx = LightSampleContext::medium(p00 + around - Vec3::new(6.0, 8.0, 3.0));
+            let Some(sample) = patch.sample_toward(&ctx, u) else {
+                continue;
+            };
+            compared += 1;
+            assert_eq!(
+                patch.pdf_toward(&ctx, sample.wi),
+                sample.pdf,
+                "{sample:?} for {u} from {}",
+                ctx.p
+            );
+        }
+    }
+    assert!(compared > 100, "{compared} compared");
+}
