@@ -108,3 +108,25 @@ fn rays_leave_a_tiny_sphere_with_finite_densities() {
         assert!(sample.is_some() || radius < 1e-18, "radius {radius}: none");
     }
 }
+
+#[test]
+fn a_power_that_no_float_holds_is_infinite_and_refused_by_samplers() {
+    for (side, is_held) in [(1.0, true), (1e3, false)] {
+        let shape = ShapeDesc::Rectangle {
+            corner: Vec3::ZERO,
+            edges: [Vec3::X * side, Vec3::Y * side],
+        };
+        let shape = shape.build().expect("a rectangle");
+        let desc = DiffuseEmissionDesc::<Rgb>::new(
+            SurfaceColor::Uniform(Vec3::ONE),
+            RadianceAmount::Radiometric(1e37),
+        );
+        let emission = DiffuseEmission::new(desc, [&shape]).expect("an emission");
+        let light = DiffuseAreaLight::new(&shape, &emission);
+        assert_eq!(light.phi(&()).is_finite(), is_held, "side {side}");
+        let LightExtent::Bounded(bounds) = light.extent() else {
+            panic!("a rectangle has bounds");
+        };
+        assert_eq!(bounds.validate().is_ok(), is_held, "{bounds:?}");
+    }
+}

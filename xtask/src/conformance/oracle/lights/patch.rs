@@ -186,9 +186,57 @@ impl Shape for Patch {
             return flat.pdf(from, wi, jitter);
         }
         let hit = self.hit(from.p, wi);
-        let Some((uv, _)) = hit.or_else(|| self.hit_edge(from.p, wi, jitter)) else {
+        let edge = self.hit_edge(from.p, wi, jitter);
+        // A ray that comes in low may hit far inside of an edge that it passes within rounding.
+        let Some((uv, _)) = jitter.either(hit.or(edge), edge.or(hit)) else {
             return 0.0;
         };
         per_solid_angle(self.pdf(uv), from, &self.at(uv), jitter).unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conformance::Tolerance;
+    use crate::conformance::oracle::{Conditioning, Ours, confirm};
+
+    /// A ray that comes in at a cosine of 4e-4 and passes an edge within rounding, and hits within it if it is moved by a rounding.
+    #[test]
+    fn the_density_of_an_edge_is_an_answer_for_a_ray_that_passes_it() {
+        let patch = Patch::new([
+            DVec3::new(0.688975811, 0.967900097, 0.977546394),
+            DVec3::new(0.688975811, 1.13450205, 1.15488505),
+            DVec3::new(-0.647135973, 1.11064816, 0.838239849),
+            DVec3::new(-0.512135804, 1.35980141, 1.09613264),
+        ]);
+        let from = Receiver {
+            p: DVec3::new(3.32811737, 1.64074194, 2.15287018),
+            ns: DVec3::new(0.255481452, 0.966069341, -0.0379376635),
+            is_incomplete: false,
+        };
+        let wi = DVec3::new(-0.935041249, -0.141503543, -0.325076282);
+        let exact = {
+            let at = patch.at(DVec2::new(0.0, 0.792729735));
+            let jitter = &mut Jitter::default();
+            per_solid_angle(patch.pdf(at.uv), &from, &at, jitter).expect("a density")
+        };
+        assert!((exact - 113_271.6).abs() < 20.0, "{exact}");
+        let is_confirmed = |pdf: f64| {
+            let ours = Ours {
+                answer: DVec3::new(pdf, 0.0, 0.0),
+                tolerance: Tolerance::new(1e-4, 1e-6),
+                conditioning: Conditioning::Well,
+            };
+            let truth = |jitter: &mut Jitter| {
+                let pdf = patch.pdf_toward(&from, wi, jitter);
+                Some(vec![DVec3::new(pdf, 0.0, 0.0)])
+            };
+            confirm(&[ours], truth).is_ok()
+        };
+        assert!(is_confirmed(exact), "{exact}");
+        for wrong in [0.5, 0.6, 1.05, 2.0] {
+            assert!(!is_confirmed(wrong * exact), "{wrong}");
+        }
     }
 }
