@@ -2,7 +2,7 @@
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightExtent, LightSampleContext};
-use light_sources::shape::{Shape, ShapeDesc};
+use light_sources::shape::ShapeDesc;
 use light_sources::*;
 
 fn scene() -> SceneSphere {
