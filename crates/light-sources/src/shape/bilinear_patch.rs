@@ -3,7 +3,7 @@ use super::flat_quad::FlatQuad;
 use super::patch_area;
 use super::{
     DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, hit_slack,
-    normal_length, unit_normal,
+    is_within_rounding, normal_length, unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -111,7 +111,7 @@ impl BilinearPatch {
 
     /// Whether `uv` lies so near to a corner without area, where both sides have one direction, that a rounding of `uv` turns the normal.
     fn is_pinched(&self, uv: Vec2) -> bool {
-        const PINCHED: f32 = 1e-3;
+        const PINCHED: f32 = 0.05;
         self.area_density(uv) < PINCHED * self.area
     }
 
@@ -264,7 +264,7 @@ impl Shape for BilinearPatch {
             if t < same * to_light.length() {
                 return None;
             }
-            if self.is_pinched(at.uv) {
+            if self.is_pinched(at.uv) || is_within_rounding(to_light, at.p) {
                 let (_, pdf) = self.by_area(met, wi * t)?;
                 return Some(DirectionSample { at, wi, pdf });
             }

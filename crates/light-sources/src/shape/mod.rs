@@ -127,11 +127,16 @@ pub struct DirectionSample {
 const SMALL: f32 = 3e-4;
 
 /// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with unit normal `n`, seen
-/// along `to_light` (not of unit length); `None` from its edge, where the density is infinite.
+/// along `to_light` (not of unit length); `None` from its edge, where the density is infinite, and from within 1e-19.
 #[inline]
 pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Option<(Vec3, f32)> {
+    let dist_sq = to_light.length_squared();
+    // The square of a shorter distance loses digits, and no density of it holds.
+    if !(dist_sq >= f32::MIN_POSITIVE) {
+        return None;
+    }
     let wi = to_light.try_normalize()?;
-    let pdf = pdf_area * to_light.length_squared() / n.dot(wi).abs();
+    let pdf = pdf_area * dist_sq / n.dot(wi).abs();
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
 }
 
@@ -217,6 +222,7 @@ mod tests {
             Vec3::ZERO,
             Vec3::NAN,
             Vec3::Z * 1e-30,
+            Vec3::Z * 2e-22,
             Vec3::Z * 1e30,
         ] {
             assert_eq!(seen(none), None, "{none}");

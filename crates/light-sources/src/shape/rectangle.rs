@@ -2,7 +2,10 @@ use core::error::Error;
 use core::fmt;
 
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle, hit_slack};
+use super::{
+    DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle, hit_slack, is_within_rounding,
+    unit_normal,
+};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -79,6 +82,11 @@ impl Rectangle {
         ReceiverCosine::new(ctx, self.corners())
     }
 
+    /// Direction and density of a point that is chosen by area.
+    fn by_area(&self, p: Vec3, at: SurfacePoint) -> Option<(Vec3, f32)> {
+        area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
+    }
+
     fn at(&self, uv: Vec2) -> SurfacePoint {
         SurfacePoint {
             p: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
@@ -115,14 +123,21 @@ impl Shape for Rectangle {
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
             let ShapeSample { at, pdf } = self.sample(u)?;
-            let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            let to_light = at.p - ctx.p;
+            let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+            if is_within_rounding(to_light, at.p) {
+                // What the direction meets.
+                let at = self.hit(ctx.p, wi)?;
+                let (_, pdf) = self.by_area(ctx.p, at)?;
+                return Some(DirectionSample { at, wi, pdf });
+            }
             return Some(DirectionSample { at, wi, pdf });
         };
         let (u, pdf) = self.receiver_cosine(ctx).sample(u);
         let at = self.at(seen.sample(u));
         Some(DirectionSample {
             at,
-            wi: (at.p - ctx.p).try_normalize()?,
+            wi: unit_normal(at.p - ctx.p)?,
             pdf: pdf * seen.pdf(),
         })
     }
@@ -133,8 +148,7 @@ impl Shape for Rectangle {
         };
         match self.seen_from(ctx.p) {
             Some(seen) => self.receiver_cosine(ctx).pdf(|| seen.invert(at.uv)) * seen.pdf(),
-            None => area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n)
-                .map_or(0.0, |(_, pdf)| pdf),
+            None => self.by_area(ctx.p, at).map_or(0.0, |(_, pdf)| pdf),
         }
     }
 

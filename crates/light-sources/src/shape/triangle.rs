@@ -218,7 +218,7 @@ impl Shape for Triangle {
         let at = self.at(seen.sample(u), n);
         Some(DirectionSample {
             at,
-            wi: (at.p - ctx.p).try_normalize()?,
+            wi: unit_normal(at.p - ctx.p)?,
             pdf: pdf * seen.pdf(),
         })
     }
