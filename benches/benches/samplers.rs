@@ -1,4 +1,5 @@
-//! Light samplers: a sample, a pmf of a light that was sampled, and the build, each beside the reference.
+//! Light samplers: a sample, a pmf of a light that was sampled, and the build, each beside the
+//! reference.
 
 use benches::{Queries, criterion, queries_of};
 use criterion::measurement::WallTime;
@@ -10,7 +11,8 @@ use lights::samplers::{
     BvhLightSampler, LightSampler, PowerLightSampler, ReferenceBvhLightSampler,
 };
 
-/// The sets on which queries are timed. A million lights take `lights bench`, which knows of caches.
+/// The sets on which queries are timed. A million lights take `lights bench`, which knows of
+/// caches.
 fn sets() -> Vec<LightSet> {
     [100, 10_000]
         .into_iter()
@@ -81,7 +83,8 @@ fn bench_pmf(
     sampler: &dyn LightSampler,
     by: &str,
 ) {
-    // What multiple importance sampling asks for: lights that the sampler itself would choose there.
+    // What multiple importance sampling asks for: lights that the sampler itself would choose
+    // there.
     let mut asked = queries_of(set);
     let mut queries = Queries::new(|_| {
         loop {

@@ -1,4 +1,5 @@
-//! Hot paths, each in a function that is never inlined, so that callgrind counts its instructions alone.
+//! Hot paths, each in a function that is never inlined, so that callgrind counts its instructions
+//! alone.
 //!
 //! Without arguments lists `NAME CALLS`; with a name runs that one. `cargo xtask counts` does both.
 

@@ -1,4 +1,5 @@
-//! What the benches in `benches/` and the counts in `examples/counts.rs` share: who asks, and for how long.
+//! What the benches in `benches/` and the counts in `examples/counts.rs` share: who asks, and for
+//! how long.
 
 use std::time::Duration;
 

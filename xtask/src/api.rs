@@ -1,6 +1,8 @@
-//! `cargo xtask api [--write]`: the public items of each library crate, held against `docs/api`, so that a review sees every change.
+//! `cargo xtask api [--write]`: the public items of each library crate, held against `docs/api`, so
+//! that a review sees every change.
 //!
-//! They are read from the pages of `cargo doc`, which stable Rust can make: a page an item, an anchor a member.
+//! They are read from the pages of `cargo doc`, which stable Rust can make: a page an item, an
+//! anchor a member.
 
 use std::fs;
 use std::path::Path;

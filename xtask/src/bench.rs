@@ -77,7 +77,8 @@ fn read(folder: &Path) -> Result<Timing, String> {
     })
 }
 
-/// One line a bench: its time, and how many times faster it is than the reference of its group on the same input.
+/// One line a bench: its time, and how many times faster it is than the reference of its group on
+/// the same input.
 fn table(timings: &[Timing]) -> String {
     let mut lines = format!("{:<44} {:>12} {:>14}\n", "bench", "ns", "vs reference");
     for t in timings {

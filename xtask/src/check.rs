@@ -4,7 +4,8 @@ use crate::features::{SOFTWARE_FLOATS, for_each_set};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 
-/// Adds the steps: format, lints, tests, documentation, each over every feature set that can make a difference.
+/// Adds the steps: format, lints, tests, documentation, each over every feature set that can make a
+/// difference.
 pub fn add_steps(steps: &mut Steps) {
     steps.run("format", || passes(&["fmt", "--all", "--check"]));
     steps.run("references", references::check);

@@ -1,4 +1,5 @@
-//! `cargo xtask counts [--write]`: instructions that the hot paths take, which repeat to the last digit on any machine.
+//! `cargo xtask counts [--write]`: instructions that the hot paths take, which repeat to the last
+//! digit on any machine.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,7 +10,8 @@ use crate::steps::{Outcome, StepResult, cargo, is_there, output, root, run};
 /// What is written down, one `NAME COUNT` a line.
 const WRITTEN: &str = "benches/counts.txt";
 
-/// How much a count may grow before it is a fault: compilers differ a little from release to release.
+/// How much a count may grow before it is a fault: compilers differ a little from release to
+/// release.
 const TOLERANCE: f64 = 0.10;
 
 /// Compares the counts with the written ones, or writes them.

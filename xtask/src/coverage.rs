@@ -1,4 +1,5 @@
-//! `cargo xtask coverage`: which lines and regions of the core crates their tests reach, by `cargo-llvm-cov`.
+//! `cargo xtask coverage`: which lines and regions of the core crates their tests reach, by
+//! `cargo-llvm-cov`.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -12,15 +13,18 @@ use report::Report;
 mod explained;
 mod report;
 
-/// What the report leaves out: other crates, and files of tests. What a file holds below `mod tests` is cut off later.
+/// What the report leaves out: other crates, and files of tests. What a file holds below
+/// `mod tests` is cut off later.
 const OTHERS: &str = "light-testkit|light-scene|light-render|crates/lights/|/tests?/|tests\\.rs";
 
 /// The features that are not on by default and change what the tests run.
 const FEATURES: &str = "light-bvh/rayon,light-samplers/rayon";
 
-/// Runs the tests of the core crates; prints a table of the crates, and what is not reached with the reasons.
+/// Runs the tests of the core crates; prints a table of the crates, and what is not reached with
+/// the reasons.
 ///
-/// The longer tests of the test kit, which reach more, are left out: what counts is that each crate's own tests reach it.
+/// The longer tests of the test kit, which reach more, are left out: what counts is that each
+/// crate's own tests reach it.
 ///
 /// # Errors
 /// What could not run.

@@ -1,5 +1,5 @@
-//! Debian's Rust, unpacked into a cache folder and not installed: it brings the sources of the standard libraries, and
-//! a version that is older than the one on most machines.
+//! Debian's Rust, unpacked into a cache folder and not installed: it brings the sources of the
+//! standard libraries, and a version that is older than the one on most machines.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,8 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// The newest version with the sources of its libraries, fetched (about 160 MB) when it is not there.
+    /// The newest version with the sources of its libraries, fetched (about 160 MB) when it is not
+    /// there.
     ///
     /// # Errors
     /// One line that says what cannot be had.
@@ -117,7 +118,8 @@ impl Toolchain {
         command
     }
 
-    /// A build for `target` that makes the standard libraries it needs first: without alloc where none is promised.
+    /// A build for `target` that makes the standard libraries it needs first: without alloc where
+    /// none is promised.
     #[must_use]
     pub fn cargo_build(&self, target: &str, needs: Needs) -> Command {
         let mut command = self.cargo();

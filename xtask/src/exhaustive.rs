@@ -1,4 +1,5 @@
-//! Every one of the 2^32 octahedral codes: unit length, round trip, and the stated bound of the angular error.
+//! Every one of the 2^32 octahedral codes: unit length, round trip, and the stated bound of the
+//! angular error.
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -10,8 +11,9 @@ use lights::math::OctahedralVector;
 /// How far a length may be from 1: two units in the last place.
 const MAX_LENGTH_ERROR: f64 = 2.0 * f32::EPSILON as f64;
 
-/// The part of the angular error that the float operations of the encoder may add, which the corners of a cell do
-/// not show: the difference of the stated bound and `sqrt(18) h`, less the decoder's share that is measured here.
+/// The part of the angular error that the float operations of the encoder may add, which the
+/// corners of a cell do not show: the difference of the stated bound and `sqrt(18) h`, less the
+/// decoder's share that is measured here.
 const ENCODER_ERROR: f64 = 9.0 * 4.25 / 16_777_216.0;
 
 /// The worst that was seen in a range of codes.
@@ -19,7 +21,8 @@ const ENCODER_ERROR: f64 = 9.0 * 4.25 / 16_777_216.0;
 pub struct Worst {
     /// `| |v| - 1 |` of a decoded vector.
     pub length_error: f64,
-    /// Angle in radians between a decoded vector and a direction that the ideal encoder sends to its code.
+    /// Angle in radians between a decoded vector and a direction that the ideal encoder sends to
+    /// its code.
     pub angular_error: f64,
     /// Codes that come back as another code, of another direction.
     pub lost: u64,
@@ -120,7 +123,8 @@ fn check_row(y: u16) -> Worst {
     worst
 }
 
-/// The direction of the point of the square, in codes; points a little outside are put on the border.
+/// The direction of the point of the square, in codes; points a little outside are put on the
+/// border.
 fn sphere(x: f64, y: f64) -> [f64; 3] {
     let x = (x / 32767.5 - 1.0).clamp(-1.0, 1.0);
     let y = (y / 32767.5 - 1.0).clamp(-1.0, 1.0);

@@ -38,8 +38,8 @@ impl FeatureSet {
     }
 }
 
-/// Every crate alone, at least without std and with every feature that it has. The default features are checked
-/// with the workspace.
+/// Every crate alone, at least without std and with every feature that it has. The default features
+/// are checked with the workspace.
 pub const FEATURE_SETS: &[FeatureSet] = &[
     core("light-math", "libm"),
     core("light-math", "libm,bytemuck,serde"),
@@ -91,7 +91,8 @@ pub fn for_each_set(
     }
 }
 
-/// The sets whose tests run a second time, without std: float functions in software, the same bits on every machine.
+/// The sets whose tests run a second time, without std: float functions in software, the same bits
+/// on every machine.
 pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
     alloc("light-math", "libm,alloc"),
     core("light-bounds", "libm"),

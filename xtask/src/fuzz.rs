@@ -1,4 +1,5 @@
-//! `cargo xtask fuzz [TARGET] [SECONDS]`: looks for input that breaks a promise, with the nightly toolchain.
+//! `cargo xtask fuzz [TARGET] [SECONDS]`: looks for input that breaks a promise, with the nightly
+//! toolchain.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,7 +13,8 @@ use crate::tools::{Install, cargo_tool};
 /// Seconds for each target when nobody says how long.
 const DEFAULT_SECONDS: u32 = 60;
 
-/// Runs one target or all of them, installing `cargo-fuzz` into the target folder when it is not there.
+/// Runs one target or all of them, installing `cargo-fuzz` into the target folder when it is not
+/// there.
 ///
 /// # Errors
 /// What was found, or what is missing.
@@ -77,12 +79,14 @@ impl Figures {
     }
 }
 
-/// Builds the targets once, then runs as many at a time as there are cores, and prints a table of what they did.
+/// Builds the targets once, then runs as many at a time as there are cores, and prints a table of
+/// what they did.
 fn run_targets(tool: &PathBuf, targets: &[String], seconds: u32) -> StepResult {
     let mut build = Command::new(tool);
     build
         .current_dir(root())
-        // All code here is safe: what breaks is a promise, not memory. Without a sanitizer twice as much is tried.
+        // All code here is safe: what breaks is a promise, not memory. Without a sanitizer twice as
+        // much is tried.
         .args(["build", "--fuzz-dir", "fuzz", "--sanitizer", "none"])
         .args(if let [one] = targets { Some(one) } else { None })
         .env("RUSTUP_TOOLCHAIN", "nightly")

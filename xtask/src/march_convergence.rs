@@ -1,4 +1,5 @@
-//! `cargo xtask march-convergence`: measures how marches through media converge and draws it for light-media's first page.
+//! `cargo xtask march-convergence`: measures how marches through media converge and draws it for
+//! light-media's first page.
 
 use core::fmt::Write as _;
 use std::fs;

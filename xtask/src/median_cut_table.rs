@@ -1,4 +1,5 @@
-//! `cargo xtask median-cut-table [IMAGE...]`: measures median-cut lights and puts the table on light-sources' first page.
+//! `cargo xtask median-cut-table [IMAGE...]`: measures median-cut lights and puts the table on
+//! light-sources' first page.
 
 use std::fs;
 
@@ -10,7 +11,8 @@ const END: &str = "<!-- end median-cut-table -->";
 /// Measures on the sky that ships and on the given lat-long images.
 ///
 /// # Errors
-/// The command that failed, or a page that cannot be read or written, or has no place for the table.
+/// The command that failed, or a page that cannot be read or written, or has no place for the
+/// table.
 pub fn median_cut_table(images: &[String]) -> StepResult {
     let images = images.iter().map(|path| {
         let path = std::path::absolute(path).map_err(|error| format!("{path}: {error}"))?;

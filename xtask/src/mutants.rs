@@ -1,9 +1,9 @@
-//! `cargo xtask mutants [CRATE] [COUNT|all|missed] [OFFSET]`: breaks the core crates on purpose and sees whether a
-//! test notices.
+//! `cargo xtask mutants [CRATE] [COUNT|all|missed] [OFFSET]`: breaks the core crates on purpose and
+//! sees whether a test notices.
 //!
-//! `cargo-mutants` makes the mutants and runs the tests of the mutated crate, but for its doc tests; `.cargo/mutants.toml` lists those that
-//! are equivalent, each with its reason. Another `OFFSET` takes other mutants; `missed` takes those that survived the
-//! run before.
+//! `cargo-mutants` makes the mutants and runs the tests of the mutated crate, but for its doc
+//! tests; `.cargo/mutants.toml` lists those that are equivalent, each with its reason. Another
+//! `OFFSET` takes other mutants; `missed` takes those that survived the run before.
 
 use std::path::Path;
 use std::process::Command;
@@ -21,7 +21,8 @@ pub const CRATES: [&str; 6] = [
     "light-media",
 ];
 
-/// Mutants of each crate when nobody says how many: every n-th of the list, so from all of its files.
+/// Mutants of each crate when nobody says how many: every n-th of the list, so from all of its
+/// files.
 const DEFAULT_COUNT: usize = 60;
 
 /// The survivors of a crate's last run, in its folder.
@@ -153,7 +154,8 @@ fn run_crate(tool: &Path, name: &str, choice: Choice) -> Result<Tally, String> {
             names = Some(missed);
         }
     }
-    // Unit tests are one program, built in a fraction of the time; the others only have to find what these miss.
+    // Unit tests are one program, built in a fraction of the time; the others only have to find
+    // what these miss.
     let units = run_tests(first, name, names, &folder.join("unit"), &["--lib"])?;
     let mut tally = Tally {
         known,
@@ -184,7 +186,8 @@ struct Run {
     missed: String,
 }
 
-/// Runs the `tests` on the mutants that `run` chooses, of which only those of `names` count, one a line, if there are any.
+/// Runs the `tests` on the mutants that `run` chooses, of which only those of `names` count, one a
+/// line, if there are any.
 fn run_tests(
     mut run: Command,
     package: &str,
@@ -254,7 +257,8 @@ fn command(tool: &Path) -> Command {
     command
         .arg("mutants")
         .current_dir(root())
-        // The tool works on a fresh copy of the tree each time; what does not change is compiled once.
+        // The tool works on a fresh copy of the tree each time; what does not change is compiled
+        // once.
         .env("CARGO_TARGET_DIR", root().join("target/mutants/build"))
         // Nobody reads a backtrace of a mutant: without debug information the tests link faster.
         .env("CARGO_PROFILE_DEV_DEBUG", "false")

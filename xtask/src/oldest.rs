@@ -14,7 +14,8 @@ pub fn add_steps(steps: &mut Steps) {
     steps.run(&format!("libraries with Rust {OLDEST}"), libraries);
 }
 
-/// Checks every feature set of the libraries with rustup's toolchain, or with Debian's where there is none.
+/// Checks every feature set of the libraries with rustup's toolchain, or with Debian's where there
+/// is none.
 fn libraries() -> StepResult {
     if output(rustup().arg("--version")).is_ok() {
         return check_all(&rustup);

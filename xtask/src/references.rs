@@ -1,4 +1,5 @@
-//! Citations: every key that a doc comment cites is listed in `docs/REFERENCES.md`, once, in alphabetical order.
+//! Citations: every key that a doc comment cites is listed in `docs/REFERENCES.md`, once, in
+//! alphabetical order.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +52,8 @@ fn citations(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Letters and digits, a capital first and a year or number in it: not an interval, nor a link to an item.
+/// Letters and digits, a capital first and a year or number in it: not an interval, nor a link to
+/// an item.
 fn is_key(text: &str) -> bool {
     let word = text.chars().all(|c| c.is_ascii_alphanumeric());
     let capital = text.starts_with(|c: char| c.is_ascii_uppercase());

@@ -1,4 +1,5 @@
-//! `cargo xtask soak [CHOICES] [LIGHT_SAMPLES] [SEED]`: very many samples, each held against the query for its probability or density.
+//! `cargo xtask soak [CHOICES] [LIGHT_SAMPLES] [SEED]`: very many samples, each held against the
+//! query for its probability or density.
 
 use crate::steps::{Outcome, StepResult, cargo, run};
 

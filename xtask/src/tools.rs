@@ -37,7 +37,8 @@ pub fn cargo_tool(name: &str, install: Install) -> Result<PathBuf, String> {
     Ok(ours)
 }
 
-/// Whether the program runs. Some of cargo's extensions want their own name first, as cargo passes it.
+/// Whether the program runs. Some of cargo's extensions want their own name first, as cargo passes
+/// it.
 fn answers(tool: &Path, name: &str) -> bool {
     let subcommand = name.trim_start_matches("cargo-");
     let asks: [&[&str]; 2] = [&["--version"], &[subcommand, "--version"]];

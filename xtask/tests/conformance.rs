@@ -1,4 +1,5 @@
-//! The project's reference vectors, all 12,000 cases, on every test run, and a part of the self-test.
+//! The project's reference vectors, all 12,000 cases, on every test run, and a part of the
+//! self-test.
 
 use xtask::conformance::self_test::{Selection, run_folder};
 use xtask::conformance::{check_folder, default_folder};

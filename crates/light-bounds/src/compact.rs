@@ -15,12 +15,12 @@ const TWO_SIDED_BIT: u32 = 2 * COS_BITS;
 
 /// [`LightBounds`] in 24 bytes, relative to a box around all lights.
 ///
-/// What it decodes to contains the original: the box, the cone of normals, the angle of emission. So whatever matters
-/// to a point for the original matters for the compact form.
+/// What it decodes to contains the original: the box, the cone of normals, the angle of emission.
+/// So whatever matters to a point for the original matters for the compact form.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.6.3. The codes are the same, but there the rounded axis can turn normals out of the cone; here
-/// decoding widens the cone by [`OctahedralVector::MAX_ANGULAR_ERROR`].
+/// `[PBRT4]`, section 12.6.3. The codes are the same, but there the rounded axis can turn normals
+/// out of the cone; here decoding widens the cone by [`OctahedralVector::MAX_ANGULAR_ERROR`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -97,7 +97,8 @@ impl CompactLightBounds {
         self.bounds
     }
 
-    /// The codes of both cosines and the two-sided bit: `cos_theta_o | cos_theta_e << 15 | two_sided << 30`.
+    /// The codes of both cosines and the two-sided bit:
+    /// `cos_theta_o | cos_theta_e << 15 | two_sided << 30`.
     #[inline]
     #[must_use]
     pub const fn packed(&self) -> u32 {
@@ -110,7 +111,8 @@ impl CompactLightBounds {
     }
 }
 
-/// The cosine of `acos(cos_theta) + OctahedralVector::MAX_ANGULAR_ERROR`, or a little less; at least -1.
+/// The cosine of `acos(cos_theta) + OctahedralVector::MAX_ANGULAR_ERROR`, or a little less; at
+/// least -1.
 #[inline]
 fn widened(cos_theta: f32) -> f32 {
     // The angle is so small that its sine is itself and one minus its cosine half its square.
@@ -168,7 +170,8 @@ mod tests {
         assert!(importance > 0.0 && importance != 1.0, "{importance}");
     }
 
-    /// Wide enough for any code of the axis, and not by more than what an arc cosine near 1 loses anyway.
+    /// Wide enough for any code of the axis, and not by more than what an arc cosine near 1 loses
+    /// anyway.
     #[test]
     fn every_cosine_is_widened_a_little() {
         for code in 0..=light_math::quantize::MAX_COS {

@@ -3,16 +3,19 @@ use light_math::direction;
 
 /// Who asks for light: a point on a surface, or a point in a medium.
 ///
-/// Lengths are in scene units. Both normals are unit vectors, or both zero in a medium. Samplers read [`ns`](Self::ns)
-/// and no other normal; lights read both, to move the point off the surface along [`n`](Self::n).
+/// Lengths are in scene units. Both normals are unit vectors, or both zero in a medium. Samplers
+/// read [`ns`](Self::ns) and no other normal; lights read both, to move the point off the surface
+/// along [`n`](Self::n).
 ///
-/// Samplers keep their laws for any numbers in here. A normal of another length counts by its direction, and one without a direction as none:
-/// see [`unit_ns`](Self::unit_ns). A position or a segment that is not finite is somewhere, and always in the same place.
+/// Samplers keep their laws for any numbers in here. A normal of another length counts by its
+/// direction, and one without a direction as none: see [`unit_ns`](Self::unit_ns). A position or a
+/// segment that is not finite is somewhere, and always in the same place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
     /// The point.
     pub p: Vec3,
-    /// Half widths of the box around `p` in which the exact point lies: the rounding error of the intersection.
+    /// Half widths of the box around `p` in which the exact point lies: the rounding error of the
+    /// intersection.
     pub p_error: Vec3,
     /// Geometric normal.
     pub n: Vec3,
@@ -26,10 +29,11 @@ pub struct LightSampleContext {
     pub gloss: Option<Gloss>,
 }
 
-/// How a surface reflects more than a matt one: about `diffuse / pi + (1 - diffuse) D G / (4 cos cos)`, GGX microfacets.
+/// How a surface reflects more than a matt one: about
+/// `diffuse / pi + (1 - diffuse) D G / (4 cos cos)`, GGX microfacets.
 ///
-/// Only a hint for choosing lights: it may be rough, and no light is lost by it. Numbers outside of their domain are moved into it; without a
-/// direction to the viewer the surface counts as matt.
+/// Only a hint for choosing lights: it may be rough, and no light is lost by it. Numbers outside of
+/// their domain are moved into it; without a direction to the viewer the surface counts as matt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gloss {
     /// Unit vector to the viewer.
@@ -74,9 +78,11 @@ impl LightSampleContext {
         }
     }
 
-    /// A ray segment in a medium, from `p` to `p + segment`: lights count by what they give along all of it.
+    /// A ray segment in a medium, from `p` to `p + segment`: lights count by what they give along
+    /// all of it.
     ///
-    /// The default hierarchy chooses for the segment as a whole; other samplers, and lights, take it for the point `p`.
+    /// The default hierarchy chooses for the segment as a whole; other samplers, and lights, take
+    /// it for the point `p`.
     #[must_use]
     pub const fn segment(p: Vec3, segment: Vec3) -> Self {
         Self {
@@ -106,7 +112,8 @@ impl LightSampleContext {
         }
     }
 
-    /// The direction of the shading normal; `None` in a medium, and for a normal that has no direction: zero, infinite, or not a number.
+    /// The direction of the shading normal; `None` in a medium, and for a normal that has no
+    /// direction: zero, infinite, or not a number.
     ///
     /// A unit vector to rounding comes back to the bit: see [`direction`].
     #[inline]

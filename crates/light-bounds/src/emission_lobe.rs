@@ -4,21 +4,26 @@ use crate::glam::Vec3;
 
 /// How a light emits that stands in one point, by moments of its intensity over all directions.
 ///
-/// A cone says where light may go; these say where it does: a projected picture that is bright in one corner, the beam of a measured luminaire.
+/// A cone says where light may go; these say where it does: a projected picture that is bright in
+/// one corner, the beam of a measured luminaire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EmissionLobe {
-    /// Emitted power: the integral of the intensity, in W or the same multiple of it as the powers of the other lights.
+    /// Emitted power: the integral of the intensity, in W or the same multiple of it as the powers
+    /// of the other lights.
     pub power: f32,
-    /// Mean of the unit vectors away from the light, weighted by intensity: zero if it shines alike to all sides, a unit vector for a ray.
+    /// Mean of the unit vectors away from the light, weighted by intensity: zero if it shines alike
+    /// to all sides, a unit vector for a ray.
     pub mean: Vec3,
-    /// Root mean square, weighted by intensity, of how far the intensity is from that of the [`line`](Self::line), over its peak.
+    /// Root mean square, weighted by intensity, of how far the intensity is from that of the
+    /// [`line`](Self::line), over its peak.
     pub spread: f32,
 }
 
 /// An intensity that falls in a line with the cosine to an axis.
 ///
-/// Toward a unit vector `w` it is `peak * max(0, dot(axis, w) - offset)`, and `peak` along the axis.
+/// Toward a unit vector `w` it is `peak * max(0, dot(axis, w) - offset)`, and `peak` along the
+/// axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmissionLine {
     /// The largest intensity, in W·sr⁻¹.
@@ -47,8 +52,9 @@ impl EmissionLobe {
 
     /// The line that has the same power and the same mean direction.
     ///
-    /// With `l` the length of the mean, a line that ends at the cosine `c` has `l = (2 + c) / 3` and the power `pi (1 - c) peak`. Below
-    /// `l = 1 / 3` it does not end: `power / (4 pi) (1 + 3 l cos)`, as in the first band of spherical harmonics.
+    /// With `l` the length of the mean, a line that ends at the cosine `c` has `l = (2 + c) / 3`
+    /// and the power `pi (1 - c) peak`. Below `l = 1 / 3` it does not end:
+    /// `power / (4 pi) (1 + 3 l cos)`, as in the first band of spherical harmonics.
     #[must_use]
     pub fn line(&self) -> EmissionLine {
         let length = self.mean.length().min(1.0);

@@ -12,7 +12,8 @@ pub enum LightBoundsError {
     Power,
     /// A cosine lies outside of `[-1, 1]`.
     Cosine,
-    /// A moment of the [lobe](crate::EmissionLobe) is negative or not finite, or the mean direction longer than one.
+    /// A moment of the [lobe](crate::EmissionLobe) is negative or not finite, or the mean direction
+    /// longer than one.
     Lobe,
 }
 

@@ -12,8 +12,8 @@ use crate::{EmissionLobe, InfiniteBoundsError, LightBounds};
 pub enum LightExtent {
     /// The light is somewhere.
     Bounded(LightBounds),
-    /// The light is in one point, and the moments of its emission are known, of which bounds say too little. Samplers that do not know
-    /// lobes look at the bounds alone.
+    /// The light is in one point, and the moments of its emission are known, of which bounds say
+    /// too little. Samplers that do not know lobes look at the bounds alone.
     Lobe(LightBounds, EmissionLobe),
     /// The light is infinitely far away: an environment, or a distant light.
     Infinite(InfiniteBounds),
@@ -57,11 +57,11 @@ impl From<InfiniteBounds> for LightExtent {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InfiniteBounds {
-    /// Integral of the radiance over the sphere of directions, in W·m⁻² or the same multiple of it as the powers of
-    /// the other lights; for a distant light its irradiance.
+    /// Integral of the radiance over the sphere of directions, in W·m⁻² or the same multiple of it
+    /// as the powers of the other lights; for a distant light its irradiance.
     pub fluence: f32,
-    /// Mean of the unit vectors toward the light, weighted by radiance: zero for a uniform sky, a unit vector for a
-    /// distant light.
+    /// Mean of the unit vectors toward the light, weighted by radiance: zero for a uniform sky, a
+    /// unit vector for a distant light.
     pub mean: Vec3,
     /// All directions toward the light.
     pub cone: DirectionCone,
@@ -81,8 +81,8 @@ impl InfiniteBounds {
         }
     }
 
-    /// The bounds of a light in the one direction `wi`, a unit vector toward it, with this irradiance on a plane that
-    /// faces it, in W·m⁻².
+    /// The bounds of a light in the one direction `wi`, a unit vector toward it, with this
+    /// irradiance on a plane that faces it, in W·m⁻².
     #[must_use]
     pub const fn distant(irradiance: f32, wi: Vec3) -> Self {
         Self {

@@ -5,18 +5,20 @@ use crate::glam::Vec3;
 use crate::light_bounds::AXIS_TOLERANCE;
 use crate::{ImportanceQuery, LightBounds, LightSampleContext};
 
-/// Importance is never below this where light may arrive: contributions too small for a float still count.
+/// Importance is never below this where light may arrive: contributions too small for a float still
+/// count.
 const MIN_IMPORTANCE: f32 = f32::MIN_POSITIVE;
 
 /// Nor above this, so that a sum of two stays finite.
 const MAX_IMPORTANCE: f32 = f32::MAX / 4.0;
 
-/// Cosines closer than this to where they would become zero count as this: more than the round-off of the cosines below,
-/// and of a light that evaluates its own emission in single precision.
+/// Cosines closer than this to where they would become zero count as this: more than the round-off
+/// of the cosines below, and of a light that evaluates its own emission in single precision.
 const COS_SLACK: f32 = 2e-6;
 
-/// How far beyond the edge of its emission a light still counts, as a cosine: round-off, and three times what an axis may be too short. It
-/// lowers the cosine, and may make each of two angles seem not to reach the other one by as much.
+/// How far beyond the edge of its emission a light still counts, as a cosine: round-off, and three
+/// times what an axis may be too short. It lowers the cosine, and may make each of two angles seem
+/// not to reach the other one by as much.
 const EDGE_SLACK: f32 = COS_SLACK + 1.5 * AXIS_TOLERANCE;
 
 /// Enlargement of the sine of the angle that a box subtends, against its round-off.
@@ -25,18 +27,20 @@ const SIN_GROWTH: f32 = 1.0 + 3.0 * f32::EPSILON;
 impl LightBounds {
     /// How much the bounded lights matter at `ctx`, relative to other bounds; no absolute scale.
     ///
-    /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite bounds and any
-    /// context: also at a box centre, on a point light, and at coordinates whose squares are no floats. Reads `ctx.p`
-    /// and `ctx.unit_ns()`. At a surface light counts from both sides.
+    /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite
+    /// bounds and any context: also at a box centre, on a point light, and at coordinates whose
+    /// squares are no floats. Reads `ctx.p` and `ctx.unit_ns()`. At a surface light counts from
+    /// both sides.
     ///
     /// Costs six square roots, seven at a surface, and no trigonometric function.
     ///
     /// # Source
     /// `[PBRT4]`, section 12.6.3: `phi cos theta' cos theta_i' / d^2` with
-    /// `theta' = max(0, theta_w - theta_o - theta_b)`. The clamp `d^2 >= |diagonal| / 2` compares a squared length
-    /// with a length; it is kept, because this is the baseline. The differences: sines come from
-    /// cross products, round-off is always on the side of a larger importance, and the light at the edge of its
-    /// emission (`theta' = theta_e`) counts, so that a spot without falloff is found.
+    /// `theta' = max(0, theta_w - theta_o - theta_b)`. The clamp `d^2 >= |diagonal| / 2` compares a
+    /// squared length with a length; it is kept, because this is the baseline. The differences:
+    /// sines come from cross products, round-off is always on the side of a larger importance, and
+    /// the light at the edge of its emission (`theta' = theta_e`) counts, so that a spot without
+    /// falloff is found.
     #[inline(always)]
     #[must_use]
     pub fn importance(&self, ctx: &LightSampleContext) -> f32 {
@@ -51,8 +55,8 @@ impl LightBounds {
             return 0.0;
         }
 
-        // Vector from the centre, and a half box that reaches both corners from there wherever rounding has put it;
-        // scaled by a power of two so that squares stay in range.
+        // Vector from the centre, and a half box that reaches both corners from there wherever
+        // rounding has put it; scaled by a power of two so that squares stay in range.
         let center = self.bounds.center();
         let to_p = query.p - center;
         let half = (self.bounds.max - center).max(center - self.bounds.min);
@@ -91,7 +95,8 @@ impl LightBounds {
         }
     }
 
-    /// Cosine of the least angle between `from_light` and a normal in the cone, seen from any point of the box.
+    /// Cosine of the least angle between `from_light` and a normal in the cone, seen from any point
+    /// of the box.
     #[inline(always)]
     fn cos_emission(&self, from_light: Vec3, subtended: Angle) -> f32 {
         let cos_w = self.w.dot(from_light);
@@ -136,12 +141,14 @@ mod tests {
         product(0) + product(1) + product(2)
     }
 
-    /// A box subtends its own angle and hardly more: it can be seen to lie beyond the edge of its emission.
+    /// A box subtends its own angle and hardly more: it can be seen to lie beyond the edge of its
+    /// emission.
     #[test]
     fn a_box_that_shines_away_does_not_matter() {
         for size in [1e-3, 0.1, 1.0, 3.0] {
             let lamp = lamp(Aabb::new(Vec3::splat(-size), Vec3::splat(size)));
-            // From a little less or more below the horizon of its centre than the angle that it subtends.
+            // From a little less or more below the horizon of its centre than the angle that it
+            // subtends.
             let sin_b = size * 3f32.sqrt() / 10.0;
             for (sin, matters) in [(sin_b - 1e-4, true), (sin_b + 1e-4, false)] {
                 let p = Vec3::new(light_math::float::safe_sqrt(1.0 - sin * sin), 0.0, -sin);
@@ -237,7 +244,8 @@ mod tests {
         }
     }
 
-    /// Between the scales at which the result is no float, importance is the same function everywhere.
+    /// Between the scales at which the result is no float, importance is the same function
+    /// everywhere.
     #[test]
     fn a_point_light_scales_with_the_squared_distance() {
         let lamp = lamp(Aabb::from_point(Vec3::ZERO));

@@ -1,10 +1,11 @@
 use crate::LightSampleContext;
 use crate::glam::Vec3;
 
-/// What [importance](crate::LightBounds::importance) reads of a context, prepared once for many bounds.
+/// What [importance](crate::LightBounds::importance) reads of a context, prepared once for many
+/// bounds.
 ///
-/// A walk through a hierarchy asks for the importance of many bounds at one context: the direction of its normal is
-/// found once here.
+/// A walk through a hierarchy asks for the importance of many bounds at one context: the direction
+/// of its normal is found once here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImportanceQuery {
     pub(crate) p: Vec3,

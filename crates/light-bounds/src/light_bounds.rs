@@ -3,11 +3,12 @@ use light_math::{Aabb, DirectionCone};
 
 use crate::LightBoundsError;
 
-/// How much the cosine of a joined cone is lowered: twice the round-off of joining two cones, which would otherwise make
-/// a parent a little narrower than its children.
+/// How much the cosine of a joined cone is lowered: twice the round-off of joining two cones, which
+/// would otherwise make a parent a little narrower than its children.
 const JOIN_ERROR: f32 = 4.0 * f32::EPSILON;
 
-/// How far the squared length of an axis may be from one: what a few rotations in single precision leave.
+/// How far the squared length of an axis may be from one: what a few rotations in single precision
+/// leave.
 pub(crate) const AXIS_TOLERANCE: f32 = 1e-5;
 
 /// Bounds of where a light (or a group of lights) is, where it emits, and how much.
@@ -18,7 +19,8 @@ pub struct LightBounds {
     pub bounds: Aabb,
     /// Unit axis of the cone that holds the emitters' normals.
     pub w: Vec3,
-    /// Emitted power in W, or any common multiple of it; for spot lights as if they shone in all directions.
+    /// Emitted power in W, or any common multiple of it; for spot lights as if they shone in all
+    /// directions.
     pub phi: f32,
     /// Cosine of the half angle of the cone of normals.
     pub cos_theta_o: f32,
@@ -79,7 +81,8 @@ impl LightBounds {
     /// The powers add, up to the largest float.
     ///
     /// # Source
-    /// `[PBRT4]`, section 12.6.3. A cone that is really joined is widened by the round-off of joining.
+    /// `[PBRT4]`, section 12.6.3. A cone that is really joined is widened by the round-off of
+    /// joining.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         if self.phi == 0.0 {

@@ -5,10 +5,11 @@ use crate::LightId;
 pub struct SampledLight {
     /// The light.
     pub light: LightId,
-    /// Probability of this light, above 0 and at most 1: the same bits that a query of the light's pmf returns.
+    /// Probability of this light, above 0 and at most 1: the same bits that a query of the light's
+    /// pmf returns.
     pub pmf: f32,
-    /// Unused part of `u`: uniform in `[0, 1)` again, given the light, with as many random bits fewer as the choice
-    /// took.
+    /// Unused part of `u`: uniform in `[0, 1)` again, given the light, with as many random bits
+    /// fewer as the choice took.
     pub u: f64,
 }
 

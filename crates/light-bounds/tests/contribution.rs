@@ -1,4 +1,5 @@
-//! A light that contributes by its bounds matters, by the exact importance and by that of the compact form.
+//! A light that contributes by its bounds matters, by the exact importance and by that of the
+//! compact form.
 
 use light_bounds::glam::Vec3;
 use light_bounds::light_math::Aabb;
@@ -26,7 +27,8 @@ fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
     2.0 * part(-1.0).atan2(part(1.0))
 }
 
-/// Whether a light at the point `from` of the box may emit toward `p`: in double precision, without a margin.
+/// Whether a light at the point `from` of the box may emit toward `p`: in double precision, without
+/// a margin.
 fn emits(bounds: &LightBounds, from: [f64; 3], p: Vec3) -> bool {
     let p = double(p);
     let way = core::array::from_fn(|i| p[i] - from[i]);
@@ -126,7 +128,8 @@ fn what_contributes_matters() {
     );
 }
 
-/// `SIN_GROWTH`: just outside of its sphere, a box subtends almost a right angle, and how much less depends on the last digits of the sine.
+/// `SIN_GROWTH`: just outside of its sphere, a box subtends almost a right angle, and how much less
+/// depends on the last digits of the sine.
 #[test]
 fn a_light_in_the_corner_of_its_box_matters_just_beside_the_corner() {
     let mut rng = Rng::new(11);
@@ -168,8 +171,9 @@ fn a_light_in_the_corner_of_its_box_matters_just_beside_the_corner() {
     assert!(emitted > ROUNDS / 10, "{emitted}");
 }
 
-/// The floor of the cosines: near the horizon, and near the edge of an emission of a right angle, rounding may leave nothing of a cosine. Without
-/// it the least importance would be left, however much arrives.
+/// The floor of the cosines: near the horizon, and near the edge of an emission of a right angle,
+/// rounding may leave nothing of a cosine. Without it the least importance would be left, however
+/// much arrives.
 #[test]
 fn importance_is_no_less_than_what_a_point_sends() {
     let mut rng = Rng::new(12);

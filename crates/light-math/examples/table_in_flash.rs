@@ -1,8 +1,8 @@
-//! Tables that the compiler builds: nothing is allocated, nothing runs at start-up, and on a microcontroller the
-//! numbers stay in read-only memory.
+//! Tables that the compiler builds: nothing is allocated, nothing runs at start-up, and on a
+//! microcontroller the numbers stay in read-only memory.
 //!
-//! `cargo run -p light-math --example table_in_flash`; it needs no allocator and builds for bare targets as it is, but
-//! for the printing.
+//! `cargo run -p light-math --example table_in_flash`; it needs no allocator and builds for bare
+//! targets as it is, but for the printing.
 
 use light_math::distribution::{
     AliasBin, AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError,

@@ -8,16 +8,19 @@ use crate::float::{cos, inverse_power_of_two, safe_acos, safe_asin, sin_cos, sqr
 /// Round-off of the dot product of two unit vectors, each known to half a unit in the last place.
 const DOT_ERROR: f32 = 4.0 * f32::EPSILON;
 
-/// Enlargement of the squared sine of the angle that a box subtends, against its round-off: 12 half units in the last place.
+/// Enlargement of the squared sine of the angle that a box subtends, against its round-off: 12 half
+/// units in the last place.
 ///
-/// A squared length of three rounded differences is known to 5 of them: 2 by the difference, 1 by the square, 2 by the sums. The squares of
-/// radius and distance make 10, and the product with this constant 1. Scaling is exact. What is rounded later, the difference of the squares,
-/// their quotient and its root, is relative to the cosine.
+/// A squared length of three rounded differences is known to 5 of them: 2 by the difference, 1 by
+/// the square, 2 by the sums. The squares of radius and distance make 10, and the product with this
+/// constant 1. Scaling is exact. What is rounded later, the difference of the squares, their
+/// quotient and its root, is relative to the cosine.
 const SUBTENDED_GROWTH: f32 = 1.0 + 6.0 * f32::EPSILON;
 
 /// All directions within an angle of an axis.
 ///
-/// Directions are unit vectors, angles radians. A cone is empty, a single direction, wider, or the whole sphere.
+/// Directions are unit vectors, angles radians. A cone is empty, a single direction, wider, or the
+/// whole sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DirectionCone {
@@ -40,7 +43,8 @@ impl DirectionCone {
         cos_theta: -1.0,
     };
 
-    /// The cone of the directions whose angle with the unit vector `w` has a cosine of at least `cos_theta`.
+    /// The cone of the directions whose angle with the unit vector `w` has a cosine of at least
+    /// `cos_theta`.
     #[inline]
     #[must_use]
     pub const fn new(w: Vec3, cos_theta: f32) -> Self {
@@ -77,8 +81,8 @@ impl DirectionCone {
 
     /// Whether the unit vector `w` lies in the closed cone.
     ///
-    /// Generous by the round-off of a dot product, so that no direction that lies in the cone is denied: a cone
-    /// holds its own axis, however narrow it is.
+    /// Generous by the round-off of a dot product, so that no direction that lies in the cone is
+    /// denied: a cone holds its own axis, however narrow it is.
     #[inline]
     #[must_use]
     pub fn contains(&self, w: Vec3) -> bool {
@@ -88,8 +92,8 @@ impl DirectionCone {
     /// A cone that holds both cones, the narrowest one unless round-off interferes.
     ///
     /// # Source
-    /// `[PBRT4]`, section 3.8.4. The cross product is taken with the difference (or sum) of the axes, which keeps its
-    /// digits when they are nearly parallel.
+    /// `[PBRT4]`, section 3.8.4. The cross product is taken with the difference (or sum) of the
+    /// axes, which keeps its digits when they are nearly parallel.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         if self.is_empty() {
@@ -123,7 +127,8 @@ impl DirectionCone {
         Self::new(w.normalize(), cos(theta_o))
     }
 
-    /// The cone of the directions within `angle` (in `[0, pi]`) of a direction of this cone; empty stays empty.
+    /// The cone of the directions within `angle` (in `[0, pi]`) of a direction of this cone; empty
+    /// stays empty.
     #[must_use]
     pub fn widened(self, angle: f32) -> Self {
         if self.is_empty() {
@@ -138,10 +143,12 @@ impl DirectionCone {
         Self::new(self.w, self.cos_theta * cos_a - sin_theta * sin_a)
     }
 
-    /// A cone that holds the directions from `p` to every point of `bounds`, through the box's bounding sphere.
+    /// A cone that holds the directions from `p` to every point of `bounds`, through the box's
+    /// bounding sphere.
     ///
-    /// The whole sphere when `p` lies inside that sphere or, up to rounding, on it, so wherever it lies in the box; empty when the box is. Lengths are in scene units
-    /// of any scale: nothing over- or underflows as long as the differences of the coordinates do not.
+    /// The whole sphere when `p` lies inside that sphere or, up to rounding, on it, so wherever it
+    /// lies in the box; empty when the box is. Lengths are in scene units of any scale: nothing
+    /// over- or underflows as long as the differences of the coordinates do not.
     ///
     /// # Source
     /// `[PBRT4]`, section 3.8.4: `sin^2 theta_max = r^2 / d^2`.
@@ -152,7 +159,8 @@ impl DirectionCone {
         }
         let center = bounds.center();
         let to_center = center - p;
-        // To both corners, wherever rounding has put the centre of a box that is a few units in the last place wide.
+        // To both corners, wherever rounding has put the centre of a box that is a few units in the
+        // last place wide.
         let half_diagonal = (bounds.max - center).max(center - bounds.min);
 
         // Scaled so that squares stay in range.

@@ -1,9 +1,11 @@
 use glam::Vec3;
 
-/// How far the squared length of a unit vector may be from one: what a few rotations in single precision leave.
+/// How far the squared length of a unit vector may be from one: what a few rotations in single
+/// precision leave.
 const UNIT_TOLERANCE: f32 = 1e-5;
 
-/// The unit vector along `v`, however short or long that is; `None` if it has no direction: zero, infinite, or not a number.
+/// The unit vector along `v`, however short or long that is; `None` if it has no direction: zero,
+/// infinite, or not a number.
 ///
 /// A unit vector to rounding, with a squared length within 1e-5 of one, comes back to the bit.
 #[inline]

@@ -1,6 +1,7 @@
 //! Choosing one of a few weights by walking over them.
 //!
-//! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) answers in constant time.
+//! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) answers in
+//! constant time.
 
 /// One of several indices, chosen with probability `pmf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +25,9 @@ pub(crate) fn unit(u: f64) -> f64 {
 
 /// An index chosen in proportion to `weights`; none if no weight is positive.
 ///
-/// `u` is in `[0, 1)`; it is an `f64` because the 24 bits of an `f32` are soon used up where choices follow one
-/// another. A weight that is not a positive finite number counts as 0. Two walks over the weights.
+/// `u` is in `[0, 1)`; it is an `f64` because the 24 bits of an `f32` are soon used up where
+/// choices follow one another. A weight that is not a positive finite number counts as 0. Two walks
+/// over the weights.
 ///
 /// # Source
 /// `[PBRT4]` 2.3.1, where zero weights at the end need no special case.

@@ -1,8 +1,8 @@
 //! The equal-area map between the unit square and the sphere.
 //!
-//! Equal areas of the square are equal solid angles (`4 pi` for all of it). The centre of the square is +z, the corners are all -z,
-//! the inscribed diamond is the equator. Neighbours on the square are neighbours on the sphere, and so are, by [`wrap`], points
-//! on both sides of an edge.
+//! Equal areas of the square are equal solid angles (`4 pi` for all of it). The centre of the
+//! square is +z, the corners are all -z, the inscribed diamond is the equator. Neighbours on the
+//! square are neighbours on the sphere, and so are, by [`wrap`], points on both sides of an edge.
 //!
 //! # Source
 //! `[Clarberg2008]`, section 2; edges as in `[PBRT4]`, section 3.8.3.
@@ -41,8 +41,8 @@ pub fn square_to_sphere(p: Vec2) -> Vec3 {
 
 /// The point in `[0, 1]^2` of the unit vector `d`.
 ///
-/// Round trips are bounded: the point of the vector of `p` is within `2e-7` of `p` along each axis, or of the point that
-/// [`wrap`] says is the same as `p`.
+/// Round trips are bounded: the point of the vector of `p` is within `2e-7` of `p` along each axis,
+/// or of the point that [`wrap`] says is the same as `p`.
 #[inline]
 #[must_use]
 pub fn sphere_to_square(d: Vec3) -> Vec2 {
@@ -71,7 +71,8 @@ pub fn sphere_to_square(d: Vec3) -> Vec2 {
     0.5 * Vec2::new(u.copysign(d.x), v.copysign(d.y)) + 0.5
 }
 
-/// The point in `[0, 1]^2` that means the same direction as `p`, which lies at most one square outside.
+/// The point in `[0, 1]^2` that means the same direction as `p`, which lies at most one square
+/// outside.
 ///
 /// An edge of the square touches itself, turned around its midpoint.
 #[inline]
@@ -91,7 +92,8 @@ pub fn wrap(p: Vec2) -> Vec2 {
     p
 }
 
-/// The texel of an `n` x `n` image at `(x, y)`, which lies at most one image outside: [`wrap`] for indices.
+/// The texel of an `n` x `n` image at `(x, y)`, which lies at most one image outside: [`wrap`] for
+/// indices.
 #[inline]
 #[must_use]
 #[allow(

@@ -1,9 +1,8 @@
 //! Floating-point functions that `core` lacks.
 //!
-//! The only place that chooses between the platform's functions (feature `std`) and software ones (feature
-//! `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on every platform. Only the square root is everywhere
-//! the same anyway.
-//! Angles are radians.
+//! The only place that chooses between the platform's functions (feature `std`) and software ones
+//! (feature `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on
+//! every platform. Only the square root is everywhere the same anyway. Angles are radians.
 
 macro_rules! forward {
     ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $std:ident, $libm:ident;)+) => {$(
@@ -56,7 +55,8 @@ forward! {
     round(x) = round, roundf;
 }
 
-/// Square root; NaN below zero. Correctly rounded whoever computes it, so that the platform's is taken wherever there is one.
+/// Square root; NaN below zero. Correctly rounded whoever computes it, so that the platform's is
+/// taken wherever there is one.
 #[inline]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {
@@ -108,9 +108,11 @@ pub fn safe_asin(x: f32) -> f32 {
 /// The largest `f32` below one: the upper end of `u`, which lies in `[0, 1)`.
 pub const ONE_MINUS_EPSILON: f32 = 1.0 - f32::EPSILON / 2.0;
 
-/// `2^-k` for `x` in `[2^k, 2^(k+1))`, as far as floats reach; not zero for any `x`: a scale without any rounding.
+/// `2^-k` for `x` in `[2^k, 2^(k+1))`, as far as floats reach; not zero for any `x`: a scale
+/// without any rounding.
 ///
-/// It takes a positive `x` to `[1, 2)`, one of at least `2^127` to `[2, 4)`, and a subnormal one below 1.
+/// It takes a positive `x` to `[1, 2)`, one of at least `2^127` to `[2, 4)`, and a subnormal one
+/// below 1.
 #[inline]
 #[must_use]
 pub fn inverse_power_of_two(x: f32) -> f32 {

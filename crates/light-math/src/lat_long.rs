@@ -1,7 +1,9 @@
-//! The latitude-longitude map between the unit square and the sphere, in which environment maps come.
+//! The latitude-longitude map between the unit square and the sphere, in which environment maps
+//! come.
 //!
-//! `u` in `[0, 1)` runs along a row, `v` in `[0, 1]` from the top row (+y) to the bottom row (-y). With `t = pi v` and `p = 2 pi u` the
-//! direction is `(sin t sin p, cos t, -sin t cos p)`: the middle of the map looks to +z, as that of the equal-area map does.
+//! `u` in `[0, 1)` runs along a row, `v` in `[0, 1]` from the top row (+y) to the bottom row (-y).
+//! With `t = pi v` and `p = 2 pi u` the direction is `(sin t sin p, cos t, -sin t cos p)`: the
+//! middle of the map looks to +z, as that of the equal-area map does.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 
@@ -18,7 +20,8 @@ pub fn direction(uv: Vec2) -> Vec3 {
     Vec3::new(sin_t * sin_p, cos_t, -sin_t * cos_p)
 }
 
-/// The point `(u, v)` of the direction `d`, of any length but zero; `u` in `[0, 1)`, 0 at the poles.
+/// The point `(u, v)` of the direction `d`, of any length but zero; `u` in `[0, 1)`, 0 at the
+/// poles.
 #[inline]
 #[must_use]
 pub fn uv(d: Vec3) -> Vec2 {
@@ -38,7 +41,8 @@ pub fn solid_angle_per_area(v: f32) -> f32 {
     2.0 * PI * PI * sin(PI * v).max(0.0)
 }
 
-/// The texel of an image of the given columns and rows at `(x, y)`, which lies at most one image outside.
+/// The texel of an image of the given columns and rows at `(x, y)`, which lies at most one image
+/// outside.
 ///
 /// Rows close upon themselves; beyond a pole the map goes on half a turn further, downwards again.
 #[inline]

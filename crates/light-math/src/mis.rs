@@ -1,8 +1,9 @@
 //! Weights of multiple importance sampling.
 //!
-//! A weight belongs to the technique whose density is the first argument; the weights of all techniques sum to 1.
-//! Where a technique takes several samples, pass its density times their number. An infinite density is that of a
-//! Dirac: it takes the whole weight. A technique without density gets 0, and so does NaN.
+//! A weight belongs to the technique whose density is the first argument; the weights of all
+//! techniques sum to 1. Where a technique takes several samples, pass its density times their
+//! number. An infinite density is that of a Dirac: it takes the whole weight. A technique without
+//! density gets 0, and so does NaN.
 
 /// The balance heuristic, `p / (p + q)`.
 ///

@@ -4,18 +4,21 @@ use glam::{Vec2, Vec3};
 
 use crate::float::sqrt;
 
-/// A unit vector in 4 bytes: a position on the octahedron `|x| + |y| + |z| = 1`, unfolded to a square.
+/// A unit vector in 4 bytes: a position on the octahedron `|x| + |y| + |z| = 1`, unfolded to a
+/// square.
 ///
 /// Two 16-bit coordinates in one word, `x` in the low half. Every word decodes to a unit vector.
 ///
 /// # The error bound
-/// Let `h = 1 / 65535`, half the distance of two codes on `[-1, 1]`. Rounding moves a point of the square by at most
-/// `h` along each axis. The square is folded onto the octahedron without a tear, and on each face a step `(dx, dy)` is the
-/// step `(dx, dy, -dx - dy)` up to signs and order, at most `sqrt(6) h` long; a step that crosses an edge is a chain of
-/// such steps. Every point of the octahedron is at least `1 / sqrt(3)` from its centre, so the direction turns by at
-/// most `sqrt(6) h * sqrt(3) = sqrt(18) h < 6.48e-5`. The float operations on the way move the point by at most
-/// 9 units of `2^-24` an axis before and after, the normalisation the vector by 20 more: together below `4e-6`.
-/// `cargo xtask exhaustive` compares every code with the corners of its cell, in double precision.
+/// Let `h = 1 / 65535`, half the distance of two codes on `[-1, 1]`. Rounding moves a point of the
+/// square by at most `h` along each axis. The square is folded onto the octahedron without a tear,
+/// and on each face a step `(dx, dy)` is the step `(dx, dy, -dx - dy)` up to signs and order, at
+/// most `sqrt(6) h` long; a step that crosses an edge is a chain of such steps. Every point of the
+/// octahedron is at least `1 / sqrt(3)` from its centre, so the direction turns by at most
+/// `sqrt(6) h * sqrt(3) = sqrt(18) h < 6.48e-5`. The float operations on the way move the point by
+/// at most 9 units of `2^-24` an axis before and after, the normalisation the vector by 20 more:
+/// together below `4e-6`. `cargo xtask exhaustive` compares every code with the corners of its
+/// cell, in double precision.
 ///
 /// # Source
 /// `[Cigolle2014]`, section 3.3; rounding as in `[PBRT4]`, section 3.8.3.
@@ -79,7 +82,8 @@ impl OctahedralVector {
     }
 }
 
-/// The place of the direction of `v`, which need not have unit length, on the square `[-1, 1]^2`: the octahedron unfolded.
+/// The place of the direction of `v`, which need not have unit length, on the square `[-1, 1]^2`:
+/// the octahedron unfolded.
 ///
 /// # Source
 /// `[Cigolle2014]`, section 3.
@@ -95,7 +99,8 @@ pub fn to_square(v: Vec3) -> Vec2 {
     Vec2::new(x, y)
 }
 
-/// The unit vector of a place on the square `[-1, 1]^2`: undoes [`to_square`] but for rounding, which turns it by less than 5e-7.
+/// The unit vector of a place on the square `[-1, 1]^2`: undoes [`to_square`] but for rounding,
+/// which turns it by less than 5e-7.
 #[inline]
 #[must_use]
 pub fn from_square(Vec2 { x, y }: Vec2) -> Vec3 {
@@ -111,7 +116,8 @@ fn fold(x: f32, y: f32) -> (f32, f32) {
     ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y))
 }
 
-/// The code of a coordinate, which a rounded quotient by a sum that is not smaller keeps within `[-1, 1]`.
+/// The code of a coordinate, which a rounded quotient by a sum that is not smaller keeps within
+/// `[-1, 1]`.
 #[inline]
 #[allow(
     clippy::cast_possible_truncation,

@@ -1,8 +1,8 @@
 //! Cosines and boxes in few bits, rounded so that what they bound only ever grows.
 //!
-//! "Only ever" holds for the decoded floats, not just for the ideal numbers: an encoder that finds its code to decode to
-//! the wrong side takes the next one. In the cases where plain rounding is on the right side the codes are those of `[PBRT4]`,
-//! section 12.6.3.
+//! "Only ever" holds for the decoded floats, not just for the ideal numbers: an encoder that finds
+//! its code to decode to the wrong side takes the next one. In the cases where plain rounding is on
+//! the right side the codes are those of `[PBRT4]`, section 12.6.3.
 
 use glam::Vec3;
 
@@ -12,10 +12,11 @@ use crate::float::ceil;
 /// The largest 15-bit code of a cosine.
 pub const MAX_COS: u16 = 32767;
 
-/// The 15-bit code of a cosine in `[-1, 1]`: one that decodes to it or to less, so to the same or a wider angle.
+/// The 15-bit code of a cosine in `[-1, 1]`: one that decodes to it or to less, so to the same or a
+/// wider angle.
 ///
-/// At most `2 / 32767` is lost, a little more when plain rounding had to be corrected. Values outside are clamped; NaN gives 0, which stands for
-/// -1, all directions.
+/// At most `2 / 32767` is lost, a little more when plain rounding had to be corrected. Values
+/// outside are clamped; NaN gives 0, which stands for -1, all directions.
 #[inline]
 #[must_use]
 #[allow(
@@ -45,15 +46,16 @@ pub fn decode_cos(q: u16) -> f32 {
 pub struct QuantizedBox {
     /// Lower corner in 65535ths of the enclosing box, rounded down.
     pub min: [u16; 3],
-    /// Upper corner in 65535ths of the enclosing box, rounded up; 0 on an axis where that box is flat.
+    /// Upper corner in 65535ths of the enclosing box, rounded up; 0 on an axis where that box is
+    /// flat.
     pub max: [u16; 3],
 }
 
 impl QuantizedBox {
     /// The code of `bounds` within `enclosing`: what it decodes to contains `bounds`.
     ///
-    /// Both boxes are finite, and `enclosing` contains `bounds`; what sticks out is cut off, NaN counts as the
-    /// enclosing box's corner.
+    /// Both boxes are finite, and `enclosing` contains `bounds`; what sticks out is cut off, NaN
+    /// counts as the enclosing box's corner.
     #[must_use]
     pub fn encode(bounds: &Aabb, enclosing: &Aabb) -> Self {
         let (a, b) = (enclosing.min.to_array(), enclosing.max.to_array());
@@ -88,7 +90,8 @@ fn decode_axis(q: u16, a: f32, b: f32) -> f32 {
     a * (1.0 - t) + b * t
 }
 
-/// Where `c` lies from `a` to `b`, in 65535ths; 0 for an axis of no length. Halves, so that no difference overflows.
+/// Where `c` lies from `a` to `b`, in 65535ths; 0 for an axis of no length. Halves, so that no
+/// difference overflows.
 #[inline]
 fn fraction(c: f32, a: f32, b: f32) -> f32 {
     let length = 0.5 * b - 0.5 * a;
@@ -105,7 +108,8 @@ fn fraction(c: f32, a: f32, b: f32) -> f32 {
 )]
 fn encode_lower(c: f32, a: f32, b: f32) -> u16 {
     let mut q = fraction(c, a, b) as u16;
-    // Far from the origin many codes decode to one float: ever longer steps, to 0 at the latest, which is `a` itself.
+    // Far from the origin many codes decode to one float: ever longer steps, to 0 at the latest,
+    // which is `a` itself.
     let mut step = 1;
     while q > 0 && decode_axis(q, a, b) > c {
         q = q.saturating_sub(step);

@@ -5,16 +5,18 @@ use glam::Vec2;
 use crate::float::ceil;
 use crate::sphere_image::{SphereImage, SphereImageError, SphereMap, check, extent};
 
-/// Turns an image of the sphere into one of another size or map: lat-long to equal-area, as environment maps need it, and back.
+/// Turns an image of the sphere into one of another size or map: lat-long to equal-area, as
+/// environment maps need it, and back.
 ///
-/// A texel becomes the mean, over its solid angle, of the source interpolated bilinearly: by a lattice of directions, of which
-/// at least [`DENSITY`](Self::DENSITY) fall into each texel of the result and into each of the source (at the equator, where they are
-/// largest). Constant images stay constant. The energy of a smooth image is kept within 1e-3; that of a sun of a single
-/// texel within 3 % in the mean and 10 % at worst over the places where it may be, the slivers next to the poles of a lat-long source apart.
-/// A texel costs about a microsecond.
+/// A texel becomes the mean, over its solid angle, of the source interpolated bilinearly: by a
+/// lattice of directions, of which at least [`DENSITY`](Self::DENSITY) fall into each texel of the
+/// result and into each of the source (at the equator, where they are largest). Constant images
+/// stay constant. The energy of a smooth image is kept within 1e-3; that of a sun of a single texel
+/// within 3 % in the mean and 10 % at worst over the places where it may be, the slivers next to
+/// the poles of a lat-long source apart. A texel costs about a microsecond.
 ///
-/// Each texel is a function of the source alone, so callers may take them [in order](Self::texels) into a buffer of theirs, or
-/// [one by one](Self::texel) on many threads.
+/// Each texel is a function of the source alone, so callers may take them [in order](Self::texels)
+/// into a buffer of theirs, or [one by one](Self::texel) on many threads.
 #[derive(Clone, Copy, Debug)]
 pub struct Resampler<F> {
     source: SphereImage<F>,

@@ -1,14 +1,14 @@
 //! Solid angles of flat shapes, in steradians.
 //!
-//! They are exact to a few roundings for shapes of any size, however small, far away or near: differences are taken
-//! between corners, never between directions or angles. What is left is the rounding of the corners themselves where
-//! the point lies almost in the plane of the shape.
+//! They are exact to a few roundings for shapes of any size, however small, far away or near:
+//! differences are taken between corners, never between directions or angles. What is left is the
+//! rounding of the corners themselves where the point lies almost in the plane of the shape.
 
 use crate::float::{atan2, inverse_power_of_two};
 use glam::Vec3;
 
-/// The solid angle of the triangle `v` seen from `p`, from 0 to `2 pi`; 0 if it has no area or `p` lies in its
-/// plane.
+/// The solid angle of the triangle `v` seen from `p`, from 0 to `2 pi`; 0 if it has no area or `p`
+/// lies in its plane.
 ///
 /// # Source
 /// `[VanOosterom1983]`, with the volume from the triangle's own edges.
@@ -17,10 +17,11 @@ pub fn triangle(v: [Vec3; 3], p: Vec3) -> f32 {
     positive(SeenTriangle::new(v, p).half_angle().doubled())
 }
 
-/// The solid angle of the convex quadrilateral with the corners `v` in order around it, seen from `p`.
+/// The solid angle of the convex quadrilateral with the corners `v` in order around it, seen from
+/// `p`.
 ///
-/// A quadrilateral that is not planar counts as two triangles, beside the diagonal that looks shorter; where these face
-/// opposite ways their solid angles have opposite signs.
+/// A quadrilateral that is not planar counts as two triangles, beside the diagonal that looks
+/// shorter; where these face opposite ways their solid angles have opposite signs.
 ///
 /// # Source
 /// As for [`triangle`]; half angles add up by multiplying complex numbers.
@@ -83,7 +84,8 @@ pub(crate) struct SeenTriangle {
     pub(crate) directions: [Vec3; 3],
     /// The corners relative to the point.
     r: [Vec3; 3],
-    /// Of the angles at which the edges are seen: opposite to the first corner, to the second, to the third.
+    /// Of the angles at which the edges are seen: opposite to the first corner, to the second, to
+    /// the third.
     cosines: [f32; 3],
 }
 
@@ -106,10 +108,12 @@ impl SeenTriangle {
         }
     }
 
-    /// Half the solid angle, positive if the corners run counter-clockwise seen from outside the sphere.
+    /// Half the solid angle, positive if the corners run counter-clockwise seen from outside the
+    /// sphere.
     ///
-    /// With unit vectors a, b, c the cosine is `1 + ab + bc + ca = (a + b)(a + c)`, for any of the corners as a. Where a term is negative,
-    /// the opposite pair should be the one with the largest sum: the product then has no cancellation of its own.
+    /// With unit vectors a, b, c the cosine is `1 + ab + bc + ca = (a + b)(a + c)`, for any of the
+    /// corners as a. Where a term is negative, the opposite pair should be the one with the largest
+    /// sum: the product then has no cancellation of its own.
     #[inline]
     pub(crate) fn half_angle(&self) -> HalfAngle {
         let [l0, l1, l2] = self.dist;
@@ -152,7 +156,8 @@ impl SeenTriangle {
 
 /// The sum of the unit vectors along `r0` and `r1`, where `edge = r1 - r0`.
 ///
-/// Opposite directions leave a small sum: what counts then is how far the edge passes from the origin.
+/// Opposite directions leave a small sum: what counts then is how far the edge passes from the
+/// origin.
 fn direction_sum(r0: Vec3, r1: Vec3, edge: Vec3) -> Vec3 {
     let (l0, l1) = (r0.length(), r1.length());
     if r0.dot(r1) > 0.0 {
@@ -162,7 +167,8 @@ fn direction_sum(r0: Vec3, r1: Vec3, edge: Vec3) -> Vec3 {
     let near = if l0 < l1 { r0 } else { r1 };
     let foot = near - along * near.dot(along);
     let foot = foot - along * foot.dot(along);
-    // Both ends lie beyond the foot, each seen at 1 - cos = foot^2 / (l (l + s)) from the edge's own direction.
+    // Both ends lie beyond the foot, each seen at 1 - cos = foot^2 / (l (l + s)) from the edge's
+    // own direction.
     let (s0, s1) = (-r0.dot(along), r1.dot(along));
     let excess = 1.0 / (l0 * (l0 + s0)) - 1.0 / (l1 * (l1 + s1));
     foot * (1.0 / l0 + 1.0 / l1) + along * (foot.length_squared() * excess)
@@ -261,7 +267,8 @@ mod tests {
         }
     }
 
-    /// Seen from close to an edge, the directions to its ends nearly cancel: whichever corners these are.
+    /// Seen from close to an edge, the directions to its ends nearly cancel: whichever corners
+    /// these are.
     #[test]
     fn beside_an_edge_the_angle_is_that_of_f64() {
         let corners = [(-1.0, 0.0), (2.0, 0.0), (0.3, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0));

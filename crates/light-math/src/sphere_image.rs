@@ -47,7 +47,8 @@ impl SphereMap {
         }
     }
 
-    /// The texel of an image of the given columns and rows at `(x, y)`, which lies at most one texel outside.
+    /// The texel of an image of the given columns and rows at `(x, y)`, which lies at most one
+    /// texel outside.
     #[inline]
     #[must_use]
     pub fn wrap_texel(self, x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
@@ -96,8 +97,8 @@ impl<F> SphereImage<F> {
         self.size
     }
 
-    /// The value in the direction of the unit vector `d`, bilinear between the centres of texels, across edges and
-    /// poles too.
+    /// The value in the direction of the unit vector `d`, bilinear between the centres of texels,
+    /// across edges and poles too.
     #[inline]
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "between -1 and the size")]

@@ -1,4 +1,5 @@
-//! Solid angles and the shapes that are sampled by them, against double precision and against their own densities.
+//! Solid angles and the shapes that are sampled by them, against double precision and against their
+//! own densities.
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -35,7 +36,8 @@ fn length(a: Real3) -> f64 {
 /// A triangle in double precision, from the same corners.
 struct Exact {
     solid_angle: f64,
-    /// By how much a rounding of the corners may move the solid angle: large where the point is almost in the plane.
+    /// By how much a rounding of the corners may move the solid angle: large where the point is
+    /// almost in the plane.
     condition: f64,
 }
 
@@ -225,7 +227,8 @@ fn spherical_rectangles_are_even() {
     }
 }
 
-/// A point just above the middle of a large square sees the same at both ends, where 2^-24 is a long way.
+/// A point just above the middle of a large square sees the same at both ends, where 2^-24 is a
+/// long way.
 #[test]
 fn far_ends_of_large_spherical_rectangles_mirror_near_ends() {
     for height in [0.01, 0.03, 0.1] {

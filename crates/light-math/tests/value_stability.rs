@@ -1,7 +1,8 @@
-//! Warps, maps and tables give the bits that they gave before, with software float functions on every target.
+//! Warps, maps and tables give the bits that they gave before, with software float functions on
+//! every target.
 //!
-//! A change that moves them is *value-breaking* and says so in the changelog. The new table is what the failed test prints:
-//! `cargo test -p light-math --features libm --test value_stability`.
+//! A change that moves them is *value-breaking* and says so in the changelog. The new table is what
+//! the failed test prints: `cargo test -p light-math --features libm --test value_stability`.
 #![cfg(feature = "libm")]
 
 use light_math::distribution::{

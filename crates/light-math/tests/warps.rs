@@ -1,4 +1,5 @@
-//! The laws of warps: samples follow the density, the density of a sample is positive, inverses lead back.
+//! The laws of warps: samples follow the density, the density of a sample is positive, inverses
+//! lead back.
 
 use light_math::glam::{Vec2, Vec3};
 use light_math::warp::{
@@ -117,7 +118,8 @@ fn densities_on_an_interval() {
     }
 }
 
-/// Uniform solid angle weighted by the receiver's cosine at the corners of the random numbers' square.
+/// Uniform solid angle weighted by the receiver's cosine at the corners of the random numbers'
+/// square.
 #[test]
 fn warps_compose() {
     let corner = Vec3::new(-0.5, 0.2, 1.0);

@@ -1,4 +1,5 @@
-//! Three lamps in fog behind a pillar, printed as characters: `cargo run --release -p light-media --example fog`.
+//! Three lamps in fog behind a pillar, printed as characters:
+//! `cargo run --release -p light-media --example fog`.
 //!
 //! All that the integrators ask of a scene is whether two points see each other.
 

@@ -1,5 +1,5 @@
-//! A ray through fog among a thousand lamps: the classic march against asking for light, at equal time.
-//! `cargo run --release -p light-media --example thousand_lamps`
+//! A ray through fog among a thousand lamps: the classic march against asking for light, at equal
+//! time. `cargo run --release -p light-media --example thousand_lamps`
 
 use std::time::Instant;
 

@@ -14,14 +14,16 @@ pub struct Flight<R> {
     pub emitted: R,
 }
 
-/// Follows a path of throughput `beta` along `ray` to the point where it scatters, or through `span`. Unbiased in every
-/// channel, also where the extinction differs from channel to channel. Absorption is in the weight; it ends no path.
+/// Follows a path of throughput `beta` along `ray` to the point where it scatters, or through
+/// `span`. Unbiased in every channel, also where the extinction differs from channel to channel.
+/// Absorption is in the weight; it ends no path.
 ///
-/// A collision is real or null in proportion to what either leaves of the throughput, so that weights stay near 1.
-/// `next_u` gives independent numbers in `[0, 1)`.
+/// A collision is real or null in proportion to what either leaves of the throughput, so that
+/// weights stay near 1. `next_u` gives independent numbers in `[0, 1)`.
 ///
 /// # Source
-/// Weighted tracking after `[Novak2014]`; the choice by throughput follows `[Kutz2017]`, section 5.1.
+/// Weighted tracking after `[Novak2014]`; the choice by throughput follows `[Kutz2017]`, section
+/// 5.1.
 pub fn delta_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
     medium: &M,
     ray: &Ray,

@@ -4,7 +4,8 @@ use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
 use light_sources::{ColorModel, Radiance};
 
-/// What a medium does to a ray through it. A surface at the end that sends `lo` is seen as `lo * transmittance + l`.
+/// What a medium does to a ray through it. A surface at the end that sends `lo` is seen as
+/// `lo * transmittance + l`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeLight<R> {
     /// Radiance that the medium adds, in W m^-2 sr^-1.
@@ -26,8 +27,8 @@ impl<R: Radiance> VolumeLight<R> {
 
 /// The radiance that a medium emits toward the start of a ray; what it scatters is left out.
 ///
-/// Marches in equal steps from one random offset, in the manner of the first two editions of the pbrt book. `next_u`
-/// gives independent numbers in `[0, 1)`.
+/// Marches in equal steps from one random offset, in the manner of the first two editions of the
+/// pbrt book. `next_u` gives independent numbers in `[0, 1)`.
 ///
 /// # Source
 /// `[PBRT4]`, equation 14.1 without its in-scattering term.

@@ -9,12 +9,13 @@ use light_sources::{ColorModel, Light, LightSet, LightType, PdfCoverage, Radianc
 
 /// What the integrators must know of the geometry.
 pub trait Visibility {
-    /// Whether nothing opaque lies between two points; a surface that one of them lies on does not count.
+    /// Whether nothing opaque lies between two points; a surface that one of them lies on does not
+    /// count.
     fn unoccluded(&self, from: Vec3, to: Vec3) -> bool;
 }
 
-/// Everything that light scattered in a medium depends on but the ray: the medium, the lights, a way to choose one of
-/// them, and what stands in their way.
+/// Everything that light scattered in a medium depends on but the ray: the medium, the lights, a
+/// way to choose one of them, and what stands in their way.
 #[derive(Debug)]
 pub struct VolumeIntegrator<'a, C: ColorModel, M: ?Sized, S: ?Sized, V: ?Sized> {
     /// The medium that scatters.
@@ -29,7 +30,8 @@ pub struct VolumeIntegrator<'a, C: ColorModel, M: ?Sized, S: ?Sized, V: ?Sized> 
     pub wavelengths: &'a C::Wavelengths,
     /// Steps of marches along a ray.
     pub step: StepSize,
-    /// Steps of marches between ray and light, which may be coarser; only media without closed forms need them.
+    /// Steps of marches between ray and light, which may be coarser; only media without closed
+    /// forms need them.
     pub shadow_step: StepSize,
 }
 
@@ -49,11 +51,13 @@ where
     S: LightSampler + ?Sized,
     V: Visibility + ?Sized,
 {
-    /// One-sample estimate of the light that arrives at a point straight from the lights and is scattered toward the
-    /// eye, per unit of the scattering coefficient: the integral of phase function times radiance, in W m^-2 sr^-1.
+    /// One-sample estimate of the light that arrives at a point straight from the lights and is
+    /// scattered toward the eye, per unit of the scattering coefficient: the integral of phase
+    /// function times radiance, in W m^-2 sr^-1.
     ///
-    /// `u_light` chooses a light, by whose probability the estimate is divided, `u` in `[0, 1)^2` the point on it.
-    /// Occlusion and the attenuation between light and point are taken into account.
+    /// `u_light` chooses a light, by whose probability the estimate is divided, `u` in `[0, 1)^2`
+    /// the point on it. Occlusion and the attenuation between light and point are taken into
+    /// account.
     pub fn in_scattered(
         &self,
         at: ScatteringPoint,
@@ -81,8 +85,8 @@ where
         self.weighted_from(light, at, u, |_, _| 1.0, next_u)
     }
 
-    /// The same, times a weight of the densities of the direction by the light and by the phase function, in sr^-1; Dirac
-    /// lights, which no other strategy finds, have the weight 1.
+    /// The same, times a weight of the densities of the direction by the light and by the phase
+    /// function, in sr^-1; Dirac lights, which no other strategy finds, have the weight 1.
     pub(crate) fn weighted_from(
         &self,
         light: LightId,

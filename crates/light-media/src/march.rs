@@ -13,7 +13,8 @@ pub enum StepSizeError {
 }
 
 impl StepSize {
-    /// More steps than this are never taken: what lies beyond them, on a ray without end, is left out.
+    /// More steps than this are never taken: what lies beyond them, on a ray without end, is left
+    /// out.
     pub const MAX_STEPS: u32 = 1 << 16;
 
     /// Steps of the given length.

@@ -23,12 +23,14 @@ where
     S: LightSampler + ?Sized,
     V: Visibility + ?Sized,
 {
-    /// The radiance that the medium emits and scatters once toward the start of a ray, from `samples` points.
+    /// The radiance that the medium emits and scatters once toward the start of a ray, from
+    /// `samples` points.
     ///
-    /// Where [`single_scattering`](Self::single_scattering) marches, this asks for light. The sampler chooses all lights
-    /// in one call, for the ray as a whole. Each then gets a point of the ray: half of them even in the angle under which
-    /// the light sees the ray, half in proportion to the transmittance, weighted by the balance heuristic. Unbiased where
-    /// the transmittance has a closed form. `next_u` gives independent numbers in `[0, 1)`.
+    /// Where [`single_scattering`](Self::single_scattering) marches, this asks for light. The
+    /// sampler chooses all lights in one call, for the ray as a whole. Each then gets a point of
+    /// the ray: half of them even in the angle under which the light sees the ray, half in
+    /// proportion to the transmittance, weighted by the balance heuristic. Unbiased where the
+    /// transmittance has a closed form. `next_u` gives independent numbers in `[0, 1)`.
     ///
     /// # Source
     /// `[Kulla2012]`, sections 4 and 5. Choosing the lights for the ray as a whole is ours.
@@ -115,7 +117,8 @@ where
         }
     }
 
-    /// The part of a ray's way through the medium that is worth a look, and how light dies out along it.
+    /// The part of a ray's way through the medium that is worth a look, and how light dies out
+    /// along it.
     fn reach(&self, ray: &Ray, whole: Span, through: C::Radiance) -> (Span, TruncatedExponential) {
         let (part, rate) = if whole.t1.is_finite() {
             let thickness = -float::ln(through.average().max(f32::MIN_POSITIVE));
@@ -138,7 +141,8 @@ where
         (part, TruncatedExponential::new(rate, part.length()))
     }
 
-    /// The part of a ray, evenly in the angle under which a light sees it; `None` for lights at infinity.
+    /// The part of a ray, evenly in the angle under which a light sees it; `None` for lights at
+    /// infinity.
     fn seen_from(&self, light: LightId, ray: &Ray, part: Span) -> Option<Equiangular> {
         let to_light: Vec3 = self.lights.get(light)?.bounds()?.centroid() - ray.o;
         Equiangular::new(to_light, ray.d, part.t0, part.t1)

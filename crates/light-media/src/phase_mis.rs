@@ -43,8 +43,9 @@ where
     S: LightSampler + ?Sized,
     V: Intersection + ?Sized,
 {
-    /// The same as [`in_scattered`](Self::in_scattered), from two samples: one of a light, one of the phase function, each
-    /// weighted by the power heuristic. It pays for large lights and phase functions with a peak.
+    /// The same as [`in_scattered`](Self::in_scattered), from two samples: one of a light, one of
+    /// the phase function, each weighted by the power heuristic. It pays for large lights and phase
+    /// functions with a peak.
     ///
     /// # Source
     /// `[Veach1997]`, section 9.2.

@@ -1,7 +1,7 @@
 use light_math::glam::{Affine3A, Vec3};
 
-/// A ray through media: the points `o + t d`. The direction need not have unit length where a transform has touched
-/// it; `t` then still counts lengths of the scene.
+/// A ray through media: the points `o + t d`. The direction need not have unit length where a
+/// transform has touched it; `t` then still counts lengths of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin.
@@ -45,8 +45,8 @@ impl Span {
         (t0 < t1).then_some(Self { t0, t1 })
     }
 
-    /// Its length; the largest finite number for a span without end, so that no light is lost over it where nothing
-    /// is absorbed.
+    /// Its length; the largest finite number for a span without end, so that no light is lost over
+    /// it where nothing is absorbed.
     #[inline]
     #[must_use]
     pub fn length(&self) -> f32 {

@@ -7,8 +7,8 @@ use light_sources::{ColorModel, Radiance};
 /// Below this transmittance a march goes on with probability one half.
 const ROULETTE_BELOW: f32 = 1e-3;
 
-/// A march along a ray through a medium: equal steps, one random offset for all of them, the transmittance carried from
-/// point to point as a product.
+/// A march along a ray through a medium: equal steps, one random offset for all of them, the
+/// transmittance carried from point to point as a product.
 pub(crate) struct RayMarch<'a, C: ColorModel, M: ?Sized> {
     medium: &'a M,
     ray: Ray,
@@ -52,7 +52,8 @@ impl<'a, C: ColorModel, M: Medium<C> + ?Sized> RayMarch<'a, C, M> {
         self.march
     }
 
-    /// The distance of the next point and the transmittance up to it; `None` at the end, or when the march gave up.
+    /// The distance of the next point and the transmittance up to it; `None` at the end, or when
+    /// the march gave up.
     pub(crate) fn next_point(
         &mut self,
         next_u: &mut impl FnMut() -> f32,

@@ -2,7 +2,8 @@ use crate::ray::{Ray, Span};
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Quat, Vec3};
 
-/// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape, everywhere).
+/// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape,
+/// everywhere).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Region {
@@ -27,7 +28,8 @@ impl Region {
         bounds: None,
     };
 
-    /// The box `bounds` of a space that `to_scene` takes to the scene. Any transform with an inverse will do.
+    /// The box `bounds` of a space that `to_scene` takes to the scene. Any transform with an
+    /// inverse will do.
     ///
     /// # Errors
     /// The box is empty or not finite, or the transform is not finite or has no inverse.
@@ -45,8 +47,8 @@ impl Region {
         })
     }
 
-    /// The box `bounds` of a space that `to_scene` takes to the scene, with the unit cube as its own space: grids are then
-    /// looked up without another change of space.
+    /// The box `bounds` of a space that `to_scene` takes to the scene, with the unit cube as its
+    /// own space: grids are then looked up without another change of space.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform is not finite or has no inverse.
@@ -107,7 +109,8 @@ impl Region {
     }
 }
 
-/// The part of `span` inside `bounds`, by the slab method; a ray parallel to a face counts as inside while its origin is.
+/// The part of `span` inside `bounds`, by the slab method; a ray parallel to a face counts as
+/// inside while its origin is.
 fn slabs(bounds: &Aabb, ray: &Ray, span: Span) -> Option<Span> {
     let (mut t0, mut t1) = (span.t0, span.t1);
     for axis in 0..3 {

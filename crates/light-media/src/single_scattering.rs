@@ -15,11 +15,13 @@ where
     S: LightSampler + ?Sized,
     V: Visibility + ?Sized,
 {
-    /// The radiance that the medium emits and scatters once toward the start of a ray: the classic march.
+    /// The radiance that the medium emits and scatters once toward the start of a ray: the classic
+    /// march.
     ///
-    /// Equal steps from one random offset; at each point one light, chosen by the sampler, whose estimate is divided by
-    /// its probability. The choices of lights and of points on them come from a Latin hypercube that is drawn anew for
-    /// the ray, by `seed`. `next_u` gives independent numbers in `[0, 1)`.
+    /// Equal steps from one random offset; at each point one light, chosen by the sampler, whose
+    /// estimate is divided by its probability. The choices of lights and of points on them come
+    /// from a Latin hypercube that is drawn anew for the ray, by `seed`. `next_u` gives independent
+    /// numbers in `[0, 1)`.
     ///
     /// # Source
     /// `[PBRT4]`, equation 14.1 with light that was scattered once; `[PBRT2]`, section 16.3.

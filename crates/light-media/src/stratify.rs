@@ -1,4 +1,5 @@
-/// Points of a Latin hypercube: `n` points in `[0, 1)^D`, one in each of the `n` slabs of every axis.
+/// Points of a Latin hypercube: `n` points in `[0, 1)^D`, one in each of the `n` slabs of every
+/// axis.
 ///
 /// A point is computed from its number, so nothing is stored. The same seed gives the same points.
 ///
@@ -29,8 +30,8 @@ impl LatinHypercube {
         false
     }
 
-    /// Point `index` (taken modulo `n`), to 32 bits below the width of a slab: enough to address every light of a large
-    /// set.
+    /// Point `index` (taken modulo `n`), to 32 bits below the width of a slab: enough to address
+    /// every light of a large set.
     #[must_use]
     pub fn point<const D: usize>(&self, index: u32) -> [f64; D] {
         let index = index % self.n;
@@ -60,8 +61,8 @@ pub(crate) fn narrow(u: f64) -> f32 {
     (u as f32).min(light_math::float::ONE_MINUS_EPSILON)
 }
 
-/// A permutation of `0..n` chosen by `key`, evaluated at `i < n`: rounds of invertible steps on the next power of two,
-/// repeated until the value falls below `n`.
+/// A permutation of `0..n` chosen by `key`, evaluated at `i < n`: rounds of invertible steps on the
+/// next power of two, repeated until the value falls below `n`.
 #[expect(clippy::cast_possible_truncation, reason = "a remainder below n")]
 fn permute(i: u32, n: u32, key: u32) -> u32 {
     let mask = n.next_power_of_two().wrapping_sub(1);
@@ -70,7 +71,8 @@ fn permute(i: u32, n: u32, key: u32) -> u32 {
     loop {
         let mut round = key;
         for _ in 0..3 {
-            // Adding, multiplying by an odd number and xor with a shifted copy are each one to one below the mask.
+            // Adding, multiplying by an odd number and xor with a shifted copy are each one to one
+            // below the mask.
             x = x.wrapping_add(round) & mask;
             x = x.wrapping_mul(round | 1) & mask;
             x ^= x >> half_width;
@@ -80,7 +82,8 @@ fn permute(i: u32, n: u32, key: u32) -> u32 {
             break;
         }
     }
-    // Few rounds on few bits favour some places; turned by a random number of them, every place is as likely.
+    // Few rounds on few bits favour some places; turned by a random number of them, every place is
+    // as likely.
     let turn = (u64::from(hash(!key)) * u64::from(n)) >> 32;
     ((u64::from(x) + turn) % u64::from(n)) as u32
 }
@@ -172,8 +175,8 @@ mod tests {
         assert!(!cube.is_empty(), "never");
     }
 
-    /// Over many seeds each point alone is anywhere in `[0, 1)^3`, whatever its number: choices that go with the number
-    /// would be biased otherwise.
+    /// Over many seeds each point alone is anywhere in `[0, 1)^3`, whatever its number: choices
+    /// that go with the number would be biased otherwise.
     #[test]
     fn every_point_is_uniform_over_seeds() {
         use light_testkit::{Rng, chi_squared, kolmogorov_smirnov_uniform};

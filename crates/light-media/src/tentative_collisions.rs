@@ -2,8 +2,9 @@ use crate::medium::{MajorantSegment, Majorants};
 use light_math::float;
 use light_sources::Radiance;
 
-/// The places along a ray at which light may collide with a medium that is as dense as its bounds say: a Poisson process
-/// with the majorant for its rate. Trackers decide at each of them whether the collision is real.
+/// The places along a ray at which light may collide with a medium that is as dense as its bounds
+/// say: a Poisson process with the majorant for its rate. Trackers decide at each of them whether
+/// the collision is real.
 #[derive(Clone, Debug)]
 pub(crate) struct TentativeCollisions<'a> {
     segments: Majorants<'a>,
@@ -27,14 +28,15 @@ impl<'a> TentativeCollisions<'a> {
 
     /// The next collision; `None` when the ray leaves the last segment first.
     ///
-    /// One number in `[0, 1)` decides, however many segments the flight crosses: it stands for the optical thickness that
-    /// the flight may use up.
+    /// One number in `[0, 1)` decides, however many segments the flight crosses: it stands for the
+    /// optical thickness that the flight may use up.
     pub(crate) fn next(&mut self, next_u: &mut impl FnMut() -> f32) -> Option<Collision> {
         self.here?;
         let mut thickness = -float::ln(1.0 - next_u());
         while let Some(MajorantSegment { span, sigma_maj }) = &mut self.here {
             let crossed = *sigma_maj * span.length();
-            // Weights are over the bound, which has no reciprocal where it is subnormal: nothing happens there.
+            // Weights are over the bound, which has no reciprocal where it is subnormal: nothing
+            // happens there.
             if thickness < crossed && *sigma_maj >= f32::MIN_POSITIVE {
                 // The quotient is at most the length, also when rounded.
                 let t = span.t0 + thickness / *sigma_maj;
@@ -51,7 +53,8 @@ impl<'a> TentativeCollisions<'a> {
     }
 }
 
-/// The share of a majorant that an extinction leaves: the probability that a tentative collision is none.
+/// The share of a majorant that an extinction leaves: the probability that a tentative collision is
+/// none.
 #[inline]
 pub(crate) fn null_share<R: Radiance>(sigma_t: R, sigma_maj: f32) -> R {
     (sigma_t * (-1.0 / sigma_maj)).map(|x| (1.0 + x).max(0.0))

@@ -22,8 +22,8 @@ pub fn closed_form<C: ColorModel, M: Medium<C> + ?Sized>(
         .map(attenuation)
 }
 
-/// The transmittance by the extinction at one point of each step, at the same `jitter` in `[0, 1)` in all of them.
-/// Consistent, but biased: the exponential of an estimate.
+/// The transmittance by the extinction at one point of each step, at the same `jitter` in `[0, 1)`
+/// in all of them. Consistent, but biased: the exponential of an estimate.
 pub fn march<C: ColorModel, M: Medium<C> + ?Sized>(
     medium: &M,
     ray: &Ray,
@@ -55,8 +55,8 @@ fn march_inside<C: ColorModel, M: Medium<C> + ?Sized>(
     attenuation(thickness)
 }
 
-/// An unbiased estimate of the transmittance, by ratio tracking along the medium's majorants. `next_u` gives independent
-/// numbers in `[0, 1)`.
+/// An unbiased estimate of the transmittance, by ratio tracking along the medium's majorants.
+/// `next_u` gives independent numbers in `[0, 1)`.
 ///
 /// # Source
 /// `[Novak2014]`, section 4.

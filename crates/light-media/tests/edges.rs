@@ -131,7 +131,8 @@ fn spans_are_not_empty_and_not_endless() {
     );
 }
 
-/// Random rays through random boxes: a point of the ray lies in the box exactly where the clipped span says.
+/// Random rays through random boxes: a point of the ray lies in the box exactly where the clipped
+/// span says.
 #[test]
 fn clipped_spans_hold_the_points_of_a_box() {
     let mut rng = Rng::new(43);
@@ -208,7 +209,8 @@ fn clipped_spans_hold_the_points_of_a_box() {
     assert!(hits > 1500, "{hits} rays hit");
 }
 
-/// A ray parallel to faces is inside while its origin lies between them, on either side of either face of every axis.
+/// A ray parallel to faces is inside while its origin lies between them, on either side of either
+/// face of every axis.
 #[test]
 fn rays_along_faces_are_in_or_out() {
     let cube = Aabb::new(Vec3::ZERO, Vec3::ONE);

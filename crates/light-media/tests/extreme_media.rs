@@ -33,7 +33,8 @@ fn nothing_happens_in_a_medium_thinner_than_a_normal_float() {
     assert_eq!(left, Vec3::ONE, "transmittance");
 }
 
-/// Scattering of 1e-36 beside absorption of 1000: where it would happen, its weight is more than a float holds.
+/// Scattering of 1e-36 beside absorption of 1000: where it would happen, its weight is more than a
+/// float holds.
 #[test]
 fn light_that_hardly_ever_scatters_keeps_a_finite_weight() {
     let medium = medium(Vec3::new(5.0, 0.5, 1000.0), Vec3::new(0.0, 0.0, 3e-36));

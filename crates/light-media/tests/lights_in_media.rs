@@ -1,5 +1,5 @@
-//! Light from lights of every kind, scattered at one point: closed forms and quadrature, with and without the weights of
-//! multiple importance sampling.
+//! Light from lights of every kind, scattered at one point: closed forms and quadrature, with and
+//! without the weights of multiple importance sampling.
 
 #[path = "support/ball.rs"]
 mod ball;
@@ -127,7 +127,8 @@ fn point() -> (LightDesc<Rgb>, Vec3) {
     (LightDesc::Point(desc), position)
 }
 
-/// No other strategy finds a Dirac light, so its samples count in full, and there is no noise in them.
+/// No other strategy finds a Dirac light, so its samples count in full, and there is no noise in
+/// them.
 #[test]
 fn dirac_lights_have_closed_forms() {
     let (point, position) = point();
@@ -188,8 +189,9 @@ fn what_is_dark_takes_nothing_from_the_light() {
     }
 }
 
-/// A ball and a sky, each chosen with another probability than the other: both estimates have the mean that quadrature
-/// gives. A probability that is missing in either weight of a pair of samples would show.
+/// A ball and a sky, each chosen with another probability than the other: both estimates have the
+/// mean that quadrature gives. A probability that is missing in either weight of a pair of samples
+/// would show.
 #[test]
 fn weighted_samples_of_lights_and_of_the_phase_function_add_up() {
     let color = SurfaceColor::Uniform(Vec3::splat(3.0));

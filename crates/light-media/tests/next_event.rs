@@ -1,4 +1,5 @@
-//! Light that is asked for along a ray: unequal lights, glow, opaque media, and what stratification is worth.
+//! Light that is asked for along a ray: unequal lights, glow, opaque media, and what stratification
+//! is worth.
 
 #![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 
@@ -140,7 +141,8 @@ fn rays_without_end_see_all_of_the_light() {
     assert!((found.mean - truth).abs() <= margin, "{found:?}, {truth}");
 }
 
-/// Points where the medium is seen have the density of what is seen of it: a glowing medium has no noise.
+/// Points where the medium is seen have the density of what is seen of it: a glowing medium has no
+/// noise.
 #[test]
 fn glow_has_no_noise() {
     for length in [0.5, 4.0] {
@@ -172,7 +174,8 @@ fn glow_has_no_noise() {
     }
 }
 
-/// Where nothing is left at the end of the ray, the thickness is as large as floats go, not infinite.
+/// Where nothing is left at the end of the ray, the thickness is as large as floats go, not
+/// infinite.
 #[test]
 fn an_opaque_medium_glows_as_it_is() {
     let span = Span { t0: 0.0, t1: 10.0 };
@@ -187,7 +190,8 @@ fn an_opaque_medium_glows_as_it_is() {
     assert!(found.agrees_with(2.0), "{found:?}");
 }
 
-/// Sixteen samples of a call have places of their own on the ray: their mean has far less than a sixteenth of the variance.
+/// Sixteen samples of a call have places of their own on the ray: their mean has far less than a
+/// sixteenth of the variance.
 #[test]
 fn samples_of_a_call_are_stratified() {
     let medium = medium(0.1, 0.3, 0.0);
@@ -221,7 +225,8 @@ impl LightSampler for Recorder {
     }
 }
 
-/// Lights are chosen for the part of the ray that lies in the medium; without an end, for what can be seen of it.
+/// Lights are chosen for the part of the ray that lies in the medium; without an end, for what can
+/// be seen of it.
 #[test]
 fn lights_are_chosen_for_the_part_of_the_ray_in_the_medium() {
     let endless = Span {

@@ -1,4 +1,5 @@
-//! Light samples and phase samples, weighted, have the mean of either and less noise than light samples alone.
+//! Light samples and phase samples, weighted, have the mean of either and less noise than light
+//! samples alone.
 
 #[path = "support/ball.rs"]
 mod ball;

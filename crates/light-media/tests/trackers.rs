@@ -91,8 +91,8 @@ impl Table {
     }
 }
 
-/// In a medium that only scatters, alike in all channels, every flight keeps its weight, and distances have the density
-/// of scattering.
+/// In a medium that only scatters, alike in all channels, every flight keeps its weight, and
+/// distances have the density of scattering.
 #[test]
 fn scattering_distances_follow_their_density() {
     fn check(what: &str, medium: &impl Medium<Rgb>) {
@@ -117,9 +117,9 @@ fn scattering_distances_follow_their_density() {
     check("fog", &fog(gray()));
 }
 
-/// With absorption, and with channels that differ, the weights of the flights that end in a part of the ray add up to
-/// the scattering there; those that pass to the transmittance, and the emission to what is emitted: for any throughput
-/// of the path.
+/// With absorption, and with channels that differ, the weights of the flights that end in a part of
+/// the ray add up to the scattering there; those that pass to the transmittance, and the emission
+/// to what is emitted: for any throughput of the path.
 #[test]
 fn weights_of_flights_add_up_in_every_channel() {
     fn check(what: &str, medium: &impl Medium<Rgb>, beta: Vec3) {
@@ -202,7 +202,8 @@ fn roulette_keeps_the_mean_of_ratio_tracking() {
     assert!(survivors < 1 << 13, "{survivors} survivors");
 }
 
-/// A thick dark wall in front of a bright glow: nearly all marches end in the wall, the others count for them.
+/// A thick dark wall in front of a bright glow: nearly all marches end in the wall, the others
+/// count for them.
 #[test]
 fn roulette_keeps_the_mean_of_marches() {
     let substance = Substance::<Rgb>::new(Vec3::splat(4.0), Vec3::ZERO, Vec3::splat(1e5));

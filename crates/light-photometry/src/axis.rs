@@ -7,7 +7,8 @@ use light_math::float;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis(Vec<f32>);
 
-/// A place between two angles: `1 - t` of the value at index `below`, `t` of the one at index `above`.
+/// A place between two angles: `1 - t` of the value at index `below`, `t` of the one at index
+/// `above`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Between {
     pub(super) below: usize,
@@ -66,7 +67,8 @@ impl Axis {
         Some(Between { below, above, t })
     }
 
-    /// What the value at each angle counts in the integral over the axis, of the straight lines and exactly.
+    /// What the value at each angle counts in the integral over the axis, of the straight lines and
+    /// exactly.
     pub(super) fn weights(&self, measure: Measure) -> Vec<f64> {
         let mut weights = vec![0.0; self.0.len()];
         for (i, pair) in self.0.windows(2).enumerate() {
@@ -91,14 +93,17 @@ pub(super) fn full_turn(degrees: f32) -> f32 {
     if rest < 0.0 { rest + 360.0 } else { rest }
 }
 
-/// The integrals of the sine times the lines that fall, and rise, between 0 and 1 over the angles from `half` before to `half` after
-/// the angle with this `sin` and `cos`; `half` is at most a right angle.
+/// The integrals of the sine times the lines that fall, and rise, between 0 and 1 over the angles
+/// from `half` before to `half` after the angle with this `sin` and `cos`; `half` is at most a
+/// right angle.
 ///
-/// The integral of the sine is `2 sin sin(half)`, its first moment about the middle `2 cos (sin(half) - half cos(half))`.
+/// The integral of the sine is `2 sin sin(half)`, its first moment about the middle
+/// `2 cos (sin(half) - half cos(half))`.
 fn sine_weights(sin: f32, cos: f32, half: f32) -> (f32, f32) {
     let (sin_half, cos_half) = float::sin_cos(half);
     let tilt = if half < 0.5 {
-        // The difference of the two terms would lose its digits: the first terms of its series, by Horner's rule.
+        // The difference of the two terms would lose its digits: the first terms of its series, by
+        // Horner's rule.
         let x = half * half;
         x * (1.0 / 3.0 - x * (1.0 / 30.0 - x * (1.0 / 840.0 - x * (1.0 / 45_360.0))))
     } else {

@@ -6,7 +6,8 @@ use core::fmt::{self, Write};
 /// Its display is one line: `line 7: expected ...`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file that `TILT=` names, if the message is about that file; otherwise it is about the text itself.
+    /// The file that `TILT=` names, if the message is about that file; otherwise it is about the
+    /// text itself.
     pub tilt_file: Option<String>,
     /// The line, the first is 1; none for a message about the whole text.
     pub line: Option<usize>,

@@ -9,8 +9,8 @@ use super::{Luminaire, LuminaireFormat, PhotometricWeb, PhotometricWebError, Web
 
 /// The luminaire in the text of a EULUMDAT file.
 ///
-/// Its planes are those of a [`WebType::C`]. Intensities are stated for 1000 lm of lamps and are scaled by those of the
-/// first set of lamps; further sets are ignored with a warning.
+/// Its planes are those of a [`WebType::C`]. Intensities are stated for 1000 lm of lamps and are
+/// scaled by those of the first set of lamps; further sets are ignored with a warning.
 ///
 /// # Errors
 /// When the text is malformed: the line and what was expected there.
@@ -84,7 +84,8 @@ pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
             }
             values.push(value);
         }
-        // Planes from C270 over C0 to C90 are those from 90 to 270 with the mirror the other way round.
+        // Planes from C270 over C0 to C90 are those from 90 to 270 with the mirror the other way
+        // round.
         let angle = match symmetry {
             1 => 0.0,
             3 => full_turn(180.0 - angles[plane]),
@@ -127,8 +128,9 @@ pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
     Ok(luminaire)
 }
 
-/// The planes whose intensities a file holds, by index of their angles; none where their number does not suit the
-/// symmetry. Symmetry 3, to the plane of C90 and C270, holds those from C270 over C0 to C90.
+/// The planes whose intensities a file holds, by index of their angles; none where their number
+/// does not suit the symmetry. Symmetry 3, to the plane of C90 and C270, holds those from C270 over
+/// C0 to C90.
 fn used_planes(symmetry: usize, planes: usize) -> Option<Vec<usize>> {
     Some(match symmetry {
         _ if planes == 0 => return None,

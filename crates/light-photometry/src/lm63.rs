@@ -12,15 +12,16 @@ const MOST_ANGLES: u16 = 7_201;
 
 /// The luminaire in the text of an LM-63 file, of any edition from 1986 to 2019.
 ///
-/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or why there is none: this crate reads no
-/// files.
+/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or why
+/// there is none: this crate reads no files.
 ///
 /// # Errors
-/// When the text is malformed, or there is no file that it names: the line and what was expected there.
+/// When the text is malformed, or there is no file that it names: the line and what was expected
+/// there.
 ///
 /// # Source
-/// `[LM63]`. The ballast-lamp photometric factor is one of the editions of 1986 and 1991; later ones have another
-/// use for its place.
+/// `[LM63]`. The ballast-lamp photometric factor is one of the editions of 1986 and 1991; later
+/// ones have another use for its place.
 pub fn parse_lm63(
     text: &str,
     tilt_file: impl FnOnce(&str) -> Result<String, String>,
@@ -137,7 +138,8 @@ pub fn parse_lm63(
     Ok(luminaire)
 }
 
-/// The year of the edition that a first line names; none if the line is something else, as it is in files of 1986.
+/// The year of the edition that a first line names; none if the line is something else, as it is in
+/// files of 1986.
 fn edition(line: &str) -> Option<u16> {
     if line == "IESNA91" {
         return Some(1991);
@@ -170,7 +172,8 @@ struct Words {
 }
 
 impl Words {
-    /// Adds a line: `[KEYWORD] words`, the same with `MORE` for what continues the line before, or words alone.
+    /// Adds a line: `[KEYWORD] words`, the same with `MORE` for what continues the line before, or
+    /// words alone.
     fn add(&mut self, line: &str) {
         let bracketed = line.strip_prefix('[').and_then(|rest| rest.split_once(']'));
         let (keyword, words) = bracketed.unwrap_or(("", line));

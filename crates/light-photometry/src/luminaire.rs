@@ -9,11 +9,13 @@ use super::{Diagnostic, LampTilt, PhotometricWeb};
 pub struct Luminaire {
     /// The format of its file.
     pub format: LuminaireFormat,
-    /// What the file says in words, in its order: names of LM-63's keywords, or of EULUMDAT's lines, and the words.
+    /// What the file says in words, in its order: names of LM-63's keywords, or of EULUMDAT's
+    /// lines, and the words.
     pub keywords: Vec<(String, String)>,
     /// The intensity by direction, in candela, with all factors of the file.
     pub web: PhotometricWeb,
-    /// What its bare lamps give off, in lm; none where the file was measured without asking for them.
+    /// What its bare lamps give off, in lm; none where the file was measured without asking for
+    /// them.
     pub lamp_lumens: Option<f32>,
     /// What it draws, in W.
     pub input_watts: f32,
@@ -34,7 +36,8 @@ pub enum LuminaireFormat {
 }
 
 impl Luminaire {
-    /// What the luminaire gives off, in lm, of what its bare lamps do; none where the file does not say.
+    /// What the luminaire gives off, in lm, of what its bare lamps do; none where the file does not
+    /// say.
     #[must_use]
     pub fn efficiency(&self) -> Option<f32> {
         let lamps = self.lamp_lumens.filter(|&lumens| lumens > 0.0)?;

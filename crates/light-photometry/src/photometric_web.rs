@@ -10,10 +10,11 @@ use super::axis::{Axis, Measure, full_turn};
 use super::unfolded_axis::UnfoldedAxis;
 use super::web_type::WebType;
 
-/// The intensity of a luminaire by direction: candelas at vertical and horizontal angles, bilinear in between, 0 beyond.
+/// The intensity of a luminaire by direction: candelas at vertical and horizontal angles, bilinear
+/// in between, 0 beyond.
 ///
-/// Light space is right-handed with y up, whatever the [`WebType`]: the nadir is -y, and the direction that the standard
-/// calls photometric horizontal is +x.
+/// Light space is right-handed with y up, whatever the [`WebType`]: the nadir is -y, and the
+/// direction that the standard calls photometric horizontal is +x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhotometricWeb {
     web_type: WebType,
@@ -27,22 +28,25 @@ pub struct PhotometricWeb {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PhotometricWebError {
-    /// Vertical angles do not ascend in `[0, 180]`, or for types A and B from the opposite of the last one, or from 0, to
-    /// at most 90; or there is only one.
+    /// Vertical angles do not ascend in `[0, 180]`, or for types A and B from the opposite of the
+    /// last one, or from 0, to at most 90; or there is only one.
     Vertical,
-    /// Horizontal angles do not ascend from 0 to 0, 90, 180 or 360 or from 90 to 270, or for types A and B from the
-    /// opposite of the last one, or from 0, to at most 90; or there is only one in these types.
+    /// Horizontal angles do not ascend from 0 to 0, 90, 180 or 360 or from 90 to 270, or for types
+    /// A and B from the opposite of the last one, or from 0, to at most 90; or there is only one in
+    /// these types.
     Horizontal,
     /// There is not one value for each pair of angles, or one is negative or not finite.
     Candelas,
 }
 
 impl PhotometricWeb {
-    /// The web of the given angles in degrees; `candelas` holds the values of one horizontal angle after the other.
+    /// The web of the given angles in degrees; `candelas` holds the values of one horizontal angle
+    /// after the other.
     ///
-    /// What symmetry leaves out is filled in. Type C: horizontal angles that end at 0 are those of a rotationally
-    /// symmetric web, at 90 of one with four equal quadrants, at 180 (or from 90 to 270) of one with two equal halves; any
-    /// end above 180 is taken for a full turn. Types A and B: angles from 0 are mirrored to below 0.
+    /// What symmetry leaves out is filled in. Type C: horizontal angles that end at 0 are those of
+    /// a rotationally symmetric web, at 90 of one with four equal quadrants, at 180 (or from 90 to
+    /// 270) of one with two equal halves; any end above 180 is taken for a full turn. Types A and
+    /// B: angles from 0 are mirrored to below 0.
     ///
     /// # Errors
     /// When the angles do not fit the type, or the candelas the angles.
@@ -132,7 +136,8 @@ impl PhotometricWeb {
         self.candelas.iter().copied().fold(0.0, f32::max)
     }
 
-    /// The luminous power in all directions, in lm: the integral of what is bilinear between the angles, exactly.
+    /// The luminous power in all directions, in lm: the integral of what is bilinear between the
+    /// angles, exactly.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
     pub fn total_lumens(&self) -> f32 {
@@ -153,8 +158,8 @@ impl PhotometricWeb {
             .sum::<f64>() as f32
     }
 
-    /// The distribution over directions as an equal-area square of `size` texels a side, row by row from
-    /// row 0: each the mean intensity over what it covers, as a part of the peak.
+    /// The distribution over directions as an equal-area square of `size` texels a side, row by row
+    /// from row 0: each the mean intensity over what it covers, as a part of the peak.
     ///
     /// # Source
     /// The map of the square is that of [`light_math::equal_area`].

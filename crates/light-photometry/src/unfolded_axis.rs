@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use super::axis::{Axis, full_turn};
 use super::web_type::WebType;
 
-/// An axis that symmetry has completed, and for each of its angles which of the measured ones has its values.
+/// An axis that symmetry has completed, and for each of its angles which of the measured ones has
+/// its values.
 #[derive(Clone, Debug)]
 pub(super) struct UnfoldedAxis {
     pub(super) axis: Axis,

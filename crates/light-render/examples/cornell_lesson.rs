@@ -1,5 +1,6 @@
-//! The lesson of the Cornell box: ten samples toward the lamp show less noise than a thousand over the hemisphere, with
-//! the same mean; and a lamp that hangs below the ceiling lights it only when it shines on both sides.
+//! The lesson of the Cornell box: ten samples toward the lamp show less noise than a thousand over
+//! the hemisphere, with the same mean; and a lamp that hangs below the ceiling lights it only when
+//! it shines on both sides.
 //!
 //! `cargo run --release -p light-render --example cornell_lesson`
 
@@ -49,7 +50,8 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     Ok(())
 }
 
-/// The scene with its lamp 200 mm below the ceiling, in whose plane it lies otherwise, shining on the given `sides`.
+/// The scene with its lamp 200 mm below the ceiling, in whose plane it lies otherwise, shining on
+/// the given `sides`.
 fn hung(scene: &Scene, sides: EmissionSides) -> Scene {
     let mut scene = scene.clone();
     for mesh in &mut scene.meshes {

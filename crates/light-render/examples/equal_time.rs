@@ -1,9 +1,10 @@
-//! How noisy the night scene with its 20,000 lights is after equal time, for each way to choose lights and each number of choices at the first
-//! vertex; direct light alone, and full paths.
+//! How noisy the night scene with its 20,000 lights is after equal time, for each way to choose
+//! lights and each number of choices at the first vertex; direct light alone, and full paths.
 //!
-//! Two pictures of other seeds tell the noise without a reference: half their squared difference is what relMSE would be against a perfect one,
-//! times the time that one of them took. Pixels that show a light are left out, as in the demo. Time is that of the threads where the system
-//! tells it (Linux), so that other work on the machine counts little; wall-clock time elsewhere.
+//! Two pictures of other seeds tell the noise without a reference: half their squared difference is
+//! what relMSE would be against a perfect one, times the time that one of them took. Pixels that
+//! show a light are left out, as in the demo. Time is that of the threads where the system tells it
+//! (Linux), so that other work on the machine counts little; wall-clock time elsewhere.
 
 use core::num::NonZeroU32;
 use std::fs;
@@ -104,7 +105,8 @@ impl Stage {
     }
 }
 
-/// The relMSE that two pictures of the same kind have against a perfect one, over the pixels that are measured.
+/// The relMSE that two pictures of the same kind have against a perfect one, over the pixels that
+/// are measured.
 fn noise(a: &[Vec3], b: &[Vec3], reference: &[Vec3], measured: &[bool]) -> f64 {
     let errors: Vec<f64> = (0..a.len())
         .filter(|&i| measured[i])

@@ -1,7 +1,9 @@
-//! How many rays a second the renderer traces, next to bare `obvhs` on the same rays and the same build.
+//! How many rays a second the renderer traces, next to bare `obvhs` on the same rays and the same
+//! build.
 //!
-//! Follows paths through a scene that ships (`--example rays -- night`), keeps every ray that they ask for, and replays them on one thread, in turns:
-//! by [`Accel`], which leaves out the triangle that a ray starts on and finds the place of a hit, and by `obvhs` alone.
+//! Follows paths through a scene that ships (`--example rays -- night`), keeps every ray that they
+//! ask for, and replays them on one thread, in turns: by [`Accel`], which leaves out the triangle
+//! that a ray starts on and finds the place of a hit, and by `obvhs` alone.
 
 use core::hint::black_box;
 use core::time::Duration;

@@ -5,9 +5,10 @@ use lights::sources::{Light, PdfCoverage};
 
 use crate::World;
 
-/// How well `sampler` chooses among the lights of `world`: the exact relative variance of one choice, the median over points
-/// spread over the scene's triangles and spheres. Every light counts by the light of its middle, with nothing in the way; 0 would be a
-/// choice in proportion to it. `None` where no point is lit.
+/// How well `sampler` chooses among the lights of `world`: the exact relative variance of one
+/// choice, the median over points spread over the scene's triangles and spheres. Every light counts
+/// by the light of its middle, with nothing in the way; 0 would be a choice in proportion to it.
+/// `None` where no point is lit.
 #[must_use]
 pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
     /// Lights are looked at this often in all, so that the answer takes about a second.
@@ -27,7 +28,8 @@ pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f6
     variances.get(variances.len() / 2).copied()
 }
 
-/// `sum f^2 / pmf / (sum f)^2 - 1` over all lights that contribute `f` at `ctx`; `None` where none does.
+/// `sum f^2 / pmf / (sum f)^2 - 1` over all lights that contribute `f` at `ctx`; `None` where none
+/// does.
 fn variance_at<S: LightSampler>(
     world: &World,
     sampler: &S,

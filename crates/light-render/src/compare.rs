@@ -3,13 +3,15 @@ use lights::glam::{DVec3, Vec3};
 /// How far an image is from a reference of the same size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// Mean over pixels and channels of the squared difference over the squared reference plus 0.01.
+    /// Mean over pixels and channels of the squared difference over the squared reference plus
+    /// 0.01.
     pub rel_mse: f64,
     /// Mean over pixels and channels of the squared difference.
     pub mse: f64,
     /// Mean of image minus reference, a channel.
     pub bias: DVec3,
-    /// Standard error of [`bias`](Self::bias), a channel: the pixels' standard deviation over the root of their number.
+    /// Standard error of [`bias`](Self::bias), a channel: the pixels' standard deviation over the
+    /// root of their number.
     pub bias_error: DVec3,
 }
 

@@ -2,8 +2,9 @@ use lights::glam::Vec3;
 
 use lights::math::spectrum::rec709_luminance;
 
-/// The linear colour that shows how far a pixel is from its reference: white where equal, red where too bright, blue where too
-/// dark, full colour at one reference value (or 0.1, for dark pixels) of difference.
+/// The linear colour that shows how far a pixel is from its reference: white where equal, red where
+/// too bright, blue where too dark, full colour at one reference value (or 0.1, for dark pixels) of
+/// difference.
 #[must_use]
 pub fn difference(pixel: Vec3, reference: Vec3) -> Vec3 {
     /// Below this luminance the scale is absolute.

@@ -9,7 +9,8 @@ pub(crate) const CHECKSUM: &str = "lights.checksum";
 pub(crate) const NO_CHECKSUM: &str =
     "0000000000000000000000000000000000000000000000000000000000000000";
 
-/// Replaces [`NO_CHECKSUM`] in the note [`CHECKSUM`] of an OpenEXR file by the SHA-256 of all bytes; `false` if there is no such note.
+/// Replaces [`NO_CHECKSUM`] in the note [`CHECKSUM`] of an OpenEXR file by the SHA-256 of all
+/// bytes; `false` if there is no such note.
 pub(crate) fn seal(bytes: &mut [u8]) -> bool {
     let Some(start) = find(bytes) else {
         return false;

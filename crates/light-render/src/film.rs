@@ -4,8 +4,8 @@ use crate::{ExactSum, FilmRow};
 
 /// The picture while it is made: the sum of the samples of every pixel, rows from the top.
 ///
-/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no other. A pixel takes
-/// [`BYTES_PER_PIXEL`](Self::BYTES_PER_PIXEL).
+/// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no
+/// other. A pixel takes [`BYTES_PER_PIXEL`](Self::BYTES_PER_PIXEL).
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,
@@ -14,7 +14,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// What a pixel takes in rows where a sum of a channel reaches 65536; 24 bytes in others. Beyond sums of 2^31, which no scene that makes sense has, 48.
+    /// What a pixel takes in rows where a sum of a channel reaches 65536; 24 bytes in others.
+    /// Beyond sums of 2^31, which no scene that makes sense has, 48.
     pub const BYTES_PER_PIXEL: u64 = 30;
 
     /// A black film of `width` by `height` pixels.
@@ -28,7 +29,8 @@ impl Film {
         }
     }
 
-    /// The film with the given sums, row by row, of `samples` samples a pixel; `None` when the sums do not fit the size.
+    /// The film with the given sums, row by row, of `samples` samples a pixel; `None` when the sums
+    /// do not fit the size.
     #[must_use]
     pub fn from_sums(
         (width, height): (u32, u32),

@@ -2,8 +2,8 @@ use lights::glam::Vec3;
 
 use crate::ExactSum;
 
-/// The sums of a row of pixels, with as many bits as they need: 24 bytes a pixel while no sum of the row reaches 65536, 30 while none
-/// reaches 2^31, and 48 then.
+/// The sums of a row of pixels, with as many bits as they need: 24 bytes a pixel while no sum of
+/// the row reaches 65536, 30 while none reaches 2^31, and 48 then.
 #[derive(Clone, Debug)]
 pub struct FilmRow {
     /// The lower 64 bits of each channel's steps.

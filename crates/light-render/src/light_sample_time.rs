@@ -9,15 +9,16 @@ use lights::sources::{Light, PdfCoverage};
 
 use crate::{SampleStream, View, World};
 
-/// The mean time of choosing a light and sampling a point of it, over points that the camera sees, on one thread; `None`
-/// where it sees nothing.
+/// The mean time of choosing a light and sampling a point of it, over points that the camera sees,
+/// on one thread; `None` where it sees nothing.
 #[must_use]
 pub fn light_sample_time<S: LightSampler>(
     world: &World,
     view: &View,
     sampler: &S,
 ) -> Option<Duration> {
-    /// Enough calls that the clock's steps do not show, and no more than a tenth of a second of them.
+    /// Enough calls that the clock's steps do not show, and no more than a tenth of a second of
+    /// them.
     const CALLS: u32 = 1 << 16;
     const LIMIT: Duration = Duration::from_millis(100);
     let contexts = seen(world, view);

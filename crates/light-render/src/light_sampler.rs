@@ -96,7 +96,8 @@ impl AnyLightSampler {
         }
     }
 
-    /// The sampler of the given kind over lights of the given extents; the index is the id. Powers are those of the bounds.
+    /// The sampler of the given kind over lights of the given extents; the index is the id. Powers
+    /// are those of the bounds.
     ///
     /// # Errors
     /// When the lights are more than ids, or bounds make no sense.
@@ -136,7 +137,8 @@ impl AnyLightSampler {
     }
 
     /// How little a step down the hierarchy narrows a group of lights (see
-    /// [`LightBvh::degradation`](lights::bvh::LightBvh::degradation)); `None` for samplers that do not know.
+    /// [`LightBvh::degradation`](lights::bvh::LightBvh::degradation)); `None` for samplers that do
+    /// not know.
     #[must_use]
     pub fn degradation(&self) -> Option<f64> {
         match self {

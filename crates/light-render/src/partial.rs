@@ -9,11 +9,11 @@ use crate::partial_error::PartialPictureError;
 use crate::sum_words::{LOW_WORDS, WORDS, from_words, words};
 use crate::{ExactSum, Film, PictureIdentity};
 
-/// A picture of some of its samples, with exact sums: parts of one picture add up to the same bits as if it had been
-/// rendered at once.
+/// A picture of some of its samples, with exact sums: parts of one picture add up to the same bits
+/// as if it had been rendered at once.
 ///
-/// In a file it is an ordinary OpenEXR picture (R, G, B: the mean) with further channels that hold the sums, the picture's identity, and a
-/// checksum of all bytes.
+/// In a file it is an ordinary OpenEXR picture (R, G, B: the mean) with further channels that hold
+/// the sums, the picture's identity, and a checksum of all bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartialPicture {
     /// The sums.

@@ -1,8 +1,10 @@
 use core::fmt::{self, Write};
 
-/// What decides what a picture is, but for its samples: parts of equal identities add up to one picture.
+/// What decides what a picture is, but for its samples: parts of equal identities add up to one
+/// picture.
 ///
-/// A list of aspects, such as the lights or the seed, each with a value without line breaks: a number, a word, a digest.
+/// A list of aspects, such as the lights or the seed, each with a value without line breaks: a
+/// number, a word, a digest.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PictureIdentity {
     aspects: Vec<(String, String)>,

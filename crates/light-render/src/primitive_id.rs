@@ -1,4 +1,5 @@
-/// Which primitive a ray met: the number under which it is stored and, for what stands in several places, in which of them.
+/// Which primitive a ray met: the number under which it is stored and, for what stands in several
+/// places, in which of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrimitiveId {
     number: u32,

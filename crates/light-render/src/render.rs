@@ -45,10 +45,11 @@ pub struct Rendering {
     pub rejected: u64,
 }
 
-/// Renders `view` of `world` with lights chosen by `sampler`, on the threads of the current `rayon` pool.
+/// Renders `view` of `world` with lights chosen by `sampler`, on the threads of the current `rayon`
+/// pool.
 ///
-/// The picture depends on the arguments alone, never on the number of threads; with a time limit it depends on how many
-/// samples fit into it.
+/// The picture depends on the arguments alone, never on the number of threads; with a time limit it
+/// depends on how many samples fit into it.
 #[must_use]
 pub fn render<S: LightSampler + Sync>(
     world: &World,
@@ -107,7 +108,8 @@ pub fn render<S: LightSampler + Sync>(
     }
 }
 
-/// The end of the pass that begins at sample `next`: passes double, and shrink to what the time limit leaves.
+/// The end of the pass that begins at sample `next`: passes double, and shrink to what the time
+/// limit leaves.
 fn pass_end(settings: &RenderSettings, next: u32, elapsed: Duration) -> u32 {
     /// Longer passes would tell the progress too rarely.
     const LONGEST: u32 = 8;

@@ -2,9 +2,11 @@ use lights::glam::Vec2;
 
 use crate::{FlightNumbers, sobol};
 
-/// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four dimensions at a time.
+/// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four
+/// dimensions at a time.
 ///
-/// A pure function of seed, pixel and sample number: the same numbers whatever thread asks, in whatever order.
+/// A pure function of seed, pixel and sample number: the same numbers whatever thread asks, in
+/// whatever order.
 ///
 /// # Source
 /// `[Burley2020]`, section 5 (padding by seed).
@@ -74,8 +76,8 @@ impl SampleStream {
         }
     }
 
-    /// Where on the `i`th of `count` lights that are chosen at vertex `vertex`, in `[0, 1)^2`: stratified over all lights
-    /// that all samples of the pixel choose there.
+    /// Where on the `i`th of `count` lights that are chosen at vertex `vertex`, in `[0, 1)^2`:
+    /// stratified over all lights that all samples of the pixel choose there.
     #[inline]
     #[must_use]
     pub fn light_point(&self, vertex: u32, i: u32, count: u32) -> Vec2 {
@@ -101,7 +103,8 @@ impl SampleStream {
         sobol::hash(self.seed ^ sobol::hash(self.index))
     }
 
-    /// Four numbers that are stratified together over the samples of the pixel, and independent of every other set.
+    /// Four numbers that are stratified together over the samples of the pixel, and independent of
+    /// every other set.
     #[inline]
     fn set(&self, set: u32) -> [u32; 4] {
         sobol::point(self.index, sobol::hash(self.seed ^ set))

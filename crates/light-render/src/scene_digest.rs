@@ -4,7 +4,8 @@ use crate::content_digest::content_digest;
 use crate::integrator::PathSettings;
 use crate::{PictureIdentity, RenderSettings, SamplerKind, View};
 
-/// The layout of files with parts of pictures, and the rules by which samples are made: one that changes makes other pictures.
+/// The layout of files with parts of pictures, and the rules by which samples are made: one that
+/// changes makes other pictures.
 const FORMAT: u32 = 2;
 
 /// Digests of all of a scene that its picture depends on, taken before the scene becomes a world.
@@ -28,7 +29,8 @@ impl SceneDigest {
             // The view knows it, with what the command line changes.
             camera: _,
             camera_medium,
-            // They may name files by other paths on other machines, and say nothing about the picture.
+            // They may name files by other paths on other machines, and say nothing about the
+            // picture.
             warnings: _,
         } = scene;
         let geometry = (meshes, spheres, prototypes, placements);
@@ -41,7 +43,8 @@ impl SceneDigest {
         ])
     }
 
-    /// The identity of the picture of `view` of the scene, rendered with `sampler` as `settings` say.
+    /// The identity of the picture of `view` of the scene, rendered with `sampler` as `settings`
+    /// say.
     #[must_use]
     pub fn identity(
         &self,

@@ -46,7 +46,8 @@ pub enum SceneLightsError {
 }
 
 impl SceneLights {
-    /// Builds all lights, and tells each shining mesh the id of its first triangle, each shining sphere its own.
+    /// Builds all lights, and tells each shining mesh the id of its first triangle, each shining
+    /// sphere its own.
     pub(crate) fn new(
         meshes: &mut [WorldMesh],
         spheres: &mut [WorldSphere],

@@ -1,15 +1,16 @@
 //! Sobol's sequence in four dimensions, Owen-scrambled and shuffled by a seed.
 //!
-//! Whole numbers here are "reversed": the bit that is worth one half is the lowest. A scramble is then a hash in which
-//! every bit depends on lower bits alone.
+//! Whole numbers here are "reversed": the bit that is worth one half is the lowest. A scramble is
+//! then a hash in which every bit depends on lower bits alone.
 
 /// How many bits of the index count: the sequence repeats after 2^24 points.
 const INDEX_BITS: usize = 24;
 
-/// Point number `index` of the sequence that `seed` scrambles and shuffles: four numbers, to be read over 2^32.
+/// Point number `index` of the sequence that `seed` scrambles and shuffles: four numbers, to be
+/// read over 2^32.
 ///
-/// Any power of two of consecutive points, from a multiple of it on, is stratified in every elementary interval; sequences of
-/// different seeds are independent.
+/// Any power of two of consecutive points, from a multiple of it on, is stratified in every
+/// elementary interval; sequences of different seeds are independent.
 ///
 /// # Source
 /// `[Burley2020]`, sections 4 and 5; the hash is that of `[Vegdahl2021]`.
@@ -93,7 +94,8 @@ const fn van_der_corput() -> [u32; 32] {
     v
 }
 
-/// The direction numbers of a primitive polynomial of degree `S` with inner coefficients `a`, from its first numbers `m`.
+/// The direction numbers of a primitive polynomial of degree `S` with inner coefficients `a`, from
+/// its first numbers `m`.
 ///
 /// # Source
 /// `[JoeKuo2008]`, equations 2 and 3, and table of initial numbers.

@@ -1,4 +1,5 @@
-/// How many integers hold the sum of a channel, and how many of them are always there; the others are 0 if they are not.
+/// How many integers hold the sum of a channel, and how many of them are always there; the others
+/// are 0 if they are not.
 pub(crate) const WORDS: usize = 4;
 pub(crate) const LOW_WORDS: usize = 2;
 

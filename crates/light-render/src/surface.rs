@@ -26,10 +26,11 @@ pub struct Surface {
 const ERROR: f32 = 8.0 * f32::EPSILON;
 
 impl Surface {
-    /// The point with the given weights of the second and third of `corners`; flat, without texture coordinates.
+    /// The point with the given weights of the second and third of `corners`; flat, without texture
+    /// coordinates.
     ///
-    /// The error bound is a generous multiple of the rounding error of the interpolation, so that a ray which starts
-    /// outside of it does not meet a neighbour in the same plane.
+    /// The error bound is a generous multiple of the rounding error of the interpolation, so that a
+    /// ray which starts outside of it does not meet a neighbour in the same plane.
     #[inline]
     #[must_use]
     pub fn on_triangle(triangle: PrimitiveId, corners: [Vec3; 3], barycentric: Vec2) -> Self {
@@ -65,7 +66,8 @@ impl Surface {
         }
     }
 
-    /// The point with the shading normal that `normals` of the corners give, turned to the side of `n`; flat without them.
+    /// The point with the shading normal that `normals` of the corners give, turned to the side of
+    /// `n`; flat without them.
     #[inline]
     #[must_use]
     pub(crate) fn with_normals(self, normals: Option<[Vec3; 3]>, barycentric: Vec2) -> Self {
@@ -94,7 +96,8 @@ impl Surface {
         }
     }
 
-    /// The query that light samplers and lights answer at this point, with the normals turned to the side of `wo`.
+    /// The query that light samplers and lights answer at this point, with the normals turned to
+    /// the side of `wo`.
     #[inline]
     #[must_use]
     pub fn light_context(&self, wo: Vec3) -> LightSampleContext {

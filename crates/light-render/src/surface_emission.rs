@@ -117,7 +117,8 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// An emission with holes; `None` if nothing is there. `mapping` is that of the image, if it has one.
+    /// An emission with holes; `None` if nothing is there. `mapping` is that of the image, if it
+    /// has one.
     ///
     /// A surface that is not there at all shines as a whole, and is not seen.
     fn masked(

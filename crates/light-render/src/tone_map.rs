@@ -17,8 +17,8 @@ impl ToneMap {
         Self { exposure }
     }
 
-    /// The exposure that brings the log-average luminance of `pixels` to middle grey; [`UNIT`](Self::UNIT) for a black
-    /// picture.
+    /// The exposure that brings the log-average luminance of `pixels` to middle grey;
+    /// [`UNIT`](Self::UNIT) for a black picture.
     ///
     /// # Source
     /// `[Reinhard2002]`, equations 1 and 2, over the pixels that are not black.
@@ -40,8 +40,8 @@ impl ToneMap {
         Self { exposure }
     }
 
-    /// The linear colour in `[0, 1]` that a screen should show for a pixel: exposed, with highlights rolled off channel by
-    /// channel.
+    /// The linear colour in `[0, 1]` that a screen should show for a pixel: exposed, with
+    /// highlights rolled off channel by channel.
     #[must_use]
     pub fn apply(&self, radiance: Vec3) -> Vec3 {
         (radiance * self.exposure).max(Vec3::ZERO).map(roll_off)

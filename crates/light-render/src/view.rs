@@ -72,7 +72,8 @@ impl View {
         })
     }
 
-    /// The same view, of which only some pixels are rendered: to the same values as in the whole picture.
+    /// The same view, of which only some pixels are rendered: to the same values as in the whole
+    /// picture.
     ///
     /// # Errors
     /// When `crop` has no pixels, or some that are outside of the picture.
@@ -104,8 +105,8 @@ impl View {
         (self.width, self.height)
     }
 
-    /// The ray through the place `film` of the picture, in pixels from its top left corner, and through the place of
-    /// the lens that `u_lens` in `[0, 1)^2` stands for.
+    /// The ray through the place `film` of the picture, in pixels from its top left corner, and
+    /// through the place of the lens that `u_lens` in `[0, 1)^2` stands for.
     #[inline]
     #[must_use]
     pub fn ray(&self, film: Vec2, u_lens: Vec2) -> Ray {

@@ -1,4 +1,5 @@
-//! Lamps with alpha are as bright as the share that is there, from every file format and by every estimator.
+//! Lamps with alpha are as bright as the share that is there, from every file format and by every
+//! estimator.
 
 mod support;
 

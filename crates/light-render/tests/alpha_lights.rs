@@ -1,4 +1,5 @@
-//! Lamps with alpha: light samples, material samples and both together find what is there, as much as a closed form says.
+//! Lamps with alpha: light samples, material samples and both together find what is there, as much
+//! as a closed form says.
 
 mod support;
 
@@ -16,7 +17,8 @@ use support::{Shot, plane, room};
 const ALBEDO: f32 = 0.5;
 const HEIGHT: f32 = 3.0;
 
-/// The means by all three estimators agree with each other and with `expected` within three standard errors.
+/// The means by all three estimators agree with each other and with `expected` within three
+/// standard errors.
 fn assert_means(what: &str, scene: &Scene, expected: f64) {
     let all = [
         (Estimator::Mis, 16),
@@ -66,8 +68,8 @@ fn under_square(emission: Emission, alpha: Option<Alpha>, scene: Scene) -> Scene
     scene
 }
 
-/// What the floor's middle shows under the square, for a radiance of 1: the form factor of four squares with a corner over it, their
-/// sides as long as they are high.
+/// What the floor's middle shows under the square, for a radiance of 1: the form factor of four
+/// squares with a corner over it, their sides as long as they are high.
 fn square() -> f64 {
     let corner = 2.0 / 2f64.sqrt() * (1.0 / 2f64.sqrt()).atan() / (2.0 * PI);
     f64::from(ALBEDO) * 4.0 * corner
@@ -103,8 +105,8 @@ fn a_cutoff_leaves_all_of_a_square_or_nothing() {
     }
 }
 
-/// Images of one value, which have a closed form, alone and under an image of emission, with one mapping or two, with a factor and
-/// with a cutoff.
+/// Images of one value, which have a closed form, alone and under an image of emission, with one
+/// mapping or two, with a factor and with a cutoff.
 #[test]
 fn alpha_images_of_one_value() {
     let turned = TextureMapping {
@@ -150,7 +152,8 @@ fn alpha_images_of_one_value() {
     }
 }
 
-/// A mask of which one half is there, of a lamp of which the left third shines: whatever is where, all three agree.
+/// A mask of which one half is there, of a lamp of which the left third shines: whatever is where,
+/// all three agree.
 #[test]
 fn alpha_images_over_images_of_emission() {
     for (cutoff, turn) in [(None, 0.0), (None, 0.4), (Some(0.5), 0.0), (Some(0.5), 0.4)] {
@@ -248,7 +251,8 @@ fn spheres_with_holes() {
                     ..sphere(lamp)
                 });
                 let a = f64::from(share);
-                // A sphere with its centre at the height h over the floor has the form factor (r / h)^2.
+                // A sphere with its centre at the height h over the floor has the form factor (r /
+                // h)^2.
                 let factor = 8.0 * f64::from(ALBEDO) / 36.0;
                 let expected = factor * (a * outside + (1.0 - a) * a * inside);
                 let what = format!("{sides:?}, {front:?}, {share}, {has_image}");

@@ -194,8 +194,8 @@ const GLTF: &str = r#"{
 fn broken_files_with_every_key_end_with_status_2() {
     /// Places at which each file is cut, and has a hole.
     const PLACES: usize = 160;
-    /// Variants that are no scene, at least: a text that ends early may still be one, and what is not known by its name is left out with a
-    /// warning.
+    /// Variants that are no scene, at least: a text that ends early may still be one, and what is
+    /// not known by its name is left out with a warning.
     const BROKEN: usize = 200;
     let name = format!("lights-bad-keys-{}", std::process::id());
     let folder = Folder(std::env::temp_dir().join(name));

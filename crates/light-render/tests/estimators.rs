@@ -127,7 +127,8 @@ fn depth_adds_light() {
     );
 }
 
-/// Rounding puts half of the points of a tilted triangle behind it, where its own light would fall on them from all over the hemisphere.
+/// Rounding puts half of the points of a tilted triangle behind it, where its own light would fall
+/// on them from all over the hemisphere.
 #[test]
 fn a_lamp_does_not_light_its_own_back() {
     let mut scene = Scene::default();

@@ -1,4 +1,5 @@
-//! The same scenes by renderers that nobody here wrote: the pictures of `testdata/foreign` are Mitsuba's and Cycles'.
+//! The same scenes by renderers that nobody here wrote: the pictures of `testdata/foreign` are
+//! Mitsuba's and Cycles'.
 
 mod support;
 
@@ -126,7 +127,8 @@ fn assert_looks_like(name: &str, scene: &Scene) {
         "{name}: mean {whole}, theirs {expected}, {z} standard errors apart"
     );
 
-    // Of several hundred blocks one may be far off; errors that are themselves estimated have longer tails.
+    // Of several hundred blocks one may be far off; errors that are themselves estimated have
+    // longer tails.
     let blocks = at_scale(BLOCK).into_iter().zip(means(&theirs, BLOCK));
     let errors = image(&format!("{name}-error.exr"));
     for (i, (((ours, error), theirs), their_error)) in blocks.zip(errors).enumerate() {

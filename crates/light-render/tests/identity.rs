@@ -1,4 +1,5 @@
-//! Whatever a picture depends on is part of its identity, so that parts of other pictures are refused.
+//! Whatever a picture depends on is part of its identity, so that parts of other pictures are
+//! refused.
 
 use core::num::NonZeroU32;
 use core::time::Duration;

@@ -58,13 +58,15 @@ fn assert_point(light: LightDesc<Rgb>, irradiance: DVec3) {
 /// A light in the middle of nowhere that looks along z: from light space to the scene.
 const POSITION: Vec3 = Vec3::new(30.0, 40.0, 0.0);
 
-/// The light at [`POSITION`] turned so that the origin lies in the direction `toward` of light space.
+/// The light at [`POSITION`] turned so that the origin lies in the direction `toward` of light
+/// space.
 fn aimed(toward: Vec3) -> Affine3A {
     let turn = Quat::from_rotation_arc(toward.normalize(), -POSITION.normalize());
     Affine3A::from_rotation_translation(turn, POSITION)
 }
 
-/// The irradiance at the origin from a light at [`POSITION`] of this intensity: cosine over squared distance.
+/// The irradiance at the origin from a light at [`POSITION`] of this intensity: cosine over squared
+/// distance.
 fn from_position(intensity: Vec3) -> DVec3 {
     intensity.as_dvec3() * 0.8 / 2500.0
 }
@@ -90,7 +92,8 @@ fn a_spot_light_fades_by_a_smooth_step_of_the_cosine() {
 
 #[test]
 fn a_projected_picture_throws_each_texel_where_it_belongs() {
-    // Three texels across, two down; the shorter side spans the angle, each texel of the plane z = 1 is 1 wide.
+    // Three texels across, two down; the shorter side spans the angle, each texel of the plane z =
+    // 1 is 1 wide.
     let texels: Vec<f32> = (0..18u8).map(|i| f32::from(i) * 100.0).collect();
     let image = Image::from_f32([3, 2], Channels::Rgb, texels).expect("3 x 2");
     for (x, y) in [(0u32, 0u32), (1, 0), (2, 1), (0, 1)] {
@@ -152,9 +155,10 @@ fn a_sun_gives_the_irradiance_of_its_disk() {
     }
 }
 
-/// The irradiance at the origin, whose normal is +y, from a polygon of radiance 1 above it, its corners
-/// counter-clockwise seen from there: half the sum over its edges of the angle they span times the cosine between the
-/// normal and that of the plane through the edge and the origin (Lambert's formula).
+/// The irradiance at the origin, whose normal is +y, from a polygon of radiance 1 above it, its
+/// corners counter-clockwise seen from there: half the sum over its edges of the angle they span
+/// times the cosine between the normal and that of the plane through the edge and the origin
+/// (Lambert's formula).
 fn from_polygon(corners: &[Vec3]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     let edge = |(a, b): (&Vec3, &Vec3)| {
@@ -164,7 +168,8 @@ fn from_polygon(corners: &[Vec3]) -> f64 {
     -0.5 * corners.iter().zip(next).map(edge).sum::<f64>()
 }
 
-/// A plane under a lamp with these corners, which shines to where they run counter-clockwise, or to both sides.
+/// A plane under a lamp with these corners, which shines to where they run counter-clockwise, or to
+/// both sides.
 fn under_lamp(corners: [Vec3; 4], emission: Emission) -> Scene {
     let mut scene = ground();
     let lamp = scene.add_material(Material {

@@ -1,4 +1,5 @@
-//! The choice between the tree and the sky follows lights that change, and is the same in every way to ask.
+//! The choice between the tree and the sky follows lights that change, and is the same in every way
+//! to ask.
 #![cfg(feature = "alloc")]
 
 use light_samplers::light_bounds::glam::Vec3;

@@ -1,4 +1,5 @@
-//! Three lights whose probabilities follow from their powers: two lamps of 1 W and 3 W in one place, and a sun.
+//! Three lights whose probabilities follow from their powers: two lamps of 1 W and 3 W in one
+//! place, and a sun.
 #![cfg(feature = "alloc")]
 
 use light_bvh::{CutDetail, LightBvhOptions};
@@ -61,7 +62,8 @@ fn check_calls(name: &str, sampler: impl LightSampler, at_floor: [f64; 3], emitt
     }
 }
 
-/// Probabilities are those expected, and evenly spread numbers choose each light so often, with an even rest.
+/// Probabilities are those expected, and evenly spread numbers choose each light so often, with an
+/// even rest.
 fn check_choices(
     name: &str,
     expected: [f64; 3],
@@ -153,7 +155,8 @@ fn equal_shares_for_the_sun_and_the_rest() {
     check("reference", &tree, shares, shares);
 }
 
-/// A flat lamp that faces the floor straight has a radiant intensity of its power by pi: 4 W at a distance of 2 give 1 / pi W/m².
+/// A flat lamp that faces the floor straight has a radiant intensity of its power by pi: 4 W at a
+/// distance of 2 give 1 / pi W/m².
 #[test]
 fn in_proportion_to_irradiance() {
     let lamps = 1.0 / core::f64::consts::PI;

@@ -98,7 +98,8 @@ fn exchanged(set: &LightSet) -> Vec<LightExtent> {
     extents.iter().map(other).collect()
 }
 
-/// Choices from a closer prepared, with the probabilities that several choices of one call have by it.
+/// Choices from a closer prepared, with the probabilities that several choices of one call have by
+/// it.
 struct OfCut(BvhLightSampler);
 
 impl LightSampler for OfCut {

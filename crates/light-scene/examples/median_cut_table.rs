@@ -1,7 +1,9 @@
-//! Prints how far directional lights from a median cut stand from image importance sampling, as the table of light-sources'
-//! first page: `cargo xtask median-cut-table [IMAGE...]` runs it and puts the result there.
+//! Prints how far directional lights from a median cut stand from image importance sampling, as the
+//! table of light-sources' first page: `cargo xtask median-cut-table [IMAGE...]` runs it and puts
+//! the result there.
 //!
-//! What is estimated is the unshadowed irradiance of 64 normals, against the exact integral over the same equal-area image.
+//! What is estimated is the unshadowed irradiance of 64 normals, against the exact integral over
+//! the same equal-area image.
 
 use core::error::Error;
 use std::path::{Path, PathBuf};

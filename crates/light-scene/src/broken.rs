@@ -1,5 +1,5 @@
-//! Broken variants of good files: every reader answers each with a scene or with one line, and asks for no more memory than
-//! the file makes likely.
+//! Broken variants of good files: every reader answers each with a scene or with one line, and asks
+//! for no more memory than the file makes likely.
 
 use std::fs;
 use std::path::Path;

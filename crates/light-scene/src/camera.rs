@@ -23,7 +23,8 @@ pub struct Camera {
     pub resolution: Option<[u32; 2]>,
     /// The part of that image that the file asks for; absent: all of it.
     pub crop: Option<Crop>,
-    /// What radiance is multiplied with to be shown on a screen; absent where whoever shows it decides.
+    /// What radiance is multiplied with to be shown on a screen; absent where whoever shows it
+    /// decides.
     pub exposure: Option<f32>,
 }
 
@@ -36,7 +37,8 @@ pub struct Lens {
     pub focus_distance: f32,
 }
 
-/// Some pixels of an image: from column and row `min` on, up to those of `max`, which are not part of it.
+/// Some pixels of an image: from column and row `min` on, up to those of `max`, which are not part
+/// of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crop {
     /// First column and row.

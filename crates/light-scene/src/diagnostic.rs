@@ -1,7 +1,8 @@
 use core::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What is wrong with a file, or was ignored in it, and where: the error of every reader, and its warnings.
+/// What is wrong with a file, or was ignored in it, and where: the error of every reader, and its
+/// warnings.
 ///
 /// Its display is one line: `path:line: message` or `path: byte N: message`.
 #[derive(Clone, Debug, PartialEq, Eq)]

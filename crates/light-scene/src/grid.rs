@@ -2,8 +2,8 @@ use crate::glam::{Vec2, Vec3};
 use crate::{MaterialId, Mesh};
 
 impl Mesh {
-    /// A grid of vertices over the unit square of (u, v); `point` gives position and normal, u runs counter-clockwise
-    /// around v seen from the front.
+    /// A grid of vertices over the unit square of (u, v); `point` gives position and normal, u runs
+    /// counter-clockwise around v seen from the front.
     pub(crate) fn grid(
         [columns, rows]: [u16; 2],
         point: impl Fn(f32, f32) -> (Vec3, Vec3),

@@ -20,8 +20,8 @@ pub fn read_luminaire(path: &Path) -> Result<Luminaire, Diagnostic> {
     parse_luminaire(path, &read_text(path)?, Files::DISK)
 }
 
-/// As [`read_luminaire`], from the text of the file; `path` says by its ending which format it has, and names it in messages. A file that
-/// `TILT=` names is asked of `files`.
+/// As [`read_luminaire`], from the text of the file; `path` says by its ending which format it has,
+/// and names it in messages. A file that `TILT=` names is asked of `files`.
 ///
 /// # Errors
 /// As [`read_luminaire`].
@@ -54,7 +54,8 @@ pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic
     Diagnostic::at(beside.as_deref().unwrap_or(path), place, &message.message)
 }
 
-/// A goniometric light with the distribution and the luminous power of `web`: an equal-area square of `size` texels a side, at least 1.
+/// A goniometric light with the distribution and the luminous power of `web`: an equal-area square
+/// of `size` texels a side, at least 1.
 ///
 /// # Panics
 /// When `size` is 0.

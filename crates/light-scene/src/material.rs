@@ -14,15 +14,15 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// Where the surface is; absent: everywhere.
     pub alpha: Option<Alpha>,
-    /// The media behind and in front of the surface; where both are the same, it does not bound a medium, and rays stay
-    /// in the one that they come from.
+    /// The media behind and in front of the surface; where both are the same, it does not bound a
+    /// medium, and rays stay in the one that they come from.
     pub media: MediumInterface,
 }
 
 /// How a surface scatters light. Reflectances lie in [0, 1], channel by channel.
 ///
-/// `alpha` are the widths of the microfacet distribution (GGX) along u and v; (0, 0) is perfectly smooth. `eta` is
-/// the index of refraction on the back side of the surface over that on its front.
+/// `alpha` are the widths of the microfacet distribution (GGX) along u and v; (0, 0) is perfectly
+/// smooth. `eta` is the index of refraction on the back side of the surface over that on its front.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub enum Surface {
@@ -73,9 +73,11 @@ pub enum Surface {
         /// Roughness of the coat.
         alpha: Vec2,
     },
-    /// The surface of one of two materials at each point, chosen at random: paint that comes off, dust on a metal.
+    /// The surface of one of two materials at each point, chosen at random: paint that comes off,
+    /// dust on a metal.
     Mix {
-        /// The two, of which nothing but the surfaces counts. They come before this one in the scene's list, or are black.
+        /// The two, of which nothing but the surfaces counts. They come before this one in the
+        /// scene's list, or are black.
         materials: [MaterialId; 2],
         /// How likely the second is, in [0, 1]; of a colour the first channel counts.
         amount: Color,
@@ -95,14 +97,14 @@ pub enum Color {
 
 /// How much of a surface is there: 0 is a hole, 1 is all of it.
 ///
-/// Holes let rays pass and emit nothing. But a lamp whose share is the constant 0, without a cutoff, shines as a whole and is
-/// not seen.
+/// Holes let rays pass and emit nothing. But a lamp whose share is the constant 0, without a
+/// cutoff, shines as a whole and is not seen.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Alpha {
     /// The share, in [0, 1]; of a colour the first channel counts.
     pub share: Color,
-    /// The surface is there where the share is at least this, and nowhere else; absent: it is there for the share of
-    /// the rays.
+    /// The surface is there where the share is at least this, and nowhere else; absent: it is there
+    /// for the share of the rays.
     pub cutoff: Option<f32>,
 }
 
@@ -169,7 +171,8 @@ impl ColorImage {
 }
 
 impl Surface {
-    /// The conductor that reflects the share `reflectance` at normal incidence, with index of refraction 1.
+    /// The conductor that reflects the share `reflectance` at normal incidence, with index of
+    /// refraction 1.
     ///
     /// Shares are clamped to 0.9999, as 1 would need infinite absorption.
     #[must_use]

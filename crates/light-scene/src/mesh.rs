@@ -45,7 +45,8 @@ impl Mesh {
         mesh
     }
 
-    /// Adds two triangles over four corners, counter-clockwise seen from the front; the mesh must be flat shaded.
+    /// Adds two triangles over four corners, counter-clockwise seen from the front; the mesh must
+    /// be flat shaded.
     pub fn push_quad(&mut self, corners: [Vec3; 4]) {
         let first = self.next_vertex();
         self.positions.extend(corners);

@@ -3,7 +3,8 @@ use lights::math::Aabb;
 use crate::glam::{Affine3A, Vec3};
 use crate::{Mesh, PrototypeId, Sphere};
 
-/// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it stands nowhere.
+/// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it
+/// stands nowhere.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Prototype {
     /// The name in the file; may be empty.
@@ -19,7 +20,8 @@ pub struct Prototype {
 pub struct Placement {
     /// What stands there.
     pub prototype: PrototypeId,
-    /// From its coordinates to those of the scene; what was in front of a triangle stays in front, mirrored or not.
+    /// From its coordinates to those of the scene; what was in front of a triangle stays in front,
+    /// mirrored or not.
     pub place: Affine3A,
 }
 

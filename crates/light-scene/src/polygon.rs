@@ -7,7 +7,8 @@ use crate::glam::{DVec2, DVec3, Vec3};
 /// Convex faces of at most so many corners become fans.
 const SMALL: usize = 16;
 
-/// What the corners of a face times those that point inward may be: what clipping takes is in proportion to it.
+/// What the corners of a face times those that point inward may be: what clipping takes is in
+/// proportion to it.
 pub(crate) const MOST_WORK: usize = 1 << 24;
 
 /// How much more area than the face the triangles may have together, for rounding.
@@ -32,8 +33,9 @@ impl fmt::Display for TooInvolved {
 
 /// The triangles of a face, as places in the list of its corners, all with its front.
 ///
-/// A convex face of few corners is a fan around the first. One of many is halved over and over: a fan would put all its triangles
-/// side by side around one corner, where nothing tells them apart. Any other is cut ear by ear, in its own plane.
+/// A convex face of few corners is a fan around the first. One of many is halved over and over: a
+/// fan would put all its triangles side by side around one corner, where nothing tells them apart.
+/// Any other is cut ear by ear, in its own plane.
 ///
 /// # Errors
 /// When more than [`MOST_WORK`] would be to be done.

@@ -20,10 +20,11 @@ pub struct NamedMedium {
     pub medium: AnyMedium<Rgb>,
 }
 
-/// What a scene file describes, in the user's units: what is there, what it is made of, what shines, who looks.
+/// What a scene file describes, in the user's units: what is there, what it is made of, what
+/// shines, who looks.
 ///
-/// Right-handed, y up by convention; lengths are in scene units. A `Scene` may hold nonsense (a material that emits
-/// negative radiance); the lights built from it may not.
+/// Right-handed, y up by convention; lengths are in scene units. A `Scene` may hold nonsense (a
+/// material that emits negative radiance); the lights built from it may not.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Triangles that stand where they are, one mesh per group and material of the file.
@@ -34,7 +35,8 @@ pub struct Scene {
     pub prototypes: Vec<Prototype>,
     /// Where they stand.
     pub placements: Vec<Placement>,
-    /// Materials; a mesh names its material by position. What is made of one that emits light shines.
+    /// Materials; a mesh names its material by position. What is made of one that emits light
+    /// shines.
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
@@ -51,8 +53,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A box around all that is there, empty when there is nothing. Around meshes and spheres it is the smallest; a placement counts
-    /// by the corners of the boxes around what it holds.
+    /// A box around all that is there, empty when there is nothing. Around meshes and spheres it is
+    /// the smallest; a placement counts by the corners of the boxes around what it holds.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);
@@ -146,7 +148,8 @@ impl Scene {
         of(&self.meshes) + placed
     }
 
-    /// The scene's camera or, if it has none, one in front of the scene (toward +z of its centre) that sees all of it.
+    /// The scene's camera or, if it has none, one in front of the scene (toward +z of its centre)
+    /// that sees all of it.
     #[must_use]
     pub fn camera_or_default(&self) -> Camera {
         let default = || Camera::framing(&self.bounds(), Vec3::NEG_Z);

@@ -18,8 +18,8 @@ pub fn read_scene(path: &Path) -> Result<Scene, Diagnostic> {
     parse_scene(path, &read_bytes(path)?, Files::DISK)
 }
 
-/// As [`read_scene`], from the bytes of the file; `path` says by its ending which format they have, names them in messages
-/// and is where the names of other files start from.
+/// As [`read_scene`], from the bytes of the file; `path` says by its ending which format they have,
+/// names them in messages and is where the names of other files start from.
 ///
 /// # Errors
 /// As [`read_scene`].

@@ -1,5 +1,5 @@
-/// How many triangles and spheres that shine may stand in all places of objects: each is a light of its own, so that it is copied.
-/// So many triangles take about 8 GB.
+/// How many triangles and spheres that shine may stand in all places of objects: each is a light of
+/// its own, so that it is copied. So many triangles take about 8 GB.
 pub const MOST_SHINING_COPIES: usize = 1 << 25;
 
 /// Counts what will be copied while a file is read.

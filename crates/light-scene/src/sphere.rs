@@ -8,18 +8,20 @@ use crate::{MaterialId, Mesh};
 
 /// A whole sphere of one material: round, not made of triangles.
 ///
-/// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the axis +z of `place`, v from the
-/// lower pole to the upper.
+/// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the
+/// axis +z of `place`, v from the lower pole to the upper.
 ///
-/// One that shines is one light, which is found best where no light passes its surface: what a sphere with holes or of
-/// [`Surface::Interface`](crate::Surface::Interface) gives off at its inside is asked for at the nearer side alone.
+/// One that shines is one light, which is found best where no light passes its surface: what a
+/// sphere with holes or of [`Surface::Interface`](crate::Surface::Interface) gives off at its
+/// inside is asked for at the nearer side alone.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Sphere {
     /// The name in the file; may be empty.
     pub name: String,
     /// What it is made of.
     pub material: MaterialId,
-    /// From the unit sphere around the origin to the scene: a turn, mirrored or not, with one scale in all directions.
+    /// From the unit sphere around the origin to the scene: a turn, mirrored or not, with one scale
+    /// in all directions.
     pub place: Affine3A,
     /// Which side is the front, on which a one-sided emitter shines.
     pub front: SphereFront,
@@ -74,7 +76,8 @@ impl Sphere {
         }
     }
 
-    /// The shape of a light with this surface; it makes no sense where `place` does not keep angles.
+    /// The shape of a light with this surface; it makes no sense where `place` does not keep
+    /// angles.
     #[must_use]
     pub fn shape(&self) -> ShapeDesc {
         let Affine3A {

@@ -1,4 +1,5 @@
-//! What the readers of line-by-line formats share: lines, words, numbers, and errors that know where they are.
+//! What the readers of line-by-line formats share: lines, words, numbers, and errors that know
+//! where they are.
 
 use alloc::borrow::Cow;
 use core::str::SplitWhitespace;
@@ -24,7 +25,8 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     read_all(path).map_err(|error| Diagnostic::file(path, format!("cannot be read: {error}")))
 }
 
-/// The bytes of a file; those of a pipe or a device, which may have no end, if there are not too many.
+/// The bytes of a file; those of a pipe or a device, which may have no end, if there are not too
+/// many.
 pub(crate) fn read_all(path: &Path) -> io::Result<Vec<u8>> {
     const MOST: u64 = 1 << 28;
     let file = File::open(path)?;

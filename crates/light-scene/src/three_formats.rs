@@ -1,4 +1,5 @@
-//! One small scene written in every format that is read: the same triangles, materials, lights and cameras.
+//! One small scene written in every format that is read: the same triangles, materials, lights and
+//! cameras.
 
 use std::fs::read;
 use std::path::{Path, PathBuf};

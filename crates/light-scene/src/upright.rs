@@ -1,4 +1,5 @@
-//! The same picture, each quarter of another brightness, upright on a wall in every format, and around a scene.
+//! The same picture, each quarter of another brightness, upright on a wall in every format, and
+//! around a scene.
 
 use core::f32::consts::PI;
 use std::path::Path;
@@ -34,7 +35,8 @@ fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     }
 }
 
-/// The wall's quarters as the picture's numbers: of each, the level where the corner's texture coordinates say.
+/// The wall's quarters as the picture's numbers: of each, the level where the corner's texture
+/// coordinates say.
 fn assert_upright(scene: &Scene, format: &str) {
     let mesh = &scene.meshes[0];
     let uvs = mesh.uvs.as_ref().expect("texture coordinates");
@@ -104,7 +106,8 @@ fn pictures_stand_upright_in_every_format() {
     );
 }
 
-/// Columns of a lat-long map run to the right, as seen from within, and its middle is +z: its left half is at +x.
+/// Columns of a lat-long map run to the right, as seen from within, and its middle is +z: its left
+/// half is at +x.
 #[test]
 fn skies_around_a_scene_are_upright() {
     const SIDE: u32 = 32;

@@ -8,18 +8,20 @@ use crate::Diagnostic;
 
 /// Writes a file so that it appears whole or not at all: beside its place first, then renamed.
 ///
-/// A link is followed: the file that it leads to is replaced. What is no file, a device or a pipe, is written to directly.
+/// A link is followed: the file that it leads to is replaced. What is no file, a device or a pipe,
+/// is written to directly.
 ///
 /// # Errors
-/// When the file cannot be written; nothing is left behind then, and a file that was there stays as it was.
+/// When the file cannot be written; nothing is left behind then, and a file that was there stays as
+/// it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     StagedFile::new(path, bytes)
         .and_then(StagedFile::publish)
         .map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))
 }
 
-/// Ends the process with `status`, and removes what is being written: for a program that is told to stop. Every file is whole then, or not
-/// there.
+/// Ends the process with `status`, and removes what is being written: for a program that is told to
+/// stop. Every file is whole then, or not there.
 pub fn exit_without_outputs(status: i32) -> ! {
     // Nobody begins or ends a file from here on.
     let all = staged_files();
@@ -35,7 +37,8 @@ fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
     ALL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is written completely, but not yet at its place. Unless it is published, it is removed.
+/// A file that is written completely, but not yet at its place. Unless it is published, it is
+/// removed.
 #[derive(Debug)]
 pub(crate) struct StagedFile {
     /// Where it is and where it belongs; `None` when nothing is left to do.

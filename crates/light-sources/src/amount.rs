@@ -1,9 +1,9 @@
 //! How bright a light is, in the unit in which the user knows it.
 //!
-//! A radiometric amount is a factor of the emission. With any other the emission gives the colour alone, and the light
-//! gives off what the amount says, whatever the emission's own strength. Of an image, as of a projected picture, a
-//! textured surface or a sky, intensity and luminance are those of its white, `(1, 1, 1)`: an image that holds cd/m^2
-//! has the luminance `Nit(1.0)`.
+//! A radiometric amount is a factor of the emission. With any other the emission gives the colour
+//! alone, and the light gives off what the amount says, whatever the emission's own strength. Of an
+//! image, as of a projected picture, a textured surface or a sky, intensity and luminance are those
+//! of its white, `(1, 1, 1)`: an image that holds cd/m^2 has the luminance `Nit(1.0)`.
 
 use crate::flux::Flux;
 use crate::scaled_emission::EmissionError;
@@ -16,7 +16,8 @@ use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 pub enum IntensityAmount {
     /// The intensity is this times the emission, in W/sr.
     Radiometric(f32),
-    /// The intensity where the light is at its full: inside of a spot's falloff, where a distribution or picture is 1.
+    /// The intensity where the light is at its full: inside of a spot's falloff, where a
+    /// distribution or picture is 1.
     LuminousIntensity(Candela),
     /// What the light gives off in all directions together.
     LuminousPower(Lumen),
@@ -24,7 +25,8 @@ pub enum IntensityAmount {
     RadiantPower(Watt),
 }
 
-/// How bright a light from one direction is, as the user states it; the emission then gives the colour.
+/// How bright a light from one direction is, as the user states it; the emission then gives the
+/// colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -42,7 +44,8 @@ pub enum IrradianceAmount {
 pub enum RadianceAmount {
     /// The radiance is this times the emission, in W m^-2 sr^-1.
     Radiometric(f32),
-    /// The luminance in all directions. A whole sky of it makes an illuminance of pi times as many lux on open ground.
+    /// The luminance in all directions. A whole sky of it makes an illuminance of pi times as many
+    /// lux on open ground.
     Luminance(Nit),
 }
 
@@ -93,7 +96,8 @@ impl RadianceAmount {
 
 #[cfg(feature = "alloc")]
 impl SurfaceAmount {
-    /// The factor of an emission that has the given radiance and, over the whole surface, the power that `power` finds.
+    /// The factor of an emission that has the given radiance and, over the whole surface, the power
+    /// that `power` finds.
     pub(crate) fn scale(
         self,
         radiance: Flux,

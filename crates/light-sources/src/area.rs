@@ -15,7 +15,8 @@ use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 use light_math::warp::cosine_hemisphere;
 use light_math::{DirectionCone, Frame};
 
-/// A shape that shines with the same radiance in all directions: a shape and the emission that it shares with others.
+/// A shape that shines with the same radiance in all directions: a shape and the emission that it
+/// shares with others.
 ///
 /// It is a view, made when it is asked for: a light set stores shapes and emissions apart.
 ///

@@ -5,15 +5,16 @@ use crate::texel_cells::{Shown, single};
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::Axis;
 
-/// The means of what a surface shows over blocks of the unit square: squares of a few texels, and of twice, four times... as
-/// many, up to all of it.
+/// The means of what a surface shows over blocks of the unit square: squares of a few texels, and
+/// of twice, four times... as many, up to all of it.
 ///
 /// Less than a byte a texel, and exact: what covers a block as a whole need not look into it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BlockMeans {
     /// How many of the smallest blocks lie along each axis, as powers of two.
     log2_blocks: [u32; 2],
-    /// What was beyond the edges when the means were taken: half of a texel at each edge depends on it.
+    /// What was beyond the edges when the means were taken: half of a texel at each edge depends on
+    /// it.
     wrap: [Wrap; 2],
     /// Row by row, from the smallest blocks to the whole.
     means: Vec<Vec3>,
@@ -89,7 +90,8 @@ impl BlockMeans {
         is_known.then(|| self.stored(block, wrap))
     }
 
-    /// The mean over a block, where the edges of the unit square count as if they were not wrapped otherwise.
+    /// The mean over a block, where the edges of the unit square count as if they were not wrapped
+    /// otherwise.
     pub(crate) fn stored(&self, block: Block, wrap: [Wrap; 2]) -> DVec3 {
         let level = block
             .level
@@ -117,7 +119,8 @@ impl BlockMeans {
         folded as usize
     }
 
-    /// Whether the means along an axis are those of `wrap`: they are for all where no edge of the unit square is near.
+    /// Whether the means along an axis are those of `wrap`: they are for all where no edge of the
+    /// unit square is near.
     #[expect(clippy::cast_possible_wrap, reason = "at most 2^32 blocks")]
     fn is_known(&self, axis: usize, level: u32, index: i64, wrap: Wrap) -> bool {
         let count = self.size(level)[axis] as i64;

@@ -4,8 +4,8 @@ use core::ops::{Add, Mul};
 use crate::flux::Flux;
 use crate::glam::Vec3;
 
-/// What a light answers with: a radiance, or any other radiometric quantity, in one number per colour channel or
-/// sampled wavelength.
+/// What a light answers with: a radiance, or any other radiometric quantity, in one number per
+/// colour channel or sampled wavelength.
 pub trait Radiance:
     Copy
     + Debug
@@ -37,9 +37,11 @@ pub trait Radiance:
     fn maximum(self) -> f32;
 }
 
-/// How colour is represented, as a type: what a light stores, what a query carries and what an answer is.
+/// How colour is represented, as a type: what a light stores, what a query carries and what an
+/// answer is.
 ///
-/// Every light is written once, over this trait. A renderer that works in RGB compiles no spectral code.
+/// Every light is written once, over this trait. A renderer that works in RGB compiles no spectral
+/// code.
 pub trait ColorModel: Copy + Debug + Send + Sync + 'static {
     /// What a query carries: `()`, or the sampled wavelengths.
     type Wavelengths: Copy + Debug + Send + Sync;
@@ -71,6 +73,7 @@ pub trait ColorModel: Copy + Debug + Send + Sync + 'static {
     /// Fixed wavelengths at which lights are compared with one another.
     fn reference_wavelengths() -> Self::Wavelengths;
 
-    /// One number for a value that was taken at `wavelengths`: its mean over the channels or over the spectrum.
+    /// One number for a value that was taken at `wavelengths`: its mean over the channels or over
+    /// the spectrum.
     fn mean(value: Self::Radiance, wavelengths: &Self::Wavelengths) -> f32;
 }

@@ -16,7 +16,8 @@ use crate::sun::SunLightError;
 use crate::sun_desc::SunLightDesc;
 use crate::uniform_infinite::UniformInfiniteLightDesc;
 
-/// A light as a user describes it, in the user's units; it may hold nonsense, which the built light cannot.
+/// A light as a user describes it, in the user's units; it may hold nonsense, which the built light
+/// cannot.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(

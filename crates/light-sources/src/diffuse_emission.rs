@@ -48,8 +48,8 @@ pub enum DiffuseEmissionError {
 }
 
 impl<C: ColorModel> DiffuseEmission<C> {
-    /// The emission that `desc` describes, for `shapes` that share it: an amount that is a power is that of all of them
-    /// together.
+    /// The emission that `desc` describes, for `shapes` that share it: an amount that is a power is
+    /// that of all of them together.
     ///
     /// # Errors
     /// When a field of `desc` makes no sense.
@@ -67,7 +67,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
         Self::with_means(desc, texture.clone(), means)
     }
 
-    /// As [`new`](Self::new), for shapes of which the areas are known and the means of what varies over them.
+    /// As [`new`](Self::new), for shapes of which the areas are known and the means of what varies
+    /// over them.
     pub(crate) fn with_means<I: Iterator<Item = (f32, Vec3)>>(
         desc: DiffuseEmissionDesc<C>,
         surface: Option<SurfaceTexture>,
@@ -164,8 +165,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
         self.phi_of(shape.area(), self.mean(shape), wavelengths)
     }
 
-    /// Power that a shape emits on one side in one number, by which light samplers compare: above 0 unless all of it is
-    /// black.
+    /// Power that a shape emits on one side in one number, by which light samplers compare: above 0
+    /// unless all of it is black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
         self.strength_of(shape.area(), self.mean(shape))

@@ -69,8 +69,8 @@ pub enum EmissionMask {
     /// Everywhere.
     #[default]
     Opaque,
-    /// In proportion to an image over the surface parameters, `[0, 1]`. Emission already holds this factor: a ray that
-    /// meets the surface counts in full.
+    /// In proportion to an image over the surface parameters, `[0, 1]`. Emission already holds this
+    /// factor: a ray that meets the surface counts in full.
     Alpha(Texture),
     /// Everywhere, but no ray meets the surface: the light stays, of type
     /// [`DeltaPosition`](crate::LightType::DeltaPosition), and is found by sampling it alone.

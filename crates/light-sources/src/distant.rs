@@ -32,9 +32,10 @@ pub struct DistantLightDesc<C: ColorModel> {
 
 /// A light that arrives everywhere from one direction.
 ///
-/// Its radiance is a Dirac in direction, `E delta(w - d)`: with anything finite the integral of radiance over that one
-/// direction would be 0. So the light is given by `E`, the irradiance of a plane that faces it, and an estimator is
-/// `f |cos| E`. There is no distance, hence no inverse square.
+/// Its radiance is a Dirac in direction, `E delta(w - d)`: with anything finite the integral of
+/// radiance over that one direction would be 0. So the light is given by `E`, the irradiance of a
+/// plane that faces it, and an estimator is `f |cos| E`. There is no distance, hence no inverse
+/// square.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.3.
@@ -131,8 +132,8 @@ impl<C: ColorModel> Light<C> for DistantLight<C> {
     }
 }
 
-/// The ray in `direction` that starts outside of the scene and passes through a disk of the scene's radius around its
-/// centre, at the place that `u` chooses uniformly.
+/// The ray in `direction` that starts outside of the scene and passes through a disk of the scene's
+/// radius around its centre, at the place that `u` chooses uniformly.
 pub(crate) fn ray_through_scene(scene: &SceneSphere, direction: Vec3, u: Vec2) -> EmittedRay {
     let disk = concentric_disk::sample(u) * scene.radius();
     let on_disk = Frame::from_z(-direction).from_local(disk.extend(scene.radius()));

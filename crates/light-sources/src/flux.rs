@@ -3,7 +3,8 @@ use core::ops::Mul;
 use light_math::spectrum::Spectrum;
 use light_math::spectrum::photometric::{luminous, radiant};
 
-/// How much light something is, as the eye weighs it and in all; of a power, or of a power per area or solid angle.
+/// How much light something is, as the eye weighs it and in all; of a power, or of a power per area
+/// or solid angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flux {
     /// In lm, or cd, nit, lx.

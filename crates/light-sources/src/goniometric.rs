@@ -27,7 +27,8 @@ use light_math::equal_area::{sphere_to_square, square_to_sphere};
 pub struct GoniometricLightDesc<C: ColorModel> {
     /// From light space to the scene.
     pub transform: Affine3A,
-    /// The part of the full intensity by direction: a grey square, by [`equal_area`](light_math::equal_area).
+    /// The part of the full intensity by direction: a grey square, by
+    /// [`equal_area`](light_math::equal_area).
     pub distribution: Image,
     /// Colour of the light.
     pub emission: C::Emission,

@@ -8,11 +8,12 @@ use crate::rgb_sum::RgbSum;
 use crate::texture_mapping::{TextureMapping, Wrap};
 use half::f16;
 
-/// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere negative.
+/// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere
+/// negative.
 ///
 /// Texels are listed row by row from row 0, channels interleaved; texel `(x, y)` covers
-/// `[x / width, (x + 1) / width) x [y / height, (y + 1) / height)` of the unit square. They are shared: a clone costs
-/// a counter.
+/// `[x / width, (x + 1) / width) x [y / height, (y + 1) / height)` of the unit square. They are
+/// shared: a clone costs a counter.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Image {
@@ -123,7 +124,8 @@ impl Image {
         top.lerp(bottom, f.y)
     }
 
-    /// The colour at the surface parameters `uv` of a surface on which the image lies as `mapping` says.
+    /// The colour at the surface parameters `uv` of a surface on which the image lies as `mapping`
+    /// says.
     #[must_use]
     pub fn on_surface(&self, uv: Vec2, mapping: &TextureMapping) -> Vec3 {
         self.bilinear_wrapped(mapping.place(uv), mapping.wrap)
@@ -156,7 +158,8 @@ impl Image {
         sum.over(f64::from(self.size[0]) * f64::from(self.size[1]))
     }
 
-    /// The mean over the channels of each texel, row by row: what light is sampled in proportion to.
+    /// The mean over the channels of each texel, row by row: what light is sampled in proportion
+    /// to.
     #[must_use]
     pub fn averages(&self) -> Vec<f32> {
         self.texels().map(|t| t.element_sum() / 3.0).collect()

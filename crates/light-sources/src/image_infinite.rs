@@ -47,7 +47,8 @@ pub enum EnvironmentMap {
 /// An environment map: radiance from infinitely far away, by direction.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.5.2; the compensated distribution for [`PdfCoverage::Incomplete`] is that of `[Karlik2019]`.
+/// `[PBRT4]`, section 12.5.2; the compensated distribution for [`PdfCoverage::Incomplete`] is that
+/// of `[Karlik2019]`.
 #[derive(Clone, Debug)]
 pub struct ImageInfiniteLight<C> {
     transform: RigidTransform,

@@ -1,7 +1,8 @@
 /// How a light reaches a point, which decides how an integrator may combine estimates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightType {
-    /// All light comes from one point, so no ray finds it by chance: no multiple importance sampling.
+    /// All light comes from one point, so no ray finds it by chance: no multiple importance
+    /// sampling.
     DeltaPosition,
     /// All light comes from one direction: no ray finds it by chance either.
     DeltaDirection,
@@ -12,7 +13,8 @@ pub enum LightType {
 }
 
 impl LightType {
-    /// Whether the light is a Dirac, so that only [`sample_li`](crate::Light::sample_li) can find it.
+    /// Whether the light is a Dirac, so that only [`sample_li`](crate::Light::sample_li) can find
+    /// it.
     #[must_use]
     pub const fn is_delta(self) -> bool {
         matches!(self, Self::DeltaPosition | Self::DeltaDirection)

@@ -4,7 +4,8 @@ use crate::glam::Vec3;
 use crate::shape::Triangle;
 use crate::surface_texture::{Footprint, SurfaceTexture};
 
-/// Means of triangles that were asked for lately: often many triangles show the same part of an image.
+/// Means of triangles that were asked for lately: often many triangles show the same part of an
+/// image.
 #[derive(Debug, Default)]
 pub(crate) struct KnownMeans(Vec<Option<(Footprint, Vec3)>>);
 
@@ -79,7 +80,8 @@ mod tests {
                     assert!(near, "{wrap:?}, {uv:?}: {ours}, {exact}");
                 }
             }
-            // Two sizes of triangles, at three distances at which single precision has steps of its own.
+            // Two sizes of triangles, at three distances at which single precision has steps of its
+            // own.
             let count = known.0.iter().flatten().count();
             let repeats = wrap == Wrap::Repeat;
             assert_eq!(count <= 6, repeats, "{wrap:?}: {count} known");

@@ -16,12 +16,13 @@ pub trait Light<C: ColorModel> {
 
     /// Emitted power in W, for lights at infinity the power that enters the scene's sphere.
     ///
-    /// Infinite where it is more than a float holds, 3.4e38 W; the extent of such a light is refused by light samplers.
+    /// Infinite where it is more than a float holds, 3.4e38 W; the extent of such a light is
+    /// refused by light samplers.
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance;
 
-    /// A direction from which the light arrives at `ctx.p`, with its density; `None` when this light does not reach
-    /// the point in the direction that `u` stands for. Sides of the surface at `ctx` are not looked at: a direction
-    /// below the horizon is for the BSDF to refuse.
+    /// A direction from which the light arrives at `ctx.p`, with its density; `None` when this
+    /// light does not reach the point in the direction that `u` stands for. Sides of the surface at
+    /// `ctx` are not looked at: a direction below the horizon is for the BSDF to refuse.
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -30,12 +31,12 @@ pub trait Light<C: ColorModel> {
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<C::Radiance>>;
 
-    /// Density in sr^-1 with which [`sample_li`](Self::sample_li) chooses `wi`; 0 for Dirac lights, and for directions
-    /// that miss the light.
+    /// Density in sr^-1 with which [`sample_li`](Self::sample_li) chooses `wi`; 0 for Dirac lights,
+    /// and for directions that miss the light.
     fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32;
 
-    /// A ray that leaves the light, its origin chosen by `u1` and its direction by `u2`, unless the light says
-    /// otherwise.
+    /// A ray that leaves the light, its origin chosen by `u1` and its direction by `u2`, unless the
+    /// light says otherwise.
     fn sample_le(
         &self,
         u1: Vec2,
@@ -43,7 +44,8 @@ pub trait Light<C: ColorModel> {
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>>;
 
-    /// Densities with which [`sample_le`](Self::sample_le) chooses `ray`, where a Dirac counts as 0.
+    /// Densities with which [`sample_le`](Self::sample_le) chooses `ray`, where a Dirac counts as
+    /// 0.
     fn pdf_le(&self, ray: &EmittedRay) -> LePdf;
 
     /// What a light sampler has to know of the light.
@@ -68,7 +70,7 @@ pub trait AreaLight<C: ColorModel>: Light<C> {
 
 /// A light that rays reach by leaving the scene.
 pub trait InfiniteLight<C: ColorModel>: Light<C> {
-    /// Radiance that arrives along a ray that leaves the scene in `direction`, in W m^-2 sr^-1, at `origin`: only a
-    /// portal looks at where the ray comes from.
+    /// Radiance that arrives along a ray that leaves the scene in `direction`, in W m^-2 sr^-1, at
+    /// `origin`: only a portal looks at where the ray comes from.
     fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance;
 }

@@ -19,7 +19,8 @@ use crate::surface_point::SurfacePoint;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightSampleContext};
 
-/// One light of a set, whatever its kind: the closed enum beside the trait, for callers who hold them all.
+/// One light of a set, whatever its kind: the closed enum beside the trait, for callers who hold
+/// them all.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LightRef<'a, C: ColorModel> {
@@ -67,7 +68,8 @@ macro_rules! for_each_kind {
 }
 
 impl<C: ColorModel> LightRef<'_, C> {
-    /// Radiance that leaves the surface at `at` in direction `w`; black unless this is an area light.
+    /// Radiance that leaves the surface at `at` in direction `w`; black unless this is an area
+    /// light.
     #[inline]
     #[must_use]
     pub fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
@@ -86,7 +88,8 @@ impl<C: ColorModel> LightRef<'_, C> {
         }
     }
 
-    /// Radiance that arrives along a ray that leaves the scene; black unless this is an infinite light.
+    /// Radiance that arrives along a ray that leaves the scene; black unless this is an infinite
+    /// light.
     #[inline]
     #[must_use]
     pub fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {

@@ -22,8 +22,9 @@ use light_bounds::{LightExtent, LightId};
 
 /// All lights of a scene, by kind. Made by a [`LightSetBuilder`](crate::LightSetBuilder).
 ///
-/// Ids run through the kinds one after the other, through the triangles of each mesh in their order, and end with the
-/// lights at infinity; a [`SourceId`] tells where a description went. A triangle costs nothing here but its vertices.
+/// Ids run through the kinds one after the other, through the triangles of each mesh in their
+/// order, and end with the lights at infinity; a [`SourceId`] tells where a description went. A
+/// triangle costs nothing here but its vertices.
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
     pub(crate) points: Vec<PointLight<C>>,
@@ -41,7 +42,8 @@ pub struct LightSet<C: ColorModel> {
     ends: [u32; Kind::COUNT],
     /// How many triangles there are up to and with each mesh.
     mesh_ends: Vec<u32>,
-    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle, between which those of the others lie.
+    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle, between which those of the others
+    /// lie.
     mesh_of: Vec<u32>,
     /// Where each description went: its kind, and how many lights of that kind came before.
     sources: Vec<(Kind, u32)>,
@@ -110,7 +112,8 @@ impl<C: ColorModel> LightSet<C> {
         }
     }
 
-    /// Counts the `lights` that the source last added has; `None` where 32 bits do not suffice for the ids.
+    /// Counts the `lights` that the source last added has; `None` where 32 bits do not suffice for
+    /// the ids.
     pub(crate) fn count_in(&mut self, kind: Kind, lights: usize) -> Option<SourceId> {
         let lights = u32::try_from(lights).ok()?;
         let source = u32::try_from(self.sources.len()).ok()?;
@@ -171,8 +174,10 @@ impl<C: ColorModel> LightSet<C> {
         })
     }
 
-    /// What sampling the light reads last and waits for, where that is known without reading it: the corners of a triangle whose mesh has no
-    /// list of vertices ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may ask their memory for it while they do other work.
+    /// What sampling the light reads last and waits for, where that is known without reading it:
+    /// the corners of a triangle whose mesh has no list of vertices
+    /// ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may ask their memory for it
+    /// while they do other work.
     #[inline]
     #[must_use]
     pub fn corners(&self, light: LightId) -> Option<&[Vec3; 3]> {
@@ -208,8 +213,9 @@ impl<C: ColorModel> LightSet<C> {
         Some((&self.meshes[mesh], index - first as usize))
     }
 
-    /// The id of the first light that a description became: of its only one, or of the first triangle of its mesh.
-    /// Triangle `k` of that mesh has the id that is larger by `k`. `None` for an unknown source.
+    /// The id of the first light that a description became: of its only one, or of the first
+    /// triangle of its mesh. Triangle `k` of that mesh has the id that is larger by `k`. `None` for
+    /// an unknown source.
     #[inline]
     #[must_use]
     pub fn first_id(&self, source: SourceId) -> Option<LightId> {

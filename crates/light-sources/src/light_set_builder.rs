@@ -24,7 +24,8 @@ pub struct LightSetBuilder<C: ColorModel> {
 }
 
 impl<C: ColorModel> LightSetBuilder<C> {
-    /// Starts a set of lights for a scene inside the given sphere: what lights at infinity have to illuminate.
+    /// Starts a set of lights for a scene inside the given sphere: what lights at infinity have to
+    /// illuminate.
     #[must_use]
     pub const fn new(scene: SceneSphere) -> Self {
         Self {
@@ -33,8 +34,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes; the answer is a name for it, by which its id is known once the set is
-    /// built.
+    /// Adds the light that `desc` describes; the answer is a name for it, by which its id is known
+    /// once the set is built.
     ///
     /// # Errors
     /// When the description makes no sense; the set is unchanged then.

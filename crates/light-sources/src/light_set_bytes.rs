@@ -12,7 +12,8 @@ use crate::texture::Texture;
 /// What a [`LightSet`] holds in memory, in bytes; what several lights share counts once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightSetBytes {
-    /// Vertices of meshes, which are shared with whoever else needs them: positions, indices, surface parameters.
+    /// Vertices of meshes, which are shared with whoever else needs them: positions, indices,
+    /// surface parameters.
     pub vertices: usize,
     /// Images, the means of textures, and the tables by which the texels of a sky are chosen.
     pub images: usize,

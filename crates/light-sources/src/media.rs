@@ -25,7 +25,8 @@ impl MediumId {
     }
 }
 
-/// The media on both sides of a light's surface, 8 bytes; a light without a surface lies in `outside`.
+/// The media on both sides of a light's surface, 8 bytes; a light without a surface lies in
+/// `outside`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MediumInterface {

@@ -32,8 +32,8 @@ pub struct MeshLightDesc<C: ColorModel> {
 
 /// An emissive mesh: one source, whose triangles are area lights with consecutive ids.
 ///
-/// Vertices are shared and emission is stored once, so that a triangle costs nothing here, and 12 bytes where an image or
-/// a mask lies on it. A triangle without area is a light without power.
+/// Vertices are shared and emission is stored once, so that a triangle costs nothing here, and 12
+/// bytes where an image or a mask lies on it. A triangle without area is a light without power.
 #[derive(Clone, Debug)]
 pub struct MeshLight<C: ColorModel> {
     positions: Arc<[Vec3]>,

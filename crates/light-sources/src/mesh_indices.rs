@@ -3,8 +3,9 @@ use alloc::vec::Vec;
 
 /// Which vertices the triangles of a mesh have, shared with whoever else needs them.
 ///
-/// A list costs 12 bytes a triangle, and to look a triangle up means to wait for memory twice. Where triangles hardly share vertices none is
-/// needed: of such meshes with a million lamps, that wait is what a sample of a lamp costs most.
+/// A list costs 12 bytes a triangle, and to look a triangle up means to wait for memory twice.
+/// Where triangles hardly share vertices none is needed: of such meshes with a million lamps, that
+/// wait is what a sample of a lamp costs most.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum MeshIndices {
@@ -31,7 +32,8 @@ impl MeshIndices {
         self.len() == 0
     }
 
-    /// The vertices of triangle `k`; `None` beyond the last, and where their numbers are 2^32 or more.
+    /// The vertices of triangle `k`; `None` beyond the last, and where their numbers are 2^32 or
+    /// more.
     #[inline]
     #[must_use]
     pub fn get(&self, k: usize) -> Option<[u32; 3]> {

@@ -33,7 +33,8 @@ impl PictureGrid {
         self.cells([1, 1])
     }
 
-    /// The texels, those of a coarse picture in parts: what lies in a part has nearly one direction.
+    /// The texels, those of a coarse picture in parts: what lies in a part has nearly one
+    /// direction.
     pub(crate) fn parts(&self) -> impl Iterator<Item = PicturePart> + use<> {
         self.cells(self.size.map(|n| PARTS.div_ceil(n)))
     }

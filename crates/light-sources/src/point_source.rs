@@ -7,8 +7,8 @@ use crate::media::MediumInterface;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
-/// A light that stands in one point: its kinds differ in nothing but the intensity by direction. Whatever is a
-/// `PointSource` is a [`Light`].
+/// A light that stands in one point: its kinds differ in nothing but the intensity by direction.
+/// Whatever is a `PointSource` is a [`Light`].
 ///
 /// Directions are unit vectors in scene space, away from the light.
 pub trait PointSource {
@@ -24,8 +24,8 @@ pub trait PointSource {
     /// Emitted power in W: the integral of the intensity.
     fn power(&self, wavelengths: &Wavelengths<Self>) -> Emitted<Self>;
 
-    /// A direction with its intensity and density, about in proportion to the intensity; both `u` lie in `[0, 1)`. None
-    /// when no light goes there.
+    /// A direction with its intensity and density, about in proportion to the intensity; both `u`
+    /// lie in `[0, 1)`. None when no light goes there.
     fn sample_direction(
         &self,
         u1: Vec2,
@@ -119,9 +119,10 @@ impl<S: PointSource> Light<S::Color> for S {
     }
 }
 
-/// The sample toward a light that is a point: `intensity`, asked for the unit direction away from the light, over the
-/// squared distance. `None` in the dark, where the two points meet, and where they are so near or so far that the
-/// inverse square, or the sample's light, is no positive finite number.
+/// The sample toward a light that is a point: `intensity`, asked for the unit direction away from
+/// the light, over the squared distance. `None` in the dark, where the two points meet, and where
+/// they are so near or so far that the inverse square, or the sample's light, is no positive finite
+/// number.
 fn toward<R: Radiance>(
     ctx: &LightSampleContext,
     position: Vec3,

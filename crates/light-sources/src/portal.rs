@@ -6,11 +6,11 @@ use light_math::float::{atan2, tan};
 use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 use core::f64;
 
-/// A rectangle through which the sky is seen, and the map of directions that makes it a rectangle of the unit square
-/// from wherever it is seen.
+/// A rectangle through which the sky is seen, and the map of directions that makes it a rectangle
+/// of the unit square from wherever it is seen.
 ///
-/// In the portal's own frame, where light comes from +z, a direction has the angles `atan(x / z)` and `atan(y / z)`;
-/// the square holds them scaled from `[-pi/2, pi/2]`.
+/// In the portal's own frame, where light comes from +z, a direction has the angles `atan(x / z)`
+/// and `atan(y / z)`; the square holds them scaled from `[-pi/2, pi/2]`.
 ///
 /// # Source
 /// `[Bitterli2015]`, section 3.
@@ -22,15 +22,16 @@ pub(crate) struct Portal {
     frame: Frame,
 }
 
-/// How far cosines of angles between the sides may lie from those of a rectangle: files write few digits.
+/// How far cosines of angles between the sides may lie from those of a rectangle: files write few
+/// digits.
 const TOLERANCE: f32 = 1e-3;
 
 /// The largest angle below a right angle.
 const UPRIGHT: f32 = f32::from_bits(FRAC_PI_2.to_bits() - 1);
 
 impl Portal {
-    /// The portal with these corners, one after the other around it; `None` unless they are a planar rectangle with an
-    /// area. Light comes from where the corners run clockwise.
+    /// The portal with these corners, one after the other around it; `None` unless they are a
+    /// planar rectangle with an area. Light comes from where the corners run clockwise.
     pub(crate) fn new([p0, p1, p2, p3]: [Vec3; 4]) -> Option<Self> {
         let x = (p3 - p0).try_normalize()?;
         let y = (p1 - p0).try_normalize()?;
@@ -72,10 +73,11 @@ impl Portal {
         (self.frame.from_local(w), solid_angle_per_area(w))
     }
 
-    /// The integral of the cosine at the portal over a texel of a square map with `n` of them along each side, in sr.
+    /// The integral of the cosine at the portal over a texel of a square map with `n` of them along
+    /// each side, in sr.
     ///
-    /// From the axis to the angles `a` and `b` it is `(sin a atan(tan b cos a) + sin b atan(tan a cos b)) / 2`: the form
-    /// factor of a rectangle.
+    /// From the axis to the angles `a` and `b` it is
+    /// `(sin a atan(tan b cos a) + sin b atan(tan a cos b)) / 2`: the form factor of a rectangle.
     pub(crate) fn projected_solid_angle([x, y]: [u32; 2], n: u32) -> f64 {
         let angle =
             |i: u32| DVec2::from_angle((f64::from(i) / f64::from(n) - 0.5) * f64::consts::PI);
@@ -87,8 +89,8 @@ impl Portal {
         corner(x + 1, y + 1) - corner(x, y + 1) - corner(x + 1, y) + corner(x, y)
     }
 
-    /// The point of the square of a direction, and the solid angle per area there; `None` for directions from which no
-    /// light comes.
+    /// The point of the square of a direction, and the solid angle per area there; `None` for
+    /// directions from which no light comes.
     pub(crate) fn uv(&self, w: Vec3) -> Option<(Vec2, f32)> {
         let w = self.frame.to_local(w);
         (w.z > 0.0).then(|| (square(w), solid_angle_per_area(w)))

@@ -31,18 +31,20 @@ pub struct PortalInfiniteLightDesc {
     pub map: EnvironmentMap,
     /// How bright it is, as a factor of the picture.
     pub amount: RadianceAmount,
-    /// Corners of the portal in the scene, one after the other; light comes from where they run clockwise.
+    /// Corners of the portal in the scene, one after the other; light comes from where they run
+    /// clockwise.
     pub portal: [Vec3; 4],
 }
 
 /// An environment map that is seen through one rectangle only: a window.
 ///
-/// The picture is resampled once into a square in which the portal, seen from anywhere, is a rectangle with sides along
-/// the axes; a point then samples the part of the sky that it sees, and nothing else.
+/// The picture is resampled once into a square in which the portal, seen from anywhere, is a
+/// rectangle with sides along the axes; a point then samples the part of the sky that it sees, and
+/// nothing else.
 ///
 /// # Source
-/// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not all around the
-/// scene, so that none is wasted, and the power has the cosine at the portal.
+/// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not
+/// all around the scene, so that none is wasted, and the power has the cosine at the portal.
 #[derive(Clone, Debug)]
 pub struct PortalInfiniteLight<C> {
     portal: Portal,
@@ -67,7 +69,8 @@ pub enum PortalInfiniteLightError {
     Portal,
 }
 
-/// Cosines to the portal's normal below this are taken for none when rays are emitted: their density has no digits left.
+/// Cosines to the portal's normal below this are taken for none when rays are emitted: their
+/// density has no digits left.
 const LEAST_COSINE: f32 = 1e-4;
 
 impl<C: ColorModel> PortalInfiniteLight<C> {
@@ -148,7 +151,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// A direction toward the sky in `window`, chosen by `u`, with its place in the map and its density.
+    /// A direction toward the sky in `window`, chosen by `u`, with its place in the map and its
+    /// density.
     fn sample_direction(&self, u: Vec2, window: &Window) -> Option<(Vec2, Vec3, f32)> {
         let Sample2D { p: uv, pdf, .. } = self.table.as_ref()?.sample(u, window)?;
         let (wi, solid_angle) = self.portal.direction(uv);
@@ -167,7 +171,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         pdf().unwrap_or(0.0)
     }
 
-    /// Density of a ray's origin on the portal, per area across the ray; 0 along the portal, which no ray passes.
+    /// Density of a ray's origin on the portal, per area across the ray; 0 along the portal, which
+    /// no ray passes.
     fn pdf_position(&self, direction: Vec3) -> f32 {
         let cos_theta = self.portal.frame().z.dot(direction).abs();
         if cos_theta > LEAST_COSINE {
@@ -178,7 +183,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
     }
 }
 
-/// The point of a window next to `uv`; `None` if that lies farther outside than the rounding of a direction moves it.
+/// The point of a window next to `uv`; `None` if that lies farther outside than the rounding of a
+/// direction moves it.
 fn nearest_inside(uv: Vec2, window: &Window) -> Option<Vec2> {
     let inside = uv.clamp(window.min, window.max);
     (uv.distance(inside) <= 8.0 * f32::EPSILON).then_some(inside)
@@ -217,8 +223,8 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
         window.map_or(0.0, |window| self.pdf_direction(wi, &window))
     }
 
-    /// The direction is chosen by `u1` from the whole half space, the place on the portal by `u2`; the ray starts
-    /// before it, outside of the scene.
+    /// The direction is chosen by `u1` from the whole half space, the place on the portal by `u2`;
+    /// the ray starts before it, outside of the scene.
     fn sample_le(
         &self,
         u1: Vec2,

@@ -39,8 +39,8 @@ pub struct ProjectionLightDesc {
 /// A light at a point that throws a picture: a slide projector.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.2.2. A direction `w` meets the plane z = 1 at `(w.x, w.y) / w.z`; the picture fills a
-/// rectangle of that plane around the axis.
+/// `[PBRT4]`, section 12.2.2. A direction `w` meets the plane z = 1 at `(w.x, w.y) / w.z`; the
+/// picture fills a rectangle of that plane around the axis.
 #[derive(Clone, Debug)]
 pub struct ProjectionLight<C> {
     transform: RigidTransform,
@@ -58,7 +58,8 @@ pub struct ProjectionLight<C> {
     color: PhantomData<C>,
 }
 
-/// The most that rounding of directions may move a place of a picture, as a part of half its shorter side.
+/// The most that rounding of directions may move a place of a picture, as a part of half its
+/// shorter side.
 const RESOLVED: f32 = 0.125;
 
 /// Why a description is no projection light; each variant names a field.
@@ -67,7 +68,8 @@ const RESOLVED: f32 = 0.125;
 pub enum ProjectionLightError {
     /// `transform` is not rigid.
     Transform(RigidTransformError),
-    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has no size or no end.
+    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has no size or no
+    /// end.
     Fov,
     /// `amount` is negative, not finite, or too large for the picture.
     Emission(EmissionError),

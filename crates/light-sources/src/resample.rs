@@ -45,8 +45,8 @@ impl Image {
     }
 }
 
-/// Rows and columns of the equal-area image whose texels are as large as those at the horizon of a latitude-longitude
-/// image of this height.
+/// Rows and columns of the equal-area image whose texels are as large as those at the horizon of a
+/// latitude-longitude image of this height.
 #[must_use]
 #[expect(
     clippy::cast_possible_truncation,

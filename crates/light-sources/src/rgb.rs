@@ -66,8 +66,9 @@ impl ColorModel for Rgb {
         emission.is_finite() && emission.cmpge(Vec3::ZERO).all()
     }
 
-    /// White, `(1, 1, 1)`, is one watt, and to the eye as much light as one watt of 555 nm: 683 lm. Other colours of the
-    /// linear sRGB are as many lumens as their luminance says, and as many watts as the mean of their channels.
+    /// White, `(1, 1, 1)`, is one watt, and to the eye as much light as one watt of 555 nm: 683 lm.
+    /// Other colours of the linear sRGB are as many lumens as their luminance says, and as many
+    /// watts as the mean of their channels.
     fn flux(emission: &Vec3) -> Flux {
         Self::flux_of_texel(*emission)
     }

@@ -12,7 +12,8 @@ impl RgbSum {
         }
     }
 
-    /// The sum divided by `total`, rounded to single precision; zero where there is nothing to divide by.
+    /// The sum divided by `total`, rounded to single precision; zero where there is nothing to
+    /// divide by.
     pub(crate) fn over(&self, total: f64) -> Vec3 {
         if total > 0.0 {
             Vec3::from_array(self.0.map(|sum| single(sum / total)))

@@ -3,7 +3,8 @@ use core::fmt;
 
 use crate::glam::{Affine3A, Mat3, Vec3};
 
-/// A transform that keeps lengths: a rotation or a reflection, then a translation. It takes light space to scene space.
+/// A transform that keeps lengths: a rotation or a reflection, then a translation. It takes light
+/// space to scene space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidTransform {
     linear: Mat3,
@@ -16,7 +17,8 @@ pub struct RigidTransform {
 pub enum RigidTransformError {
     /// An entry is NaN or infinite.
     NotFinite,
-    /// The transform scales, shears or flattens: some axis is not of unit length or not perpendicular to another.
+    /// The transform scales, shears or flattens: some axis is not of unit length or not
+    /// perpendicular to another.
     NotRigid,
 }
 
@@ -30,7 +32,8 @@ impl RigidTransform {
         translation: Vec3::ZERO,
     };
 
-    /// The rigid transform next to `transform`, whose axes may be off by round-off, 1e-4, and are then made exact.
+    /// The rigid transform next to `transform`, whose axes may be off by round-off, 1e-4, and are
+    /// then made exact.
     ///
     /// # Errors
     /// When an entry is not finite, or the linear part scales, shears or flattens.

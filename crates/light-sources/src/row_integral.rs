@@ -12,8 +12,9 @@ const FILLED: f64 = 1e-6;
 
 /// The mean of an image over a polygon, exact.
 ///
-/// By Green's theorem it is an integral along the edges: of the integrals of the image along its rows. So only what the edges
-/// cross is cut into pieces, and what lies between them is summed. `None` for what is larger than [`SIDE`] or hardly an area.
+/// By Green's theorem it is an integral along the edges: of the integrals of the image along its
+/// rows. So only what the edges cross is cut into pieces, and what lies between them is summed.
+/// `None` for what is larger than [`SIDE`] or hardly an area.
 pub(crate) fn mean_by_rows(image: &Image, wrap: [Wrap; 2], polygon: &UvPolygon) -> Option<DVec3> {
     // Texels have their centres at whole numbers.
     let size = DVec2::from_array(image.size().map(f64::from));
@@ -102,7 +103,8 @@ struct Strip<'a> {
 impl Strip<'_> {
     /// Adds the part in the strip of the integral along an edge, and of that of the area.
     fn add_edge(&self, from: DVec2, to: DVec2, sum: &mut DVec3, area: &mut f64) {
-        /// The nodes of Gauss and Legendre, exact for degree 3: of the integral along rows, times the place between them.
+        /// The nodes of Gauss and Legendre, exact for degree 3: of the integral along rows, times
+        /// the place between them.
         const NODES: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
         let step = to - from;
         if step.y == 0.0 {

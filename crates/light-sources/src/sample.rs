@@ -3,14 +3,16 @@ use crate::glam::{Vec2, Vec3};
 /// Light that arrives at a point: what [`Light::sample_li`](crate::Light::sample_li) chose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLiSample<R> {
-    /// Arriving radiance in W m^-2 sr^-1; for a light at a point its intensity over the squared distance, for one
-    /// from a single direction its irradiance. Nothing in between is taken into account: visibility is the caller's.
+    /// Arriving radiance in W m^-2 sr^-1; for a light at a point its intensity over the squared
+    /// distance, for one from a single direction its irradiance. Nothing in between is taken into
+    /// account: visibility is the caller's.
     pub l: R,
     /// Unit direction toward the light.
     pub wi: Vec3,
     /// Density of `wi` in sr^-1, never 0; 1 for Dirac lights.
     pub pdf: f32,
-    /// The point on the light, where a shadow ray ends. For a light at infinity a point outside of the scene.
+    /// The point on the light, where a shadow ray ends. For a light at infinity a point outside of
+    /// the scene.
     pub p_light: Vec3,
     /// Unit geometric normal at `p_light`, of the front side; zero for lights without a surface.
     pub n_light: Vec3,
@@ -47,8 +49,8 @@ impl EmittedRay {
 /// Light that leaves a light: what [`Light::sample_le`](crate::Light::sample_le) chose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLeSample<R> {
-    /// Emitted radiance along the ray; for a light at a point its intensity, for one from a single direction its
-    /// irradiance.
+    /// Emitted radiance along the ray; for a light at a point its intensity, for one from a single
+    /// direction its irradiance.
     pub l: R,
     /// The ray.
     pub ray: EmittedRay,

@@ -18,7 +18,8 @@ pub enum EmissionError {
     Emission,
     /// `amount` is negative or not finite, or too large for this emission.
     Amount,
-    /// `amount` is a power or as the eye sees it, of a light that has none: it is black, invisible or without an area.
+    /// `amount` is a power or as the eye sees it, of a light that has none: it is black, invisible
+    /// or without an area.
     Dark,
 }
 

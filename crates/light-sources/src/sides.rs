@@ -1,7 +1,7 @@
 use crate::glam::Vec3;
 
-/// Which sides of a surface emit. The front is the side to which the geometric normal points: for a triangle the one
-/// from which its vertices run counter-clockwise.
+/// Which sides of a surface emit. The front is the side to which the geometric normal points: for a
+/// triangle the one from which its vertices run counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Sides {

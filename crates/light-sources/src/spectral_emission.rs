@@ -8,7 +8,8 @@ use light_math::spectrum::{
 #[cfg(feature = "alloc")]
 use light_math::spectrum::{DenselySampled, PiecewiseLinear};
 
-/// What a light of the spectral colour model emits, by wavelength: any of the spectra of `light-math`.
+/// What a light of the spectral colour model emits, by wavelength: any of the spectra of
+/// `light-math`.
 ///
 /// Tables are shared: a clone costs a counter.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,8 @@ use crate::glam::{Vec2, Vec3};
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
-/// Directions of the sphere in proportion to the texels of an equal-area image; none when it is black.
+/// Directions of the sphere in proportion to the texels of an equal-area image; none when it is
+/// black.
 #[derive(Clone, Debug)]
 pub(crate) struct SphereTable(Option<PiecewiseConstant2D<Vec<f32>>>);
 

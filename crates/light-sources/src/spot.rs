@@ -38,11 +38,12 @@ pub struct SpotLightDesc<C: ColorModel> {
 
 /// A light at a point that shines into a cone, with a smooth rim.
 ///
-/// The intensity is that of the description up to the angle of the falloff's start, 0 from the rim on, and in between
-/// a smooth step in the cosine of the angle.
+/// The intensity is that of the description up to the angle of the falloff's start, 0 from the rim
+/// on, and in between a smooth step in the cosine of the angle.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.2.1. Cosines are held as their distance from 1, so that narrow cones keep their digits.
+/// `[PBRT4]`, section 12.2.1. Cosines are held as their distance from 1, so that narrow cones keep
+/// their digits.
 #[derive(Clone, Debug)]
 pub struct SpotLight<C: ColorModel> {
     transform: RigidTransform,
@@ -139,8 +140,8 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
         self.intensity.at(wavelengths) * self.solid_angle()
     }
 
-    /// In proportion to the intensity, so that each ray carries the same power: `u2.x` chooses between the core and the
-    /// falloff, `u1` the direction in it.
+    /// In proportion to the intensity, so that each ray carries the same power: `u2.x` chooses
+    /// between the core and the falloff, `u1` the direction in it.
     fn sample_direction(
         &self,
         u1: Vec2,
@@ -170,8 +171,8 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
         self.falloff(w) / self.solid_angle()
     }
 
-    /// The power is that of a light that shines in all directions: of two spots that light a point alike, the wide one
-    /// must not be chosen more often.
+    /// The power is that of a light that shines in all directions: of two spots that light a point
+    /// alike, the wide one must not be chosen more often.
     fn point_bounds(&self) -> LightBounds {
         LightBounds {
             bounds: Aabb::from_point(self.transform.origin()),
@@ -198,7 +199,8 @@ fn one_minus_cos(angle: f32) -> f32 {
     2.0 * half * half
 }
 
-/// The cosine, and of a narrow angle no more than it: a float that rounds to above would leave out a part of the cone.
+/// The cosine, and of a narrow angle no more than it: a float that rounds to above would leave out
+/// a part of the cone.
 fn cos_rounded_down(angle: f32) -> f32 {
     const NARROW: f32 = 1e-3;
     let nearest = cos(angle);

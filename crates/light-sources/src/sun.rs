@@ -17,8 +17,8 @@ use light_math::float::sin;
 use light_math::warp::uniform_cone;
 use light_math::{DirectionCone, Frame, direction};
 
-/// A disk in the sky, of the same radiance all over: a [`DistantLight`](crate::DistantLight) that casts soft shadows,
-/// is seen, and takes part in multiple importance sampling.
+/// A disk in the sky, of the same radiance all over: a [`DistantLight`](crate::DistantLight) that
+/// casts soft shadows, is seen, and takes part in multiple importance sampling.
 #[derive(Clone, Debug)]
 pub struct SunLight<C: ColorModel> {
     frame: Frame,
@@ -34,14 +34,15 @@ pub struct SunLight<C: ColorModel> {
 pub enum SunLightError {
     /// `direction` is zero or not finite.
     Direction,
-    /// `angular_diameter` does not lie in `(0, pi]`, or is so small that single precision has no number for its solid
-    /// angle.
+    /// `angular_diameter` does not lie in `(0, pi]`, or is so small that single precision has no
+    /// number for its solid angle.
     AngularDiameter,
     /// `emission` or `amount` makes no sense.
     Emission(EmissionError),
 }
 
-/// How far a direction in single precision may lie from where it was meant to: the sine of that angle.
+/// How far a direction in single precision may lie from where it was meant to: the sine of that
+/// angle.
 const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
 
 impl<C: ColorModel> SunLight<C> {

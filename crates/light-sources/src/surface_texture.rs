@@ -20,8 +20,8 @@ pub(crate) struct SurfaceTexture {
     mapping: TextureMapping,
 }
 
-/// Which part of an image a triangle shows, in steps as small as single precision makes them: triangles with the same
-/// footprint have the same mean.
+/// Which part of an image a triangle shows, in steps as small as single precision makes them:
+/// triangles with the same footprint have the same mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Footprint(pub(crate) [i64; 7]);
 
@@ -66,7 +66,8 @@ impl SurfaceTexture {
         texture_integral::mean(&shown, blocks, &self.mapping, &shape.uv_area())
     }
 
-    /// The part of the image that a triangle with these surface parameters shows, moved to where the image repeats itself.
+    /// The part of the image that a triangle with these surface parameters shows, moved to where
+    /// the image repeats itself.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,

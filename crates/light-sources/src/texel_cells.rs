@@ -4,8 +4,8 @@ use crate::image::Image;
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::Axis;
 
-/// One axis of an image between two centres of texels, where its colour is a line: two texels, and how far from the first to
-/// the second a place is.
+/// One axis of an image between two centres of texels, where its colour is a line: two texels, and
+/// how far from the first to the second a place is.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     texels: [Option<u32>; 2],
@@ -76,7 +76,8 @@ impl Span {
     }
 }
 
-/// The first place beyond `from` at which the colour of an image with `n` texels may bend: the centre of a texel.
+/// The first place beyond `from` at which the colour of an image with `n` texels may bend: the
+/// centre of a texel.
 pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
     let count = f64::from(n);
     let (least, most) = match wrap {
@@ -163,7 +164,8 @@ impl ShownCell {
         self.alpha.map_or(color, |alpha| color * alpha.at(x, y).x)
     }
 
-    /// The mean over a rectangle: exact, as the product of two lines is of degree 2 along each axis.
+    /// The mean over a rectangle: exact, as the product of two lines is of degree 2 along each
+    /// axis.
     pub(crate) fn mean(&self, low: [f64; 2], high: [f64; 2]) -> DVec3 {
         /// The nodes of Gauss and Legendre, from the middle, in half sizes.
         const NODE: f64 = 0.577_350_269_189_625_8;

@@ -6,10 +6,11 @@ use crate::image::Image;
 use crate::texel_cells::Shown;
 use crate::texture_mapping::Wrap;
 
-/// An image on a surface that shines, with the means of its parts: how bright each triangle is follows from the texels that
-/// it covers.
+/// An image on a surface that shines, with the means of its parts: how bright each triangle is
+/// follows from the texels that it covers.
 ///
-/// It is a little larger than the image, and shared: a clone costs a counter, however many meshes it lies on.
+/// It is a little larger than the image, and shared: a clone costs a counter, however many meshes
+/// it lies on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture(Arc<Shared>);
 

@@ -9,8 +9,9 @@ use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
 
 /// The mean of what a surface shows over its area.
 ///
-/// Exact: the surface is cut where the colour bends, which is at the centres of texels, and between them it is a polynomial.
-/// Blocks of texels that the surface covers as a whole are known. Above 0 wherever the surface shows any light.
+/// Exact: the surface is cut where the colour bends, which is at the centres of texels, and between
+/// them it is a polynomial. Blocks of texels that the surface covers as a whole are known. Above 0
+/// wherever the surface shows any light.
 ///
 /// Only what covers more than [`FINEST`] blocks along an axis is cut more coarsely.
 pub(crate) fn mean(
@@ -69,7 +70,8 @@ const MOST_REPEATED: f64 = 1024.0;
 /// A part of the surface parameters on which a density counts as even within a block.
 const EVEN: f64 = 1.0 / 1024.0;
 
-/// What lies nearby and may show by rounding, as a part of it: far below what single precision tells apart.
+/// What lies nearby and may show by rounding, as a part of it: far below what single precision
+/// tells apart.
 const NEARBY: f64 = 1.0 / (1u64 << 40) as f64;
 
 struct Integral<'a> {
@@ -189,7 +191,8 @@ impl Integral<'_> {
         index as f64 * (1u64 << level) as f64 / self.blocks.count(axis)
     }
 
-    /// The finest level of which at most two blocks along each axis cover a rectangle, with the first and the last of them.
+    /// The finest level of which at most two blocks along each axis cover a rectangle, with the
+    /// first and the last of them.
     fn covering(&self, [min, max]: [DVec2; 2]) -> (u32, [[i64; 2]; 2]) {
         let index = |p: DVec2| Axis::BOTH.map(|axis| whole(axis.of(p) * self.blocks.count(axis)));
         let (mut low, mut high) = (index(min), index(max));
@@ -287,7 +290,8 @@ impl Integral<'_> {
         }
     }
 
-    /// Barycentric coordinates and weights of a quadrature over triangles that is exact for what is shown.
+    /// Barycentric coordinates and weights of a quadrature over triangles that is exact for what is
+    /// shown.
     fn rule(&self) -> impl Iterator<Item = ([f64; 3], f64)> + use<> {
         let is_square = self.shown.alpha.is_none() && self.density == UvDensity::Even;
         let rule: &[_] = if is_square { &DEGREE_2 } else { &DEGREE_5 };
@@ -319,7 +323,8 @@ impl Integral<'_> {
         self.density == UvDensity::Even || (max - min).max_element() <= EVEN
     }
 
-    /// What the texels nearby show together: above 0 if a lookup by single precision in the polygon may find any light.
+    /// What the texels nearby show together: above 0 if a lookup by single precision in the polygon
+    /// may find any light.
     fn near(&self, polygon: &UvPolygon) -> DVec3 {
         let [min, max] = polygon.place_bounds();
         let size = Axis::BOTH.map(|axis| f64::from(self.shown.texels(axis)));
@@ -345,7 +350,8 @@ impl Integral<'_> {
     }
 }
 
-/// The parts of a polygon between the bends of the colour along an axis, each with a place between them.
+/// The parts of a polygon between the bends of the colour along an axis, each with a place between
+/// them.
 fn each_strip(
     shown: &Shown<'_>,
     axis: Axis,

@@ -2,11 +2,13 @@ use crate::floor::floor as whole;
 use crate::glam::{Affine2, Vec2};
 use light_math::float::floor;
 
-/// How an image lies on a surface: where in the image each surface parameter is, and what is beyond its edges.
+/// How an image lies on a surface: where in the image each surface parameter is, and what is beyond
+/// its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TextureMapping {
-    /// From surface parameters (u, v) to those of the image, of which (0, 0) is the lower left corner.
+    /// From surface parameters (u, v) to those of the image, of which (0, 0) is the lower left
+    /// corner.
     pub transform: Affine2,
     /// What is beyond the left and right edges, and beyond the upper and lower.
     pub wrap: [Wrap; 2],
@@ -43,7 +45,8 @@ impl TextureMapping {
     }
 }
 
-/// The two texels of a line of them between whose centres a place lies, and how far it is from the first to the second.
+/// The two texels of a line of them between whose centres a place lies, and how far it is from the
+/// first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neighbours {
     /// `None` where there is no texel.

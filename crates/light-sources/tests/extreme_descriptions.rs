@@ -1,4 +1,5 @@
-//! Descriptions at the ends of what a float holds: directions of any length, points that nearly meet, rays along a portal.
+//! Descriptions at the ends of what a float holds: directions of any length, points that nearly
+//! meet, rays along a portal.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightExtent, LightSampleContext};

@@ -1,4 +1,5 @@
-//! Points at the edge of a surface, seen from almost within it: what is sampled there is found again by its direction.
+//! Points at the edge of a surface, seen from almost within it: what is sampled there is found
+//! again by its direction.
 
 use light_bounds::LightSampleContext;
 use light_math::float::ONE_MINUS_EPSILON;
@@ -79,7 +80,8 @@ fn samples_at_edges_are_found_again_at_grazing_angles() {
             }
             compared += 1;
             let pdf = shape.pdf_toward(&ctx, sample.wi);
-            // A direction that is turned by a rounding meets another place, where a bent surface has another normal.
+            // A direction that is turned by a rounding meets another place, where a bent surface
+            // has another normal.
             let bend = if name == "twisted patch" { 2e-6 } else { 0.0 };
             let tolerance = (2e-5 + bend / cos_theta) / cos_theta;
             assert!(

@@ -1,4 +1,5 @@
-//! A short ray to a point of a shape meets the shape there, from both sides; one that leads away from it meets nothing.
+//! A short ray to a point of a shape meets the shape there, from both sides; one that leads away
+//! from it meets nothing.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::shape::{Shape, ShapeDesc};

@@ -1,4 +1,5 @@
-//! Values that are known without an integral: what lights say of themselves, and the edges of their samples.
+//! Values that are known without an integral: what lights say of themselves, and the edges of their
+//! samples.
 
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
 use light_sources::light_bounds::InfiniteBounds;
@@ -96,7 +97,8 @@ fn rays_meet_the_wall_of_a_cylinder_or_pass_it() {
     }
 }
 
-/// A ray that rounding lays along the surface has no density, though a surface that emits on both sides emits there as well.
+/// A ray that rounding lays along the surface has no density, though a surface that emits on both
+/// sides emits there as well.
 #[test]
 fn no_ray_leaves_along_a_surface() {
     let color = SurfaceColor::Uniform(Vec3::ONE);
@@ -125,7 +127,8 @@ fn no_ray_leaves_along_a_surface() {
     assert!(left_out > 0, "some are along the surface");
 }
 
-/// The outer rings of a disk are longer: a picture that brightens outward shows 2/3, not 1/2, however fine it is.
+/// The outer rings of a disk are longer: a picture that brightens outward shows 2/3, not 1/2,
+/// however fine it is.
 #[test]
 fn a_fine_picture_on_a_disk_counts_by_area() {
     const N: u32 = 2048;

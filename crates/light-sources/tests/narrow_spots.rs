@@ -1,4 +1,5 @@
-//! Spots as narrow as cosines cannot resolve: their bounds hold every direction in which they shine.
+//! Spots as narrow as cosines cannot resolve: their bounds hold every direction in which they
+//! shine.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightExtent, LightSampleContext};

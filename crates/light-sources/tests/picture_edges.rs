@@ -1,4 +1,5 @@
-//! The edges of pictures: what is sampled there is found again by its direction, however wide the picture.
+//! The edges of pictures: what is sampled there is found again by its direction, however wide the
+//! picture.
 
 use light_math::float::ONE_MINUS_EPSILON;
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
@@ -39,7 +40,8 @@ fn rays_at_the_edge_of_a_projection_are_found_again() {
             for u in corners() {
                 let sample = light.sample_le(u, Vec2::ZERO, &()).expect("a ray");
                 let asked = light.pdf_le(&sample.ray).dir;
-                // What a direction rounds off, beside the size of the picture, and beside the angle to a half space.
+                // What a direction rounds off, beside the size of the picture, and beside the angle
+                // to a half space.
                 let rounding = 1e-6 / (0.5 * fov).tan() + 1e-5 * (0.5 * fov).tan();
                 let difference = (asked - sample.pdf.dir).abs();
                 assert!(

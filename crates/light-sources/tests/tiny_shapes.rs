@@ -1,4 +1,5 @@
-//! Shapes whose areas have squares below the smallest float, and receivers so near that rounding turns directions.
+//! Shapes whose areas have squares below the smallest float, and receivers so near that rounding
+//! turns directions.
 
 use light_sources::glam::{Vec2, Vec3};
 use light_sources::light_bounds::LightSampleContext;

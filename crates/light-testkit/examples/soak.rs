@@ -1,4 +1,5 @@
-//! Takes very many samples of lights and holds each against its query: `soak [CHOICES] [LIGHT_SAMPLES] [SEED]`.
+//! Takes very many samples of lights and holds each against its query:
+//! `soak [CHOICES] [LIGHT_SAMPLES] [SEED]`.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,

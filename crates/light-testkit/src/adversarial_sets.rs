@@ -72,7 +72,8 @@ impl LightSet {
         Self::new("collinear", (0..n).map(light).collect(), CONTEXTS, 4)
     }
 
-    /// Clusters within clusters, each eight times smaller, over 24 scales: a tree of binary splits grows deep.
+    /// Clusters within clusters, each eight times smaller, over 24 scales: a tree of binary splits
+    /// grows deep.
     #[must_use]
     pub fn nested_clusters(n: usize) -> Self {
         let mut rng = Rng::new(5);
@@ -166,7 +167,8 @@ impl LightSet {
         }
     }
 
-    /// Pairs of triangles at one place that face opposite ways: the cone of each pair is the whole sphere.
+    /// Pairs of triangles at one place that face opposite ways: the cone of each pair is the whole
+    /// sphere.
     #[must_use]
     pub fn back_to_back(n: usize) -> Self {
         let mut rng = Rng::new(12);

@@ -4,9 +4,11 @@ use light_math::glam::Vec3;
 use crate::integrate;
 use crate::real3::{Real3, cross, dot, normalize, real3, vec3};
 
-/// A spherical cap: all directions within an angle of an axis, mapped to the unit square without change of area.
+/// A spherical cap: all directions within an angle of an axis, mapped to the unit square without
+/// change of area.
 ///
-/// Checks on the sphere run over a cap that holds the whole density, so that narrow ones are resolved too.
+/// Checks on the sphere run over a cap that holds the whole density, so that narrow ones are
+/// resolved too.
 #[derive(Clone, Copy, Debug)]
 pub struct Cap {
     axes: [Real3; 3],
@@ -49,7 +51,8 @@ impl Cap {
         TAU * self.one_minus_cos
     }
 
-    /// The direction at `[azimuth, height]` of the unit square; height 0 is the axis, height 1 the rim.
+    /// The direction at `[azimuth, height]` of the unit square; height 0 is the axis, height 1 the
+    /// rim.
     #[must_use]
     pub fn direction(&self, [azimuth, height]: [f64; 2]) -> Vec3 {
         let one_minus_z = self.one_minus_cos * height;
@@ -105,7 +108,8 @@ mod tests {
             for _ in 0..100 {
                 let x = [rng.f64(), rng.f64()];
                 let back = cap.square(cap.direction(x));
-                // f32 directions carry 6e-8, a thousandth of the smallest cap's ring at height 0.01.
+                // f32 directions carry 6e-8, a thousandth of the smallest cap's ring at height
+                // 0.01.
                 let turn = (x[0] - back[0]).abs();
                 let near = turn.min(1.0 - turn) * x[1].sqrt() < 1e-3;
                 assert!(

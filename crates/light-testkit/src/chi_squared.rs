@@ -6,7 +6,8 @@ const SMALLEST_CELL: f64 = 5.0;
 /// What Pearson's test says about observed counts.
 #[derive(Clone, Copy, Debug)]
 pub struct ChiSquared {
-    /// Sum over cells of `(observed - expected)^2 / expected`, or of the likelihood ratio's term where that is smaller.
+    /// Sum over cells of `(observed - expected)^2 / expected`, or of the likelihood ratio's term
+    /// where that is smaller.
     pub statistic: f64,
     /// Degrees of freedom: pooled cells minus one.
     pub degrees: usize,
@@ -24,16 +25,18 @@ impl ChiSquared {
 
 /// Compares observed counts with expected ones, cell by cell; both slices have one entry a cell.
 ///
-/// The expected counts should sum to the number of samples. Cells that expect fewer than five are pooled, smallest
-/// first, as the distribution of the statistic is only known for well filled cells.
+/// The expected counts should sum to the number of samples. Cells that expect fewer than five are
+/// pooled, smallest first, as the distribution of the statistic is only known for well filled
+/// cells.
 ///
-/// Levels as small as [`SIGNIFICANCE`] lie far out in the tail, where Pearson's term of a scarce cell is much too
-/// large: a Poisson variable of mean 5 is six standard deviations above it ten thousand times as often as a normal one.
-/// The likelihood ratio's term `2 (o ln(o / e) - o + e)` decays as the Poisson tail does, so the smaller of both is
-/// taken.
+/// Levels as small as [`SIGNIFICANCE`] lie far out in the tail, where Pearson's term of a scarce
+/// cell is much too large: a Poisson variable of mean 5 is six standard deviations above it ten
+/// thousand times as often as a normal one. The likelihood ratio's term `2 (o ln(o / e) - o + e)`
+/// decays as the Poisson tail does, so the smaller of both is taken.
 ///
 /// # Source
-/// `[DLMF]`, 8.2.4: the survival function of the chi-squared distribution is an incomplete gamma function.
+/// `[DLMF]`, 8.2.4: the survival function of the chi-squared distribution is an incomplete gamma
+/// function.
 #[must_use]
 pub fn chi_squared(observed: &[u64], expected: &[f64]) -> ChiSquared {
     debug_assert_eq!(observed.len(), expected.len(), "one expectation a cell");
@@ -74,7 +77,8 @@ pub fn chi_squared(observed: &[u64], expected: &[f64]) -> ChiSquared {
 
 /// What a cell that expects `e` and observes `o` adds to the statistic.
 fn term(e: f64, o: f64) -> f64 {
-    // A pool that stays too small enters with a smaller weight, so that only a flagrant contradiction shows.
+    // A pool that stays too small enters with a smaller weight, so that only a flagrant
+    // contradiction shows.
     let pearson = (o - e) * (o - e) / e.max(SMALLEST_CELL);
     let of_counts = if o > 0.0 { o * (o / e).ln() } else { 0.0 };
     pearson.min(2.0 * (of_counts - o + e))
@@ -113,8 +117,8 @@ mod tests {
         assert!(!chi_squared(&counts, &[10_150.0; 6]).passes(), "loaded");
     }
 
-    /// A lone cell of Poisson counts fails at about the stated level, however scarce it is: by Pearson's term alone, one
-    /// that expects 5 would fail ten thousand times as often.
+    /// A lone cell of Poisson counts fails at about the stated level, however scarce it is: by
+    /// Pearson's term alone, one that expects 5 would fail ten thousand times as often.
     #[test]
     fn scarce_cells_keep_the_level() {
         for expected in [5.0, 7.5, 20.0, 100.0, 1000.0] {

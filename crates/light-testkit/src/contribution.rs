@@ -7,8 +7,9 @@ use crate::Emitter;
 use crate::real3::{Real3, dot, normalize, real3, sub};
 
 impl Emitter {
-    /// Irradiance at the context without occluders (fluence in a medium), of a triangle by a few of its points; 0
-    /// where all cosines are below [`GRAZING`](Self::GRAZING), and for a light whose power vanishes in `f32`.
+    /// Irradiance at the context without occluders (fluence in a medium), of a triangle by a few of
+    /// its points; 0 where all cosines are below [`GRAZING`](Self::GRAZING), and for a light whose
+    /// power vanishes in `f32`.
     #[must_use]
     pub fn contribution(&self, ctx: &LightSampleContext) -> f64 {
         if !(self.power() > 0.0) {
@@ -78,7 +79,8 @@ impl Emitter {
     }
 }
 
-/// What arrives from `p`, which emits `emitted(wi)` per solid angle against the direction `wi` toward it.
+/// What arrives from `p`, which emits `emitted(wi)` per solid angle against the direction `wi`
+/// toward it.
 fn received_from(ctx: &LightSampleContext, p: Vec3, emitted: impl Fn(Real3) -> f64) -> f64 {
     let to_light = sub(real3(p), real3(ctx.p));
     let dist_sq = dot(to_light, to_light);

@@ -4,8 +4,9 @@ use crate::{Cap, ChiSquared, Rng, chi_squared, integrate};
 
 /// A density against its sampler: chi-squared on a grid of cells whose masses come from quadrature.
 ///
-/// The sampler gets random numbers and answers a point, or `None` where it declines; the density is asked at any
-/// point of the domain and answers per unit of its measure, without a factor for the chance of `None`.
+/// The sampler gets random numbers and answers a point, or `None` where it declines; the density is
+/// asked at any point of the domain and answers per unit of its measure, without a factor for the
+/// chance of `None`.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityTest {
     /// How many samples are drawn.
@@ -14,7 +15,8 @@ pub struct DensityTest {
     pub grid: [u16; 2],
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Absolute error of the quadrature in each cell, in units of probability: far less than the counts can show.
+    /// Absolute error of the quadrature in each cell, in units of probability: far less than the
+    /// counts can show.
     pub tolerance: f64,
 }
 
@@ -182,7 +184,8 @@ impl DensityTest {
 }
 
 impl DensityOutcome {
-    /// How far the integral of a density may lie above one: rounding of `f32` densities and the quadrature's error.
+    /// How far the integral of a density may lie above one: rounding of `f32` densities and the
+    /// quadrature's error.
     pub const MASS_TOLERANCE: f64 = 1e-3;
 
     /// Why the density is not that of the sampler; `None` when it is.

@@ -66,7 +66,8 @@ pub enum Emitter {
 }
 
 impl Emitter {
-    /// Cosines below this are not held against a sampler: bounds in `f32` cannot tell them from zero.
+    /// Cosines below this are not held against a sampler: bounds in `f32` cannot tell them from
+    /// zero.
     pub const GRAZING: f64 = 1e-5;
 
     /// What a sampler gets to know.

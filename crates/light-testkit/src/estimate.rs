@@ -10,8 +10,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// How many standard errors a mean may be off: a normal variable is further away with the chance
-    /// [`SIGNIFICANCE`](crate::SIGNIFICANCE).
+    /// How many standard errors a mean may be off: a normal variable is further away with the
+    /// chance [`SIGNIFICANCE`](crate::SIGNIFICANCE).
     pub const STANDARD_ERRORS: f64 = 6.12;
 
     /// Relative error that the arithmetic in `f32` may add.

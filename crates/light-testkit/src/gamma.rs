@@ -16,7 +16,8 @@ pub fn ln_gamma(x: f64) -> f64 {
         9.984_369_578_019_571_6e-6,
         1.505_632_735_149_311_6e-7,
     ];
-    // The series converges for x >= 1/2; gamma(x) = gamma(x + 1) / x brings smaller arguments there.
+    // The series converges for x >= 1/2; gamma(x) = gamma(x + 1) / x brings smaller arguments
+    // there.
     if x < 0.5 {
         return ln_gamma(x + 1.0) - x.ln();
     }
@@ -28,7 +29,8 @@ pub fn ln_gamma(x: f64) -> f64 {
     0.5 * core::f64::consts::TAU.ln() + (x + 0.5) * t.ln() - t + series.ln()
 }
 
-/// The regularised upper incomplete gamma function `Q(a, x)` for `a > 0`, `x >= 0`: it falls from 1 at `x = 0` to 0.
+/// The regularised upper incomplete gamma function `Q(a, x)` for `a > 0`, `x >= 0`: it falls from 1
+/// at `x = 0` to 0.
 ///
 /// # Source
 /// `[DLMF]`, 8.7.1 (power series, used below `a + 1`) and 8.9.2 (continued fraction, used above).

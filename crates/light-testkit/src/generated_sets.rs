@@ -19,7 +19,8 @@ impl LightSet {
         Self::new("uniform", (0..n).map(triangle).collect(), CONTEXTS, seed)
     }
 
-    /// A city: clusters of downward lamps, and of windows on round walls; one light in twenty is two-sided.
+    /// A city: clusters of downward lamps, and of windows on round walls; one light in twenty is
+    /// two-sided.
     #[must_use]
     pub fn clusters(n: usize, seed: u64) -> Self {
         let mut rng = Rng::new(seed);

@@ -17,7 +17,8 @@ impl KolmogorovSmirnov {
     }
 }
 
-/// Compares independent numbers with the uniform distribution on `[0, 1)`; sorts them. A number outside fails.
+/// Compares independent numbers with the uniform distribution on `[0, 1)`; sorts them. A number
+/// outside fails.
 ///
 /// # Source
 /// `[Stephens1970]`: the correction that makes the limiting distribution accurate for few numbers.

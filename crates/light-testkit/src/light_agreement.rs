@@ -1,17 +1,19 @@
-//! Whether the densities that samples of a light carry are those that are queried, one sample at a time.
+//! Whether the densities that samples of a light carry are those that are queried, one sample at a
+//! time.
 
 use light_bounds::LightSampleContext;
 use light_math::glam::{Vec2, Vec3};
 use light_sources::{EmittedRay, LePdf, Light, LightRef, LightType, PdfCoverage, Rgb};
 
-/// How far two ways to compute one density may differ, relatively: rounding of grazing and of tiny shapes.
+/// How far two ways to compute one density may differ, relatively: rounding of grazing and of tiny
+/// shapes.
 const ROUNDING: f32 = 2e-3;
 
 /// Cosines of grazing angles, at which densities grow without bound, and are not compared.
 const GRAZING: f32 = 1e-3;
 
-/// Sines of the angles by which a direction is turned where it lies so near to an edge, of a shape or a texel, that its density is that of
-/// the other side.
+/// Sines of the angles by which a direction is turned where it lies so near to an edge, of a shape
+/// or a texel, that its density is that of the other side.
 const NEAR: [f32; 3] = [1.2e-7, 1e-6, 1e-5];
 
 /// What is asked of a sample.
@@ -126,8 +128,9 @@ pub(crate) fn is_light(l: Vec3) -> bool {
     l.is_finite() && l.min_element() >= 0.0
 }
 
-/// Whether a function of directions has the `expected` value in `w`, or lies below it in one direction next to `w` and above it in another:
-/// there it has an edge, or is so steep that the rounding of `w` shows.
+/// Whether a function of directions has the `expected` value in `w`, or lies below it in one
+/// direction next to `w` and above it in another: there it has an edge, or is so steep that the
+/// rounding of `w` shows.
 fn near(w: Vec3, expected: f32, value: impl Fn(Vec3) -> f32) -> bool {
     let here = value(w);
     if (here - expected).abs() <= ROUNDING * here.max(expected) {

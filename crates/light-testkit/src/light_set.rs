@@ -15,7 +15,8 @@ pub struct LightSet {
 }
 
 impl LightSet {
-    /// The lights with `count` random contexts in and around their box, and a few more exactly at their bounds.
+    /// The lights with `count` random contexts in and around their box, and a few more exactly at
+    /// their bounds.
     #[must_use]
     pub fn new(name: &'static str, emitters: Vec<Emitter>, count: usize, seed: u64) -> Self {
         let mut rng = Rng::new(seed);
@@ -69,7 +70,8 @@ impl LightSet {
         }
     }
 
-    /// Where careless code divides by zero: box centres and corners of the first lights and of all lights.
+    /// Where careless code divides by zero: box centres and corners of the first lights and of all
+    /// lights.
     fn add_contexts_at_bounds(&mut self, rng: &mut Rng) {
         let (low, high) = self.corners();
         let mut points = vec![low * 0.5 + high * 0.5, low, high];

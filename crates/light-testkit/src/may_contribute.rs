@@ -9,10 +9,12 @@ const MARGIN: f64 = 1e-4;
 /// Places along a ray segment that are looked at.
 const ALONG: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Whether a light that has this extent certainly can send light to the receiver, by the meaning of the extent's fields alone, in `f64`.
+/// Whether a light that has this extent certainly can send light to the receiver, by the meaning of
+/// the extent's fields alone, in `f64`.
 ///
-/// Looks at the corners and the centre of the light's box, so `false` proves nothing. A receiver without a place gets
-/// nothing, and neither does one that is so far away that its irradiance is no positive `f32`.
+/// Looks at the corners and the centre of the light's box, so `false` proves nothing. A receiver
+/// without a place gets nothing, and neither does one that is so far away that its irradiance is no
+/// positive `f32`.
 #[must_use]
 pub fn may_contribute(extent: &LightExtent, ctx: &LightSampleContext) -> bool {
     if !(ctx.p.is_finite() && ctx.segment.is_finite()) {
@@ -24,7 +26,8 @@ pub fn may_contribute(extent: &LightExtent, ctx: &LightSampleContext) -> bool {
     }
 }
 
-/// The direction of the receiver's normal; `None` where light counts from all sides, as it does for a normal that has no direction.
+/// The direction of the receiver's normal; `None` where light counts from all sides, as it does for
+/// a normal that has no direction.
 fn normal(ctx: &LightSampleContext) -> Option<Real3> {
     let has_direction = ctx.ns.is_finite() && ctx.ns != Vec3::ZERO;
     (has_direction && ctx.segment == Vec3::ZERO).then(|| normalize(real3(ctx.ns)))

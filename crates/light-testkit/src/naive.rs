@@ -1,4 +1,5 @@
-//! Naive twins: what clever code must agree with, written so that nothing can be wrong with it. All in `f64`.
+//! Naive twins: what clever code must agree with, written so that nothing can be wrong with it. All
+//! in `f64`.
 
 use light_math::glam::Vec3;
 
@@ -15,7 +16,8 @@ pub struct Choice {
     pub u: f64,
 }
 
-/// The entry of `weights` (none negative) at which the running share of the sum passes `u` in `[0, 1)`.
+/// The entry of `weights` (none negative) at which the running share of the sum passes `u` in
+/// `[0, 1)`.
 ///
 /// `None` when all weights are zero. Never answers an entry of zero weight.
 #[must_use]
@@ -38,8 +40,8 @@ pub fn choose(weights: &[f64], u: f64) -> Option<Choice> {
     last
 }
 
-/// The density with respect to `x` in `[0, 1)` of the function that has the constant `func[i]` on each of the equal
-/// cells, normalised; 0 when the function is zero.
+/// The density with respect to `x` in `[0, 1)` of the function that has the constant `func[i]` on
+/// each of the equal cells, normalised; 0 when the function is zero.
 #[must_use]
 pub fn piecewise_constant_pdf(func: &[f64], x: f64) -> f64 {
     let sum: f64 = func.iter().sum();
@@ -51,7 +53,8 @@ pub fn piecewise_constant_pdf(func: &[f64], x: f64) -> f64 {
     }
 }
 
-/// The `x` in `[0, 1)` at which the integral of that function reaches the share `u`; `None` when it is zero.
+/// The `x` in `[0, 1)` at which the integral of that function reaches the share `u`; `None` when it
+/// is zero.
 #[must_use]
 pub fn piecewise_constant_sample(func: &[f64], u: f64) -> Option<f64> {
     let choice = choose(func, u)?;
@@ -78,8 +81,8 @@ pub fn integrate_square(n: u32, mut f: impl FnMut([f64; 2]) -> f64) -> f64 {
     cells.sum::<f64>() * step * step
 }
 
-/// The cosine between `-wi` and the counter-clockwise normal where the ray from `p` along `wi` meets the triangle;
-/// `None` when it misses.
+/// The cosine between `-wi` and the counter-clockwise normal where the ray from `p` along `wi`
+/// meets the triangle; `None` when it misses.
 #[must_use]
 pub fn hit_triangle(p: Vec3, wi: Vec3, corners: [Vec3; 3]) -> Option<f64> {
     let wi = real3(wi);

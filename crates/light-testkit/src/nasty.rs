@@ -131,7 +131,8 @@ pub fn wild_point() -> impl Strategy<Value = Vec3> + Clone {
     vec3(coordinate)
 }
 
-/// Weights of a table: none negative, some zero, some tiny and some huge beside small ones; their sum is finite.
+/// Weights of a table: none negative, some zero, some tiny and some huge beside small ones; their
+/// sum is finite.
 pub fn weights(count: core::ops::Range<usize>) -> impl Strategy<Value = Vec<f32>> + Clone {
     let weight = prop_oneof![
         2 => Just(0.0),

@@ -46,10 +46,12 @@ impl GaussLegendre {
     }
 }
 
-/// The integral of `f` over the box from `low` to `high`, with an absolute error of about `tolerance`.
+/// The integral of `f` over the box from `low` to `high`, with an absolute error of about
+/// `tolerance`.
 ///
-/// A box is halved along every axis until both sides agree, at least twice and at most twelve times: jumps of `f` cost
-/// time, not correctness. Features narrower than a thirtieth of the box can be missed, so choose boxes that fit them.
+/// A box is halved along every axis until both sides agree, at least twice and at most twelve
+/// times: jumps of `f` cost time, not correctness. Features narrower than a thirtieth of the box
+/// can be missed, so choose boxes that fit them.
 pub fn integrate<const D: usize>(
     low: [f64; D],
     high: [f64; D],

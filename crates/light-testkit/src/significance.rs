@@ -4,18 +4,20 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 /// The chance that any statistical test of the workspace fails although all of its code is right.
 ///
-/// Seeds are fixed, so a test that passes once passes forever; the level says how surprising a result has to be before
-/// it counts as a fault.
+/// Seeds are fixed, so a test that passes once passes forever; the level says how surprising a
+/// result has to be before it counts as a fault.
 pub const FAMILY_ERROR: f64 = 1e-3;
 
-/// The most test programs (one for the unit tests of a crate, one for each file of its `tests/`) that take statistical
-/// tests. A test of this crate counts them.
+/// The most test programs (one for the unit tests of a crate, one for each file of its `tests/`)
+/// that take statistical tests. A test of this crate counts them.
 pub const PROGRAMS: u32 = 32;
 
-/// The most single tests (one chi-squared, one Kolmogorov-Smirnov, one mean) that a program takes: more of them panic.
+/// The most single tests (one chi-squared, one Kolmogorov-Smirnov, one mean) that a program takes:
+/// more of them panic.
 pub const TESTS_PER_PROGRAM: u32 = 1 << 15;
 
-/// The chance that one single test fails although the code is right: [`FAMILY_ERROR`] divided evenly (Bonferroni).
+/// The chance that one single test fails although the code is right: [`FAMILY_ERROR`] divided
+/// evenly (Bonferroni).
 pub const SIGNIFICANCE: f64 = FAMILY_ERROR / (PROGRAMS as f64 * TESTS_PER_PROGRAM as f64);
 
 static TAKEN: AtomicU32 = AtomicU32::new(0);

@@ -1,4 +1,5 @@
-//! The table of statistical laws in the README names every kind that the sources have, and tests that exist.
+//! The table of statistical laws in the README names every kind that the sources have, and tests
+//! that exist.
 
 use std::collections::HashMap;
 use std::fs;
@@ -195,7 +196,8 @@ fn programs_are_as_many_as_stated() {
                 .iter()
                 .filter(|path| takes_tests(&fs::read_to_string(path).expect("a source")));
             let count = u32::try_from(taking.count()).expect("few");
-            // All unit tests of a crate are one program; of the integration tests each file is one at most.
+            // All unit tests of a crate are one program; of the integration tests each file is one
+            // at most.
             programs += if folder == "src" { count.min(1) } else { count };
         }
     }

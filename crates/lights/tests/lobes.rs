@@ -1,4 +1,5 @@
-//! The default tree chooses among projected and measured lights by their lobes, and far better than by their bounds.
+//! The default tree chooses among projected and measured lights by their lobes, and far better than
+//! by their bounds.
 
 #![cfg(feature = "alloc")]
 #![allow(
@@ -49,7 +50,8 @@ fn luminaire() -> Image {
     Image::from_f32([32, 32], Channels::Gray, texels.collect::<Vec<_>>()).expect("an image")
 }
 
-/// As many projectors as luminaires and points over a floor, all kinds about alike strong on their axes.
+/// As many projectors as luminaires and points over a floor, all kinds about alike strong on their
+/// axes.
 fn lights() -> LightSet<Rgb> {
     let scene = SceneSphere::new(Vec3::new(5.0, 5.0, 1.0), 10.0).expect("a sphere");
     let mut builder = LightSetBuilder::new(scene);
@@ -90,7 +92,8 @@ fn lights() -> LightSet<Rgb> {
     builder.build()
 }
 
-/// The exact relative variance of one choice, mean over points of the floor. No light that contributes has probability 0.
+/// The exact relative variance of one choice, mean over points of the floor. No light that
+/// contributes has probability 0.
 fn variance(set: &LightSet<Rgb>, extents: &[LightExtent]) -> f64 {
     let sampler = BvhLightSampler::new(extents).expect("valid lights");
     let points = 12u8;

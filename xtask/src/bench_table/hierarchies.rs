@@ -13,8 +13,8 @@ const SIZES: [(&str, &str, &str); 3] = [
     ("1000000", "1 M", "16"),
 ];
 
-/// The lines of one set: each sampler by its name in the program, samples of one call, and its name in the table. All others are compared with
-/// the first.
+/// The lines of one set: each sampler by its name in the program, samples of one call, and its name
+/// in the table. All others are compared with the first.
 const LINES: [(&str, u32, &str); 4] = [
     ("bvh-reference", 1, "reference"),
     ("bvh", 1, "default"),
@@ -72,7 +72,8 @@ fn measure(set: &str, n: &str, points: &str) -> Result<Vec<Value>, String> {
     Ok(rows)
 }
 
-/// The lines of one set. Times are followed by how many times faster than the first line's they are.
+/// The lines of one set. Times are followed by how many times faster than the first line's they
+/// are.
 fn lines(set: &str, rows: &[Value]) -> Result<String, String> {
     let mut lines = String::new();
     for (i, (row, (_, k, name))) in rows.iter().zip(LINES).enumerate() {

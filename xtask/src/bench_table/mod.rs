@@ -1,4 +1,5 @@
-//! `cargo xtask bench --table [TABLE...]`: measures light hierarchies and writes the tables of `docs/light-bvh.md`.
+//! `cargo xtask bench --table [TABLE...]`: measures light hierarchies and writes the tables of
+//! `docs/light-bvh.md`.
 
 use std::fs;
 use std::process::Command;
@@ -26,10 +27,12 @@ const TABLES: [Table; 4] = [
     ("refits", refits::table),
 ];
 
-/// Measures and writes the tables of the given names, all of them if there are none; of numbers, only prints the sets of so many lights.
+/// Measures and writes the tables of the given names, all of them if there are none; of numbers,
+/// only prints the sets of so many lights.
 ///
 /// # Errors
-/// A name that is none, the command that failed, an answer that cannot be read, a broken law, or a page without a place for the table.
+/// A name that is none, the command that failed, an answer that cannot be read, a broken law, or a
+/// page without a place for the table.
 pub fn bench_table(names: &[String]) -> StepResult {
     let are_sizes = !names.is_empty() && names.iter().all(|name| name.parse::<u32>().is_ok());
     let known = |name: &String| TABLES.iter().any(|table| table.0 == name);
@@ -68,7 +71,8 @@ fn measure(arguments: &[&str]) -> Result<Vec<Value>, String> {
     rows.collect()
 }
 
-/// Whether no light is lost, and probabilities are some and agree; what a row does not tell was not measured.
+/// Whether no light is lost, and probabilities are some and agree; what a row does not tell was not
+/// measured.
 fn lawful(row: &Value) -> Result<(), String> {
     let rounding = 1e-5;
     let laws = [

@@ -5,8 +5,8 @@ use serde_json::Value;
 #[derive(Debug)]
 pub struct Malformed(pub String);
 
-/// A value of a vector line, with accessors that know how these files write numbers: not-a-number and the infinities
-/// are the strings `"nan"`, `"inf"`, `"-inf"`.
+/// A value of a vector line, with accessors that know how these files write numbers: not-a-number
+/// and the infinities are the strings `"nan"`, `"inf"`, `"-inf"`.
 #[derive(Clone, Copy, Debug)]
 pub struct Case<'a>(&'a Value);
 

@@ -77,8 +77,8 @@ impl Comparison {
         });
     }
 
-    /// Holds if the reference says the same of all parts. Otherwise ours has to be the `truth`, and `rule` says why the
-    /// reference is not.
+    /// Holds if the reference says the same of all parts. Otherwise ours has to be the `truth`, and
+    /// `rule` says why the reference is not.
     pub(super) fn settle(
         self,
         findings: &mut Findings,
@@ -111,7 +111,8 @@ impl Comparison {
     }
 }
 
-/// The same where there is no answer of ours: nor is there one in truth, for inputs as near as rounding moves them.
+/// The same where there is no answer of ours: nor is there one in truth, for inputs as near as
+/// rounding moves them.
 pub(super) fn settle_none<T>(
     findings: &mut Findings,
     what: &str,

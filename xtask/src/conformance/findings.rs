@@ -32,7 +32,8 @@ impl Findings {
         self.sabotage.pass_option(name, answer)
     }
 
-    /// Notes that the answers since the last call have been compared, and whether the inputs determine them.
+    /// Notes that the answers since the last call have been compared, and whether the inputs
+    /// determine them.
     pub(super) fn settled(&mut self, certainty: Certainty) {
         self.sabotage.settle(certainty == Certainty::Undetermined);
     }

@@ -1,10 +1,11 @@
 //! Replays numbers that a reference renderer returned and compares them with ours.
 //!
-//! A folder of vectors holds one file per kind, one JSON object a line. Each kind has a module here with one
-//! [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from the reference, an oracle in
-//! double precision computes the right answer from the published formula, without the library under test, and ours has
-//! to be that answer. Then the checker names a [`Rule`], the reason of the difference. There is no number of allowed
-//! failures. The self-test changes one answer of ours after the other and demands that its line fails.
+//! A folder of vectors holds one file per kind, one JSON object a line. Each kind has a module here
+//! with one [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from
+//! the reference, an oracle in double precision computes the right answer from the published
+//! formula, without the library under test, and ours has to be that answer. Then the checker names
+//! a [`Rule`], the reason of the difference. There is no number of allowed failures. The self-test
+//! changes one answer of ours after the other and demands that its line fails.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -29,7 +30,8 @@ pub use findings::{Findings, Rule};
 pub use report::Report;
 pub use tolerance::Tolerance;
 
-/// Compares the lines of one kind, from the first to the last; later lines may refer to earlier ones.
+/// Compares the lines of one kind, from the first to the last; later lines may refer to earlier
+/// ones.
 pub trait Checker {
     /// Looks at one line and notes in `findings` what holds and what does not.
     ///

@@ -7,7 +7,8 @@ use lights::math::glam::{Vec2, Vec3};
 /// What a self-test does to one answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Twice as much; a half more where that is within tolerance, the other truth value, the next integer.
+    /// Twice as much; a half more where that is within tolerance, the other truth value, the next
+    /// integer.
     Double,
     /// Half of it; the integer before.
     Halve,

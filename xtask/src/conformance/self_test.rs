@@ -81,7 +81,8 @@ impl Table {
 /// Runs the self-test on the vectors of `folder`.
 ///
 /// # Errors
-/// One line that says why the folder or a file cannot be read, or that a line fails before anything is changed.
+/// One line that says why the folder or a file cannot be read, or that a line fails before anything
+/// is changed.
 pub fn run_folder(folder: &Path, selection: &Selection) -> Result<Table, String> {
     let files = read_folder(folder)?;
     let mut table = Table::default();

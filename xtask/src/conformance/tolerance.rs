@@ -17,7 +17,8 @@ impl Tolerance {
         Self { relative, absolute }
     }
 
-    /// Whether `ours` is near enough to `theirs`; not-a-number and the infinities are near to themselves alone.
+    /// Whether `ours` is near enough to `theirs`; not-a-number and the infinities are near to
+    /// themselves alone.
     #[must_use]
     pub fn accepts(self, ours: f32, theirs: f32) -> bool {
         if !(ours.is_finite() && theirs.is_finite()) {

@@ -1,6 +1,7 @@
 //! Why tests need not reach some lines.
 
-/// The reason for a line, if it has one: by its file, its text and the line that starts its function.
+/// The reason for a line, if it has one: by its file, its text and the line that starts its
+/// function.
 pub(super) fn reason(file: &str, line: &str, function: &str) -> Option<&'static str> {
     let (line, function) = (line.trim(), function.trim());
     let is_text = line.starts_with("Self::") && line.contains("=> \"");

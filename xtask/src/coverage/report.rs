@@ -108,7 +108,8 @@ impl FileCoverage {
     }
 }
 
-/// How often a line ran: the most of what starts in it, or what reaches into it. `None` for no code.
+/// How often a line ran: the most of what starts in it, or what reaches into it. `None` for no
+/// code.
 fn runs(segments: &[Segment], line: usize) -> Option<u64> {
     let before = segments.iter().rev().find(|segment| segment.line < line);
     let reaches_in = before.filter(|segment| segment.has_count);

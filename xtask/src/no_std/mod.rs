@@ -1,4 +1,5 @@
-//! `cargo xtask no-std`: the proof that nothing needs an operating system, and most of it no allocator.
+//! `cargo xtask no-std`: the proof that nothing needs an operating system, and most of it no
+//! allocator.
 
 mod probe;
 

@@ -5,8 +5,8 @@ use crate::steps::{StepResult, cargo, root, run};
 
 /// Links each crate alone into a library for this machine that brings its own panic handler.
 ///
-/// The link fails with a second panic handler if std is in it, and for want of an allocator if alloc is: the crates
-/// are held to `no_std` by the stable toolchain, without any other target.
+/// The link fails with a second panic handler if std is in it, and for want of an allocator if
+/// alloc is: the crates are held to `no_std` by the stable toolchain, without any other target.
 pub(super) fn check() -> StepResult {
     for_each_set(|set| set.needs != Needs::Std, link)
 }

@@ -74,8 +74,8 @@ mod tests {
     use light_bounds::{LightBounds, LightExtent, LightId};
     use light_math::Aabb;
 
-    /// Beyond the reach of the tree a point is taken to be nearer. A light that is above its horizon may seem to be below it then, so
-    /// that the normal does not count.
+    /// Beyond the reach of the tree a point is taken to be nearer. A light that is above its
+    /// horizon may seem to be below it then, so that the normal does not count.
     #[test]
     fn a_normal_does_not_count_where_coordinates_are_clamped() {
         let lights = [Vec3::ZERO, Vec3::Y].map(|p| {

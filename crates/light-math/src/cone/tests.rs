@@ -69,8 +69,9 @@ fn subtended_directions_at_every_scale() {
     }
 }
 
-/// Boxes a few units in the last place wide, whose centres are rounded by as much as their widths, and points just outside of the sphere of a
-/// box, in double precision: all corners are in the cone.
+/// Boxes a few units in the last place wide, whose centres are rounded by as much as their widths,
+/// and points just outside of the sphere of a box, in double precision: all corners are in the
+/// cone.
 #[test]
 fn subtended_directions_hold_the_corners_to_the_last_digit() {
     let mut rng = light_testkit::Rng::new(7);

@@ -1,7 +1,8 @@
 use super::alias_bin::AliasBin;
 use super::error::{TableError, check_len, positive_total};
 
-/// Fills `bins` by one sweep with a cursor over the weights below the mean and one over those above it.
+/// Fills `bins` by one sweep with a cursor over the weights below the mean and one over those above
+/// it.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounds probabilities; indices were checked to fit"

@@ -72,8 +72,8 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
     /// A table whose bins were built earlier, for example on another machine.
     ///
     /// # Errors
-    /// [`TableError::Empty`] without bins, [`TableError::Malformed`] if an alias or a probability is out of range or a
-    /// bin leads to an index of probability 0.
+    /// [`TableError::Empty`] without bins, [`TableError::Malformed`] if an alias or a probability
+    /// is out of range or a bin leads to an index of probability 0.
     pub fn from_bins(bins: S) -> Result<Self, TableError> {
         let slice = bins.as_ref();
         if slice.is_empty() {
@@ -96,7 +96,8 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
 
     /// An index chosen by `u` in `[0, 1)`, with what is left of `u`.
     ///
-    /// `u` is an `f64`: the 24 bits of an `f32` cannot address a million bins, much less a place within one.
+    /// `u` is an `f64`: the 24 bits of an `f32` cannot address a million bins, much less a place
+    /// within one.
     #[inline]
     #[must_use]
     #[expect(

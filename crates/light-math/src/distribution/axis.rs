@@ -59,7 +59,8 @@ impl Axis {
         Some((bin, scaled - bin as f32))
     }
 
-    /// The point at `place` in `[0, 1]` of `bin`, moved by roundings until [`locate`](Self::locate) finds it there.
+    /// The point at `place` in `[0, 1]` of `bin`, moved by roundings until [`locate`](Self::locate)
+    /// finds it there.
     #[inline]
     pub(super) fn place(&self, bin: usize, place: f32) -> f32 {
         let t = (bin as f32 + place) / self.bins as f32;

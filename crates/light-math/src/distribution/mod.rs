@@ -1,7 +1,8 @@
 //! Tables to sample from, over storage of the caller's choice.
 //!
-//! A table is built once from weights and then only read. Its numbers live in anything that lends a slice: a `Vec`, a
-//! borrowed buffer, an array in a `static`. Sampling never returns a value of zero density, for any `u`.
+//! A table is built once from weights and then only read. Its numbers live in anything that lends a
+//! slice: a `Vec`, a borrowed buffer, an array in a `static`. Sampling never returns a value of
+//! zero density, for any `u`.
 
 mod alias_bin;
 mod alias_sweep;

@@ -8,8 +8,8 @@ use super::error::{TableError, check_len};
 
 /// A density on an interval, constant in each of equal bins.
 ///
-/// `S` lends the numbers: `Vec<f32>`, `&[f32]`, `[f32; M]`. They are the density of each bin over the unit interval,
-/// then the running sum, [`table_len`](Self::table_len) in all.
+/// `S` lends the numbers: `Vec<f32>`, `&[f32]`, `[f32; M]`. They are the density of each bin over
+/// the unit interval, then the running sum, [`table_len`](Self::table_len) in all.
 ///
 /// ```
 /// # use light_math::distribution::PiecewiseConstant1D;
@@ -107,7 +107,8 @@ impl<S: AsRef<[f32]>> PiecewiseConstant1D<S> {
     /// The same density stretched over `[min, max]`.
     ///
     /// # Errors
-    /// [`TableError::Domain`] unless `min < max` and both are finite, [`TableError::Overflow`] if the integral is not.
+    /// [`TableError::Domain`] unless `min < max` and both are finite, [`TableError::Overflow`] if
+    /// the integral is not.
     pub fn over(self, min: f32, max: f32) -> Result<Self, TableError> {
         let axis = self.axis.over(min, max)?;
         if !(self.mean * axis.width()).is_finite() {

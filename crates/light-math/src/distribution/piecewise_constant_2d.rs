@@ -9,9 +9,9 @@ use glam::Vec2;
 
 /// A density on a rectangle, constant in each texel of a grid: the usual way to sample an image.
 ///
-/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the numbers: `Vec<f32>`, `&[f32]`,
-/// `[f32; M]`. They are the density of each texel over the unit square, the running sum of each row, and the running
-/// sum of the rows, [`table_len`](Self::table_len) in all.
+/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the numbers:
+/// `Vec<f32>`, `&[f32]`, `[f32; M]`. They are the density of each texel over the unit square, the
+/// running sum of each row, and the running sum of the rows, [`table_len`](Self::table_len) in all.
 ///
 /// # Source
 /// `[PBRT4]` A.5.5: `u.y` picks the row, `u.x` the place in it.
@@ -47,7 +47,8 @@ impl PiecewiseConstant2D<Vec<f32>> {
     /// The density over the unit square proportional to `weights`, `ny` rows of `nx` each.
     ///
     /// # Errors
-    /// [`TableError`] if there are no weights or not `nx * ny`, if all are zero, or if one is negative or not finite.
+    /// [`TableError`] if there are no weights or not `nx * ny`, if all are zero, or if one is
+    /// negative or not finite.
     pub fn new(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
         // Checked first, so that nonsense sizes do not allocate.
         check_len(nx.saturating_mul(ny), weights.len())?;
@@ -73,7 +74,8 @@ impl<const M: usize> PiecewiseConstant2D<[f32; M]> {
 }
 
 impl<'a> PiecewiseConstant2D<&'a [f32]> {
-    /// Like [`new`](PiecewiseConstant2D::new), in a buffer of [`table_len`](PiecewiseConstant2D::table_len) floats.
+    /// Like [`new`](PiecewiseConstant2D::new), in a buffer of
+    /// [`table_len`](PiecewiseConstant2D::table_len) floats.
     ///
     /// # Errors
     /// As for [`new`](PiecewiseConstant2D::new), and [`TableError::SizeMismatch`].
@@ -92,7 +94,8 @@ impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
     /// A table whose numbers were built earlier, with the mean of the weights.
     ///
     /// # Errors
-    /// [`TableError`] if the numbers are not what [`table`](Self::table) returns for `nx` columns and `ny` rows.
+    /// [`TableError`] if the numbers are not what [`table`](Self::table) returns for `nx` columns
+    /// and `ny` rows.
     pub fn from_table(table: S, nx: usize, ny: usize, mean: f32) -> Result<Self, TableError> {
         let (x, y) = (Axis::unit(nx)?, Axis::unit(ny)?);
         let found = table.as_ref().len();
@@ -117,8 +120,8 @@ impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
     /// The same density stretched over the rectangle from `min` to `max`.
     ///
     /// # Errors
-    /// [`TableError::Domain`] unless `min < max` on both axes and all is finite, [`TableError::Overflow`] if the area
-    /// or the integral is not.
+    /// [`TableError::Domain`] unless `min < max` on both axes and all is finite,
+    /// [`TableError::Overflow`] if the area or the integral is not.
     pub fn over(self, min: Vec2, max: Vec2) -> Result<Self, TableError> {
         let x = self.x.over(min.x, max.x)?;
         let y = self.y.over(min.y, max.y)?;

@@ -2,8 +2,9 @@ use crate::discrete::unit;
 
 /// One of a stream of values, chosen in proportion to weights that are known one at a time.
 ///
-/// One `u` serves the whole stream: each choice uses a part of it and passes on the rest. The rest stays accurate as
-/// long as the first weights are not vanishingly small against the sum, which is what the 53 bits of an `f64` are for.
+/// One `u` serves the whole stream: each choice uses a part of it and passes on the rest. The rest
+/// stays accurate as long as the first weights are not vanishingly small against the sum, which is
+/// what the 53 bits of an `f64` are for.
 ///
 /// ```
 /// # use light_math::distribution::WeightedReservoir;
@@ -68,7 +69,8 @@ impl<T> WeightedReservoir<T> {
         self.total
     }
 
-    /// The chosen value; none while no weight was positive, or if its probability is below the range of `f32`.
+    /// The chosen value; none while no weight was positive, or if its probability is below the
+    /// range of `f32`.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounds a probability")]
     pub fn sample(self) -> Option<SampledValue<T>> {

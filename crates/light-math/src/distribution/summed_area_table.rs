@@ -9,12 +9,13 @@ use super::window::Window;
 
 /// Sums of a grid of weights over any rectangle, in constant time.
 ///
-/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the sums: `Vec<u64>`, `&[u64]`,
-/// `[u64; M]`, one for each weight; sum `y * nx + x` counts all texels up to column x and row y.
+/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the sums:
+/// `Vec<u64>`, `&[u64]`, `[u64; M]`, one for each weight; sum `y * nx + x` counts all texels up to
+/// column x and row y.
 ///
-/// The sums are whole numbers, in a unit that is a power of two and 2^-62 of the total or so. So a sum over texels is
-/// exact: never negative, zero only where all weights are, and the same in whatever order it was built. A weight
-/// below the unit counts as one unit.
+/// The sums are whole numbers, in a unit that is a power of two and 2^-62 of the total or so. So a
+/// sum over texels is exact: never negative, zero only where all weights are, and the same in
+/// whatever order it was built. A weight below the unit counts as one unit.
 ///
 /// # Source
 /// `[Crow1984]`; whole numbers are ours.
@@ -31,7 +32,8 @@ impl SummedAreaTable<Vec<u64>> {
     /// The table of `ny` rows of `nx` weights each.
     ///
     /// # Errors
-    /// [`TableError`] if there are no weights or not `nx * ny`, or if one is negative or not finite.
+    /// [`TableError`] if there are no weights or not `nx * ny`, or if one is negative or not
+    /// finite.
     pub fn new(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
         let mut sums = vec![0; weights.len()];
         let unit = fill(weights, nx, ny, &mut sums)?;
@@ -73,7 +75,8 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
     /// A table whose sums were built earlier, with their [`unit`](Self::unit).
     ///
     /// # Errors
-    /// [`TableError`] if the sums are not what [`sums`](Self::sums) returns for `nx` columns and `ny` rows.
+    /// [`TableError`] if the sums are not what [`sums`](Self::sums) returns for `nx` columns and
+    /// `ny` rows.
     pub fn from_sums(sums: S, nx: usize, ny: usize, unit: f64) -> Result<Self, TableError> {
         if let Some(error) = [Axis::unit(nx), Axis::unit(ny)]
             .into_iter()
@@ -93,8 +96,8 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
         }
     }
 
-    /// The integral over the part of `window` in the unit square, on which each weight covers its texel; over the
-    /// whole square it is the mean of the weights.
+    /// The integral over the part of `window` in the unit square, on which each weight covers its
+    /// texel; over the whole square it is the mean of the weights.
     #[inline]
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounds an integral")]

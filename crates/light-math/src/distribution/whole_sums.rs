@@ -22,7 +22,8 @@ pub(super) const fn fill(
     if let Err(error) = check_len(weights.len(), sums.len()) {
         return Err(error);
     }
-    // The power of two that brings the total to 61 or 62 bits, with room for the weights that are rounded up.
+    // The power of two that brings the total to 61 or 62 bits, with room for the weights that are
+    // rounded up.
     let exponent = if total > 0.0 {
         (total.to_bits() >> 52) as i64 - 1023
     } else {

@@ -6,15 +6,16 @@ use crate::discrete::unit;
 use crate::float::{next_down, next_up};
 use glam::Vec2;
 
-/// The density of a [`PiecewiseConstant2D`](super::PiecewiseConstant2D) over the unit square, restricted to any
-/// rectangle of it: how an environment is sampled through a window.
+/// The density of a [`PiecewiseConstant2D`](super::PiecewiseConstant2D) over the unit square,
+/// restricted to any rectangle of it: how an environment is sampled through a window.
 ///
-/// Values of texels are differences of the table's sums, so nothing else is stored. A sample costs a binary search
-/// over the columns and one over the rows.
+/// Values of texels are differences of the table's sums, so nothing else is stored. A sample costs
+/// a binary search over the columns and one over the rows.
 ///
 /// # Source
-/// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in `[PBRT4]` A.5.6; there
-/// by bisection of the interpolated sums, here by search over texels and a straight line within the one that is found.
+/// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in
+/// `[PBRT4]` A.5.6; there by bisection of the interpolated sums, here by search over texels and a
+/// straight line within the one that is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowedPiecewiseConstant2D<S> {
     table: SummedAreaTable<S>,
@@ -82,8 +83,8 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
     }
 }
 
-/// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given the sum over whole
-/// texels; none if that is zero.
+/// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given
+/// the sum over whole texels; none if that is zero.
 #[inline]
 fn choose(span: &Span, u: f32, whole: impl Fn(usize, usize) -> f64) -> Option<(usize, f64, f64)> {
     let total = span.sum(&whole);
@@ -108,7 +109,8 @@ fn choose(span: &Span, u: f32, whole: impl Fn(usize, usize) -> f64) -> Option<(u
     Some((low, start + place * covered, total))
 }
 
-/// `x` as an `f32` of the interval from `min` to `max` that lies in texel `wanted` of `texels` over `[0, 1]`.
+/// `x` as an `f32` of the interval from `min` to `max` that lies in texel `wanted` of `texels` over
+/// `[0, 1]`.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "rounds a coordinate")]
 fn settle(x: f64, wanted: usize, texels: usize, min: f32, max: f32) -> f32 {

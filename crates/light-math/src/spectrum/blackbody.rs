@@ -13,8 +13,9 @@ const EXP_M1_PEAK: f32 = 142.324_91;
 /// The radiance of a black body, scaled so that its largest value over all wavelengths is 1.
 ///
 /// # Source
-/// Planck's law as a ratio to its maximum, with `y = lambda_max / lambda`: `y^5 (e^x - 1) / (e^(x y) - 1)`, `x` = 4.9651. In this form no
-/// constant of nature but Wien's appears, and nothing over- or underflows on the way.
+/// Planck's law as a ratio to its maximum, with `y = lambda_max / lambda`:
+/// `y^5 (e^x - 1) / (e^(x y) - 1)`, `x` = 4.9651. In this form no constant of nature but Wien's
+/// appears, and nothing over- or underflows on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Blackbody {

@@ -19,10 +19,11 @@ pub(super) const SAMPLES: usize = 471;
 /// The matching functions at each nanometre, interpolated when the crate is compiled.
 pub(super) const OBSERVER: &[Vec3; SAMPLES] = &interpolate(&OBSERVER_5_NM);
 
-/// The colour matching functions x, y, z at `lambda` nm, the nearest nanometre's value; 0 outside of the range.
+/// The colour matching functions x, y, z at `lambda` nm, the nearest nanometre's value; 0 outside
+/// of the range.
 ///
-/// Taken at 5 nm from the standard and interpolated by cubics to 1 nm, as the standard recommends: the sums over the
-/// range agree with those of its 1 nm table within 2e-6.
+/// Taken at 5 nm from the standard and interpolated by cubics to 1 nm, as the standard recommends:
+/// the sums over the range agree with those of its 1 nm table within 2e-6.
 #[inline]
 #[must_use]
 pub fn matching(lambda: f32) -> Vec3 {
@@ -55,7 +56,8 @@ pub fn sampled_xyz<const N: usize>(
     sum / (N.max(1) as f32 * Y_INTEGRAL)
 }
 
-/// The estimate of the luminance `Y` from the values at sampled wavelengths, in the scale of [`xyz`].
+/// The estimate of the luminance `Y` from the values at sampled wavelengths, in the scale of
+/// [`xyz`].
 #[inline]
 #[must_use]
 pub fn sampled_y<const N: usize>(
@@ -78,7 +80,8 @@ pub(super) fn nearest_nanometre(lambda: f32) -> Option<usize> {
         .then_some((lambda - LAMBDA_MIN + 0.5) as usize)
 }
 
-/// The weights of rows `i - 1` to `i + 2` for the cubic through them, at `t` in `[0, 1)` from row `i` to the next.
+/// The weights of rows `i - 1` to `i + 2` for the cubic through them, at `t` in `[0, 1)` from row
+/// `i` to the next.
 pub(super) const fn cubic(t: f64) -> [f64; 4] {
     [
         -t * (t - 1.0) * (t - 2.0) / 6.0,

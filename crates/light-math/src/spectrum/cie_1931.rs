@@ -1,6 +1,7 @@
 //! The data of the CIE 1931 standard observer.
 
-/// The colour matching functions x, y, z of the 2 degree observer, from 360 to 830 nm at steps of 5 nm.
+/// The colour matching functions x, y, z of the 2 degree observer, from 360 to 830 nm at steps of 5
+/// nm.
 ///
 /// # Source
 /// `[CIE018]`, table 1 (of the standard's 1 nm table, every fifth row).

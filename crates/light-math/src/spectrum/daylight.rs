@@ -39,7 +39,8 @@ impl Daylight {
     /// Afternoon daylight, about 5003 K: the white of print.
     pub const D50: Self = Self::from_weights(-1.039, 0.363);
 
-    /// The white of ACES, about 6000 K: the mix of the components that has its chromaticity, (0.32168, 0.33767).
+    /// The white of ACES, about 6000 K: the mix of the components that has its chromaticity,
+    /// (0.32168, 0.33767).
     pub const ACES_D60: Self = Self::from_weights(-0.535_934, -0.518_431);
 
     /// The daylight with the given correlated colour temperature.

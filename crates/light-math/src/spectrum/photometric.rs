@@ -1,13 +1,15 @@
 //! Light as people state it: in lumen, candela, nit and lux, and the way to watts.
 //!
-//! A photometric quantity is the radiometric one weighted by the luminous efficiency `V` of the eye, times
-//! [`K_M`]. A light whose spectrum has the shape `s` gives [`luminous`]`(s)` photometric units for each unit of its scale, so the scale
-//! that gives what the user asked for is the quotient. What the light does with direction (`4 pi` sr of a point light, `pi` of
-//! a Lambertian surface) is for the light to know.
+//! A photometric quantity is the radiometric one weighted by the luminous efficiency `V` of the
+//! eye, times [`K_M`]. A light whose spectrum has the shape `s` gives [`luminous`]`(s)` photometric
+//! units for each unit of its scale, so the scale that gives what the user asked for is the
+//! quotient. What the light does with direction (`4 pi` sr of a point light, `pi` of a Lambertian
+//! surface) is for the light to know.
 //!
-//! In RGB, where white has `Y` = 1 and stands for one watt, a colour gives `K_M * Y` photometric units. A spectral picture has the
-//! brightness of an RGB picture of the same lamps when its XYZ are integrals over the wavelengths, [`Y_INTEGRAL`](super::cie::Y_INTEGRAL)
-//! times the [means](super::cie::xyz).
+//! In RGB, where white has `Y` = 1 and stands for one watt, a colour gives `K_M * Y` photometric
+//! units. A spectral picture has the brightness of an RGB picture of the same lamps when its XYZ
+//! are integrals over the wavelengths, [`Y_INTEGRAL`](super::cie::Y_INTEGRAL) times the
+//! [means](super::cie::xyz).
 
 use super::Spectrum;
 use super::cie::{LAMBDA_MIN, OBSERVER};
@@ -76,7 +78,8 @@ impl Lux {
     }
 }
 
-/// What a spectral quantity per nm amounts to in photometric units: W/nm to lm, W/(sr nm) to cd, and so on.
+/// What a spectral quantity per nm amounts to in photometric units: W/nm to lm, W/(sr nm) to cd,
+/// and so on.
 #[must_use]
 pub fn luminous(spectrum: &impl Spectrum) -> f32 {
     integrals(spectrum).0

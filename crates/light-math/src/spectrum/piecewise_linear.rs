@@ -14,8 +14,8 @@ impl<S: AsRef<[f32]>> PiecewiseLinear<S> {
     /// The spectrum whose value at `lambdas[i]` nm, in strictly increasing order, is `values[i]`.
     ///
     /// # Errors
-    /// If there are no values or not as many as wavelengths, if the wavelengths do not increase, or if a number is not
-    /// finite.
+    /// If there are no values or not as many as wavelengths, if the wavelengths do not increase, or
+    /// if a number is not finite.
     pub fn new(lambdas: S, values: S) -> Result<Self, PiecewiseLinearError> {
         let (x, y) = (lambdas.as_ref(), values.as_ref());
         if x.is_empty() {

@@ -5,8 +5,8 @@ use super::{Daylight, SigmoidPolynomial, Spectrum};
 
 /// A smooth spectrum without upper end, by an RGB colour.
 ///
-/// Under the colour space's illuminant it has that colour: what an illuminant is multiplied by, or the coefficient of a
-/// medium.
+/// Under the colour space's illuminant it has that colour: what an illuminant is multiplied by, or
+/// the coefficient of a medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RgbUnbounded {
@@ -30,7 +30,8 @@ impl RgbUnbounded {
         Ok(Self::clamped(uplift, rgb))
     }
 
-    /// The spectrum of the linear colour `rgb` without a check, for texels; negative components and NaN count as 0.
+    /// The spectrum of the linear colour `rgb` without a check, for texels; negative components and
+    /// NaN count as 0.
     #[inline]
     #[must_use]
     pub fn clamped(uplift: &impl Uplift, rgb: Vec3) -> Self {
@@ -63,7 +64,8 @@ pub struct RgbIlluminant {
 }
 
 impl RgbIlluminant {
-    /// The emission of the linear colour `rgb`; `illuminant` is the one of the colour space that `uplift` is for.
+    /// The emission of the linear colour `rgb`; `illuminant` is the one of the colour space that
+    /// `uplift` is for.
     ///
     /// # Errors
     /// If a component is negative or not finite.
@@ -75,7 +77,8 @@ impl RgbIlluminant {
         RgbUnbounded::new(uplift, rgb).map(|rgb| Self { rgb, illuminant })
     }
 
-    /// The emission of the linear colour `rgb` without a check, for texels; negative components and NaN count as 0.
+    /// The emission of the linear colour `rgb` without a check, for texels; negative components and
+    /// NaN count as 0.
     #[inline]
     #[must_use]
     pub fn clamped(uplift: &impl Uplift, illuminant: Daylight, rgb: Vec3) -> Self {

@@ -3,8 +3,9 @@ use crate::float::sqrt;
 
 /// A smooth spectrum between 0 and 1: a sigmoid of a parabola in wavelength.
 ///
-/// `s(p(x))` with `s(y) = 1/2 + y / (2 sqrt(1 + y^2))`, `p(x) = (c[2] x + c[1]) x + c[0]` and `x = (lambda - 595 nm) / 235 nm`, which runs from
-/// -1 to 1: in this variable single precision is enough for the steepest spectra, unlike in nanometres.
+/// `s(p(x))` with `s(y) = 1/2 + y / (2 sqrt(1 + y^2))`, `p(x) = (c[2] x + c[1]) x + c[0]` and
+/// `x = (lambda - 595 nm) / 235 nm`, which runs from -1 to 1: in this variable single precision is
+/// enough for the steepest spectra, unlike in nanometres.
 ///
 /// # Source
 /// `[Jakob2019]`, section 3.

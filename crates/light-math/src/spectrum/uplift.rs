@@ -4,16 +4,19 @@ use super::SigmoidPolynomial;
 
 /// The way from a colour to a smooth spectrum of that colour.
 ///
-/// Emission has no upper end, so only the colour matters, not its strength: a colour is a spectrum between 0 and 1 whose
-/// largest RGB component is 1/2, times a factor. Grey is the constant spectrum 1/2.
+/// Emission has no upper end, so only the colour matters, not its strength: a colour is a spectrum
+/// between 0 and 1 whose largest RGB component is 1/2, times a factor. Grey is the constant
+/// spectrum 1/2.
 pub trait Uplift {
-    /// The spectrum of a colour, which under the colour space's illuminant has the RGB `rgb / (2 max(rgb))`.
+    /// The spectrum of a colour, which under the colour space's illuminant has the RGB
+    /// `rgb / (2 max(rgb))`.
     ///
     /// `rgb` is linear. Negative components and NaN count as 0; black has the spectrum of grey.
     fn shape(&self, rgb: Vec3) -> SigmoidPolynomial;
 }
 
-/// Which component is the largest, and the other two in cyclic order as fractions of it, in `[0, 1]`.
+/// Which component is the largest, and the other two in cyclic order as fractions of it, in
+/// `[0, 1]`.
 ///
 /// None for black.
 #[inline]

@@ -19,9 +19,10 @@ const MAX_LENGTH: f32 = 200.0;
 
 /// Finds the smooth spectrum of a colour by damped Newton steps; exact, and without a table.
 ///
-/// A colour of sRGB takes four or five steps from grey, about two microseconds. Colours come back within 5e-5 of their largest
-/// component in sRGB and within 5e-4 in Display P3; in Rec. 2020, whose primaries are monochromatic lights, within 5e-2 around those and 1e-3
-/// in the mean. In ACES2065-1, whose primaries are no colours at all, what cannot be met is approached.
+/// A colour of sRGB takes four or five steps from grey, about two microseconds. Colours come back
+/// within 5e-5 of their largest component in sRGB and within 5e-4 in Display P3; in Rec. 2020,
+/// whose primaries are monochromatic lights, within 5e-2 around those and 1e-3 in the mean. In
+/// ACES2065-1, whose primaries are no colours at all, what cannot be met is approached.
 ///
 /// # Source
 /// `[Jakob2019]`, section 4, by a solver of ours: Levenberg-Marquardt in linear RGB.
@@ -44,7 +45,8 @@ impl UpliftSolver {
         for (i, observer) in cie::OBSERVER.iter().enumerate() {
             let light = illuminant.eval(cie::LAMBDA_MIN + i as f32) / cie::Y_INTEGRAL;
             let rgb = space.rgb_from_xyz() * (*observer * light);
-            // Smooth spectra are cubics between nodes, so each nanometre counts for the four around it.
+            // Smooth spectra are cubics between nodes, so each nanometre counts for the four around
+            // it.
             let shares = cie::cubic((i % 5) as f64 * 0.2);
             for (k, share) in shares.iter().enumerate() {
                 let node = (i / 5 + k).saturating_sub(1).min(NODES - 2);
@@ -170,7 +172,8 @@ mod tests {
         space.rgb_from_xyz() * cie::xyz(&Lit(shape, space.illuminant()))
     }
 
-    /// The largest error over a grid of colours, as a fraction of their largest component, and the mean.
+    /// The largest error over a grid of colours, as a fraction of their largest component, and the
+    /// mean.
     fn errors(space: &RgbColorSpace) -> (f32, f32) {
         let solver = UpliftSolver::new(space);
         let steps = 8;

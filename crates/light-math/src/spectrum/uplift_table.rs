@@ -4,12 +4,14 @@ use super::uplift::{Uplift, color, face};
 use super::{SigmoidPolynomial, UpliftSolver};
 use crate::float::sqrt;
 
-/// Spectra of all colours by bilinear interpolation of solved ones: for texels, in about ten nanoseconds.
+/// Spectra of all colours by bilinear interpolation of solved ones: for texels, in about ten
+/// nanoseconds.
 ///
-/// The strength of a colour does not matter, so the colours are the three faces of a cube, one for each largest
-/// component: `3 x 24 x 24` solutions of three coefficients, 20 KiB in a storage `S` of the caller's choice (`&[f32]`, array, `Vec`). Along
-/// a face the nodes are dense where the smallest component is near 0, for there the spectra change fastest.
-/// The colour of an interpolated spectrum is within 2e-3 of the solver's in sRGB, 3e-4 in the mean (fractions of the
+/// The strength of a colour does not matter, so the colours are the three faces of a cube, one for
+/// each largest component: `3 x 24 x 24` solutions of three coefficients, 20 KiB in a storage `S`
+/// of the caller's choice (`&[f32]`, array, `Vec`). Along a face the nodes are dense where the
+/// smallest component is near 0, for there the spectra change fastest. The colour of an
+/// interpolated spectrum is within 2e-3 of the solver's in sRGB, 3e-4 in the mean (fractions of the
 /// largest component).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UpliftTable<S> {
@@ -36,7 +38,8 @@ impl UpliftTable<&'static [f32]> {
 }
 
 impl<S: AsRef<[f32]> + AsMut<[f32]>> UpliftTable<S> {
-    /// The table of a colour space in the given storage of [`LEN`](Self::LEN) numbers, whatever it holds.
+    /// The table of a colour space in the given storage of [`LEN`](Self::LEN) numbers, whatever it
+    /// holds.
     ///
     /// Costs 1728 solutions, some milliseconds.
     ///

@@ -12,7 +12,8 @@ pub struct SampledWavelengths<const N: usize> {
 }
 
 impl<const N: usize> SampledWavelengths<N> {
-    /// `N` wavelengths at equal distances over the whole range, the first by `u` in `[0, 1)`, the others around the circle.
+    /// `N` wavelengths at equal distances over the whole range, the first by `u` in `[0, 1)`, the
+    /// others around the circle.
     #[must_use]
     pub fn uniform(u: f32) -> Self {
         let range = LAMBDA_MAX - LAMBDA_MIN;
@@ -35,7 +36,8 @@ impl<const N: usize> SampledWavelengths<N> {
         }
     }
 
-    /// The given wavelengths in nm, as if drawn uniformly: for tests, and for renderers with bins of their own.
+    /// The given wavelengths in nm, as if drawn uniformly: for tests, and for renderers with bins
+    /// of their own.
     #[must_use]
     pub const fn from_lambda(lambda: [f32; N]) -> Self {
         Self {
@@ -58,7 +60,8 @@ impl<const N: usize> SampledWavelengths<N> {
         &self.pdf
     }
 
-    /// The same wavelengths with all but the first given up, for a path that the first one alone can follow.
+    /// The same wavelengths with all but the first given up, for a path that the first one alone
+    /// can follow.
     ///
     /// The first one's density is divided by `N`, because estimates average over `N`. Idempotent.
     #[must_use]

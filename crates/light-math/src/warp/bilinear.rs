@@ -1,7 +1,7 @@
 //! The density on the unit square that interpolates its values at the corners.
 //!
-//! The values `w` stand in the order `(0,0)`, `(1,0)`, `(0,1)`, `(1,1)` and are not negative; if all are 0 (or one is
-//! not finite) the density is uniform.
+//! The values `w` stand in the order `(0,0)`, `(1,0)`, `(0,1)`, `(1,1)` and are not negative; if
+//! all are 0 (or one is not finite) the density is uniform.
 
 use super::linear;
 use crate::float::inverse_power_of_two;
@@ -10,7 +10,8 @@ use glam::Vec2;
 /// The point of the square for `u`.
 ///
 /// # Source
-/// `[PBRT4]` 2.4.2: first y by the line between the two rows' sums, then x by the line across the row.
+/// `[PBRT4]` 2.4.2: first y by the line between the two rows' sums, then x by the line across the
+/// row.
 #[inline]
 #[must_use]
 pub fn sample(u: Vec2, w: [f32; 4]) -> Vec2 {

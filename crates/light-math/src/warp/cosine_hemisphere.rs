@@ -1,4 +1,5 @@
-//! Directions around +z with a density proportional to the cosine: Lambertian emission and reflection.
+//! Directions around +z with a density proportional to the cosine: Lambertian emission and
+//! reflection.
 
 use super::concentric_disk;
 use crate::float::{sin_cos, sqrt};
@@ -19,7 +20,8 @@ pub fn sample(u: Vec2) -> Vec3 {
     Vec3::new(r * cos_phi, r * sin_phi, z)
 }
 
-/// The density per solid angle of a direction with `z = cos_theta`: `cos_theta / pi`, 0 below the horizon.
+/// The density per solid angle of a direction with `z = cos_theta`: `cos_theta / pi`, 0 below the
+/// horizon.
 #[inline]
 #[must_use]
 pub fn pdf(cos_theta: f32) -> f32 {

@@ -9,8 +9,8 @@ const SMALLEST_DIST: f32 = 2e-19;
 /// A part of a ray seen from a point beside it, such as a light in a medium.
 ///
 /// # Source
-/// `[Kulla2012]`, equations 4 to 7, with angles counted from the near end, so that they keep their digits where the
-/// part is short or far.
+/// `[Kulla2012]`, equations 4 to 7, with angles counted from the near end, so that they keep their
+/// digits where the part is short or far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equiangular {
     t_min: f32,
@@ -24,11 +24,12 @@ pub struct Equiangular {
 }
 
 impl Equiangular {
-    /// The ray from an origin along the unit vector `direction` between `t_min` and `t_max`, and the point at
-    /// `to_point` from that origin; `t_max` may be infinite. None if the part is empty.
+    /// The ray from an origin along the unit vector `direction` between `t_min` and `t_max`, and
+    /// the point at `to_point` from that origin; `t_max` may be infinite. None if the part is
+    /// empty.
     ///
-    /// A point on the ray itself is moved off it by 1e-6 of the largest distance, at least by 2e-19, because the density
-    /// toward it has no integral.
+    /// A point on the ray itself is moved off it by 1e-6 of the largest distance, at least by
+    /// 2e-19, because the density toward it has no integral.
     #[must_use]
     pub fn new(to_point: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> Option<Self> {
         let closest = to_point.dot(direction);

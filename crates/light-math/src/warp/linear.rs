@@ -1,11 +1,12 @@
 //! The density on `[0, 1]` that is proportional to a straight line.
 //!
-//! The line has the values `a` at 0 and `b` at 1, neither negative; if both are 0 (or one is not finite) the density
-//! is uniform.
+//! The line has the values `a` at 0 and `b` at 1, neither negative; if both are 0 (or one is not
+//! finite) the density is uniform.
 
 use crate::float::{ONE_MINUS_EPSILON, inverse_power_of_two, sqrt};
 
-/// A start of the line, over its end, that counts as zero: products of two such densities would vanish.
+/// A start of the line, over its end, that counts as zero: products of two such densities would
+/// vanish.
 const NEGLIGIBLE: f32 = 1e-20;
 
 /// The `x` in `[0, 1)` for `u`.

@@ -1,14 +1,15 @@
 //! The density on `[a, b]` that is proportional to the cubic step from 0 at `a` to 1 at `b`.
 //!
-//! With `a = b` the step has no width: every sample is `a`, and its density is 0, for the caller to handle.
+//! With `a = b` the step has no width: every sample is `a`, and its density is 0, for the caller to
+//! handle.
 
 use crate::float::{cbrt, next_up};
 
 /// The `x` in `[a, b]` for `u`.
 ///
 /// # Source
-/// `[PBRT4]` A.4.6 inverts by bisection. Ours starts above the root of the convex `t^3 (2 - t) - u`, from where
-/// Newton's steps come down to it and cannot leave the interval.
+/// `[PBRT4]` A.4.6 inverts by bisection. Ours starts above the root of the convex
+/// `t^3 (2 - t) - u`, from where Newton's steps come down to it and cannot leave the interval.
 #[inline]
 #[must_use]
 pub fn sample(u: f32, a: f32, b: f32) -> f32 {

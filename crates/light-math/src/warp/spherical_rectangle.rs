@@ -5,16 +5,19 @@ use glam::{Vec2, Vec3};
 
 /// A rectangle projected to the unit sphere around a point.
 ///
-/// Samples are places on the rectangle, from `(0, 0)` at its corner to `(1, 1)` at the opposite one; the direction is
-/// from the point to the place. The density is the same everywhere, so the pdf needs no argument.
+/// Samples are places on the rectangle, from `(0, 0)` at its corner to `(1, 1)` at the opposite
+/// one; the direction is from the point to the place. The density is the same everywhere, so the
+/// pdf needs no argument.
 ///
 /// # Source
-/// `[Urena2013]`: `u.x` cuts off a part of the area by a line across, `u.y` walks along that line. Differences of
-/// nearly equal angles cost the paper's formulas their digits where the rectangle is small; a step or two of Newton's
-/// method, on areas computed without such differences, gives them back.
+/// `[Urena2013]`: `u.x` cuts off a part of the area by a line across, `u.y` walks along that line.
+/// Differences of nearly equal angles cost the paper's formulas their digits where the rectangle is
+/// small; a step or two of Newton's method, on areas computed without such differences, gives them
+/// back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalRectangle {
-    /// Lower corner in the frame of the rectangle, with the point as origin, and lengths of the edges.
+    /// Lower corner in the frame of the rectangle, with the point as origin, and lengths of the
+    /// edges.
     low: Vec2,
     size: Vec2,
     /// Distance of the point from the plane.
@@ -23,8 +26,8 @@ pub struct SphericalRectangle {
 }
 
 impl SphericalRectangle {
-    /// The rectangle with the given `corner` and perpendicular edges `ex`, `ey`, seen from `p`; none if it covers no
-    /// solid angle there.
+    /// The rectangle with the given `corner` and perpendicular edges `ex`, `ey`, seen from `p`;
+    /// none if it covers no solid angle there.
     #[must_use]
     pub fn new(corner: Vec3, ex: Vec3, ey: Vec3, p: Vec3) -> Option<Self> {
         let size = Vec2::new(ex.length(), ey.length());
@@ -87,7 +90,8 @@ impl SphericalRectangle {
         1.0 / self.solid_angle
     }
 
-    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to the place `at` on the rectangle.
+    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to the place `at` on the
+    /// rectangle.
     #[must_use]
     pub fn invert(&self, at: Vec2) -> Vec2 {
         let line = self.line(at.x);
@@ -122,9 +126,10 @@ impl SphericalRectangle {
 
     /// The place of the cut with the given area below it.
     ///
-    /// The area from the foot of the point to `x` is `asin(sin y1 sin x) - asin(sin y0 sin x)` in angles seen from the
-    /// point; this is `[Urena2013]`, solved for the tangent of x, with differences of cosines as products of sines. The
-    /// second one belongs to the supplement of the sum of y0 and y1.
+    /// The area from the foot of the point to `x` is `asin(sin y1 sin x) - asin(sin y0 sin x)` in
+    /// angles seen from the point; this is `[Urena2013]`, solved for the tangent of x, with
+    /// differences of cosines as products of sines. The second one belongs to the supplement of the
+    /// sum of y0 and y1.
     fn cut(&self, area: f32) -> f32 {
         let (h, x, y0) = (self.height, self.low.x, self.low.y);
         let y1 = y0 + self.size.y;
@@ -219,8 +224,8 @@ fn halves(low: f32, width: f32) -> [Option<[f32; 2]>; 2] {
     }
 }
 
-/// The solid angle of a rectangle within one quadrant around the foot of the point: nothing here is subtracted, since
-/// no two directions are more than a right angle apart.
+/// The solid angle of a rectangle within one quadrant around the foot of the point: nothing here is
+/// subtracted, since no two directions are more than a right angle apart.
 fn quadrant([x, width]: [f32; 2], [y, length]: [f32; 2], height: f32) -> f32 {
     let r = [
         (x, y),
@@ -230,16 +235,17 @@ fn quadrant([x, width]: [f32; 2], [y, length]: [f32; 2], height: f32) -> f32 {
     ];
     let r = r.map(|(x, y)| Vec3::new(x, y, height));
     let l = r.map(Vec3::length);
-    // Half the solid angles of the two triangles beside the diagonal, which span the same volume with the point.
+    // Half the solid angles of the two triangles beside the diagonal, which span the same volume
+    // with the point.
     let sin = height * width * length;
     let diagonal = l[0] * l[2] + r[0].dot(r[2]);
     let cos = |i: usize| diagonal * l[i] + r[i].dot(r[0]) * l[2] + r[i].dot(r[2]) * l[0];
     2.0 * (atan2(sin, cos(1)) + atan2(sin, cos(3)))
 }
 
-/// Newton's method within `[0, 1]` from `x` on, for the step at a place and its reach, the scale on which slopes change:
-/// a step that is not well within it means that `x` is as good as `u` allows already. One step does, unless it is so
-/// long that the slope changed on its way.
+/// Newton's method within `[0, 1]` from `x` on, for the step at a place and its reach, the scale on
+/// which slopes change: a step that is not well within it means that `x` is as good as `u` allows
+/// already. One step does, unless it is so long that the slope changed on its way.
 fn newton(mut x: f32, step_and_reach: impl Fn(f32) -> (f32, f32)) -> f32 {
     for _ in 0..2 {
         let (step, reach) = step_and_reach(x);

@@ -6,26 +6,27 @@ use glam::{Vec2, Vec3};
 
 /// A triangle projected to the unit sphere around a point.
 ///
-/// Samples are barycentric coordinates; the direction is from the point to the place on the triangle. The density is
-/// the same everywhere, so the pdf needs no argument.
+/// Samples are barycentric coordinates; the direction is from the point to the place on the
+/// triangle. The density is the same everywhere, so the pdf needs no argument.
 ///
 /// # Source
-/// `[Arvo1995]`: `u.x` cuts off a part of the area by an arc from the second corner to the opposite side, `u.y` walks
-/// along that arc, even in the cosine. Arvo solves for the cut with the angles of the triangle, whose sum loses all
-/// digits for a small one. With the tangents of half angles (see `[VanOosterom1983]`) the equation for the cut is
-/// linear, and places on edges follow from the edges themselves, so a triangle of 1e-12 steradians is sampled as well
-/// as one of 6.
+/// `[Arvo1995]`: `u.x` cuts off a part of the area by an arc from the second corner to the opposite
+/// side, `u.y` walks along that arc, even in the cosine. Arvo solves for the cut with the angles of
+/// the triangle, whose sum loses all digits for a small one. With the tangents of half angles (see
+/// `[VanOosterom1983]`) the equation for the cut is linear, and places on edges follow from the
+/// edges themselves, so a triangle of 1e-12 steradians is sampled as well as one of 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalTriangle {
-    /// The side from the first to the third corner, and the edge from the second corner to the first.
+    /// The side from the first to the third corner, and the edge from the second corner to the
+    /// first.
     opposite: Side,
     second_to_first: Vec3,
     /// Unit vectors toward the corners, and the distance of the second one.
     directions: [Vec3; 3],
     second_dist: f32,
-    /// In the frame of the first corner, where the side opposite to the second one starts along a tangent: the volume
-    /// of both directions and the tangent, the second direction along the tangent, and `1 + cos` of the angle between
-    /// both directions.
+    /// In the frame of the first corner, where the side opposite to the second one starts along a
+    /// tangent: the volume of both directions and the tangent, the second direction along the
+    /// tangent, and `1 + cos` of the angle between both directions.
     volume: f32,
     along_tangent: f32,
     one_plus_cos: f32,
@@ -97,8 +98,8 @@ impl SphericalTriangle {
         1.0 / self.solid_angle
     }
 
-    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to the coordinates; `u.x` is 0 at the second corner,
-    /// where it is not determined.
+    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to the coordinates; `u.x` is 0 at
+    /// the second corner, where it is not determined.
     #[must_use]
     pub fn invert(&self, barycentric: Vec3) -> Vec2 {
         let walked = barycentric.x + barycentric.z;
@@ -129,7 +130,8 @@ impl SphericalTriangle {
 /// An edge seen from a point: places on it are fractions, from 0 at its start to 1 at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Side {
-    /// The edge as a vector, the distance of its start, and what it adds along that direction and at right angles.
+    /// The edge as a vector, the distance of its start, and what it adds along that direction and
+    /// at right angles.
     edge: Vec3,
     start_dist: f32,
     along: f32,
@@ -137,7 +139,8 @@ struct Side {
 }
 
 impl Side {
-    /// The edge with its part along the direction of its start, what is `rejected` from there, and the distance of its start.
+    /// The edge with its part along the direction of its start, what is `rejected` from there, and
+    /// the distance of its start.
     #[inline]
     fn new(edge: Vec3, along: f32, rejected: Vec3, start_dist: f32) -> Self {
         Self {
@@ -214,7 +217,8 @@ fn sin_cos_of_small(x: f32) -> (f32, f32) {
     )
 }
 
-/// What is left of `v` at right angles to the unit vector `axis`; twice, for the digits that the first time loses.
+/// What is left of `v` at right angles to the unit vector `axis`; twice, for the digits that the
+/// first time loses.
 #[inline]
 fn rejection(v: Vec3, axis: Vec3) -> Vec3 {
     let once = v - axis * axis.dot(v);

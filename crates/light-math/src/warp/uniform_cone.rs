@@ -1,8 +1,8 @@
 //! Uniform directions in a cone around +z.
 //!
-//! The cone is given by the height of its cap, `one_minus_cos_theta_max = 1 - cos(theta_max)` in `(0, 2]`: a narrow
-//! cone, such as the one toward a far sphere, would lose all its digits in the cosine itself. From a sine it is
-//! `sin^2 / (1 + cos)`.
+//! The cone is given by the height of its cap, `one_minus_cos_theta_max = 1 - cos(theta_max)` in
+//! `(0, 2]`: a narrow cone, such as the one toward a far sphere, would lose all its digits in the
+//! cosine itself. From a sine it is `sin^2 / (1 + cos)`.
 
 use super::{azimuth, invert_azimuth};
 use crate::float::sqrt;
@@ -21,7 +21,8 @@ pub fn sample(u: Vec2, one_minus_cos_theta_max: f32) -> Vec3 {
     (azimuth(u.y) * sin_theta).extend(1.0 - height)
 }
 
-/// The density per solid angle within the cone, `1 / (2 pi (1 - cos theta_max))`; 0 for a cone without extent.
+/// The density per solid angle within the cone, `1 / (2 pi (1 - cos theta_max))`; 0 for a cone
+/// without extent.
 #[inline]
 #[must_use]
 pub fn pdf(one_minus_cos_theta_max: f32) -> f32 {
@@ -32,7 +33,8 @@ pub fn pdf(one_minus_cos_theta_max: f32) -> f32 {
     }
 }
 
-/// The `u` in `[0, 1]^2` that [`sample`] takes to the unit vector `w` of the cone; `u.y` is 0 on the axis.
+/// The `u` in `[0, 1]^2` that [`sample`] takes to the unit vector `w` of the cone; `u.y` is 0 on
+/// the axis.
 #[must_use]
 pub fn invert(w: Vec3, one_minus_cos_theta_max: f32) -> Vec2 {
     // Above the equator the sine has more digits than 1 - z.

@@ -13,7 +13,8 @@ pub fn sample(u: Vec2) -> Vec3 {
     (azimuth(u.y) * sqrt(1.0 - z * z)).extend(z)
 }
 
-/// The density per solid angle of a direction with `z = cos_theta`: `1 / (2 pi)`, 0 below the horizon.
+/// The density per solid angle of a direction with `z = cos_theta`: `1 / (2 pi)`, 0 below the
+/// horizon.
 #[inline]
 #[must_use]
 pub fn pdf(cos_theta: f32) -> f32 {

@@ -26,7 +26,8 @@ fn a_plane_that_holds_the_point_shows_nothing() {
     assert_eq!(rectangle, None, "a rectangle");
 }
 
-/// Almost in the plane of a triangle, above its inside and beside it: all of half a sphere, or next to nothing.
+/// Almost in the plane of a triangle, above its inside and beside it: all of half a sphere, or next
+/// to nothing.
 #[test]
 fn a_plane_that_almost_holds_the_point_shows_half_a_sphere_or_nothing() {
     let v = [
@@ -52,7 +53,8 @@ fn a_plane_that_almost_holds_the_point_shows_half_a_sphere_or_nothing() {
     }
 }
 
-/// Rectangles of any size seen from any height, down to where squares of lengths vanish: places are places.
+/// Rectangles of any size seen from any height, down to where squares of lengths vanish: places are
+/// places.
 #[test]
 fn rectangles_at_the_ends_of_the_range_are_sampled_within() {
     let us = [0.0, 1e-7, 0.3, 0.5, ONE_MINUS_EPSILON];

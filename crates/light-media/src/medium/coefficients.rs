@@ -54,8 +54,9 @@ pub enum CoefficientsError {
 }
 
 impl<C: ColorModel> Substance<C> {
-    /// A substance with absorption `sigma_a` and scattering `sigma_s` per unit length that glows like a body of radiance
-    /// `le`: an optically thick layer of it that only absorbs emits `le`, so it adds `sigma_a le` per unit length.
+    /// A substance with absorption `sigma_a` and scattering `sigma_s` per unit length that glows
+    /// like a body of radiance `le`: an optically thick layer of it that only absorbs emits `le`,
+    /// so it adds `sigma_a le` per unit length.
     ///
     /// # Errors
     /// A value is negative or not finite.

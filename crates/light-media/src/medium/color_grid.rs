@@ -9,7 +9,8 @@ use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
 use light_sources::{ColorModel, Radiance};
 
-/// A coloured quantity over the unit cube: three channels, and what each of them stands for in the colour model.
+/// A coloured quantity over the unit cube: three channels, and what each of them stands for in the
+/// colour model.
 ///
 /// For RGB the basis is red, green and blue; for spectra any three of them.
 #[derive(Clone, Debug)]
@@ -52,7 +53,8 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGrid<C, S> {
         })
     }
 
-    /// The value that the channels 1, 1, 1 give at most: times the largest channel it bounds the sum.
+    /// The value that the channels 1, 1, 1 give at most: times the largest channel it bounds the
+    /// sum.
     fn of_ones(&self, wavelengths: &C::Wavelengths) -> f32 {
         let basis = self.basis.iter().map(|b| C::emit(b, wavelengths));
         basis.fold(C::Radiance::BLACK, |sum, b| sum + b).maximum()
@@ -82,8 +84,9 @@ pub struct ColorGridMedium<C: ColorModel, S> {
 }
 
 impl<C: ColorModel, S: AsRef<[f32]>> ColorGridMedium<C, S> {
-    /// The medium in `bounds` of a space that `to_scene` takes to the scene: absorption `sigma_a` and scattering `sigma_s`
-    /// per unit length; `le` is the radiance of a thick body of it, so that it adds `sigma_a le` per unit length.
+    /// The medium in `bounds` of a space that `to_scene` takes to the scene: absorption `sigma_a`
+    /// and scattering `sigma_s` per unit length; `le` is the radiance of a thick body of it, so
+    /// that it adds `sigma_a le` per unit length.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform has no inverse.

@@ -2,7 +2,8 @@ use super::majorant_grid::MajorantGrid;
 use super::samples::{Grid, GridError};
 use light_math::glam::Vec3;
 
-/// A density over the unit cube: a [`Grid`] of one channel that knows how dense each part of it can be.
+/// A density over the unit cube: a [`Grid`] of one channel that knows how dense each part of it can
+/// be.
 ///
 /// Costs 4 bytes a sample and 16 KiB for the maxima of coarse cells.
 #[derive(Clone, Debug)]
@@ -18,7 +19,8 @@ impl<S: AsRef<[f32]>> DensityGrid<S> {
     /// The grid of `size[0] * size[1] * size[2]` values, x fastest.
     ///
     /// # Errors
-    /// A size is zero, the number of values does not fit the sizes, or a value is negative or not finite.
+    /// A size is zero, the number of values does not fit the sizes, or a value is negative or not
+    /// finite.
     pub fn new(size: [u32; 3], values: S) -> Result<Self, GridError> {
         let grid = Grid::new(size, values)?;
         let majorants = MajorantGrid::new(size, grid.maxima());

@@ -36,8 +36,8 @@ pub enum ExponentialHeightError {
 }
 
 impl<C: ColorModel> ExponentialHeight<C> {
-    /// The medium whose density begins to fall at the point `base` of the scene in the direction `up` (any length), by
-    /// the factor `e` each `1 / falloff` units of length.
+    /// The medium whose density begins to fall at the point `base` of the scene in the direction
+    /// `up` (any length), by the factor `e` each `1 / falloff` units of length.
     ///
     /// # Errors
     /// An argument is not finite, `up` is zero or `falloff` negative.

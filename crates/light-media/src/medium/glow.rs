@@ -4,7 +4,8 @@ use super::temperature::TemperatureGrid;
 use light_math::glam::Vec3;
 use light_sources::{ColorModel, Radiance};
 
-/// How the emission of a grid medium varies over the unit cube: a factor of its substance's emission.
+/// How the emission of a grid medium varies over the unit cube: a factor of its substance's
+/// emission.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",

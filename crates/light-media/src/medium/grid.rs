@@ -22,8 +22,8 @@ pub struct GridMedium<C: ColorModel, S> {
 }
 
 impl<C: ColorModel, S> GridMedium<C, S> {
-    /// The medium in `bounds` of a space that `to_scene` takes to the scene. `density` multiplies the coefficients of
-    /// `substance`; `glow` its emission once more.
+    /// The medium in `bounds` of a space that `to_scene` takes to the scene. `density` multiplies
+    /// the coefficients of `substance`; `glow` its emission once more.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform has no inverse.

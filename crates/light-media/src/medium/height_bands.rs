@@ -4,8 +4,8 @@ use light_math::float;
 
 use crate::ray::Span;
 
-/// The bands of height that a ray crosses: in band `k` the density lies within `[2^-(k+1), 2^-k]`, in band 0 also
-/// everything below the base, in the last one everything above.
+/// The bands of height that a ray crosses: in band `k` the density lies within `[2^-(k+1), 2^-k]`,
+/// in band 0 also everything below the base, in the last one everything above.
 #[derive(Clone, Debug)]
 pub(super) struct HeightBands {
     band: i32,
@@ -18,8 +18,8 @@ impl HeightBands {
     /// Above this band the density is below any that matters: one segment covers the rest.
     const TOP: i32 = 24;
 
-    /// The bands along `span` of a ray that starts at height `h0` above the base and rises by `dh` a unit; densities fall by the factor `e` each
-    /// `1 / falloff`.
+    /// The bands along `span` of a ray that starts at height `h0` above the base and rises by `dh`
+    /// a unit; densities fall by the factor `e` each `1 / falloff`.
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=TOP")]
     pub(super) fn new(falloff: f32, h0: f32, dh: f32, span: Span) -> Self {
         let band_of = |t: f32| {
@@ -34,7 +34,8 @@ impl HeightBands {
         }
     }
 
-    /// The bound of the density in the band where the walk stands, and the distance at which the ray leaves the band.
+    /// The bound of the density in the band where the walk stands, and the distance at which the
+    /// ray leaves the band.
     pub(super) fn step(&mut self) -> (f32, f32) {
         // The margin covers the rounding of heights and exponentials.
         let density = float::powf(0.5, self.band as f32) * (1.0 + 1e-4);

@@ -39,8 +39,8 @@ impl<'a> Majorants<'a> {
         Self::new(span, max_sigma_t, Walk::Bands(bands))
     }
 
-    /// The cells of coarse grids of maxima over the unit cube, which `unit_ray` crosses: the bound is the sum of all
-    /// layers, each a grid and its factor.
+    /// The cells of coarse grids of maxima over the unit cube, which `unit_ray` crosses: the bound
+    /// is the sum of all layers, each a grid and its factor.
     pub(super) fn cells(span: Span, layers: [Layer<'a>; 2], unit_ray: &Ray) -> Self {
         Self::new(
             span,
@@ -68,7 +68,8 @@ impl Iterator for Majorants<'_> {
             Walk::Bands(bands) => bands.step(),
             Walk::Cells(cells) => cells.step(),
         };
-        // An end that rounding puts before the start makes a segment without length; the walk itself still goes on.
+        // An end that rounding puts before the start makes a segment without length; the walk
+        // itself still goes on.
         let t = end.clamp(rest.t0, rest.t1);
         self.rest = Span::new(t, rest.t1);
         Some(MajorantSegment {

@@ -35,7 +35,8 @@ use crate::ray::{Ray, Span};
 use light_math::glam::Vec3;
 use light_sources::ColorModel;
 
-/// A participating medium. Points, rays and distances are the scene's; coefficients are per unit of its length.
+/// A participating medium. Points, rays and distances are the scene's; coefficients are per unit of
+/// its length.
 pub trait Medium<C: ColorModel> {
     /// How it redistributes what it scatters.
     fn phase(&self) -> &Phase;
@@ -46,8 +47,8 @@ pub trait Medium<C: ColorModel> {
     /// The part of `span` in which the medium may be other than vacuum.
     fn clip(&self, ray: &Ray, span: Span) -> Option<Span>;
 
-    /// The optical thickness, the integral of the extinction over `span`, where it has a closed form; `None`, unless
-    /// told otherwise. `span` lies in the medium.
+    /// The optical thickness, the integral of the extinction over `span`, where it has a closed
+    /// form; `None`, unless told otherwise. `span` lies in the medium.
     fn optical_thickness(
         &self,
         _ray: &Ray,
@@ -57,6 +58,7 @@ pub trait Medium<C: ColorModel> {
         None
     }
 
-    /// Upper bounds of the extinction over consecutive segments that fill `span`. `span` lies in the medium.
+    /// Upper bounds of the extinction over consecutive segments that fill `span`. `span` lies in
+    /// the medium.
     fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_>;
 }

@@ -1,9 +1,10 @@
 use light_math::glam::Vec3;
 
-/// Samples of `K` channels on a regular grid over the unit cube, interpolated linearly, zero outside.
+/// Samples of `K` channels on a regular grid over the unit cube, interpolated linearly, zero
+/// outside.
 ///
-/// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest, the channels of a sample stand together. The
-/// values may live anywhere: in a vector, a borrowed slice, in flash.
+/// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest, the channels of a
+/// sample stand together. The values may live anywhere: in a vector, a borrowed slice, in flash.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grid<S, const K: usize = 1> {
@@ -30,7 +31,8 @@ impl<S: AsRef<[f32]>, const K: usize> Grid<S, K> {
     /// The grid of `size[0] * size[1] * size[2]` samples, each of `K` values.
     ///
     /// # Errors
-    /// A size is zero, the number of values does not fit the sizes, or a value is negative or not finite.
+    /// A size is zero, the number of values does not fit the sizes, or a value is negative or not
+    /// finite.
     pub fn new(size: [u32; 3], values: S) -> Result<Self, GridError> {
         if size.contains(&0) {
             return Err(GridError::Empty);

@@ -9,12 +9,14 @@ const COLDEST: f32 = 100.0;
 
 /// A colour model that knows what a glowing body looks like.
 pub trait Incandescence: ColorModel {
-    /// The emission of a black body at `kelvin` above zero, 1 at the wavelength where it is brightest.
+    /// The emission of a black body at `kelvin` above zero, 1 at the wavelength where it is
+    /// brightest.
     fn blackbody(kelvin: f32) -> Option<Self::Emission>;
 }
 
 impl Incandescence for Rgb {
-    /// In linear sRGB, where the constant spectrum 1 has luminance 1; colours outside of the gamut are cut to it.
+    /// In linear sRGB, where the constant spectrum 1 has luminance 1; colours outside of the gamut
+    /// are cut to it.
     fn blackbody(kelvin: f32) -> Option<Vec3> {
         let xyz = cie::xyz(&Blackbody::new(kelvin).ok()?);
         Some((RgbColorSpace::srgb().rgb_from_xyz() * xyz).max(Vec3::ZERO))
@@ -41,7 +43,8 @@ pub struct TemperatureGrid<C: ColorModel, S> {
 }
 
 impl<C: Incandescence, S: AsRef<[f32]>> TemperatureGrid<C, S> {
-    /// Steps of the table of colours: interpolated, it is exact to 1 % for every glow above 1e-6 of the brightest.
+    /// Steps of the table of colours: interpolated, it is exact to 1 % for every glow above 1e-6 of
+    /// the brightest.
     const STEPS: u16 = 1024;
 
     /// The glow of temperatures in kelvin. Colours are tabulated up to the hottest sample.

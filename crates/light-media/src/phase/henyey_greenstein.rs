@@ -13,10 +13,12 @@ pub struct HenyeyGreenstein {
 }
 
 impl HenyeyGreenstein {
-    /// Below this `g` the inversion divides by a number that is mostly round-off; the linear term is then exact enough.
+    /// Below this `g` the inversion divides by a number that is mostly round-off; the linear term
+    /// is then exact enough.
     const NEARLY_ISOTROPIC: f32 = 1e-3;
 
-    /// The phase function with mean cosine `g`: above zero light mostly goes on, below zero it mostly turns back.
+    /// The phase function with mean cosine `g`: above zero light mostly goes on, below zero it
+    /// mostly turns back.
     ///
     /// # Errors
     /// `g` does not lie strictly between -1 and 1.

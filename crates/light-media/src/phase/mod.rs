@@ -18,9 +18,10 @@ use light_math::{Frame, float};
 
 /// A phase function that depends on the angle of deflection alone.
 ///
-/// `cos_theta` is the cosine between the direction in which light travelled before the event and the one in which it
-/// travels after: 1 is straight on, -1 straight back. For directions `wo` and `wi` that both point away from the
-/// event it is `-dot(wo, wi)`. Every phase function here is sampled exactly, so its density is its value.
+/// `cos_theta` is the cosine between the direction in which light travelled before the event and
+/// the one in which it travels after: 1 is straight on, -1 straight back. For directions `wo` and
+/// `wi` that both point away from the event it is `-dot(wo, wi)`. Every phase function here is
+/// sampled exactly, so its density is its value.
 pub trait PhaseFunction {
     /// The phase function per steradian; integrates to one over the sphere.
     fn value(&self, cos_theta: f32) -> f32;
@@ -58,8 +59,8 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// A direction for light that is followed against its flow: `wo` points back along the path that arrived, the
-    /// answer points onward. `u` in `[0, 1)^2`.
+    /// A direction for light that is followed against its flow: `wo` points back along the path
+    /// that arrived, the answer points onward. `u` in `[0, 1)^2`.
     #[must_use]
     pub fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
         let cos_theta = self.sample_cos(u.x);
@@ -170,7 +171,8 @@ mod tests {
 
     #[test]
     fn samples_follow_the_value() {
-        // Sampling is by inversion: the mass between the ends of any range of u is the range's length.
+        // Sampling is by inversion: the mass between the ends of any range of u is the range's
+        // length.
         for f in all() {
             let marks: [f32; 5] = [0.0, 0.1, 0.37, 0.9, float::ONE_MINUS_EPSILON];
             if matches!(f, Phase::MieHazy(_) | Phase::MieMurky(_)) {

@@ -1,4 +1,5 @@
-//! How a marched transmittance converges to the truth, and to what trackers say, as its step shrinks.
+//! How a marched transmittance converges to the truth, and to what trackers say, as its step
+//! shrinks.
 
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};

@@ -7,8 +7,9 @@ use obvhs::ploc::morton::morton_encode_u64_unorm;
 /// So many neighbours in a row of which none is the nearest of the other are a chain.
 const CHAIN: usize = 256;
 
-/// Whether agglomeration of the nearest neighbours would merge only the ends of long rows: boxes that coincide, that stand in
-/// an even row, or of which each is larger than the one before. It then takes a pass over all boxes for each of them.
+/// Whether agglomeration of the nearest neighbours would merge only the ends of long rows: boxes
+/// that coincide, that stand in an even row, or of which each is larger than the one before. It
+/// then takes a pass over all boxes for each of them.
 pub(super) fn is_chained(boxes: &[Aabb]) -> bool {
     if boxes.len() <= CHAIN {
         return false;
@@ -31,8 +32,8 @@ pub(super) fn is_chained(boxes: &[Aabb]) -> bool {
     false
 }
 
-/// A hierarchy of nearest neighbours along a curve, in which rows without any are merged pair by pair: in a time of
-/// `n log n`, with a depth of a few `log n`, for any boxes.
+/// A hierarchy of nearest neighbours along a curve, in which rows without any are merged pair by
+/// pair: in a time of `n log n`, with a depth of a few `log n`, for any boxes.
 pub(super) fn agglomerate(boxes: &[Aabb]) -> Bvh2 {
     let mut bvh = Bvh2::zeroed(boxes.len());
     let count = u32::try_from(boxes.len()).expect("fewer than 2^32 boxes");
@@ -90,7 +91,8 @@ fn sorted(boxes: &[Aabb]) -> impl Iterator<Item = u32> {
     order.into_iter().map(|(_, i)| i)
 }
 
-/// The first of each two neighbours of which either is nearer to the other than to its other neighbour.
+/// The first of each two neighbours of which either is nearer to the other than to its other
+/// neighbour.
 fn mutual(row: &[Aabb]) -> Vec<usize> {
     let cost = |i: usize| row[i].union(&row[i + 1]).half_area();
     let mut costs: Vec<f32> = (0..row.len().saturating_sub(1)).map(cost).collect();

@@ -30,14 +30,17 @@ pub struct Hit {
     pub primitive: PrimitiveId,
     /// Distance along the ray, in scene units.
     pub t: f32,
-    /// Where on it: of a triangle the weights of its second and third corner, the first has the rest; of a sphere the place of its
-    /// outward normal, before it was placed, on the [octahedral square](lights::math::octahedral::to_square).
+    /// Where on it: of a triangle the weights of its second and third corner, the first has the
+    /// rest; of a sphere the place of its outward normal, before it was placed, on the
+    /// [octahedral square](lights::math::octahedral::to_square).
     pub place: Vec2,
 }
 
-/// Answers where rays meet triangles and spheres: those that stand where they are stored, and those that stand in several places.
+/// Answers where rays meet triangles and spheres: those that stand where they are stored, and those
+/// that stand in several places.
 ///
-/// All triangles have numbers before all spheres; among each, those that stand where they are stored come first.
+/// All triangles have numbers before all spheres; among each, those that stand where they are
+/// stored come first.
 #[derive(Default)]
 pub struct Accel {
     world: Solids,
@@ -82,7 +85,8 @@ impl Accel {
         self.closest_where(ray, from, |_, _| true)
     }
 
-    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by primitive and place.
+    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by
+    /// primitive and place.
     #[inline]
     #[must_use]
     pub fn closest_where(
@@ -107,14 +111,16 @@ impl Accel {
         self.placements.closest(ray, t_max, from, &is_there).or(hit)
     }
 
-    /// Whether anything but the primitive `from` lies between the start of `ray` and the distance `t_max` along it.
+    /// Whether anything but the primitive `from` lies between the start of `ray` and the distance
+    /// `t_max` along it.
     #[inline]
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32, from: Option<PrimitiveId>) -> bool {
         self.occluded_where(ray, t_max, from, |_, _| true)
     }
 
-    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by primitive and place.
+    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by
+    /// primitive and place.
     #[inline]
     #[must_use]
     pub fn occluded_where(

@@ -15,7 +15,8 @@ pub struct Place {
 const ERROR: f32 = 8.0 * f32::EPSILON;
 
 impl Place {
-    /// The place that `to_world` takes a prototype to; `None` unless both the map and its inverse are finite, squares included.
+    /// The place that `to_world` takes a prototype to; `None` unless both the map and its inverse
+    /// are finite, squares included.
     #[must_use]
     pub fn new(to_world: Affine3A) -> Option<Self> {
         let to_object = to_world.matrix3.inverse();
@@ -53,7 +54,8 @@ impl Place {
 
     /// `ray` as the prototype sees it, and how long a scene unit along it is there.
     ///
-    /// The direction gets unit length again: among components near the rounding unit a ray is taken as parallel to its box.
+    /// The direction gets unit length again: among components near the rounding unit a ray is taken
+    /// as parallel to its box.
     #[inline]
     #[must_use]
     pub fn to_object(&self, ray: &Ray) -> (Ray, f32) {
@@ -67,7 +69,8 @@ impl Place {
         (ray, stretch)
     }
 
-    /// How far from `p`, component by component, rounding may move a ray that starts there on its way to the prototype.
+    /// How far from `p`, component by component, rounding may move a ray that starts there on its
+    /// way to the prototype.
     #[inline]
     #[must_use]
     pub fn error(&self, p: Vec3) -> Vec3 {

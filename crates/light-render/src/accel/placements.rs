@@ -106,7 +106,8 @@ impl Placements {
         placements.map(|placement| &self.prototypes[placement.prototype as usize])
     }
 
-    /// The first hit of `ray` that is nearer than `t_max` and of which `is_there` says that it counts.
+    /// The first hit of `ray` that is nearer than `t_max` and of which `is_there` says that it
+    /// counts.
     // Kept out of the code that scenes without placements run.
     #[inline(never)]
     pub(super) fn closest(

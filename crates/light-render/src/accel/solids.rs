@@ -25,7 +25,8 @@ pub(super) struct Numbers {
 }
 
 impl Solids {
-    /// Hierarchies over the corners of `triangles` and over `spheres`, numbered from `next` on, which counts them.
+    /// Hierarchies over the corners of `triangles` and over `spheres`, numbered from `next` on,
+    /// which counts them.
     ///
     /// # Panics
     /// Panics at 2^32 primitives.
@@ -63,8 +64,9 @@ impl Solids {
         ]
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by number and place.
-    /// The triangle `from` does not count, nor does the near side of the sphere `from`.
+    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
+    /// that they count, by number and place. The triangle `from` does not count, nor does the near
+    /// side of the sphere `from`.
     #[inline]
     pub(super) fn closest(
         &self,

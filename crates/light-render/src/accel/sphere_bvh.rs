@@ -24,7 +24,8 @@ struct Leaf {
     radius: f32,
 }
 
-/// The part of a line inside of a sphere, in double precision: differences of squares leave little of large or distant spheres.
+/// The part of a line inside of a sphere, in double precision: differences of squares leave little
+/// of large or distant spheres.
 struct Chord {
     direction: DVec3,
     /// From the centre to the middle of the chord.
@@ -59,8 +60,9 @@ impl SphereBvh {
         self.leaves.is_empty()
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by sphere and place.
-    /// Of the sphere `from`, on which the ray starts, the opposite side counts alone.
+    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
+    /// that they count, by sphere and place. Of the sphere `from`, on which the ray starts, the
+    /// opposite side counts alone.
     // Kept out of the code that scenes without spheres run.
     #[inline(never)]
     pub(super) fn closest(

@@ -31,7 +31,8 @@ impl TriangleBvh {
         if triangles.is_empty() {
             return Self::default();
         }
-        // Splitting pays most for the long triangles of buildings, but its memory does not suit the largest scenes.
+        // Splitting pays most for the long triangles of buildings, but its memory does not suit the
+        // largest scenes.
         let params = if triangles.len() < 1 << 20 {
             BvhBuildParams::slow_build()
         } else {
@@ -46,8 +47,8 @@ impl TriangleBvh {
         Self { bvh, leaves }
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says that they count, by triangle and
-    /// barycentric coordinates; leaving out the triangle `from`.
+    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
+    /// that they count, by triangle and barycentric coordinates; leaving out the triangle `from`.
     #[inline]
     pub(super) fn closest(
         &self,
@@ -84,8 +85,8 @@ impl TriangleBvh {
             .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &is_there))
     }
 
-    /// The distance to the triangle in `slot`, infinite for a miss, for the triangle that the ray starts on, and for a hit that does not
-    /// count.
+    /// The distance to the triangle in `slot`, infinite for a miss, for the triangle that the ray
+    /// starts on, and for a hit that does not count.
     #[inline(always)]
     fn distance(
         &self,

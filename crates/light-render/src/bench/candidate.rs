@@ -27,7 +27,8 @@ impl Candidate {
         })
     }
 
-    /// Milliseconds of the fastest of several refits to the same lights; `None` if the sampler knows none.
+    /// Milliseconds of the fastest of several refits to the same lights; `None` if the sampler
+    /// knows none.
     pub(super) fn refit_ms(&self, extents: &[LightExtent]) -> Option<f64> {
         let AnyLightSampler::Bvh(sampler) = &self.sampler else {
             return None;
@@ -48,7 +49,8 @@ impl Candidate {
         Ok(())
     }
 
-    /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that follow no lights.
+    /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that
+    /// follow no lights.
     pub(super) fn degradation(&self) -> Option<f64> {
         self.sampler.degradation()
     }

@@ -1,7 +1,9 @@
-//! Light samplers measured side by side on a light set: exact variance, time, memory, and the laws they must obey.
+//! Light samplers measured side by side on a light set: exact variance, time, memory, and the laws
+//! they must obey.
 //!
-//! The estimator is that of one unoccluded shading point: the contribution of the chosen light over its probability. Its variance
-//! is summed over all lights, not sampled, so that a rare large term cannot hide.
+//! The estimator is that of one unoccluded shading point: the contribution of the chosen light over
+//! its probability. Its variance is summed over all lights, not sampled, so that a rare large term
+//! cannot hide.
 
 mod build_time;
 mod candidate;
@@ -39,7 +41,8 @@ pub struct BenchOptions {
     pub samplers: Vec<SamplerKind>,
     /// Samples of one call.
     pub k: u32,
-    /// How many of the set's points the variance is taken over; `None`: all of them up to 10 thousand lights, 256 above.
+    /// How many of the set's points the variance is taken over; `None`: all of them up to 10
+    /// thousand lights, 256 above.
     pub var_points: Option<usize>,
     /// Threads that build a tree and sum the variance. Queries are timed on one.
     pub threads: usize,
@@ -65,7 +68,8 @@ fn extents(set: &LightSetFile) -> Vec<LightExtent> {
     set.lights.iter().map(|l| l.bounds().into()).collect()
 }
 
-/// One row for each sampler, all measured in this run and in turns, so that their ratios mean something on a busy machine.
+/// One row for each sampler, all measured in this run and in turns, so that their ratios mean
+/// something on a busy machine.
 ///
 /// # Errors
 /// The first light that a sampler refuses.
@@ -160,7 +164,8 @@ mod tests {
         let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
         let exact = &bench("uniform", &set, &options(1)).expect("valid lights")[0];
         let repeated = &bench("uniform", &set, &options(2)).expect("valid lights")[0];
-        // Two stratified samples are at most as noisy as two independent ones, up to the noise of the estimate.
+        // Two stratified samples are at most as noisy as two independent ones, up to the noise of
+        // the estimate.
         assert!(
             repeated.variance.mean < exact.variance.mean * 1.5,
             "{} against {}",

@@ -8,7 +8,8 @@ use super::timing::unit;
 /// Share of the set's box that all spheres together have as volume.
 const FILLING: f64 = 0.1;
 
-/// Spheres among the lights of a set, which block light and know nothing of samplers, nor they of them.
+/// Spheres among the lights of a set, which block light and know nothing of samplers, nor they of
+/// them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Occluders {
     spheres: Vec<DVec3>,

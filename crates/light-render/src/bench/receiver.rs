@@ -17,7 +17,8 @@ pub enum ReceiverKind {
     TwoSided,
     /// A point in a medium.
     Medium,
-    /// A surface half diffuse, half microfacets of this roughness, each point seen from a direction of its own.
+    /// A surface half diffuse, half microfacets of this roughness, each point seen from a direction
+    /// of its own.
     Glossy(f32),
 }
 
@@ -70,10 +71,12 @@ impl Asker {
     }
 }
 
-/// Value of the microfacets for full reflectance: the GGX distribution with height-correlated masking and shadowing.
+/// Value of the microfacets for full reflectance: the GGX distribution with height-correlated
+/// masking and shadowing.
 ///
 /// # Source
-/// `[Walter2007]`, equation 33; the masking is Smith's with the height correlation of `[Heitz2014]`, equation 99.
+/// `[Walter2007]`, equation 33; the masking is Smith's with the height correlation of
+/// `[Heitz2014]`, equation 99.
 fn microfacets(gloss: &Gloss, n: DVec3, wi: DVec3) -> f64 {
     let wo = gloss.wo.as_dvec3();
     let alpha_sq = f64::from(gloss.alpha) * f64::from(gloss.alpha);
@@ -135,7 +138,8 @@ mod tests {
         }
     }
 
-    /// The white furnace: what a rough surface reflects of the same radiance from everywhere is below one; the rougher, the more is lost between facets.
+    /// The white furnace: what a rough surface reflects of the same radiance from everywhere is
+    /// below one; the rougher, the more is lost between facets.
     #[test]
     fn microfacets_reflect_no_more_than_arrives() {
         for (roughness, least) in [(0.1, 0.9), (0.3, 0.8), (0.6, 0.5), (1.0, 0.3)] {

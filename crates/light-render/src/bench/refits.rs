@@ -14,7 +14,8 @@ use super::variance::{self, Variance};
 use super::{BenchOptions, extents};
 use crate::{AnyLightSamplerError, SamplerKind};
 
-/// How far lights go in the first step, as a share of the mean distance of neighbours; each step ends twice as far.
+/// How far lights go in the first step, as a share of the mean distance of neighbours; each step
+/// ends twice as far.
 const FIRST: f32 = 1.0 / 64.0;
 
 /// What a hierarchy is worth that follows lights, against one built for where they are.
@@ -36,8 +37,8 @@ pub struct RefitRow {
     pub built_anew: Variance,
 }
 
-/// A row for each hierarchy and step: lights fly straight, each in a direction of its own, twice as far in each step; the points stay. Samplers
-/// that do not follow lights have no rows.
+/// A row for each hierarchy and step: lights fly straight, each in a direction of its own, twice as
+/// far in each step; the points stay. Samplers that do not follow lights have no rows.
 ///
 /// # Errors
 /// The first light that a sampler refuses, at the start or on its way.

@@ -11,25 +11,29 @@ use super::candidate::Candidate;
 /// Passes over all points that every sampler gets at least, and how long to go on.
 const MIN_PASSES: usize = 9;
 
-/// How far `u` moves from pass to pass: the golden ratio's fraction, by which no two of many passes come near each other.
+/// How far `u` moves from pass to pass: the golden ratio's fraction, by which no two of many passes
+/// come near each other.
 const TURN: f64 = 0.618_033_988_749_895;
 
 /// Queries that are timed together.
 const RUN: usize = 64;
 const TIME_PER_CANDIDATE: Duration = Duration::from_millis(600);
 
-/// Nanoseconds a query: the fastest of many passes, in short runs, which a busy machine disturbs least.
+/// Nanoseconds a query: the fastest of many passes, in short runs, which a busy machine disturbs
+/// least.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QueryTime {
     /// One sample, or one of the `k` samples of a call.
     pub sample: f64,
-    /// The pmf of a light that the sampler itself picked at the point, as multiple importance sampling asks it.
+    /// The pmf of a light that the sampler itself picked at the point, as multiple importance
+    /// sampling asks it.
     pub pmf: f64,
     /// The pmf of a light picked at random.
     pub pmf_random_light: f64,
 }
 
-/// The time of each candidate's queries. They take turns, so that a slow spell of the machine hits all of them.
+/// The time of each candidate's queries. They take turns, so that a slow spell of the machine hits
+/// all of them.
 pub(super) fn queries(
     candidates: &[&Candidate],
     contexts: &[LightSampleContext],
@@ -88,8 +92,8 @@ struct Times {
     pmf_random_light: Fastest,
 }
 
-/// The time of many queries, as the sum of the fastest times of short runs of them: a run is over before a busy machine takes the processor
-/// away, if not in this pass then in another.
+/// The time of many queries, as the sum of the fastest times of short runs of them: a run is over
+/// before a busy machine takes the processor away, if not in this pass then in another.
 #[derive(Clone, Default)]
 struct Fastest {
     seconds: Vec<f64>,

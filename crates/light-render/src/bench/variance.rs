@@ -21,9 +21,11 @@ pub struct Variance {
     pub median: f64,
     /// 99th percentile over the points.
     pub p99: f64,
-    /// Standard error of the mean: of the choice of points, and of the calls if there were several samples a call.
+    /// Standard error of the mean: of the choice of points, and of the calls if there were several
+    /// samples a call.
     pub standard_error: f64,
-    /// Sum over the points of the variances over the sum of the squared contributions: weighted as a picture weighs it.
+    /// Sum over the points of the variances over the sum of the squared contributions: weighted as
+    /// a picture weighs it.
     pub flux_weighted: f64,
     /// Share of the contribution, mean over the points, in lights of probability 0.
     pub lost_energy: f64,

@@ -9,11 +9,12 @@ use super::{BsdfSample, fresnel};
 
 /// A diffuse base under a clear coat: lacquered wood, plastic. Opaque, alike on both sides.
 ///
-/// Light passes the coat, is scattered by the base, and is partly kept inside by the coat, again and again; the coat's
-/// roughness spreads its highlight, but is left out of what passes.
+/// Light passes the coat, is scattered by the base, and is partly kept inside by the coat, again
+/// and again; the coat's roughness spreads its highlight, but is left out of what passes.
 ///
 /// # Source
-/// `[Weidlich2007]`, section 3, for a Lambertian base, with the geometric series of reflections inside of the coat.
+/// `[Weidlich2007]`, section 3, for a Lambertian base, with the geometric series of reflections
+/// inside of the coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatedDiffuse {
     /// What the base scatters, with all reflections inside of the coat, over pi.
@@ -23,7 +24,8 @@ pub struct CoatedDiffuse {
 }
 
 impl CoatedDiffuse {
-    /// A base of the given reflectance under a coat with index of refraction `eta` and roughness `facets`.
+    /// A base of the given reflectance under a coat with index of refraction `eta` and roughness
+    /// `facets`.
     #[must_use]
     pub fn new(reflectance: Vec3, eta: f32, facets: Microfacets) -> Self {
         let kept = fresnel::diffuse_internal_reflectance(eta);

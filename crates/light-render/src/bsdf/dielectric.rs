@@ -6,8 +6,8 @@ use super::{BsdfSample, fresnel};
 
 /// Glass or water: microfacets that reflect and refract.
 ///
-/// Radiance is scaled by the squared ratio of the indices when it crosses the boundary, as it is squeezed into a
-/// smaller solid angle.
+/// Radiance is scaled by the squared ratio of the indices when it crosses the boundary, as it is
+/// squeezed into a smaller solid angle.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.7 (equations 9.36 and 9.40).
@@ -119,7 +119,8 @@ impl Dielectric {
         }
     }
 
-    /// The facet that sends light from `wi` to `wo`; `None` where there is none that both sides see.
+    /// The facet that sends light from `wi` to `wo`; `None` where there is none that both sides
+    /// see.
     #[inline]
     fn link(&self, wo: Vec3, wi: Vec3) -> Option<Link> {
         if self.is_dirac() || wo.z * wi.z == 0.0 {

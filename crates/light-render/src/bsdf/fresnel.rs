@@ -1,7 +1,8 @@
 use lights::glam::Vec3;
 
-/// The share of unpolarised light that a smooth boundary reflects, for light that arrives with cosine `cos_i` (negative
-/// from behind), where `eta` is the index of refraction behind the boundary over that in front.
+/// The share of unpolarised light that a smooth boundary reflects, for light that arrives with
+/// cosine `cos_i` (negative from behind), where `eta` is the index of refraction behind the
+/// boundary over that in front.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.5.1.
@@ -23,7 +24,8 @@ pub(super) fn dielectric(cos_i: f32, eta: f32) -> f32 {
     0.5 * (parallel * parallel + perpendicular * perpendicular)
 }
 
-/// The share of unpolarised light that a metal reflects, with refraction index `eta` and absorption `k` a channel.
+/// The share of unpolarised light that a metal reflects, with refraction index `eta` and absorption
+/// `k` a channel.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.5.2, in real arithmetic.
@@ -44,8 +46,9 @@ pub(super) fn conductor(cos_i: f32, eta: Vec3, k: Vec3) -> Vec3 {
     0.5 * (parallel + perpendicular)
 }
 
-/// The direction in which light that arrives from `wi` is bent by a boundary with normal `n`, and the ratio of the
-/// index behind `wi`'s boundary over that in front of it; `None` where all of it is reflected.
+/// The direction in which light that arrives from `wi` is bent by a boundary with normal `n`, and
+/// the ratio of the index behind `wi`'s boundary over that in front of it; `None` where all of it
+/// is reflected.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.3.2.
@@ -69,11 +72,13 @@ pub(super) fn refract(wi: Vec3, n: Vec3, eta: f32) -> Option<(Vec3, f32)> {
 /// The share of diffuse light that a boundary of the given `eta` keeps behind itself.
 ///
 /// # Source
-/// `[Weidlich2007]`; what leaves is what enters over `eta^2`, as a diffuse field stays diffuse in equilibrium.
+/// `[Weidlich2007]`; what leaves is what enters over `eta^2`, as a diffuse field stays diffuse in
+/// equilibrium.
 #[must_use]
 pub(super) fn diffuse_internal_reflectance(eta: f32) -> f32 {
     const STEPS: u8 = 16;
-    // Cosine-weighted means are means over the squared cosine; from outside there is no kink to integrate over.
+    // Cosine-weighted means are means over the squared cosine; from outside there is no kink to
+    // integrate over.
     let steps = (0..STEPS).map(|i| (f32::from(i) + 0.5) / f32::from(STEPS));
     let outside = steps.map(|x| dielectric(x.sqrt(), eta)).sum::<f32>() / f32::from(STEPS);
     1.0 - (1.0 - outside) / (eta * eta)

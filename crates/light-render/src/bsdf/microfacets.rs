@@ -41,11 +41,13 @@ impl Microfacets {
         let cos_squared = wm.z * wm.z;
         let slope = Vec2::new(wm.x, wm.y) / self.alpha;
         let e = slope.length_squared() + cos_squared;
-        // As cos^4 (1 + tan^2 ...)^2, with the cosine multiplied in: no division by a grazing cosine.
+        // As cos^4 (1 + tan^2 ...)^2, with the cosine multiplied in: no division by a grazing
+        // cosine.
         1.0 / (PI * self.alpha.x * self.alpha.y * e * e)
     }
 
-    /// The share of facets toward `w` that others hide, and more: the auxiliary function of Smith's shadowing.
+    /// The share of facets toward `w` that others hide, and more: the auxiliary function of Smith's
+    /// shadowing.
     #[inline]
     fn lambda(&self, w: Vec3) -> f32 {
         let stretched = Vec2::new(w.x, w.y) * self.alpha;
@@ -83,7 +85,8 @@ impl Microfacets {
     #[must_use]
     pub fn sample_visible(&self, w: Vec3, u: Vec2) -> Vec3 {
         let stretch = self.alpha.extend(1.0);
-        // Seen from the hemisphere that the stretched surface is, each normal is as likely as its projected area.
+        // Seen from the hemisphere that the stretched surface is, each normal is as likely as its
+        // projected area.
         let wh = (w * stretch).normalize();
         let t1 = Vec3::Z.cross(wh).try_normalize().unwrap_or(Vec3::X);
         let t2 = wh.cross(t1);

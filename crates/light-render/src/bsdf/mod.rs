@@ -1,7 +1,8 @@
 //! How surfaces scatter light.
 //!
-//! Directions here are unit vectors in the frame of the shading normal: `z` is the cosine to the normal. `wo` points to
-//! where the light goes (the viewer), `wi` to where it comes from; both away from the surface.
+//! Directions here are unit vectors in the frame of the shading normal: `z` is the cosine to the
+//! normal. `wo` points to where the light goes (the viewer), `wi` to where it comes from; both away
+//! from the surface.
 
 mod coated_diffuse;
 mod conductor;
@@ -47,11 +48,13 @@ pub enum Bsdf {
 pub struct BsdfSample {
     /// Where the light comes from.
     pub wi: Vec3,
-    /// The scattering function times the cosine, over the density: what the path's throughput is multiplied by.
+    /// The scattering function times the cosine, over the density: what the path's throughput is
+    /// multiplied by.
     pub weight: Vec3,
     /// Density of `wi` in sr^-1; `None` for a Dirac, which no other strategy can choose.
     pub pdf: Option<f32>,
-    /// Index of refraction on the side of `wi` over that on the side of `wo`: by its square radiance is squeezed.
+    /// Index of refraction on the side of `wi` over that on the side of `wo`: by its square
+    /// radiance is squeezed.
     pub eta: f32,
 }
 
@@ -82,8 +85,8 @@ impl Bsdf {
         }
     }
 
-    /// A direction of incidence, the lobe chosen by `u_lobe`, the direction by `u`, all in `[0, 1)`; `None` where
-    /// nothing is scattered.
+    /// A direction of incidence, the lobe chosen by `u_lobe`, the direction by `u`, all in
+    /// `[0, 1)`; `None` where nothing is scattered.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
@@ -97,7 +100,8 @@ impl Bsdf {
         }
     }
 
-    /// Whether all light is scattered into single directions, so that light samples cannot contribute.
+    /// Whether all light is scattered into single directions, so that light samples cannot
+    /// contribute.
     #[inline]
     #[must_use]
     pub fn is_dirac(&self) -> bool {
@@ -120,8 +124,8 @@ impl Bsdf {
         }
     }
 
-    /// Of an opaque surface that mirrors roughly, the width of its facets' distribution, and the share of the light that it
-    /// reflects as a matt one; `None` for all others.
+    /// Of an opaque surface that mirrors roughly, the width of its facets' distribution, and the
+    /// share of the light that it reflects as a matt one; `None` for all others.
     #[inline]
     #[must_use]
     pub fn gloss(&self) -> Option<(f32, f32)> {

@@ -4,8 +4,8 @@ use lights::math::Frame;
 use super::{Bsdf, BsdfSample};
 use crate::Surface;
 
-/// A surface's scattering function in the scene: a [`Bsdf`] in the frame of the shading normal, kept from leaking light
-/// through the geometric surface. All directions are in scene space.
+/// A surface's scattering function in the scene: a [`Bsdf`] in the frame of the shading normal,
+/// kept from leaking light through the geometric surface. All directions are in scene space.
 #[derive(Clone, Copy, Debug)]
 pub struct Scattering {
     bsdf: Bsdf,

@@ -13,7 +13,8 @@ use super::failure::Failure;
 use super::room::expect_room;
 use super::say::say;
 
-/// What a light takes while samplers are built over it one after another and measured side by side: itself, its bounds, and a node in each of them.
+/// What a light takes while samplers are built over it one after another and measured side by side:
+/// itself, its bounds, and a node in each of them.
 const BYTES_PER_LIGHT: u64 = 400;
 
 /// Measure light samplers side by side on a set of lights.
@@ -25,7 +26,8 @@ pub(crate) struct BenchArgs {
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
     points: Option<PathBuf>,
-    /// Make a set: uniform, clusters, spots or mixed; adversarial ones are one-point, line, nested, large-world and magnitudes.
+    /// Make a set: uniform, clusters, spots or mixed; adversarial ones are one-point, line, nested,
+    /// large-world and magnitudes.
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.
@@ -52,13 +54,15 @@ pub(crate) struct BenchArgs {
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
     #[arg(long = "truth", default_value = "centroid")]
     ground_truth: GroundTruth,
-    /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half microfacets.
+    /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half
+    /// microfacets.
     #[arg(long, default_value = "diffuse")]
     receiver: ReceiverKind,
     /// Spheres that block light, a tenth of the set's volume together; at most 65536.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1 << 16))]
     occluders: u32,
-    /// Move the lights in N steps, at most 20, each twice as far as the last, and compare hierarchies that follow with new ones.
+    /// Move the lights in N steps, at most 20, each twice as far as the last, and compare
+    /// hierarchies that follow with new ones.
     #[arg(long, value_name = "N", conflicts_with = "k", value_parser = clap::value_parser!(u32).range(..=20))]
     refits: Option<u32>,
     /// One JSON object a line instead of a table.

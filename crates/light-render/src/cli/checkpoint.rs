@@ -15,7 +15,8 @@ use super::output_file::{expect_another, expect_writable, refuse};
 /// Renderings that may be interrupted.
 #[derive(Args, Debug)]
 pub(crate) struct CheckpointArgs {
-    /// Keep the samples so far in this .exr, and go on from those in it: the image has the same bits as if it had been rendered at once.
+    /// Keep the samples so far in this .exr, and go on from those in it: the image has the same
+    /// bits as if it had been rendered at once.
     #[arg(long, value_name = "FILE", conflicts_with = "samples")]
     checkpoint: Option<PathBuf>,
     /// How much work an interruption may lose.
@@ -74,7 +75,8 @@ impl CheckpointArgs {
 }
 
 impl Checkpoint {
-    /// Renders the samples that are missing, and writes the file again and again. Time and rays are those of this run.
+    /// Renders the samples that are missing, and writes the file again and again. Time and rays are
+    /// those of this run.
     ///
     /// # Errors
     /// When the file holds more samples than are asked for, or cannot be written.

@@ -52,8 +52,8 @@ struct Stage {
     world: World,
     view: View,
     reference: Image,
-    /// Whether a pixel is measured: no light is seen in it or beside it. The edges of small lamps are noise that no light
-    /// sampler can take away.
+    /// Whether a pixel is measured: no light is seen in it or beside it. The edges of small lamps
+    /// are noise that no light sampler can take away.
     measured: Vec<bool>,
     tone_map: ToneMap,
 }
@@ -150,7 +150,8 @@ impl Stage {
             .collect()
     }
 
-    /// Renders within the shot's time, the building of the sampler included, and writes the picture.
+    /// Renders within the shot's time, the building of the sampler included, and writes the
+    /// picture.
     fn shoot(&self, shot: &Shot, folder: &Path) -> Result<Row, Failure> {
         let start = Instant::now();
         let sampler = AnyLightSampler::new(shot.sampler, self.world.lights());

@@ -15,7 +15,8 @@ const BYTES_PER_TEXEL: u64 = 48;
 
 /// Convert a lat-long environment map into an equal-area one, or back.
 ///
-/// Light is kept: each channel integrates over the sphere to what it was. PNG holds 8 bits of sRGB: brighter than 1 is cut off.
+/// Light is kept: each channel integrates over the sphere to what it was. PNG holds 8 bits of sRGB:
+/// brighter than 1 is cut off.
 #[derive(Args, Debug)]
 pub(crate) struct ConvertArgs {
     /// The map: .exr, .hdr or .png.
@@ -74,7 +75,8 @@ fn shape(map: SphereMap, height: u32) -> [u32; 2] {
     }
 }
 
-/// Rows of a map whose texels are as large as those of the other map with `height` rows, at the horizon.
+/// Rows of a map whose texels are as large as those of the other map with `height` rows, at the
+/// horizon.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

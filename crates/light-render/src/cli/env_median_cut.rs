@@ -12,8 +12,9 @@ use super::say::say;
 
 /// Turn an environment map into directional lights of equal energy, by median cut.
 ///
-/// Prints the lights and draws their regions over the map. Directions point toward the lights; irradiance is that of a plane
-/// that faces the light; a region is its first column and row, and those behind its last.
+/// Prints the lights and draws their regions over the map. Directions point toward the lights;
+/// irradiance is that of a plane that faces the light; a region is its first column and row, and
+/// those behind its last.
 #[derive(Args, Debug)]
 pub(crate) struct MedianCutArgs {
     /// The map: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
@@ -36,7 +37,8 @@ pub(crate) struct MedianCutArgs {
     /// Print the lights as CSV.
     #[arg(long)]
     csv: bool,
-    /// The picture of the regions: .png, .exr or .hdr [default: the map's name with -median-cut.png, in this folder].
+    /// The picture of the regions: .png, .exr or .hdr [default: the map's name with
+    /// -median-cut.png, in this folder].
     #[arg(short, long, value_name = "IMAGE")]
     output: Option<PathBuf>,
 }

@@ -26,7 +26,8 @@ pub(super) struct Environment {
 }
 
 impl Environment {
-    /// Reads an image; by its shape it is lat-long (2:1) or equal-area (square), unless `map` says what it is.
+    /// Reads an image; by its shape it is lat-long (2:1) or equal-area (square), unless `map` says
+    /// what it is.
     ///
     /// # Errors
     /// When the file cannot be read, or its shape and `map` do not go together.

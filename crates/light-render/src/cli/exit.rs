@@ -15,7 +15,8 @@ impl Failure {
     }
 }
 
-/// Ends the process as wrong arguments ask for: help on standard output and status 0, or one line and status 2.
+/// Ends the process as wrong arguments ask for: help on standard output and status 0, or one line
+/// and status 2.
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     if !error.use_stderr() {

@@ -3,7 +3,8 @@ use core::fmt;
 /// Why a command does not end with status 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
-    /// Bad usage or bad input: status 2. The message names the file, the line or the flag, and what was expected.
+    /// Bad usage or bad input: status 2. The message names the file, the line or the flag, and what
+    /// was expected.
     Input(String),
     /// A check that was asked for did not hold: status 1.
     Check(String),

@@ -93,7 +93,8 @@ const SIZE: f32 = 480.0;
 /// The radius of the peak.
 const RADIUS: f32 = 200.0;
 
-/// Intensity by angle in two planes through the luminaire, the nadir below: across (drawn solid) and along (dashed).
+/// Intensity by angle in two planes through the luminaire, the nadir below: across (drawn solid)
+/// and along (dashed).
 fn polar_plot(web: &PhotometricWeb) -> String {
     let peak = web.peak_candelas().max(f32::MIN_POSITIVE);
     let centre = 0.5 * SIZE;

@@ -20,7 +20,8 @@ pub(crate) struct MergeArgs {
 }
 
 impl MergeArgs {
-    /// Reads the parts, adds them up, and writes the picture: the same bits as if it had been rendered at once.
+    /// Reads the parts, adds them up, and writes the picture: the same bits as if it had been
+    /// rendered at once.
     ///
     /// # Errors
     /// Parts that cannot be read or do not belong together; an output that cannot be written.

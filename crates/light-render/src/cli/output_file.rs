@@ -5,7 +5,8 @@ use light_scene::Diagnostic;
 
 use super::failure::Failure;
 
-/// Makes sure that a file can be written to `path`, before the work whose result it will hold; nothing appears there yet.
+/// Makes sure that a file can be written to `path`, before the work whose result it will hold;
+/// nothing appears there yet.
 ///
 /// # Errors
 /// When there is a folder of that name, or the file's folder is missing or cannot be written to.
@@ -23,7 +24,8 @@ pub(crate) fn expect_writable(path: &Path) -> Result<(), Failure> {
         .map_err(|error| refuse(path, format!("cannot be written: {error}")))
 }
 
-/// Makes sure that `path` names none of the files in `others`, however it is spelled; `role` says what those are.
+/// Makes sure that `path` names none of the files in `others`, however it is spelled; `role` says
+/// what those are.
 ///
 /// # Errors
 /// When it does.
@@ -36,7 +38,8 @@ pub(crate) fn expect_another(path: &Path, others: &[PathBuf], role: &str) -> Res
     Ok(())
 }
 
-/// The one name of a file, through all links; of one that is not there yet in the one name of its folder.
+/// The one name of a file, through all links; of one that is not there yet in the one name of its
+/// folder.
 fn resolved(path: &Path) -> PathBuf {
     if let Ok(path) = fs::canonicalize(path) {
         return path;

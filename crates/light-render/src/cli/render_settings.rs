@@ -26,11 +26,13 @@ pub(crate) struct SettingsArgs {
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     max_depth: u32,
-    /// What scatters light: surfaces alone (path), or media as well (volpath), or either once (single-scattering, with
-    /// lights for the ray as a whole, and -classic, in steps); without it volpath where the scene has media, else path.
+    /// What scatters light: surfaces alone (path), or media as well (volpath), or either once
+    /// (single-scattering, with lights for the ray as a whole, and -classic, in steps); without it
+    /// volpath where the scene has media, else path.
     #[arg(long, value_enum)]
     integrator: Option<IntegratorName>,
-    /// Length of the steps of single-scattering-classic, at least 1/65536 of the scene; without it a hundredth of the scene.
+    /// Length of the steps of single-scattering-classic, at least 1/65536 of the scene; without it
+    /// a hundredth of the scene.
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     step: Option<f32>,
     /// Same seed, same image.
@@ -39,7 +41,8 @@ pub(crate) struct SettingsArgs {
     /// How lights are chosen.
     #[arg(long, value_name = "SAMPLER", default_value_t = SamplerKind::DEFAULT)]
     pub(crate) light_sampler: SamplerKind,
-    /// How many lights are chosen at the first diffuse point of a path, at most as many as there are.
+    /// How many lights are chosen at the first diffuse point of a path, at most as many as there
+    /// are.
     #[arg(long, value_name = "N", default_value_t = PathSettings::DEFAULT_LIGHT_SAMPLES)]
     light_samples: NonZeroU32,
     /// How light is found: by light samples, by material samples, or by both, weighted.

@@ -3,7 +3,8 @@ use std::io::{self, ErrorKind, Write};
 
 use super::failure::Failure;
 
-/// Prints a line of results to standard output; formatted as by `println!`, which panics where this fails.
+/// Prints a line of results to standard output; formatted as by `println!`, which panics where this
+/// fails.
 macro_rules! say {
     ($($words:tt)*) => {
         $crate::cli::say::line(format_args!($($words)*))
@@ -12,7 +13,8 @@ macro_rules! say {
 
 pub(crate) use say;
 
-/// Prints a line to standard output. If nobody reads any more, it goes nowhere: the work goes on, files and status are what they would be.
+/// Prints a line to standard output. If nobody reads any more, it goes nowhere: the work goes on,
+/// files and status are what they would be.
 ///
 /// # Errors
 /// When standard output takes nothing for another reason, such as a full disk.

@@ -61,7 +61,8 @@ impl SceneInput {
     }
 }
 
-/// The scene in a file, by the ending of its name, or the one that ships under a name without ending.
+/// The scene in a file, by the ending of its name, or the one that ships under a name without
+/// ending.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {
     if path.extension().is_some() {
         return light_scene::read_scene(path).map_err(Failure::input);

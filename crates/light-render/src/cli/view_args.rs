@@ -14,7 +14,8 @@ pub(crate) struct ViewArgs {
     /// Height of the image in pixels.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
     height: Option<u32>,
-    /// Render this part alone, as shares of width and height from the top left corner; the image is that part.
+    /// Render this part alone, as shares of width and height from the top left corner; the image is
+    /// that part.
     #[arg(long, value_name = "x0,x1,y0,y1")]
     crop: Option<Window>,
     /// Where the camera stands, what it looks at, what is up.

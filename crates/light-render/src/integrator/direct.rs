@@ -10,8 +10,8 @@ use super::{Estimator, Traced};
 use crate::bsdf::Scattering;
 use crate::{SampleStream, VertexNumbers, World};
 
-/// How a vertex of a path asks for light: kept until the next ray is known to miss or to find a light, because both strategies weigh
-/// their samples by the same densities.
+/// How a vertex of a path asks for light: kept until the next ray is known to miss or to find a
+/// light, because both strategies weigh their samples by the same densities.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LightQuery {
     pub(super) ctx: LightSampleContext,
@@ -114,8 +114,9 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         chosen
     }
 
-    /// The light that the `chosen` lights send over `vertex` toward its viewer, with one shadow ray for all of them: an unbiased estimate
-    /// that costs little more than that of a single light. They are those of [`choose`](Self::choose) for the same query.
+    /// The light that the `chosen` lights send over `vertex` toward its viewer, with one shadow ray
+    /// for all of them: an unbiased estimate that costs little more than that of a single light.
+    /// They are those of [`choose`](Self::choose) for the same query.
     ///
     /// `arrived` says what is left of the light of the one whose shadow counts for all.
     #[inline]
@@ -147,8 +148,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction `wi` toward `light`; `query` is the one
-    /// that it was asked last.
+    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction
+    /// `wi` toward `light`; `query` is the one that it was asked last.
     #[inline]
     pub(super) fn density(&self, query: &LightQuery, light: LightId, wi: Vec3) -> f32 {
         let LightQuery { ctx, count } = query;
@@ -167,7 +168,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     }
 }
 
-/// The share that one chosen light has in [`DirectLight::sample`] if nothing is in the way; `None` if it has none.
+/// The share that one chosen light has in [`DirectLight::sample`] if nothing is in the way; `None`
+/// if it has none.
 #[inline]
 fn unshadowed<V: Scatters>(
     world: &World,
@@ -203,8 +205,9 @@ fn unshadowed<V: Scatters>(
     })
 }
 
-/// Whether a point of a light is no farther from the surface that asks than rounding could have put it: a lamp does not light its own
-/// back. Rays leave from beyond that error, so the material's samples do not find such light either.
+/// Whether a point of a light is no farther from the surface that asks than rounding could have put
+/// it: a lamp does not light its own back. Rays leave from beyond that error, so the material's
+/// samples do not find such light either.
 #[inline]
 fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
     (p_light - ctx.p).dot(ctx.n).abs() < ctx.n.abs().dot(ctx.p_error)

@@ -1,7 +1,8 @@
 use lights::math::mis;
 use lights::sources::PdfCoverage;
 
-/// Which strategies find the light that arrives at a surface. All have the same mean; they differ in noise.
+/// Which strategies find the light that arrives at a surface. All have the same mean; they differ
+/// in noise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Estimator {
     /// Light samples and material samples, weighted against each other.
@@ -29,7 +30,8 @@ impl Estimator {
         }
     }
 
-    /// The weight of a light sample of density `light`, where the material has density `bsdf`; both in sr^-1.
+    /// The weight of a light sample of density `light`, where the material has density `bsdf`; both
+    /// in sr^-1.
     #[inline]
     #[must_use]
     pub fn light_weight(self, light: f32, bsdf: f32) -> f32 {
@@ -40,8 +42,8 @@ impl Estimator {
         }
     }
 
-    /// The weight of a material sample of density `bsdf` that found a light, where light samples have the density that
-    /// `light` answers; both in sr^-1.
+    /// The weight of a material sample of density `bsdf` that found a light, where light samples
+    /// have the density that `light` answers; both in sr^-1.
     #[inline]
     #[must_use]
     pub fn bsdf_weight(self, bsdf: f32, light: impl FnOnce() -> f32) -> f32 {

@@ -6,8 +6,8 @@ use super::ray_origin::{Origin, sky};
 use super::{PathSettings, Traced};
 use crate::{Ray, SampleStream, World};
 
-/// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased estimate of the radiance
-/// along it, over paths of at most `settings.max_depth` segments.
+/// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased
+/// estimate of the radiance along it, over paths of at most `settings.max_depth` segments.
 #[must_use]
 pub fn trace<S: LightSampler>(
     world: &World,

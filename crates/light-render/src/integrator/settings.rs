@@ -8,12 +8,14 @@ use crate::World;
 /// How paths are traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// The number of segments of the longest path: 1 sees emitters directly, 2 adds direct light, and so on.
+    /// The number of segments of the longest path: 1 sees emitters directly, 2 adds direct light,
+    /// and so on.
     pub max_depth: u32,
     /// How light is found.
     pub estimator: Estimator,
-    /// How many lights are chosen at the first vertex where light samples can contribute, at most as many as there are. One of
-    /// them gets a shadow ray. Later vertices, which count for less, choose one.
+    /// How many lights are chosen at the first vertex where light samples can contribute, at most
+    /// as many as there are. One of them gets a shadow ray. Later vertices, which count for less,
+    /// choose one.
     pub light_samples: NonZeroU32,
     /// Where paths may scatter.
     pub integrator: Integrator,
@@ -25,7 +27,8 @@ impl PathSettings {
     /// More would cost more than they gain: what is left of the noise is shadows.
     pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(2).unwrap();
 
-    /// How many lights the first vertex chooses in `world`: more choices than lights repeat themselves.
+    /// How many lights the first vertex chooses in `world`: more choices than lights repeat
+    /// themselves.
     pub(super) fn first_choices(&self, world: &World) -> u32 {
         let lights = u32::try_from(world.lights().len()).unwrap_or(u32::MAX);
         self.light_samples.get().min(lights.max(1))
@@ -59,7 +62,8 @@ impl Integrator {
 /// How the light that a medium scatters once is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SingleScattering {
-    /// Lights are chosen for the ray as a whole, as many as `light_samples` says, each with a distance of its own.
+    /// Lights are chosen for the ray as a whole, as many as `light_samples` says, each with a
+    /// distance of its own.
     NextEvent,
     /// A march in steps of this length, one light a step: the classic integrator.
     Classic(StepSize),

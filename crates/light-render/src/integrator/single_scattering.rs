@@ -12,8 +12,8 @@ use super::volume_vertex::VolumeVertex;
 use super::{Estimator, PathSettings, SingleScattering, Traced};
 use crate::{Ray, SampleStream, World};
 
-/// The light along a camera ray that was scattered once at most, by the medium in which the camera stands or by the first
-/// surface. Mirrors and glass stay black.
+/// The light along a camera ray that was scattered once at most, by the medium in which the camera
+/// stands or by the first surface. Mirrors and glass stay black.
 ///
 /// # Source
 /// The marches and choices are those of [`VolumeIntegrator`].

@@ -8,8 +8,8 @@ use crate::{Ray, Surface, World};
 /// A ray that crosses more boundaries than this is caught between coincident surfaces, and dropped.
 pub(super) const MOST_CROSSINGS: u32 = 1 << 10;
 
-/// An unbiased estimate of the share of light that arrives at the start of `from` from the point `target`, through media
-/// and their boundaries; `None` for a target at infinity.
+/// An unbiased estimate of the share of light that arrives at the start of `from` from the point
+/// `target`, through media and their boundaries; `None` for a target at infinity.
 pub(super) fn transmittance(
     world: &World,
     mut from: VolumeRay,

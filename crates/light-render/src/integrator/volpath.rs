@@ -9,15 +9,18 @@ use super::volume_vertex::{VolumeRay, VolumeVertex};
 use super::{PathSettings, Traced};
 use crate::{FlightNumbers, Ray, SampleStream, World};
 
-/// Follows the camera ray `ray` through `world` and its media: an unbiased estimate of the radiance along it, over paths
-/// of at most `settings.max_depth` segments. Boundaries between media that bend nothing end no segment.
+/// Follows the camera ray `ray` through `world` and its media: an unbiased estimate of the radiance
+/// along it, over paths of at most `settings.max_depth` segments. Boundaries between media that
+/// bend nothing end no segment.
 ///
-/// Distances are chosen by delta tracking with the throughput in the choice, so that media which differ from colour to
-/// colour take no separate treatment; light that was asked for is attenuated by ratio tracking, where there is no closed
-/// form. Both strategies see the same transmittance in the mean, so directions alone decide their weights.
+/// Distances are chosen by delta tracking with the throughput in the choice, so that media which
+/// differ from colour to colour take no separate treatment; light that was asked for is attenuated
+/// by ratio tracking, where there is no closed form. Both strategies see the same transmittance in
+/// the mean, so directions alone decide their weights.
 ///
 /// # Source
-/// `[PBRT4]`, section 14.2; the tracking is that of [`delta_tracking`](lights::media::delta_tracking).
+/// `[PBRT4]`, section 14.2; the tracking is that of
+/// [`delta_tracking`](lights::media::delta_tracking).
 #[must_use]
 pub fn trace_volume<S: LightSampler>(
     world: &World,
@@ -112,7 +115,8 @@ struct Met {
 }
 
 impl<S: LightSampler> VolumePath<'_, S> {
-    /// Follows one segment to the next vertex, and collects the light on its way; `None` where the path ends.
+    /// Follows one segment to the next vertex, and collects the light on its way; `None` where the
+    /// path ends.
     fn next_vertex(&mut self, mut here: VolumeRay, flight: &mut FlightNumbers) -> Option<Met> {
         let world = self.direct.world;
         for _ in 0..MOST_CROSSINGS {

@@ -19,7 +19,8 @@ pub enum WorldError {
         /// The object's name.
         name: String,
     },
-    /// Objects that shine stand in too many places: each triangle that shines is a light of its own.
+    /// Objects that shine stand in too many places: each triangle that shines is a light of its
+    /// own.
     Copies {
         /// The name of the object that is too much.
         name: String,

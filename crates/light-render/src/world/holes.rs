@@ -11,8 +11,9 @@ use crate::{PrimitiveId, Ray, sobol};
 impl World {
     /// Whether `ray` meets a primitive at a place of it, or passes through a hole.
     ///
-    /// A surface that is partly there is met by its share of the rays, chosen by a hash of ray and primitive: the same ray always
-    /// gets the same answer. A sphere, which it may meet twice, is asked about each place for itself.
+    /// A surface that is partly there is met by its share of the rays, chosen by a hash of ray and
+    /// primitive: the same ray always gets the same answer. A sphere, which it may meet twice, is
+    /// asked about each place for itself.
     pub(super) fn is_there(&self, ray: &Ray, primitive: PrimitiveId, place: Vec2) -> bool {
         let (_, material) = self.material(primitive);
         if material.alpha.is_none() {
@@ -27,7 +28,8 @@ impl World {
         share >= 1.0 || chance(ray, primitive, place) < share
     }
 
-    /// How much of the rays a surface of `material` meets where the texture coordinates are `uv`, in `[0, 1]`.
+    /// How much of the rays a surface of `material` meets where the texture coordinates are `uv`,
+    /// in `[0, 1]`.
     fn share(&self, material: &Material, uv: Vec2) -> f32 {
         let Some(Alpha { share, cutoff }) = &material.alpha else {
             return 1.0;
@@ -49,7 +51,8 @@ impl World {
         lights.ids.contains(&id).then_some(lights)
     }
 
-    /// The radiance that a ray finds where it meets the light `id`, of which the radiance is `l`: it meets only what is there.
+    /// The radiance that a ray finds where it meets the light `id`, of which the radiance is `l`:
+    /// it meets only what is there.
     #[inline]
     pub(super) fn where_met(&self, id: LightId, uv: Vec2, l: Vec3) -> Vec3 {
         match self.holed(id) {
@@ -65,7 +68,8 @@ impl World {
         }
     }
 
-    /// A direction in which the light `id` arrives, by its own sampling; holes of its surface send none.
+    /// A direction in which the light `id` arrives, by its own sampling; holes of its surface send
+    /// none.
     #[inline]
     pub(crate) fn sample_light(
         &self,

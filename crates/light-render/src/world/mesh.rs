@@ -55,7 +55,8 @@ impl WorldMesh {
 }
 
 impl From<Mesh> for WorldMesh {
-    /// Vertices that triangles hardly share are stored once a triangle, so that nobody has to look up which they are.
+    /// Vertices that triangles hardly share are stored once a triangle, so that nobody has to look
+    /// up which they are.
     fn from(mesh: Mesh) -> Self {
         let list = mesh.indices;
         let lies_apart = |vertex_bytes: usize, vertices: usize| {

@@ -10,8 +10,8 @@ const BLACK: &Finish = &Finish::Diffuse {
 };
 
 impl World {
-    /// How the surface scatters light there: of a mixture one of its parts, chosen by a hash of the place, so that all who ask
-    /// about the same point get the same answer.
+    /// How the surface scatters light there: of a mixture one of its parts, chosen by a hash of the
+    /// place, so that all who ask about the same point get the same answer.
     ///
     /// # Source
     /// `[PBRT4]`, section 10.5.1.

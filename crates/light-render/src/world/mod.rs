@@ -27,8 +27,9 @@ pub(crate) use sphere::WorldSphere;
 
 /// A scene made ready for rays: triangles and spheres in hierarchies, materials, lights.
 ///
-/// What stands in several places is stored once, but for what shines: each triangle and each sphere is a light of its own, with an id and
-/// a place in the scene. Objects of very few triangles are copied as well, because a placement takes as much memory as they do.
+/// What stands in several places is stored once, but for what shines: each triangle and each sphere
+/// is a light of its own, with an id and a place in the scene. Objects of very few triangles are
+/// copied as well, because a placement takes as much memory as they do.
 #[derive(Debug)]
 pub struct World {
     /// Those that stand where they are stored, then those of prototypes.
@@ -60,7 +61,8 @@ impl World {
     /// The world that `scene` describes.
     ///
     /// # Errors
-    /// When a light of the scene makes no sense, a sphere is none, an object stands where it would be flat, or shining objects stand in too many places.
+    /// When a light of the scene makes no sense, a sphere is none, an object stands where it would
+    /// be flat, or shining objects stand in too many places.
     pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
         let bounds = scene.bounds();
         let Objects { placed } = Objects::take(&mut scene)?;
@@ -153,7 +155,8 @@ impl World {
         matches!(self.finish(surface), Finish::Interface)
     }
 
-    /// The medium that a ray from `surface` in the direction `wi` starts in, if it `arrived` there through another one.
+    /// The medium that a ray from `surface` in the direction `wi` starts in, if it `arrived` there
+    /// through another one.
     #[inline]
     pub(crate) fn medium_toward(
         &self,

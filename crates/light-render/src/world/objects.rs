@@ -6,7 +6,8 @@ use light_scene::{MOST_SHINING_COPIES, Mesh, Placement, Prototype, Scene, Sphere
 use super::WorldError;
 use crate::Place;
 
-/// Objects of no more triangles and spheres are copied: those take no more memory than a placement does, and rays find them sooner.
+/// Objects of no more triangles and spheres are copied: those take no more memory than a placement
+/// does, and rays find them sooner.
 const FEW: usize = 2;
 
 /// Columns around a sphere that shines and that a place stretches, which no light is.
@@ -34,8 +35,8 @@ struct Part {
 }
 
 impl Objects {
-    /// Takes the objects out of `scene`. What shines is a light of its own in every place, so that it is copied there; so is what stands
-    /// in one place only, or is small.
+    /// Takes the objects out of `scene`. What shines is a light of its own in every place, so that
+    /// it is copied there; so is what stands in one place only, or is small.
     pub(super) fn take(scene: &mut Scene) -> Result<Self, WorldError> {
         let mut places: Vec<Vec<Affine3A>> = vec![Vec::new(); scene.prototypes.len()];
         for Placement { prototype, place } in core::mem::take(&mut scene.placements) {
@@ -88,7 +89,8 @@ impl Objects {
     }
 }
 
-/// The places, each once: what stands twice in exactly the same place looks as if it stood there once.
+/// The places, each once: what stands twice in exactly the same place looks as if it stood there
+/// once.
 fn distinct(places: &[Affine3A]) -> Vec<Affine3A> {
     let mut known = HashSet::new();
     let is_new = |place: &&Affine3A| known.insert(place.to_cols_array().map(f32::to_bits));
@@ -96,7 +98,8 @@ fn distinct(places: &[Affine3A]) -> Vec<Affine3A> {
 }
 
 impl Part {
-    /// Whether some of it is there for a share of the rays only, so that two of it hide more than one.
+    /// Whether some of it is there for a share of the rays only, so that two of it hide more than
+    /// one.
     fn is_sparse(&self, scene: &Scene) -> bool {
         let meshes = self.meshes.iter().map(|mesh| mesh.material);
         let spheres = self.spheres.iter().map(|sphere| sphere.material);

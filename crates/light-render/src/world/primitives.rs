@@ -91,7 +91,8 @@ impl World {
         matches!(self.stored(primitive), Stored::Sphere(_))
     }
 
-    /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where it sends none.
+    /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where
+    /// it sends none.
     #[inline]
     #[must_use]
     pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
@@ -124,8 +125,8 @@ impl World {
         }
     }
 
-    /// The corners of a triangle in the order in which they run counter-clockwise on its front, and the weights of the second and the
-    /// third: where a placement mirrors, these change places.
+    /// The corners of a triangle in the order in which they run counter-clockwise on its front, and
+    /// the weights of the second and the third: where a placement mirrors, these change places.
     #[inline]
     fn spot(
         &self,

@@ -40,7 +40,8 @@ impl World {
         !(distance > 0.0 && self.blocked(&ray, distance * (1.0 - 1e-4), None))
     }
 
-    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in direction `wi`.
+    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in
+    /// direction `wi`.
     #[inline]
     #[must_use]
     pub fn occluded(&self, surface: &Surface, wi: Vec3, p_light: Vec3) -> bool {

@@ -14,8 +14,9 @@ use serde_json::json;
 use super::{flattened, green, grove, world};
 use crate::support::{Shot, agree};
 
-/// The placements of `scene` look like copies: with the same random numbers no more than one pixel in a hundred differs, where rounding
-/// sent a path another way, and the means agree within their noise.
+/// The placements of `scene` look like copies: with the same random numbers no more than one pixel
+/// in a hundred differs, where rounding sent a path another way, and the means agree within their
+/// noise.
 fn assert_looks_flattened(scene: &Scene, what: &str) {
     let shot = Shot {
         size: 32,

@@ -11,7 +11,8 @@ use super::furnace::furnace_shot;
 use super::{assert_mean, sky, substance};
 use crate::support::{Shot, agree, room};
 
-/// A lamp in fog without bounds, and what a ray along z sees of it after one collision, by the midpoint rule.
+/// A lamp in fog without bounds, and what a ray along z sees of it after one collision, by the
+/// midpoint rule.
 fn lamp_in_fog() -> (Scene, f64) {
     let g = HenyeyGreenstein::new(0.6).expect("in range");
     let mut scene = Scene::default();

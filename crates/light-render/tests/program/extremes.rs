@@ -1,4 +1,5 @@
-//! Every flag of every command with values from the ends of all scales: one line and status 2, or it works.
+//! Every flag of every command with values from the ends of all scales: one line and status 2, or
+//! it works.
 
 use std::thread;
 

@@ -1,4 +1,5 @@
-//! Every light sampler against a reference that the exhaustive one rendered, on a small scene with many lamps.
+//! Every light sampler against a reference that the exhaustive one rendered, on a small scene with
+//! many lamps.
 
 use core::fmt::Write;
 
@@ -6,7 +7,8 @@ use light_render::SamplerKind;
 
 use crate::folder::{Folder, stdout};
 
-/// A floor under forty lamps of two strengths, and a wall that keeps half of the floor from half of them.
+/// A floor under forty lamps of two strengths, and a wall that keeps half of the floor from half of
+/// them.
 fn scene(folder: &Folder) -> String {
     folder.file(
         "scene.mtl",

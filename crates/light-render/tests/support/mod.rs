@@ -8,8 +8,8 @@ use light_render::{AnyLightSampler, RenderSettings, Rendering, SamplerKind, View
 use light_scene::glam::{DVec3, Vec2, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
 
-/// The corners of a box `[0, 1]^3`, face by face, counter-clockwise seen from inside: floor, ceiling, back, left, right,
-/// front.
+/// The corners of a box `[0, 1]^3`, face by face, counter-clockwise seen from inside: floor,
+/// ceiling, back, left, right, front.
 pub(crate) fn room() -> [[Vec3; 4]; 6] {
     let v = |x: u8, y: u8, z: u8| Vec3::new(f32::from(x), f32::from(y), f32::from(z));
     [
@@ -22,7 +22,8 @@ pub(crate) fn room() -> [[Vec3; 4]; 6] {
     ]
 }
 
-/// A room in the manner of the Cornell box: one red and one green wall, a lamp under the ceiling, a block.
+/// A room in the manner of the Cornell box: one red and one green wall, a lamp under the ceiling, a
+/// block.
 pub(crate) fn cornell() -> Scene {
     let mut scene = Scene::default();
     let [white, red, green] = [
@@ -56,8 +57,8 @@ pub(crate) fn cornell() -> Scene {
     scene
 }
 
-/// A room with a floor that mirrors roughly, and under its ceiling many small lamps, each fourth of them strong, beside a block that
-/// hides half of them from most places.
+/// A room with a floor that mirrors roughly, and under its ceiling many small lamps, each fourth of
+/// them strong, beside a block that hides half of them from most places.
 pub(crate) fn lamps() -> Scene {
     let mut scene = cornell();
     let floor = scene.add_material(Material::new(
@@ -140,7 +141,8 @@ impl Shot {
         rendering
     }
 
-    /// The mean of the picture over pixels, and its standard error from sixteen independent pictures.
+    /// The mean of the picture over pixels, and its standard error from sixteen independent
+    /// pictures.
     pub(crate) fn mean(&self, scene: &Scene) -> (DVec3, DVec3) {
         const RUNS: u32 = 16;
         let means: Vec<DVec3> = (0..RUNS)
@@ -159,7 +161,8 @@ impl Shot {
     }
 }
 
-/// Whether two means agree within four and a half of their common standard errors, in every channel.
+/// Whether two means agree within four and a half of their common standard errors, in every
+/// channel.
 pub(crate) fn agree((a, a_error): (DVec3, DVec3), (b, b_error): (DVec3, DVec3)) -> bool {
     let error = (a_error * a_error + b_error * b_error).map(f64::sqrt);
     // What f32 arithmetic may be off by, where there is no noise at all.

@@ -1,5 +1,5 @@
-//! A wood in fog with a thousand lamps, made from a seed: they hang among the trunks, which hide most of them from any one
-//! point.
+//! A wood in fog with a thousand lamps, made from a seed: they hang among the trunks, which hide
+//! most of them from any one point.
 
 use lights::media::phase::HenyeyGreenstein;
 use lights::media::{Homogeneous, Phase, Region, Substance};
@@ -16,7 +16,8 @@ const LAMPS: u16 = 1000;
 /// The trunks.
 const TRUNKS: u16 = 420;
 
-/// Half the side of the wood, in metres; all lengths of the scene are metres, the ground is at height 0.
+/// Half the side of the wood, in metres; all lengths of the scene are metres, the ground is at
+/// height 0.
 const HALF: f32 = 34.0;
 
 /// The width of the path that leads into the wood.

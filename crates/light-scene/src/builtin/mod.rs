@@ -12,11 +12,13 @@ use core::str::FromStr;
 
 use crate::Scene;
 
-/// A scene that ships with the crate: made by its code and by files that it holds, so that no download is needed.
+/// A scene that ships with the crate: made by its code and by files that it holds, so that no
+/// download is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuiltinScene {
-    /// Two blocks in a coloured room under one lamp; the classic test, from its published measurements.
+    /// Two blocks in a coloured room under one lamp; the classic test, from its published
+    /// measurements.
     CornellBox,
     /// A wood in fog with a thousand lamps among its trunks.
     Fog,

@@ -87,8 +87,8 @@ impl Modeller {
         }
     }
 
-    /// A bar of `sides` flat faces from `a` to `b` whose thickness goes from radius `radius[0]` to `radius[1]`; open at
-    /// both ends.
+    /// A bar of `sides` flat faces from `a` to `b` whose thickness goes from radius `radius[0]` to
+    /// `radius[1]`; open at both ends.
     pub(super) fn bar(
         &mut self,
         material: MaterialId,
@@ -127,7 +127,8 @@ impl Modeller {
         }
     }
 
-    /// A smooth solid of revolution around the y axis of `place`: `profile` lists radius and height from the top down.
+    /// A smooth solid of revolution around the y axis of `place`: `profile` lists radius and height
+    /// from the top down.
     pub(super) fn turned(
         &mut self,
         material: MaterialId,
@@ -164,7 +165,8 @@ impl Modeller {
         }
     }
 
-    /// A solid of revolution as [`turned`](Self::turned), but with an edge at every point of the profile.
+    /// A solid of revolution as [`turned`](Self::turned), but with an edge at every point of the
+    /// profile.
     pub(super) fn turned_with_edges(
         &mut self,
         material: MaterialId,

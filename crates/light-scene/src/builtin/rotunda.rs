@@ -15,7 +15,8 @@ const RING: f32 = 4.0;
 /// Height of the floor above the water, in metres.
 const FLOOR: f32 = 0.6;
 
-/// A ring of columns in still water around four spheres, lit by a photographed sky with a small, strong sun.
+/// A ring of columns in still water around four spheres, lit by a photographed sky with a small,
+/// strong sun.
 pub(super) fn rotunda() -> Scene {
     let mut modeller = Modeller::default();
     let marble = modeller.material(Material::diffuse("marble", Vec3::new(0.72, 0.69, 0.63)));
@@ -208,10 +209,11 @@ fn sky(modeller: &mut Modeller) {
 /// Brings the sun of the map to the left, a little behind the columns.
 const SUN_TURN: f32 = -0.75;
 
-/// The image with each texel divided in `factor` by `factor`, smoothly, so that the small map that ships shows no squares.
+/// The image with each texel divided in `factor` by `factor`, smoothly, so that the small map that
+/// ships shows no squares.
 ///
-/// Between texel centres it is a quadratic B-spline, whose weights are positive and keep the image's sum; columns go
-/// around, rows end at the poles.
+/// Between texel centres it is a quadratic B-spline, whose weights are positive and keep the
+/// image's sum; columns go around, rows end at the poles.
 fn magnified(image: &Image, factor: u32) -> Image {
     let (width, height) = (image.width(), image.height());
     let weights = |k: u32| {

@@ -84,7 +84,8 @@ fn measured_luminaires_look_along_minus_z() {
     assert_eq!(light.amount, amount, "half as much");
 }
 
-/// The extension's own frame: the zero of both angles along -z, level planes in x and y, and angles of type C counter-clockwise.
+/// The extension's own frame: the zero of both angles along -z, level planes in x and y, and angles
+/// of type C counter-clockwise.
 #[test]
 fn measured_luminaires_are_not_mirrored() {
     let file = "IESNA:LM-63-2002\nTILT=NONE\n1 9000 1 2 4 1 2 0 0 0\n1 1 100\n0 180\n0 90 180 270\n\

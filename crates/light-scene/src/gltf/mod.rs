@@ -33,12 +33,12 @@ use crate::{Diagnostic, Files, Scene};
 
 /// Reads a glTF file, as text or binary, and what it names.
 ///
-/// What is understood stands in the crate's documentation; everything else is named once in a warning, by its path in
-/// the document. Lengths are metres; the camera looks along -z with y up.
+/// What is understood stands in the crate's documentation; everything else is named once in a
+/// warning, by its path in the document. Lengths are metres; the camera looks along -z with y up.
 ///
 /// # Errors
-/// When a file cannot be read, is no glTF file, or a part of it makes no sense: with file, path in the document or byte,
-/// and what was expected.
+/// When a file cannot be read, is no glTF file, or a part of it makes no sense: with file, path in
+/// the document or byte, and what was expected.
 ///
 /// # Source
 /// `[GLTF]`.
@@ -46,7 +46,8 @@ pub fn read_gltf(path: &Path) -> Result<Scene, Diagnostic> {
     parse_gltf(path, &read_bytes(path)?, Files::DISK)
 }
 
-/// As [`read_gltf`], from the bytes of the file; `path` names it in messages and is where other files' names start from.
+/// As [`read_gltf`], from the bytes of the file; `path` names it in messages and is where other
+/// files' names start from.
 pub(crate) fn parse_gltf(path: &Path, bytes: &[u8], files: Files<'_>) -> Result<Scene, Diagnostic> {
     let glb::Chunks { json, binary } = glb::chunks(path, bytes)?;
     let document = document::Document::parse(path, json)?;

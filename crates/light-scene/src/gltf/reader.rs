@@ -36,7 +36,8 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of a document, once its version, what it requires and its buffers are known to be good.
+    /// A reader of a document, once its version, what it requires and its buffers are known to be
+    /// good.
     pub(super) fn new(
         document: &'a Document,
         binary: Option<&[u8]>,

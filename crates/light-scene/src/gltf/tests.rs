@@ -6,7 +6,8 @@ use super::parse_gltf;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Color, EmissionSides, Files, Scene, Surface};
 
-/// A square of four vertices in z = 0 and its two triangles as bytes: positions, texture coordinates, indices.
+/// A square of four vertices in z = 0 and its two triangles as bytes: positions, texture
+/// coordinates, indices.
 fn square() -> Vec<u8> {
     let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mut bytes = Vec::new();

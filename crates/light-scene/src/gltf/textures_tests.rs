@@ -6,8 +6,8 @@ use crate::glam::{Vec2, Vec3};
 use crate::image::tests::png;
 use crate::{Color, Image, Scene, Surface, write_png};
 
-/// A square with a texture of one texel in its base colour; `info` goes into the reference, `texture` into the texture,
-/// `wrap` into its sampler.
+/// A square with a texture of one texel in its base colour; `info` goes into the reference,
+/// `texture` into the texture, `wrap` into its sampler.
 fn shown(info: &str, texture: &str, wrap: u32) -> Result<Scene, String> {
     let image = data_uri(&png(image::GrayImage::new(1, 1)));
     read(&format!(
@@ -38,7 +38,8 @@ fn transforms_move_texture_coordinates_as_the_extension_says() {
     let quarter = mapping(
         r#", "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5]}}"#,
     );
-    // Corners by our texture coordinates, and the places that they show, of which (0, 0) is the upper left corner.
+    // Corners by our texture coordinates, and the places that they show, of which (0, 0) is the
+    // upper left corner.
     for (corner, place) in [
         (Vec2::Y, Vec2::Y),
         (Vec2::ONE, Vec2::new(0.0, 0.5)),

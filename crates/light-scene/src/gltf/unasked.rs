@@ -8,7 +8,8 @@ use serde_json::Value;
 use super::document::Document;
 use super::item::{Item, joined};
 
-/// Members that say nothing about light: nobody has to ask for them. Filters are those of rasterisers.
+/// Members that say nothing about light: nobody has to ask for them. Filters are those of
+/// rasterisers.
 const SAYS_NOTHING: [&str; 8] = [
     "name",
     "extras",

@@ -10,12 +10,14 @@ use super::openexr::message;
 use crate::text::read_bytes;
 use crate::{Diagnostic, write_whole};
 
-/// More numbers than this many times the bytes of a file are not in it: no method of compression reaches that.
+/// More numbers than this many times the bytes of a file are not in it: no method of compression
+/// reaches that.
 const DENSEST: usize = 4096;
 
 /// An OpenEXR file as it is: any channels by name, and notes beside them.
 ///
-/// For pictures that hold more than colour. Colour alone is read by [`read_image`](crate::read_image).
+/// For pictures that hold more than colour. Colour alone is read by
+/// [`read_image`](crate::read_image).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChannelFile {
     /// Numbers a row.
@@ -31,7 +33,8 @@ pub struct ChannelFile {
 }
 
 impl ChannelFile {
-    /// Reads the first layer of an OpenEXR file; channels of half floats and notes of other than text are left out.
+    /// Reads the first layer of an OpenEXR file; channels of half floats and notes of other than
+    /// text are left out.
     ///
     /// # Errors
     /// When the file cannot be read or is broken.
@@ -98,7 +101,8 @@ impl ChannelFile {
     /// Writes the file, compressed without loss.
     ///
     /// # Errors
-    /// When the file cannot be written, or a channel does not fit the size; nothing is left behind then.
+    /// When the file cannot be written, or a channel does not fit the size; nothing is left behind
+    /// then.
     pub fn write(self, path: &Path) -> Result<(), Diagnostic> {
         write_whole(path, &self.into_bytes(path)?)
     }

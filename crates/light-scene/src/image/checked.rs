@@ -4,7 +4,8 @@ use super::{Image, ImageFile};
 use crate::Diagnostic;
 use crate::glam::Vec3;
 
-/// The image, if its texels can be light: NaN and infinities are refused, negative channels become 0 with one warning.
+/// The image, if its texels can be light: NaN and infinities are refused, negative channels become
+/// 0 with one warning.
 pub(super) fn checked(
     path: &Path,
     [width, height]: [usize; 2],

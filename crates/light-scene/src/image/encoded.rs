@@ -18,7 +18,8 @@ pub(crate) enum Encoding {
     Gamma(f32),
 }
 
-/// An image as screens want it, of a PNG, TGA or JPEG file: colours are encoded by sRGB, data stand for themselves.
+/// An image as screens want it, of a PNG, TGA or JPEG file: colours are encoded by sRGB, data stand
+/// for themselves.
 #[derive(Clone, Debug)]
 pub(crate) struct EncodedImage(DynamicImage);
 

@@ -9,12 +9,12 @@ use crate::{Diagnostic, Files};
 /// The endings of the names of images that are read.
 pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .png, .tga or .jpg";
 
-/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`, `.tga`, `.jpg`, `.jpeg`
-/// (sRGB, made linear).
+/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`,
+/// `.tga`, `.jpg`, `.jpeg` (sRGB, made linear).
 ///
 /// # Errors
-/// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or an infinity: with the
-/// pixel and the channel.
+/// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or
+/// an infinity: with the pixel and the channel.
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
     read_image_from(path, Files::DISK)
 }
@@ -24,7 +24,8 @@ pub(crate) fn read_image_from(path: &Path, files: Files<'_>) -> Result<ImageFile
     read_encoded_from(path, files, Encoding::Srgb)
 }
 
-/// As [`read_image_from`], where `encoding` says what the numbers of files mean that are made for screens.
+/// As [`read_image_from`], where `encoding` says what the numbers of files mean that are made for
+/// screens.
 pub(crate) fn read_encoded_from(
     path: &Path,
     files: Files<'_>,
@@ -37,8 +38,8 @@ pub(crate) fn read_encoded_from(
     parse_encoded(path, &files.read(path)?, encoding)
 }
 
-/// As [`read_image`], from the bytes of the file; `path` says by its ending which format they have, and names them in
-/// messages.
+/// As [`read_image`], from the bytes of the file; `path` says by its ending which format they have,
+/// and names them in messages.
 ///
 /// # Errors
 /// As [`read_image`].
@@ -57,8 +58,8 @@ fn parse_encoded(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<ImageF
     }
 }
 
-/// How opaque an image says that a surface is: by the alpha channel of a PNG file that has one, by the brightness of others,
-/// alike in all channels.
+/// How opaque an image says that a surface is: by the alpha channel of a PNG file that has one, by
+/// the brightness of others, alike in all channels.
 pub(crate) fn read_opacity_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
     if matches!(ending(path).as_str(), "exr" | "hdr") {
         return read_image_from(path, files);
@@ -78,7 +79,8 @@ pub(crate) fn is_image_name(path: &Path) -> bool {
     )
 }
 
-/// Writes an image by the ending of its name: `.exr` (float32 linear RGB), `.hdr` (RGBE) or `.png` (8-bit sRGB).
+/// Writes an image by the ending of its name: `.exr` (float32 linear RGB), `.hdr` (RGBE) or `.png`
+/// (8-bit sRGB).
 ///
 /// # Errors
 /// When the ending is another, or the file cannot be written; nothing is left behind then.

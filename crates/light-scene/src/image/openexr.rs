@@ -15,10 +15,12 @@ use crate::{Diagnostic, write_whole};
 /// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
 const MAX_TEXELS: usize = 1 << 27;
 
-/// How many bytes one of a file makes at most: deflate's limit, above that of all other compressions.
+/// How many bytes one of a file makes at most: deflate's limit, above that of all other
+/// compressions.
 const MOST_EXPANDED: usize = 1032;
 
-/// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of half or float samples.
+/// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of
+/// half or float samples.
 ///
 /// `path` names the file in messages.
 ///
@@ -105,7 +107,8 @@ fn decode_grey(bytes: &[u8]) -> Result<Vec<Vec3>, Error> {
     })
 }
 
-/// Writes a float32 linear RGB OpenEXR file, compressed without loss; the same image gives the same bytes.
+/// Writes a float32 linear RGB OpenEXR file, compressed without loss; the same image gives the same
+/// bytes.
 ///
 /// # Errors
 /// When the file cannot be written; nothing is left behind then.
@@ -113,7 +116,8 @@ pub fn write_exr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     write(path, image, |texel| texel.to_array())
 }
 
-/// Writes an OpenEXR file of half floats, half the size: numbers keep 11 bits, those above 65504 become that.
+/// Writes an OpenEXR file of half floats, half the size: numbers keep 11 bits, those above 65504
+/// become that.
 ///
 /// # Errors
 /// When the file cannot be written; nothing is left behind then.

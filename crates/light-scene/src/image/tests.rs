@@ -150,7 +150,8 @@ fn exr_without_colour_channels_names_what_it_has() {
     assert!(grey.warning.is_some(), "one was negative");
 }
 
-/// Files of a few bytes that say they are too large for any memory: refused before any of it is taken.
+/// Files of a few bytes that say they are too large for any memory: refused before any of it is
+/// taken.
 #[test]
 fn sizes_are_checked_before_memory_is_taken() {
     let huge = 0x7fff_ffffu32.to_be_bytes();

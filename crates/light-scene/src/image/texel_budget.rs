@@ -2,7 +2,8 @@ use std::path::Path;
 
 use crate::Diagnostic;
 
-/// Texels of all images of a scene together: 6 GiB of memory, 32 images of 4096 by 4096. Tests make do with fewer.
+/// Texels of all images of a scene together: 6 GiB of memory, 32 images of 4096 by 4096. Tests make
+/// do with fewer.
 pub(crate) const MOST_TEXELS: u64 = if cfg!(test) { 1 << 22 } else { 1 << 29 };
 
 /// How many texels the images of a scene have so far.
@@ -36,7 +37,8 @@ mod tests {
     use crate::{read_gltf, read_obj, read_pbrt};
     use std::fs;
 
-    /// Each of two images has less than the most, both together have more: every reader refuses the second by its name.
+    /// Each of two images has less than the most, both together have more: every reader refuses the
+    /// second by its name.
     #[test]
     fn images_count_together() {
         let folder = TestFolder::new("texel_budget");

@@ -1,6 +1,8 @@
-//! Sets on which light hierarchies were seen to fail: too deep, blind to lights that shine, or with powers that vanish.
+//! Sets on which light hierarchies were seen to fail: too deep, blind to lights that shine, or with
+//! powers that vanish.
 //!
-//! light-testkit tries samplers on small sets of the same kinds without knowing this crate, which needs std.
+//! light-testkit tries samplers on small sets of the same kinds without knowing this crate, which
+//! needs std.
 
 use glam::Vec3;
 use lights::math::float;
@@ -56,7 +58,8 @@ impl LightSetFile {
         }
     }
 
-    /// Triangles in clusters about the origin, each cluster an eighth as wide as the one before, over 24 scales.
+    /// Triangles in clusters about the origin, each cluster an eighth as wide as the one before,
+    /// over 24 scales.
     pub(super) fn nested(r: &mut Random, n: usize) -> Self {
         let mut next = 0..;
         let mut scale = || float::powf(0.125, (next.next().unwrap_or(0) % SCALES) as f32);
@@ -75,7 +78,8 @@ impl LightSetFile {
         }
     }
 
-    /// Triangles of 2 cm in towns of a world of 10 km, where a float is as coarse as a millimetre. Three points in four are in a town.
+    /// Triangles of 2 cm in towns of a world of 10 km, where a float is as coarse as a millimetre.
+    /// Three points in four are in a town.
     pub(super) fn large_world(r: &mut Random, n: usize) -> Self {
         let towns = repeat((n.isqrt() / 2).max(1), || r.cube() * WORLD);
         let mut next = 0;
@@ -100,7 +104,8 @@ impl LightSetFile {
         }
     }
 
-    /// Points at distances from 1e-20 to 1e18, as strong as the square of the distance, and points at the same distances.
+    /// Points at distances from 1e-20 to 1e18, as strong as the square of the distance, and points
+    /// at the same distances.
     pub(super) fn magnitudes(r: &mut Random, n: usize) -> Self {
         let place = |r: &mut Random| {
             let distance = 1e-20 * r.log_uniform(38.0);
@@ -138,7 +143,8 @@ fn point_or_spot(r: &mut Random, p: Vec3) -> SetLight {
     }
 }
 
-/// A triangle of any direction. Its shape is made at size 1, since the squares of tiny sizes vanish in `f32`; one in twenty is two-sided.
+/// A triangle of any direction. Its shape is made at size 1, since the squares of tiny sizes vanish
+/// in `f32`; one in twenty is two-sided.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
 fn small_triangle(r: &mut Random, center: Vec3, size: f32, power: f32) -> SetLight {
     let (normal, two_sided) = (r.direction(), r.unit() < 0.05);

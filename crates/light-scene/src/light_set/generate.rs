@@ -18,12 +18,13 @@ const STRONG: usize = 8;
 pub enum SetKind {
     /// Small triangles all over the unit cube, over three decades of power.
     Uniform,
-    /// A city by night: lamps that face down and windows that face out, in clusters on a plane of 10 by 10.
+    /// A city by night: lamps that face down and windows that face out, in clusters on a plane of
+    /// 10 by 10.
     Clusters,
     /// Spot lights that point roughly down, one in five a point light, over a floor of 10 by 10.
     Spots,
-    /// A quarter each of one-sided triangles, two-sided triangles, points and spots of 5 to 70 degrees, over a floor of 10 by 10;
-    /// eight of them a thousand times as strong.
+    /// A quarter each of one-sided triangles, two-sided triangles, points and spots of 5 to 70
+    /// degrees, over a floor of 10 by 10; eight of them a thousand times as strong.
     Mixed,
     /// Points and spots that all stand at one place.
     OnePoint,
@@ -38,7 +39,8 @@ pub enum SetKind {
 }
 
 impl SetKind {
-    /// All kinds, in the order of the tables: four that are like scenes, and five that are adversarial.
+    /// All kinds, in the order of the tables: four that are like scenes, and five that are
+    /// adversarial.
     pub const ALL: [Self; 9] = [
         Self::Uniform,
         Self::Clusters,

@@ -68,14 +68,16 @@ impl SetLight {
         light
     }
 
-    /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at its position.
+    /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at
+    /// its position.
     #[must_use]
     pub fn contribution(&self, at: &SetPoint) -> f64 {
         let n = at.n.as_dvec3();
         self.contribution_from(self.position(), at, |wi| n.dot(wi).max(0.0))
     }
 
-    /// What reaches `at` from `position` as if all of the light were there, times `response` to the unit vector toward it.
+    /// What reaches `at` from `position` as if all of the light were there, times `response` to the
+    /// unit vector toward it.
     #[must_use]
     pub fn contribution_from(
         &self,
@@ -96,7 +98,8 @@ impl SetLight {
         }
     }
 
-    /// The point of a triangle with the barycentric coordinates `s` and `t` of its second and third vertex; of other lights the only one.
+    /// The point of a triangle with the barycentric coordinates `s` and `t` of its second and third
+    /// vertex; of other lights the only one.
     #[must_use]
     pub fn point(&self, s: f64, t: f64) -> DVec3 {
         match self {
@@ -194,7 +197,8 @@ impl SetLight {
     }
 }
 
-/// Where a spot at `p` shines. In doubles, so that squares of tiny lengths do not vanish; +z if the target is where the spot is.
+/// Where a spot at `p` shines. In doubles, so that squares of tiny lengths do not vanish; +z if the
+/// target is where the spot is.
 fn spot_axis(p: Vec3, target: Vec3) -> DVec3 {
     (target.as_dvec3() - p.as_dvec3()).normalize_or(DVec3::Z)
 }

@@ -1,7 +1,9 @@
-//! Light sets for measuring light samplers: lights of three simple kinds and shading points, without any geometry.
+//! Light sets for measuring light samplers: lights of three simple kinds and shading points,
+//! without any geometry.
 //!
-//! A set is generated from a [`SetKind`], a count and a seed ([`LightSetFile::generate`]), or read from two text files, and written
-//! back to them. Lengths and powers have an arbitrary but consistent unit.
+//! A set is generated from a [`SetKind`], a count and a seed ([`LightSetFile::generate`]), or read
+//! from two text files, and written back to them. Lengths and powers have an arbitrary but
+//! consistent unit.
 
 mod adversarial;
 mod generate;

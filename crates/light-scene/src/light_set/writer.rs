@@ -8,7 +8,8 @@ use super::{LightSetError, LightSetFile, LightSetProblem, SetLight};
 use crate::write_whole::StagedFile;
 
 impl LightSetFile {
-    /// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same bits.
+    /// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same
+    /// bits.
     ///
     /// # Errors
     /// [`LightSetError`] with the file that could not be written.
@@ -92,7 +93,8 @@ fn push(out: &mut String, value: f32) {
     out.push_str(&number(value));
 }
 
-/// Nine significant digits, which is what a `f32` needs to come back unchanged; small whole numbers stay short.
+/// Nine significant digits, which is what a `f32` needs to come back unchanged; small whole numbers
+/// stay short.
 fn number(value: f32) -> String {
     let mut out = String::new();
     let written = if value.fract() == 0.0 && value.abs() < 1e6 {

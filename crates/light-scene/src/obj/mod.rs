@@ -15,17 +15,19 @@ use faces::Faces;
 
 /// Reads an OBJ file and the material libraries it names.
 ///
-/// Understood: `v`, `vt`, `vn`, `f` (any polygon, negative indices), `o`, `g`, `usemtl`, `mtllib`, `#` and lines
-/// continued with a backslash; MTL as the crate's documentation says. Everything else is named once in a warning.
+/// Understood: `v`, `vt`, `vn`, `f` (any polygon, negative indices), `o`, `g`, `usemtl`, `mtllib`,
+/// `#` and lines continued with a backslash; MTL as the crate's documentation says. Everything else
+/// is named once in a warning.
 ///
 /// # Errors
-/// When a file cannot be read, a line is broken, an index points nowhere, a material is not defined, or there is no
-/// face: with file, line and what was expected.
+/// When a file cannot be read, a line is broken, an index points nowhere, a material is not
+/// defined, or there is no face: with file, line and what was expected.
 pub fn read_obj(path: &Path) -> Result<Scene, Diagnostic> {
     parse_obj(path, &read_text(path)?, Files::DISK)
 }
 
-/// As [`read_obj`], from the text of the file; `path` names it in messages and is where the names of libraries start from.
+/// As [`read_obj`], from the text of the file; `path` names it in messages and is where the names
+/// of libraries start from.
 ///
 /// # Errors
 /// As [`read_obj`].

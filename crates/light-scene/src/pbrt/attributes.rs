@@ -38,7 +38,8 @@ impl Reader {
         })
     }
 
-    /// `Attribute "target"` and parameters that the directives of that kind take over which do not state them.
+    /// `Attribute "target"` and parameters that the directives of that kind take over which do not
+    /// state them.
     pub(super) fn attribute(&mut self, typed: Typed<'_>) -> Result<(), Diagnostic> {
         let target = Target::of_name(&typed.kind).ok_or_else(|| {
             let found = shown(&typed.kind);

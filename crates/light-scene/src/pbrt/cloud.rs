@@ -5,8 +5,8 @@ use crate::glam::Vec3;
 /// A cloud that thins out upward, from layers of noise.
 ///
 /// # Source
-/// `[PBRT4]`, its medium of type "cloud": the same layers and the same fall of the density with height over a noise of our
-/// own, so that clouds look alike but are not the same.
+/// `[PBRT4]`, its medium of type "cloud": the same layers and the same fall of the density with
+/// height over a noise of our own, so that clouds look alike but are not the same.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cloud {
     pub(super) density: f32,
@@ -45,8 +45,8 @@ impl Cloud {
     }
 }
 
-/// Smooth noise of mean 0 within [-1, 1] whose details are one unit in size: zero at the points of the lattice, with a
-/// slope there that is drawn from a hash.
+/// Smooth noise of mean 0 within [-1, 1] whose details are one unit in size: zero at the points of
+/// the lattice, with a slope there that is drawn from a hash.
 fn noise(p: Vec3) -> f32 {
     let base = p.floor();
     let f = p - base;

@@ -17,7 +17,8 @@ impl Parameters {
         .flatten()
     }
 
-    /// A colour that light is multiplied with, as RGB at most `most`. `None` for a spectrum by name.
+    /// A colour that light is multiplied with, as RGB at most `most`. `None` for a spectrum by
+    /// name.
     pub(super) fn reflectance(&self, name: &str, most: f32) -> Option<Vec3> {
         self.value(name, &[Rgb, Spectrum], |p| match p.kind {
             Rgb => {
@@ -33,7 +34,8 @@ impl Parameters {
         .flatten()
     }
 
-    /// The colour of a light, of luminance 1 unless it is given as RGB. `None` for a spectrum whose name is not known.
+    /// The colour of a light, of luminance 1 unless it is given as RGB. `None` for a spectrum whose
+    /// name is not known.
     pub(super) fn emission(&self, name: &str) -> Option<Vec3> {
         self.value(name, &[Rgb, Blackbody, Spectrum], |p| match p.kind {
             Rgb => p.rgb().map(Some),

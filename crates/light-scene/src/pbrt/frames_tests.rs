@@ -1,4 +1,5 @@
-//! Lights with a picture, each texel of another brightness: no turned or mirrored frame throws the same.
+//! Lights with a picture, each texel of another brightness: no turned or mirrored frame throws the
+//! same.
 
 use std::path::Path;
 
@@ -19,8 +20,8 @@ fn turned(Vec3 { x, y, z }: Vec3) -> Vec3 {
     Vec3::new(z, x, -y)
 }
 
-/// The bytes of the files beside the scene: a picture of 4 by `rows` blocks, the brightness of each in proportion to its number,
-/// and a luminaire of type C with another intensity in each quadrant.
+/// The bytes of the files beside the scene: a picture of 4 by `rows` blocks, the brightness of each
+/// in proportion to its number, and a luminaire of type C with another intensity in each quadrant.
 fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     const BLOCK: u32 = 16;
     let picture = |rows: u32| {
@@ -65,11 +66,12 @@ fn light(parameters: &str) -> LightDesc<Rgb> {
     scene.lights[0].clone()
 }
 
-/// The eight diagonals that lead to the middles of blocks of a square equal-area picture: each with the number of its block.
+/// The eight diagonals that lead to the middles of blocks of a square equal-area picture: each with
+/// the number of its block.
 ///
 /// # Source
-/// `[PBRT4]`, section 3.8.3: the upper half of the sphere is the rhomb in the middle of the square, x and y run with
-/// columns and rows.
+/// `[PBRT4]`, section 3.8.3: the upper half of the sphere is the rhomb in the middle of the square,
+/// x and y run with columns and rows.
 fn diagonals() -> impl Iterator<Item = (Vec3, f32)> {
     (0..8u8).map(|octant| {
         let is_negative = [0, 1, 2].map(|axis| octant >> axis & 1 == 1);
@@ -174,8 +176,9 @@ fn level(camera: &str, w: Vec3) -> f32 {
     desc.distribution.nearest(place).x / peak
 }
 
-/// Seen from above the horizontal angles of type C run counter-clockwise. The default camera looks along z with x to the right:
-/// from above, and with z ahead, counter-clockwise is from x to z; where the file mirrors the camera it is from x to -z.
+/// Seen from above the horizontal angles of type C run counter-clockwise. The default camera looks
+/// along z with x to the right: from above, and with z ahead, counter-clockwise is from x to z;
+/// where the file mirrors the camera it is from x to -z.
 #[test]
 fn luminaires_are_not_mirrored() {
     for (camera, side) in [("", 1.0), ("Scale -1 1 1", -1.0)] {

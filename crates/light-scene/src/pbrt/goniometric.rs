@@ -16,7 +16,8 @@ use crate::{Camera, Diagnostic, goniometric_light, in_luminaire, parse_luminaire
 const WEB_SIZE: u32 = 256;
 
 impl Reader {
-    /// A light with a measured distribution: an equal-area image or, here only, the file of a luminaire.
+    /// A light with a measured distribution: an equal-area image or, here only, the file of a
+    /// luminaire.
     ///
     /// # Source
     /// `[PBRT4]`: images have z up where the light's space has y up.
@@ -65,8 +66,9 @@ impl Reader {
         }))
     }
 
-    /// A luminaire gives off what its file says, times the colour; it hangs with its nadir along -y and its photometric
-    /// horizontal along x, and pictures show it the right way around: not as in a mirror.
+    /// A luminaire gives off what its file says, times the colour; it hangs with its nadir along -y
+    /// and its photometric horizontal along x, and pictures show it the right way around: not as in
+    /// a mirror.
     fn luminaire(
         &mut self,
         typed: &Typed<'_>,
@@ -94,7 +96,8 @@ impl Reader {
         Ok(LightDesc::Goniometric(light))
     }
 
-    /// From the space of a web, which is right-handed, to that of the scene: left-handed unless the camera mirrors it.
+    /// From the space of a web, which is right-handed, to that of the scene: left-handed unless the
+    /// camera mirrors it.
     fn web_to_light(&self) -> Affine3A {
         let is_mirrored = |camera: Camera| camera.right.cross(camera.up).dot(camera.forward) < 0.0;
         if self.camera.is_some_and(is_mirrored) {

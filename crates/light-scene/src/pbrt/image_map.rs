@@ -109,7 +109,8 @@ impl Reader {
         }
     }
 
-    /// Images are smooth between texels; what blurs those that are far away is the renderer's samples.
+    /// Images are smooth between texels; what blurs those that are far away is the renderer's
+    /// samples.
     fn filter(&mut self, typed: &Typed<'_>) {
         typed.parameters.accept("maxanisotropy");
         let filter = typed.parameters.string("filter").unwrap_or("bilinear");

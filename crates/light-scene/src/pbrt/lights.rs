@@ -219,7 +219,8 @@ fn one_color(color: Vec3) -> Result<Image, ImageError> {
     Image::from_f32([SIDE, SIDE], Channels::Rgb, texels.collect::<Vec<_>>())
 }
 
-/// What an equal-area map gives a surface that looks to its +z: the sum of luminance, cosine and solid angle.
+/// What an equal-area map gives a surface that looks to its +z: the sum of luminance, cosine and
+/// solid angle.
 fn upward_illuminance(map: &Image) -> f32 {
     let [n, _] = map.size();
     let seen = |(index, texel): (u32, Vec3)| {
@@ -234,7 +235,8 @@ fn upward_illuminance(map: &Image) -> f32 {
     illuminance
 }
 
-/// The factor of the emission that gives the stated power over this effective solid angle, or `scale`.
+/// The factor of the emission that gives the stated power over this effective solid angle, or
+/// `scale`.
 fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
     let power = typed.parameters.positive("power");
     power.map_or(scale, |power| {
@@ -242,7 +244,8 @@ fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
     })
 }
 
-/// The factor of the emission that gives the stated illuminance, where emission 1 gives `of_one`, or `scale`.
+/// The factor of the emission that gives the stated illuminance, where emission 1 gives `of_one`,
+/// or `scale`.
 fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
     let asked = typed.parameters.positive("illuminance");
     asked.map_or(scale, |asked| {

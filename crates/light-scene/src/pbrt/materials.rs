@@ -7,7 +7,8 @@ use crate::{Color, Diagnostic, Material, MaterialId, Surface};
 /// Name, index of refraction and absorption.
 type Metal = (&'static str, [f32; 3], [f32; 3]);
 
-/// Metals by the names of their spectra: index of refraction and absorption for red, green and blue light.
+/// Metals by the names of their spectra: index of refraction and absorption for red, green and blue
+/// light.
 const METALS: [Metal; 5] = [
     ("metal-Ag", [0.155, 0.117, 0.138], [4.828, 3.122, 2.147]),
     ("metal-Al", [1.657, 0.880, 0.521], [9.224, 6.270, 4.837]),
@@ -68,7 +69,8 @@ impl Reader {
         Ok(self.scene.add_material(Material::new(kind, surface)))
     }
 
-    /// The index of refraction of something clear: a number, a glass by name, or a spectrum seen as one colour.
+    /// The index of refraction of something clear: a number, a glass by name, or a spectrum seen as
+    /// one colour.
     fn eta(&mut self, typed: &Typed<'_>) -> f32 {
         const DEFAULT: f32 = 1.5;
         let parameters = &typed.parameters;
@@ -124,7 +126,8 @@ impl Reader {
         Surface::Conductor { eta, k, alpha }
     }
 
-    /// What a parameter says of a metal, in numbers or by the metal's name; of copper if it is not given.
+    /// What a parameter says of a metal, in numbers or by the metal's name; of copper if it is not
+    /// given.
     fn of_metal(&mut self, typed: &Typed<'_>, name: &str, of: impl Fn(&Metal) -> [f32; 3]) -> Vec3 {
         let copper = Vec3::from(of(&METALS[4]));
         let Some(metal) = typed.parameters.spectrum_name(name) else {
@@ -141,7 +144,8 @@ impl Reader {
         )
     }
 
-    /// The widths of the microfacet distribution; `prefix` stands before the names of its parameters.
+    /// The widths of the microfacet distribution; `prefix` stands before the names of its
+    /// parameters.
     fn facets(&mut self, typed: &Typed<'_>, prefix: &str) -> Vec2 {
         let mut roughness = |name| self.plain_number(typed, &format!("{prefix}{name}"));
         let both = roughness("roughness").unwrap_or(0.0);

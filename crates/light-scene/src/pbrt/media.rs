@@ -11,7 +11,8 @@ use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, MaterialId, NamedMedium, Place};
 
-/// Names of what was measured: reduced scattering and absorption per millimetre, for red, green and blue light.
+/// Names of what was measured: reduced scattering and absorption per millimetre, for red, green and
+/// blue light.
 ///
 /// # Source
 /// `[Jensen2001]`, figure 5.
@@ -133,7 +134,8 @@ impl Reader {
         everywhere(typed, [sigma_a, sigma_s], scale, le)
     }
 
-    /// Scattering and absorption of the preset that the file names: it counts before the file's own coefficients.
+    /// Scattering and absorption of the preset that the file names: it counts before the file's own
+    /// coefficients.
     fn preset(&mut self, typed: &Typed<'_>) -> Option<[Vec3; 2]> {
         let name = typed.parameters.string("preset")?;
         let found = PRESETS.iter().find(|(preset, ..)| *preset == name);

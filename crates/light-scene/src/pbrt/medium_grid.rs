@@ -47,7 +47,8 @@ impl Reader {
             let grid = Grid::new(size, kelvin);
             let grid = grid.map_err(|error| bad_values(typed, "temperature", error))?;
             glow.temperature = Some(TemperatureGrid::new(grid));
-            // pbrt takes a radiance of 1 at one wavelength for what it is, where a light's is scaled to a luminance.
+            // pbrt takes a radiance of 1 at one wavelength for what it is, where a light's is
+            // scaled to a luminance.
             le = Vec3::splat(cie::Y_INTEGRAL);
         }
 
@@ -98,7 +99,8 @@ impl Reader {
         Ok(medium.map_err(|error| refused(typed, error))?.into())
     }
 
-    /// A medium of type "cloud": a cloud of the same kind, but of another noise, sampled into a grid.
+    /// A medium of type "cloud": a cloud of the same kind, but of another noise, sampled into a
+    /// grid.
     pub(super) fn cloud(&mut self, typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
         const SIZE: [u32; 3] = [64; 3];
         self.warn(

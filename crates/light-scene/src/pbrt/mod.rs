@@ -59,18 +59,19 @@ use state::Reader;
 
 /// Reads a pbrt-v4 file and what it includes.
 ///
-/// What is understood stands in the crate's documentation; everything else is named once in a warning. Coordinates stay
-/// as written; the camera keeps pbrt's left-handed view.
+/// What is understood stands in the crate's documentation; everything else is named once in a
+/// warning. Coordinates stay as written; the camera keeps pbrt's left-handed view.
 ///
 /// # Errors
-/// When a file cannot be read, is no pbrt file, or a directive lacks what it needs: with file, line and what was
-/// expected.
+/// When a file cannot be read, is no pbrt file, or a directive lacks what it needs: with file, line
+/// and what was expected.
 pub fn read_pbrt(path: &Path) -> Result<Scene, Diagnostic> {
     let bytes = read_bytes(path)?;
     parse_pbrt(path, &text_of(&gunzipped(path, &bytes)?), Files::DISK)
 }
 
-/// As [`read_pbrt`], from the text of the file; `path` names it in messages and is where other files' names start from.
+/// As [`read_pbrt`], from the text of the file; `path` names it in messages and is where other
+/// files' names start from.
 pub(crate) fn parse_pbrt(
     path: &Path,
     text: &str,

@@ -5,7 +5,8 @@ use crate::shining_copies::ShiningCopies;
 use crate::text::shown;
 use crate::{Diagnostic, Prototype, PrototypeId};
 
-/// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they describe it.
+/// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they
+/// describe it.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
     pub(super) by_name: HashMap<String, PrototypeId>,

@@ -45,7 +45,8 @@ impl Reader {
         Ok(())
     }
 
-    /// `ObjectInstance "name"`: the transform in force acts on top of those that the object was described with.
+    /// `ObjectInstance "name"`: the transform in force acts on top of those that the object was
+    /// described with.
     pub(super) fn object_instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));

@@ -12,8 +12,8 @@ use crate::{Diagnostic, Files, Place};
 
 /// The parameter list of a directive, which remembers what was asked for and what made no sense.
 ///
-/// Who asks for a parameter of another type, of another number of values or outside of its domain gets what he would get without
-/// it; [`check`](Self::check) then refuses the directive.
+/// Who asks for a parameter of another type, of another number of values or outside of its domain
+/// gets what he would get without it; [`check`](Self::check) then refuses the directive.
 #[derive(Debug)]
 pub(super) struct Parameters {
     path: Rc<Path>,
@@ -52,7 +52,8 @@ impl Parameters {
         self.inherited.extend(earlier);
     }
 
-    /// Reads the files that spectra are in, whose names start from `root`; a word without an ending is the name of a spectrum.
+    /// Reads the files that spectra are in, whose names start from `root`; a word without an ending
+    /// is the name of a spectrum.
     pub(super) fn load_spectra(&mut self, root: &Path, files: Files<'_>) -> Result<(), Diagnostic> {
         let spectra = |p: &&mut Parameter| p.kind == ParameterType::Spectrum;
         for parameter in self.list.iter_mut().filter(spectra) {

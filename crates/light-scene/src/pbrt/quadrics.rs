@@ -9,7 +9,8 @@ use crate::{Color, Diagnostic, Mesh, Sphere, SphereFront, Surface};
 const AROUND: u16 = 64;
 
 impl Reader {
-    /// A whole sphere that stays round and is asked for light as one; `None` for those that are better made of triangles.
+    /// A whole sphere that stays round and is asked for light as one; `None` for those that are
+    /// better made of triangles.
     pub(super) fn whole_sphere(&mut self, typed: &Typed<'_>) -> Result<Option<Sphere>, Diagnostic> {
         let Parts { radius, z, turn } = Parts::of(typed);
         if !(radius > 0.0) {
@@ -144,8 +145,8 @@ mod tests {
         scene.meshes[0].clone()
     }
 
-    /// Whether the area is `expected` but for what triangles cut off: of a circle of 64 corners a part of 0.0016, of a sphere a
-    /// quarter more.
+    /// Whether the area is `expected` but for what triangles cut off: of a circle of 64 corners a
+    /// part of 0.0016, of a sphere a quarter more.
     fn has_area(shape: &str, expected: f32) {
         let area = mesh(shape).area();
         assert!(

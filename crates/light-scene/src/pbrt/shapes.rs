@@ -69,7 +69,8 @@ impl Reader {
         self.add_mesh(at, mesh)
     }
 
-    /// The material of a shape of this area: the one in force, with the media, the light and the holes of the shape.
+    /// The material of a shape of this area: the one in force, with the media, the light and the
+    /// holes of the shape.
     fn shape_material(&mut self, typed: &Typed<'_>, area: impl FnOnce() -> f32) -> MaterialId {
         let material = self.material();
         let material = self.with_media(material);

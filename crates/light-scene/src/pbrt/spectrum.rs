@@ -5,7 +5,8 @@ use lights::math::spectrum::{Blackbody, Daylight, PiecewiseLinear, RgbColorSpace
 use super::tokens::number_of;
 use crate::glam::Vec3;
 
-/// The share that a surface of this spectrum (wavelength in nm and value by turns) reflects of daylight.
+/// The share that a surface of this spectrum (wavelength in nm and value by turns) reflects of
+/// daylight.
 pub(super) fn reflectance(pairs: &[f32]) -> Option<Vec3> {
     unbounded(pairs).map(|rgb| rgb.min(Vec3::ONE))
 }
@@ -36,7 +37,8 @@ pub(super) fn named_emission(name: &str) -> Option<Vec3> {
     }
 }
 
-/// The numbers in the text of a spectrum's file: wavelength in nm and value by turns, `#` before what is not one.
+/// The numbers in the text of a spectrum's file: wavelength in nm and value by turns, `#` before
+/// what is not one.
 pub(super) fn pairs_of(text: &str) -> Option<Vec<f64>> {
     let plain = text
         .lines()

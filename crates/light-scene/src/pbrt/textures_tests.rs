@@ -7,7 +7,8 @@ use crate::glam::{Vec2, Vec3};
 use crate::image::tests::png;
 use crate::{Alpha, Color, ColorImage, Diagnostic, Files, Scene, Surface};
 
-/// A disk whose reflectance and alpha are the textures `t` of colours and of numbers, beside images of one and of two texels.
+/// A disk whose reflectance and alpha are the textures `t` of colours and of numbers, beside images
+/// of one and of two texels.
 fn read(text: &str) -> Result<Scene, String> {
     fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         let texel = |color| image::RgbImage::from_pixel(1, 1, image::Rgb(color));

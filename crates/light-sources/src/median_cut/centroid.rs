@@ -33,7 +33,8 @@ impl RegionSum {
         }
     }
 
-    /// Adds a texel of the given radiance and solid angle; its direction is asked for only where it shines.
+    /// Adds a texel of the given radiance and solid angle; its direction is asked for only where it
+    /// shines.
     pub(super) fn add(
         &mut self,
         radiance: Vec3,

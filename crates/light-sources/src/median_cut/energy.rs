@@ -13,7 +13,8 @@ pub enum RegionSums {
     /// Exactly, from a summed-area table: 8 bytes a texel.
     #[default]
     Table,
-    /// From ever coarser images, interpolated: rougher, at 16 bytes for every three texels, and faster to prepare.
+    /// From ever coarser images, interpolated: rougher, at 16 bytes for every three texels, and
+    /// faster to prepare.
     Pyramid,
 }
 

@@ -26,16 +26,20 @@ pub use energy::RegionSums;
 pub use region::TexelRegion;
 use region::texel_solid_angle;
 
-/// An environment map, ready to be cut into regions of equal energy, each of which becomes a distant light.
+/// An environment map, ready to be cut into regions of equal energy, each of which becomes a
+/// distant light.
 ///
-/// A region is cut across its longer side, measured on the sphere, where its energy falls into the wanted shares; the
-/// energy of a texel is its luminance (red 0.2125, green 0.7154, blue 0.0721) times its solid angle. The lights hold all
-/// light of the map, yet what they give is biased: each stands for a region, which it concentrates in one direction.
+/// A region is cut across its longer side, measured on the sphere, where its energy falls into the
+/// wanted shares; the energy of a texel is its luminance (red 0.2125, green 0.7154, blue 0.0721)
+/// times its solid angle. The lights hold all light of the map, yet what they give is biased: each
+/// stands for a region, which it concentrates in one direction.
 ///
-/// Building takes time and memory in proportion to the texels: 8 bytes each with [`RegionSums::Table`].
+/// Building takes time and memory in proportion to the texels: 8 bytes each with
+/// [`RegionSums::Table`].
 ///
 /// # Source
-/// `[Debevec2005]`; regions are cut by shares instead of halves, so that any number of lights is of equal energy.
+/// `[Debevec2005]`; regions are cut by shares instead of halves, so that any number of lights is of
+/// equal energy.
 #[derive(Clone, Debug)]
 pub struct MedianCut {
     image: Image,
@@ -48,7 +52,8 @@ pub struct MedianCut {
 pub struct MedianCutLight {
     /// The unit direction toward the light.
     pub direction: Vec3,
-    /// Irradiance of a plane that faces the light, in W m^-2: the region's radiance times its solid angle.
+    /// Irradiance of a plane that faces the light, in W m^-2: the region's radiance times its solid
+    /// angle.
     pub irradiance: Vec3,
     /// What it stands for; the regions of all lights cover the map without overlap.
     pub region: TexelRegion,
@@ -82,9 +87,10 @@ impl MedianCut {
 
     /// At most `n` lights, by the rows and columns at which their regions begin.
     ///
-    /// Energies differ by what the granularity of texels enforces: a texel is never cut. There are fewer lights than `n`
-    /// where fewer texels shine, none for a black map, and a few less where [`RegionSums::Pyramid`] took a dark region for a lit one.
-    /// Takes `O(n log(texels))` for the cuts and one pass over the texels.
+    /// Energies differ by what the granularity of texels enforces: a texel is never cut. There are
+    /// fewer lights than `n` where fewer texels shine, none for a black map, and a few less where
+    /// [`RegionSums::Pyramid`] took a dark region for a lit one. Takes `O(n log(texels))` for the
+    /// cuts and one pass over the texels.
     ///
     /// # Errors
     /// When `n` is 0, or a light would not be finite.
@@ -152,7 +158,8 @@ impl MedianCut {
         single
     }
 
-    /// Both parts of a piece, cut so that the first has about `share` of the energy; `None` if only one texel shines.
+    /// Both parts of a piece, cut so that the first has about `share` of the energy; `None` if only
+    /// one texel shines.
     fn cut(&self, piece: &Piece, share: f64) -> Option<[Piece; 2]> {
         let [width, height] = piece.region.sides(self.map, self.image.size());
         let axes = if width >= height { [0, 1] } else { [1, 0] };
@@ -265,7 +272,8 @@ impl fmt::Display for MedianCutError {
 
 impl Error for MedianCutError {}
 
-/// How many of `n` lights, at least 2, go to a side with the given fraction of energy: at least one to each side.
+/// How many of `n` lights, at least 2, go to a side with the given fraction of energy: at least one
+/// to each side.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -14,7 +14,8 @@ struct Level {
     size: [u32; 2],
 }
 
-/// A region is looked at in at most this many blocks along a side, but for those cut off at its ends.
+/// A region is looked at in at most this many blocks along a side, but for those cut off at its
+/// ends.
 const BLOCKS: u32 = 8;
 
 impl EnergyPyramid {
@@ -31,7 +32,8 @@ impl EnergyPyramid {
         Self { levels }
     }
 
-    /// The level at which a region and its parts are looked at: fine enough for small ones to be exact.
+    /// The level at which a region and its parts are looked at: fine enough for small ones to be
+    /// exact.
     pub(super) fn level_for(&self, region: &TexelRegion) -> usize {
         let side = |axis: usize| region.max[axis] - region.min[axis];
         let longest = side(0).max(side(1));

@@ -70,7 +70,8 @@ pub(super) fn texel_solid_angle(map: SphereMap, [width, height]: [u32; 2], y: u3
     match map {
         SphereMap::EqualArea => 4.0 * PI / (width as f32 * height as f32),
         SphereMap::LatLong => {
-            // From the nearer pole, where the sine keeps its digits; a row lies between two cosines.
+            // From the nearer pole, where the sine keeps its digits; a row lies between two
+            // cosines.
             let row = y.min(height - 1 - y);
             let half = 0.5 * PI / height as f32;
             let cosines = 2.0 * sin(half) * sin(half * (2.0 * row as f32 + 1.0));

@@ -19,8 +19,8 @@ use light_math::{Aabb, DirectionCone};
 pub enum ShapeDesc {
     /// Vertices, counter-clockwise on the front. Many triangles are better described as a mesh.
     Triangle([Vec3; 3]),
-    /// One corner and the two edges from there, perpendicular to each other; the front is the side of their cross
-    /// product.
+    /// One corner and the two edges from there, perpendicular to each other; the front is the side
+    /// of their cross product.
     Rectangle {
         /// The corner.
         corner: Vec3,

@@ -12,10 +12,12 @@ use light_math::float::sqrt;
 use light_math::warp::bilinear;
 use light_math::{Aabb, DirectionCone};
 
-/// A bilinear patch: the surface that a straight line sweeps while its ends run along two opposite sides of any
-/// quadrilateral, planar or not. Its front is the side of the cross product of the derivatives along u and v.
+/// A bilinear patch: the surface that a straight line sweeps while its ends run along two opposite
+/// sides of any quadrilateral, planar or not. Its front is the side of the cross product of the
+/// derivatives along u and v.
 ///
-/// A flat convex one is chosen from like two triangles; of others points are chosen by area, nearly uniformly.
+/// A flat convex one is chosen from like two triangles; of others points are chosen by area, nearly
+/// uniformly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearPatch {
     p00: Vec3,
@@ -58,7 +60,8 @@ impl BilinearPatch {
         };
         patch.area = patch_area::integrate(|uv| patch.area_density(uv));
         patch.bend = patch.measure_bend();
-        // Normals are means of those at the corners, and no longer: what is more is rounding of a patch without area.
+        // Normals are means of those at the corners, and no longer: what is more is rounding of a
+        // patch without area.
         let most = patch.weights().into_iter().fold(0.0, f32::max);
         let is_area = patch.area.is_finite() && (1.0 / patch.area).is_finite();
         if !(is_area && patch.area <= ROUNDED * most) {
@@ -77,7 +80,8 @@ impl BilinearPatch {
         self.p00 + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
     }
 
-    /// The normal at `uv`, as long as the area per area of the parameters. It is affine in u and in v.
+    /// The normal at `uv`, as long as the area per area of the parameters. It is affine in u and in
+    /// v.
     fn scaled_normal(&self, uv: Vec2) -> Vec3 {
         (self.du + self.duv * uv.y).cross(self.dv + self.duv * uv.x)
     }
@@ -109,7 +113,8 @@ impl BilinearPatch {
         area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
     }
 
-    /// Whether `uv` lies so near to a corner without area, where both sides have one direction, that a rounding of `uv` turns the normal.
+    /// Whether `uv` lies so near to a corner without area, where both sides have one direction,
+    /// that a rounding of `uv` turns the normal.
     fn is_pinched(&self, uv: Vec2) -> bool {
         const PINCHED: f32 = 0.05;
         self.area_density(uv) < PINCHED * self.area
@@ -140,8 +145,8 @@ impl BilinearPatch {
 
     /// Parameters and distance of the ray's first meeting with the patch.
     ///
-    /// The line at u, from one side to the other, meets the ray where the three vectors between them are in one plane:
-    /// a quadratic equation for u.
+    /// The line at u, from one side to the other, meets the ray where the three vectors between
+    /// them are in one plane: a quadratic equation for u.
     ///
     /// # Source
     /// `[Reshetov2019]`, section 8.2; a hair outside of the edges counts.
@@ -179,8 +184,8 @@ impl BilinearPatch {
         from + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
     }
 
-    /// Where a ray passes an edge, but for a few roundings of its direction: it meets the continued surface at `outside`, and where it comes
-    /// in low, a rounding has moved that far.
+    /// Where a ray passes an edge, but for a few roundings of its direction: it meets the continued
+    /// surface at `outside`, and where it comes in low, a rounding has moved that far.
     fn graze_edge(&self, from: Vec3, direction: Vec3, outside: Vec2) -> Option<(Vec2, f32)> {
         const FAR: f32 = 0.5;
         let mut uv = outside.clamp(Vec2::ZERO, Vec2::ONE);
@@ -245,8 +250,8 @@ impl Shape for BilinearPatch {
         self.pdf_at(at.uv)
     }
 
-    /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or it is seen so
-    /// much from its edge that a ray toward it misses.
+    /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or
+    /// it is seen so much from its edge that a ray toward it misses.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;

@@ -13,7 +13,8 @@ use light_math::{Aabb, DirectionCone};
 
 /// An open cylinder, the wall of a tube without its ends; its front is outside.
 ///
-/// Directions toward it are chosen nearly uniformly in the solid angle that it fills, from inside too.
+/// Directions toward it are chosen nearly uniformly in the solid angle that it fills, from inside
+/// too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     transform: RigidTransform,
@@ -32,8 +33,8 @@ pub enum CylinderError {
 }
 
 impl Cylinder {
-    /// The cylinder around the axis z of the transform, half of its length on each side of the origin. Surface
-    /// parameters: u runs around the axis, v along it.
+    /// The cylinder around the axis z of the transform, half of its length on each side of the
+    /// origin. Surface parameters: u runs around the axis, v along it.
     ///
     /// # Errors
     /// When the radius or the length is not positive, or the area not finite.
@@ -125,7 +126,8 @@ impl Shape for Cylinder {
         let o = self.transform.inverse_point(origin);
         let d = self.transform.inverse_vector(direction);
         let (o_xy, d_xy) = (o.truncate(), d.truncate());
-        // Seen from above, the ray passes the axis at a distance; half a chord before and behind is the wall.
+        // Seen from above, the ray passes the axis at a distance; half a chord before and behind is
+        // the wall.
         let speed_sq = d_xy.length_squared();
         let offset = o_xy.perp_dot(d_xy);
         let half_sq = self.radius * self.radius * speed_sq - offset * offset;

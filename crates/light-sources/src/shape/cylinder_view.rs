@@ -5,20 +5,23 @@ use light_math::float::{asin, safe_sqrt, sin_cos, sqrt};
 
 /// What is seen of the wall of a tube around the axis z, from a point in the tube's own space.
 ///
-/// A plane through the point and parallel to the axis cuts a strip out of the near wall and one out of the far wall;
-/// from outside of the tube the far one is hidden behind the near one, but for what is seen through the open end. Planes
-/// are chosen uniformly by angle, and directions in a plane uniformly by the sine of their elevation over both strips:
-/// nearly uniform in solid angle, nothing hidden is chosen, and nothing becomes singular at the silhouette.
+/// A plane through the point and parallel to the axis cuts a strip out of the near wall and one out
+/// of the far wall; from outside of the tube the far one is hidden behind the near one, but for
+/// what is seen through the open end. Planes are chosen uniformly by angle, and directions in a
+/// plane uniformly by the sine of their elevation over both strips: nearly uniform in solid angle,
+/// nothing hidden is chosen, and nothing becomes singular at the silhouette.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CylinderView {
-    /// The point across the axis, its distance from the axis, and the unit vector from there to the axis.
+    /// The point across the axis, its distance from the axis, and the unit vector from there to the
+    /// axis.
     across: Vec2,
     distance: f32,
     inward: Vec2,
     /// The lower and the upper rim, relative to the point.
     rims: [f32; 2],
     radius: f32,
-    /// Half the angle between the planes that touch the tube; `None` inside of it, where all planes cut the wall.
+    /// Half the angle between the planes that touch the tube; `None` inside of it, where all planes
+    /// cut the wall.
     half_angle: Option<f32>,
 }
 
@@ -197,7 +200,8 @@ impl Strip {
         if sin_low * sin_high < 0.0 {
             return sin_high - sin_low;
         }
-        // The sine of the angle between them, over twice the squared cosine of its half, times the cosines' sum.
+        // The sine of the angle between them, over twice the squared cosine of its half, times the
+        // cosines' sum.
         let sin = (self.high - self.low) / self.distance * cos_low * cos_high;
         let measure = sin * (cos_low + cos_high) / (1.0 + cos_low * cos_high + sin_low * sin_high);
         if measure > 0.0 { measure } else { 0.0 }

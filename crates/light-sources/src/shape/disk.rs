@@ -32,8 +32,8 @@ pub enum DiskError {
 }
 
 impl Disk {
-    /// The disk in the xy-plane of the transform, around its origin. Surface parameters: u runs around the axis, v from
-    /// the rim to the inner radius.
+    /// The disk in the xy-plane of the transform, around its origin. Surface parameters: u runs
+    /// around the axis, v from the rim to the inner radius.
     ///
     /// # Errors
     /// When a radius makes no sense, or no area is left.
@@ -94,7 +94,8 @@ impl Shape for Disk {
         UvArea::Square(UvDensity::Length(radius))
     }
 
-    /// The rings of a disk are moved outward, each to where it keeps its area, so that none falls into the hole.
+    /// The rings of a disk are moved outward, each to where it keeps its area, so that none falls
+    /// into the hole.
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
         let on_disk = concentric_disk::sample(u);
         let share = on_disk.length_squared();

@@ -4,10 +4,11 @@ use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::solid_angle;
 
-/// A flat convex quadrilateral as it is seen from a point: the two triangles on both sides of a diagonal.
-///
-/// The triangles are chosen in proportion to solid angle times mean cosine, so that the density has no step at the
+/// A flat convex quadrilateral as it is seen from a point: the two triangles on both sides of a
 /// diagonal.
+///
+/// The triangles are chosen in proportion to solid angle times mean cosine, so that the density has
+/// no step at the diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FlatQuad {
     triangles: [Triangle; 2],
@@ -16,8 +17,8 @@ pub(super) struct FlatQuad {
 }
 
 impl FlatQuad {
-    /// The view from `ctx` of the quadrilateral with the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1); `None`
-    /// where it is so small that area does.
+    /// The view from `ctx` of the quadrilateral with the corners at (u, v) = (0, 0), (1, 0), (0,
+    /// 1), (1, 1); `None` where it is so small that area does.
     pub(super) fn new(ctx: &LightSampleContext, [p00, p10, p01, p11]: [Vec3; 4]) -> Option<Self> {
         let triangles = [[p00, p10, p11], [p00, p11, p01]];
         let angles = triangles.map(|t| solid_angle::triangle(t, ctx.p));
@@ -40,7 +41,8 @@ impl FlatQuad {
         } else {
             (&self.triangles[1], self.first, 1.0 - self.first)
         };
-        // What is left of the number is uniform again: by at least 2^-24 below `chance`, so below 1.
+        // What is left of the number is uniform again: by at least 2^-24 below `chance`, so below
+        // 1.
         let x = (u.x - start) / chance;
         let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;
         Some(DirectionSample {

@@ -47,20 +47,23 @@ pub trait Shape {
         UvArea::Square(UvDensity::Even)
     }
 
-    /// A point of the surface, for light that leaves it, with its density per area; `None` without area.
+    /// A point of the surface, for light that leaves it, with its density per area; `None` without
+    /// area.
     fn sample(&self, u: Vec2) -> Option<ShapeSample>;
 
     /// Density per area with which [`sample`](Self::sample) chooses `at`, a point of the surface.
     fn pdf(&self, at: &SurfacePoint) -> f32;
 
-    /// A point of the surface as seen from `ctx.p`, with the density of its direction per solid angle; `None` when the
-    /// surface is seen from its edge, or not at all.
+    /// A point of the surface as seen from `ctx.p`, with the density of its direction per solid
+    /// angle; `None` when the surface is seen from its edge, or not at all.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample>;
 
-    /// Density per solid angle with which [`sample_toward`](Self::sample_toward) chooses `wi`; 0 when it misses.
+    /// Density per solid angle with which [`sample_toward`](Self::sample_toward) chooses `wi`; 0
+    /// when it misses.
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32;
 
-    /// The first point of the surface on the ray from `origin` in the unit direction `direction`, from either side.
+    /// The first point of the surface on the ray from `origin` in the unit direction `direction`,
+    /// from either side.
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint>;
 }
 
@@ -122,12 +125,13 @@ pub struct DirectionSample {
     pub pdf: f32,
 }
 
-/// The solid angle in sr below which shapes with straight edges are sampled by area: what is left of the variance is
-/// not worth the time.
+/// The solid angle in sr below which shapes with straight edges are sampled by area: what is left
+/// of the variance is not worth the time.
 const SMALL: f32 = 3e-4;
 
-/// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with unit normal `n`, seen
-/// along `to_light` (not of unit length); `None` from its edge, where the density is infinite, and from within 1e-19.
+/// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with
+/// unit normal `n`, seen along `to_light` (not of unit length); `None` from its edge, where the
+/// density is infinite, and from within 1e-19.
 #[inline]
 pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Option<(Vec3, f32)> {
     let dist_sq = to_light.length_squared();
@@ -140,15 +144,17 @@ pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Opt
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
 }
 
-/// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the direction `to_light` visibly.
+/// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the
+/// direction `to_light` visibly.
 #[inline]
 fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
     const CLOSE: f32 = 1e-3;
     to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
 }
 
-/// What a ray in a unit direction rounds off where it meets a surface at the given distance, as a length along the
-/// surface: the lower it comes in, the longer. Edges count that far out, so that a direction toward any point hits.
+/// What a ray in a unit direction rounds off where it meets a surface at the given distance, as a
+/// length along the surface: the lower it comes in, the longer. Edges count that far out, so that a
+/// direction toward any point hits.
 ///
 /// `magnitude` is the size of the coordinates that were subtracted.
 fn hit_slack(magnitude: f32, cos_theta: f32) -> f32 {
@@ -184,7 +190,8 @@ fn tiny_length(v: Vec3) -> f32 {
     }
 }
 
-/// The unit vector along a normal; also where that is so short, as of a tiny surface, that its square loses digits.
+/// The unit vector along a normal; also where that is so short, as of a tiny surface, that its
+/// square loses digits.
 #[inline]
 fn unit_normal(normal: Vec3) -> Option<Vec3> {
     if normal.length_squared() >= f32::MIN_POSITIVE {

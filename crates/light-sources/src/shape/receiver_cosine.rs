@@ -2,21 +2,25 @@ use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::warp::bilinear;
 
-/// Random numbers for a shape that is sampled by solid angle, moved to where the receiver's cosine is large.
+/// Random numbers for a shape that is sampled by solid angle, moved to where the receiver's cosine
+/// is large.
 ///
-/// The cosine at the directions toward the corners of the unit square, interpolated between them: what comes out is
-/// nearly in proportion to solid angle times cosine. In a medium nothing is moved.
+/// The cosine at the directions toward the corners of the unit square, interpolated between them:
+/// what comes out is nearly in proportion to solid angle times cosine. In a medium nothing is
+/// moved.
 ///
 /// # Source
-/// `[Hart2020]`, section 4. A corner below the horizon counts as one above it at the same angle, as the receiver may
-/// transmit; no corner counts less than 1/100, so that the density never gets near 0.
+/// `[Hart2020]`, section 4. A corner below the horizon counts as one above it at the same angle, as
+/// the receiver may transmit; no corner counts less than 1/100, so that the density never gets near
+/// 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReceiverCosine(Option<[f32; 4]>);
 
 const SMALLEST: f32 = 0.01;
 
 impl ReceiverCosine {
-    /// The map for a receiver, where the corners (0, 0), (1, 0), (0, 1), (1, 1) of the square stand for `points`.
+    /// The map for a receiver, where the corners (0, 0), (1, 0), (0, 1), (1, 1) of the square stand
+    /// for `points`.
     pub(super) fn new(ctx: &LightSampleContext, points: [Vec3; 4]) -> Self {
         Self::toward(ctx, points.map(|p| (p - ctx.p).normalize_or_zero()))
     }
@@ -46,7 +50,8 @@ impl ReceiverCosine {
         }
     }
 
-    /// The density at the place that `place` answers, which is not asked where the density is uniform.
+    /// The density at the place that `place` answers, which is not asked where the density is
+    /// uniform.
     #[inline]
     pub(super) fn pdf(&self, place: impl FnOnce() -> Vec2) -> f32 {
         self.0

@@ -14,7 +14,8 @@ use light_math::{Aabb, DirectionCone};
 
 /// A rectangle; its front is the side of the cross product of its two edges.
 ///
-/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small.
+/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area
+/// when it is small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     corner: Vec3,
@@ -71,7 +72,8 @@ impl Rectangle {
         [Vec3::ZERO, x, y, x + y].map(|d| self.corner + d)
     }
 
-    /// The rectangle on the sphere of directions around `p`; `None` where it is so small that area does.
+    /// The rectangle on the sphere of directions around `p`; `None` where it is so small that area
+    /// does.
     fn seen_from(&self, p: Vec3) -> Option<SphericalRectangle> {
         let [x, y] = self.edges;
         let seen = SphericalRectangle::new(self.corner, x, y, p);

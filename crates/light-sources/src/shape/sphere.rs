@@ -13,8 +13,8 @@ use light_math::{Aabb, DirectionCone, Frame};
 
 /// A sphere; its front is outside.
 ///
-/// Seen from outside, directions are chosen uniformly in the cone that the sphere fills; seen from inside or from the sphere itself,
-/// points are chosen by area.
+/// Seen from outside, directions are chosen uniformly in the cone that the sphere fills; seen from
+/// inside or from the sphere itself, points are chosen by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     pub(super) transform: RigidTransform,
@@ -29,12 +29,13 @@ pub enum SphereError {
     Radius,
 }
 
-/// How far a direction in single precision may lie from where it was meant to: the sine of that angle.
+/// How far a direction in single precision may lie from where it was meant to: the sine of that
+/// angle.
 const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
 
 impl Sphere {
-    /// The sphere around the origin of the transform. Its axis +z only matters for the surface parameters: u runs
-    /// around it, v from the lower pole to the upper.
+    /// The sphere around the origin of the transform. Its axis +z only matters for the surface
+    /// parameters: u runs around it, v from the lower pole to the upper.
     ///
     /// # Errors
     /// When the radius is not positive or the area not finite.
@@ -74,8 +75,8 @@ impl Sphere {
         }
     }
 
-    /// The cone in which the sphere is seen from outside; `None` from inside, and from where rounding may have put a point of the
-    /// surface.
+    /// The cone in which the sphere is seen from outside; `None` from inside, and from where
+    /// rounding may have put a point of the surface.
     fn cone(&self, ctx: &LightSampleContext) -> Option<Cone> {
         let to_center = self.center() - ctx.p;
         let distance = to_center.length();
@@ -93,15 +94,16 @@ impl Sphere {
         })
     }
 
-    /// The point seen from the side of its normal or the other, moved to that side by more than it is rounded: the sphere must not be
-    /// in the way of its own light.
+    /// The point seen from the side of its normal or the other, moved to that side by more than it
+    /// is rounded: the sphere must not be in the way of its own light.
     fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
         let error = 4.0 * f32::EPSILON * (self.center().abs().max_element() + self.radius);
         let p = at.p + at.n * (side * error);
         SurfacePoint { p, ..at }
     }
 
-    /// Where the line through `origin` enters the sphere and where it leaves it: distances along the unit direction, and normals.
+    /// Where the line through `origin` enters the sphere and where it leaves it: distances along
+    /// the unit direction, and normals.
     fn crossings(&self, origin: Vec3, direction: Vec3) -> Option<[(f32, Vec3); 2]> {
         let to_center = self.center() - origin;
         let nearest = to_center.dot(direction);
@@ -118,7 +120,8 @@ impl Sphere {
         Some([crossing(-half_chord)?, crossing(half_chord)?])
     }
 
-    /// Density per solid angle of directions toward points chosen by area, where the way out of the sphere counts.
+    /// Density per solid angle of directions toward points chosen by area, where the way out of the
+    /// sphere counts.
     fn pdf_from_inside(&self, p: Vec3, wi: Vec3) -> Option<f32> {
         let [_, (t, n)] = self.crossings(p, wi)?;
         let (_, pdf) = area_to_solid_angle(1.0 / self.area(), wi * t, n)?;
@@ -177,7 +180,8 @@ impl Shape for Sphere {
             return None;
         }
 
-        // The angle at the receiver, and from it the one at the centre: their sum has the sine of the angle at the rim.
+        // The angle at the receiver, and from it the one at the centre: their sum has the sine of
+        // the angle at the rim.
         let one_minus_cos = cone.one_minus_cos_max * u.x;
         let (sin, cos) = (
             safe_sqrt(one_minus_cos * (2.0 - one_minus_cos)),

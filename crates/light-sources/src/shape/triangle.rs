@@ -15,7 +15,8 @@ use light_math::{Aabb, DirectionCone};
 
 /// A triangle; its front is the side from which the vertices run counter-clockwise.
 ///
-/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area when it is small.
+/// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area
+/// when it is small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     p: [Vec3; 3],
@@ -104,7 +105,8 @@ impl Triangle {
         }
     }
 
-    /// The triangle on the sphere of directions around `p`; `None` where it is so small that area does.
+    /// The triangle on the sphere of directions around `p`; `None` where it is so small that area
+    /// does.
     #[inline]
     fn seen_from(&self, p: Vec3) -> Option<SphericalTriangle> {
         if self.is_small_from(p) {
@@ -113,12 +115,15 @@ impl Triangle {
         SphericalTriangle::new(self.p, p).filter(|seen| seen.solid_angle() > SMALL)
     }
 
-    /// Whether the triangle cannot cover more than [`SMALL`], by little arithmetic: most lamps do not, from most points.
+    /// Whether the triangle cannot cover more than [`SMALL`], by little arithmetic: most lamps do
+    /// not, from most points.
     ///
-    /// At the height `h` over its plane and a distance of at least `r` from all of it, an area `A` covers at most `h A / r^3`.
+    /// At the height `h` over its plane and a distance of at least `r` from all of it, an area `A`
+    /// covers at most `h A / r^3`.
     #[inline]
     fn is_small_from(&self, p: Vec3) -> bool {
-        /// Twice the limit, as a normal is twice as long as the area, but for a hundredth for rounding.
+        /// Twice the limit, as a normal is twice as long as the area, but for a hundredth for
+        /// rounding.
         const LIMIT: f32 = 0.99 * 2.0 * SMALL;
         let [a, b, c] = self.p;
         let edge_sq = (b - a).length_squared().max((c - a).length_squared());
@@ -145,7 +150,8 @@ impl Triangle {
         area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
     }
 
-    /// The sample by area whose direction is `wi`, with the point that the direction meets, if it does.
+    /// The sample by area whose direction is `wi`, with the point that the direction meets, if it
+    /// does.
     #[cold]
     fn met_by(&self, p: Vec3, wi: Vec3) -> Option<DirectionSample> {
         let (_, at) = self.intersect(p, wi)?;
@@ -153,10 +159,12 @@ impl Triangle {
         Some(DirectionSample { at, wi, pdf })
     }
 
-    /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the edges counts.
+    /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the
+    /// edges counts.
     ///
-    /// Each edge and the origin span a plane, and the ray has to pass all three on the same side. What the products
-    /// round off is added to the triangle, so that a direction toward any point of it always hits.
+    /// Each edge and the origin span a plane, and the ray has to pass all three on the same side.
+    /// What the products round off is added to the triangle, so that a direction toward any point
+    /// of it always hits.
     fn barycentric(&self, origin: Vec3, direction: Vec3) -> Option<Vec3> {
         let v = self.p.map(|p| p - origin);
         let side = |i: usize, j: usize| {

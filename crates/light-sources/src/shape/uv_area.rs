@@ -16,7 +16,8 @@ pub enum UvDensity {
     Even,
     /// `sin(pi v)`: of a sphere with the poles at `v = 0` and `v = 1`.
     Sine,
-    /// The length of `[at_origin + du u + dv v]`: of a disk, or of a bilinear patch with this normal.
+    /// The length of `[at_origin + du u + dv v]`: of a disk, or of a bilinear patch with this
+    /// normal.
     Length([Vec3; 3]),
 }
 

@@ -76,8 +76,9 @@ fn a_triangle_sees_its_part() {
     assert!(left < 1e-9, "black, but for what lies nearby: {left}");
     let tiny = [[0.6, 0.1], [0.61, 0.1], [0.6, 0.11]];
     assert_eq!(part(tiny), 1.0, "right, tiny");
-    // The half of a triangle beyond its middle line has a quarter of the area. What the edge between the halves blurs, 1/64 wide
-    // on both sides, adds as much as it takes, but for how the triangle narrows.
+    // The half of a triangle beyond its middle line has a quarter of the area. What the edge
+    // between the halves blurs, 1/64 wide on both sides, adds as much as it takes, but for how the
+    // triangle narrows.
     let quarter = part([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     let blur: f32 = 1.0 / 64.0;
     assert_near(quarter, 0.25 + blur * blur / 12.0, "a quarter");
@@ -195,7 +196,8 @@ fn blocks_change_nothing() {
     }
 }
 
-/// By rows, along the edges, the mean is that by cells, wherever the triangle lies and whatever its size.
+/// By rows, along the edges, the mean is that by cells, wherever the triangle lies and whatever its
+/// size.
 #[test]
 fn rows_change_nothing() {
     let image = gray([37, 23], |i| (i % 97 * 31 % 89) as f32);

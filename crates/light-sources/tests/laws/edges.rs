@@ -6,7 +6,8 @@ use light_testkit::Rng;
 
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
 
-/// Samples on all edges and corners of the square of random numbers: of those seen well from the front hardly one misses.
+/// Samples on all edges and corners of the square of random numbers: of those seen well from the
+/// front hardly one misses.
 #[test]
 fn samples_on_edges_hit() {
     let transform = Affine3A::from_rotation_translation(

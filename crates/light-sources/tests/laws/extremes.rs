@@ -33,10 +33,12 @@ fn shapes() -> [ShapeDesc; 6] {
     ]
 }
 
-/// Where points are, in units of the shape: very near, near, far, so far that the shape is a few ulps wide.
+/// Where points are, in units of the shape: very near, near, far, so far that the shape is a few
+/// ulps wide.
 const DISTANCES: [f32; 6] = [1e-4, 1e-2, 1.0, 30.0, 3e3, 1e5];
 
-/// Whatever the distance and the angle, samples are on the shape, and their density is that of their direction.
+/// Whatever the distance and the angle, samples are on the shape, and their density is that of
+/// their direction.
 ///
 /// One in a hundred may lie so near to an edge that the rounding of its direction decides.
 #[test]
@@ -73,14 +75,16 @@ fn samples_carry_the_density_of_their_direction() {
     }
 }
 
-/// The mean of the inverse density is the solid angle, exact by other means, from 1e-10 sr up to almost half a sphere.
+/// The mean of the inverse density is the solid angle, exact by other means, from 1e-10 sr up to
+/// almost half a sphere.
 #[test]
 fn inverse_densities_add_up_to_the_solid_angle() {
     let mut rng = Rng::new(62);
     for desc in shapes() {
         let shape = desc.build().expect("a shape");
         for distance in DISTANCES {
-            // Above the shape and a little to the side, so that planar ones are not seen from their edge.
+            // Above the shape and a little to the side, so that planar ones are not seen from their
+            // edge.
             let p = Vec3::new(0.1, 0.2, distance);
             let ctx = LightSampleContext::medium(p);
             let Some(truth) = exact_solid_angle(&shape, p) else {
@@ -130,7 +134,8 @@ fn exact_solid_angle(shape: &AnyShape, p: Vec3) -> Option<f64> {
     })
 }
 
-/// What a receiver gets from a large triangle or rectangle varies less when its cosine guides the samples.
+/// What a receiver gets from a large triangle or rectangle varies less when its cosine guides the
+/// samples.
 #[test]
 fn the_receivers_cosine_cuts_the_variance() {
     for desc in &shapes()[..2] {

@@ -1,4 +1,5 @@
-//! The laws that every light obeys: densities against samples, estimates against integrals, power, bounds.
+//! The laws that every light obeys: densities against samples, estimates against integrals, power,
+//! bounds.
 
 #![allow(
     clippy::cast_possible_truncation,

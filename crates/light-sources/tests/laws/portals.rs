@@ -95,7 +95,8 @@ fn power_is_that_of_the_window() {
     }
 }
 
-/// Rays along the portal pass it nowhere, and the first and the last random number are no exception.
+/// Rays along the portal pass it nowhere, and the first and the last random number are no
+/// exception.
 #[test]
 fn rays_along_the_portal() {
     let image = Image::from_f32([4, 4], Channels::Gray, vec![1.0; 16]).expect("an image");

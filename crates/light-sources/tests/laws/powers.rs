@@ -1,4 +1,5 @@
-//! Powers are integrals, to one part in ten thousand, however coarse the pictures are and however they lie.
+//! Powers are integrals, to one part in ten thousand, however coarse the pictures are and however
+//! they lie.
 
 use light_sources::glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
 use light_sources::shape::{AnyShape, Rectangle, ShapeDesc};

@@ -44,8 +44,8 @@ fn flat_quad() {
     check(desc, &corners, |p, wi| hit_quad(p, wi, corners), None);
 }
 
-/// Where nothing of a twisted patch hides another part of it, samples cover the solid angle that small flat pieces of it
-/// fill together.
+/// Where nothing of a twisted patch hides another part of it, samples cover the solid angle that
+/// small flat pieces of it fill together.
 #[test]
 fn twisted_quad() {
     let corners = [
@@ -212,9 +212,9 @@ fn textures() {
     }
 }
 
-/// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the shape, as a number
-/// that is positive on its front and negative on its back; `corners` are those of something convex around it; `place`
-/// takes points of the shape evenly to the unit square.
+/// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the
+/// shape, as a number that is positive on its front and negative on its back; `corners` are those
+/// of something convex around it; `place` takes points of the shape evenly to the unit square.
 fn check(
     desc: ShapeDesc,
     corners: &[Vec3],

@@ -76,7 +76,8 @@ fn impossible_amounts_name_their_field() {
     }
 }
 
-/// Checks power by power, and power by intensity, of a light that is at its full over `solid_angle`.
+/// Checks power by power, and power by intensity, of a light that is at its full over
+/// `solid_angle`.
 fn spreads<M: Model>(name: &str, solid_angle: f32, desc: impl Fn(IntensityAmount) -> LightDesc<M>) {
     near(lumens(&light_set(desc(LUMEN))), 800.0, name);
     near(lumens(&light_set(desc(CANDELA))), 50.0 * solid_angle, name);

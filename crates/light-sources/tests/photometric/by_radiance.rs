@@ -101,8 +101,8 @@ fn surfaces<M: Model>(name: &str) {
     }
 }
 
-/// One triangle of two shows the bright middle of an image and the other its dark corner: what the mesh gives off is what was
-/// asked for all the same.
+/// One triangle of two shows the bright middle of an image and the other its dark corner: what the
+/// mesh gives off is what was asked for all the same.
 #[test]
 fn a_textured_mesh_gives_off_what_it_was_asked_for() {
     let texels = vec![0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
@@ -123,7 +123,8 @@ fn a_textured_mesh_gives_off_what_it_was_asked_for() {
     near(lumens(&set), 800.0, "both");
     let first = set.get(LightId(0)).expect("two lights");
     near(Rgb::luminous(|w| first.phi(w)), 800.0, "the bright one");
-    // The tent of the middle texel over the triangle below its diagonal, half of it, of the mean 1 / 9.
+    // The tent of the middle texel over the triangle below its diagonal, half of it, of the mean 1
+    // / 9.
     let set = light_set(LightDesc::<Rgb>::Mesh(MeshLightDesc {
         positions: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0)].into(),
         indices: [[0, 1, 2]].into(),

@@ -2,7 +2,8 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 
 use crate::may_contribute::may_contribute;
 
-/// How far pmfs may be from the widths of the intervals of `u` that they stand for, and their sum from one: `f32` round-off of all levels.
+/// How far pmfs may be from the widths of the intervals of `u` that they stand for, and their sum
+/// from one: `f32` round-off of all levels.
 const ROUNDING: f64 = 2e-5;
 
 /// Overlaps narrower than this are taken for round-off.
@@ -33,7 +34,8 @@ pub(super) struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// A sample at `u`, which has to be of a known light, with the bits of the queried pmf and a rest in `[0, 1)`.
+    /// A sample at `u`, which has to be of a known light, with the bits of the queried pmf and a
+    /// rest in `[0, 1)`.
     pub(super) fn checked(&self, u: f64) -> Option<SampledLight> {
         let chosen = (self.sample)(u)?;
         let asked = (self.pmf)(chosen.light);
@@ -54,7 +56,8 @@ impl Choice<'_> {
         Some(chosen)
     }
 
-    /// Every pmf is in `[0, 1]`, that of an unknown light is 0, and they sum to one at most: their sum.
+    /// Every pmf is in `[0, 1]`, that of an unknown light is 0, and they sum to one at most: their
+    /// sum.
     pub(super) fn sum(&self) -> f64 {
         let name = self.name;
         for unknown in [self.count, self.count + 1, u32::MAX] {
@@ -74,9 +77,11 @@ impl Choice<'_> {
         sum
     }
 
-    /// Each light owns a part of `[0, 1)` as large as its pmf, no two overlap, and what none of them owns is none.
+    /// Each light owns a part of `[0, 1)` as large as its pmf, no two overlap, and what none of
+    /// them owns is none.
     ///
-    /// So the pmfs and the probability of `None` sum to one: a grid of `u` meets each interval that is wider than its step.
+    /// So the pmfs and the probability of `None` sum to one: a grid of `u` meets each interval that
+    /// is wider than its step.
     pub(super) fn shares_fill_the_unit(&self, us: &[f64]) {
         let (sum, name) = (self.sum(), self.name);
         let mut found: Vec<Interval> = Vec::new();

@@ -4,10 +4,12 @@ use light_math::glam::Vec3;
 use super::input::Input;
 use crate::real3::{Real3, cross, dot, length, real3, sub};
 
-/// Compact bounds contain the original: box, cone of normals, angle of emission. A light within the bounds that contributes to a point has an
-/// importance there, by the exact form and by the compact one.
+/// Compact bounds contain the original: box, cone of normals, angle of emission. A light within the
+/// bounds that contributes to a point has an importance there, by the exact form and by the compact
+/// one.
 ///
-/// Importance as such is not promised to stay: that of the exact form may be above 0 by its slack alone, where no light contributes.
+/// Importance as such is not promised to stay: that of the exact form may be above 0 by its slack
+/// alone, where no light contributes.
 ///
 /// # Panics
 /// If a promise is broken.
@@ -42,7 +44,8 @@ pub fn compact_bounds(data: &[u8]) {
     }
 }
 
-/// Whether a light at the point `from` of the box may emit toward `p`, in double precision and without a margin.
+/// Whether a light at the point `from` of the box may emit toward `p`, in double precision and
+/// without a margin.
 fn emits(bounds: &LightBounds, from: Real3, p: Vec3) -> bool {
     let away = between(real3(bounds.w), sub(real3(p), from));
     let [theta_o, theta_e] = [bounds.cos_theta_o, bounds.cos_theta_e].map(|c| f64::from(c).acos());

@@ -8,7 +8,8 @@ use light_math::{Aabb, DirectionCone};
 /// Values read from the bytes of the fuzzer; zeros when they run out.
 pub(super) struct Input<'a> {
     bytes: Unstructured<'a>,
-    /// Whether numbers and places are whole sixteenths below 8 from here on: sizes whose ratios `f32` knows to many digits.
+    /// Whether numbers and places are whole sixteenths below 8 from here on: sizes whose ratios
+    /// `f32` knows to many digits.
     pub(super) is_tame: bool,
 }
 
@@ -48,7 +49,8 @@ impl<'a> Input<'a> {
         usize::from(self.byte()) % n
     }
 
-    /// A finite number, mostly of a size that scenes have: a few steps of 2^-8, a power of two or its neighbour, or any float.
+    /// A finite number, mostly of a size that scenes have: a few steps of 2^-8, a power of two or
+    /// its neighbour, or any float.
     pub(super) fn number(&mut self) -> f32 {
         if self.is_tame {
             return f32::from(i8::from_le_bytes([self.byte()])) / 16.0;
@@ -160,8 +162,8 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Any receiver: on a surface of one or two sides, matt or glossy, in a medium, along a ray segment; now and then
-    /// with normals that are none.
+    /// Any receiver: on a surface of one or two sides, matt or glossy, in a medium, along a ray
+    /// segment; now and then with normals that are none.
     pub(super) fn receiver(&mut self) -> LightSampleContext {
         let (kind, p) = (self.byte(), self.place());
         let n = self.axis();

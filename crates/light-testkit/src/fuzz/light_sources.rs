@@ -15,8 +15,9 @@ const FAR: f32 = 1e6;
 
 /// Any description makes a light that keeps its promises, or is refused.
 ///
-/// Powers are finite, extents valid, sampled radiances finite and not negative, sampled densities those that are queried; and what arrives
-/// at a receiver has a pmf above zero. Of lights and receivers of extreme sizes and places densities are not compared.
+/// Powers are finite, extents valid, sampled radiances finite and not negative, sampled densities
+/// those that are queried; and what arrives at a receiver has a pmf above zero. Of lights and
+/// receivers of extreme sizes and places densities are not compared.
 ///
 /// # Panics
 /// If a promise is broken.

@@ -26,7 +26,8 @@ const THICKEST: f32 = 1e4;
 /// Steps of a march.
 const STEPS: f32 = 32.0;
 
-/// What is left of light in `[0, 1]`, by every way to find it; nothing that is tracked or marched is infinite or negative.
+/// What is left of light in `[0, 1]`, by every way to find it; nothing that is tracked or marched
+/// is infinite or negative.
 ///
 /// # Panics
 /// If a promise is broken.

@@ -1,4 +1,5 @@
-//! What the fuzz targets do with their bytes: plain functions, so that tests on stable replay the same input.
+//! What the fuzz targets do with their bytes: plain functions, so that tests on stable replay the
+//! same input.
 //!
 //! Each panics when a promise is broken, and answers nothing otherwise.
 

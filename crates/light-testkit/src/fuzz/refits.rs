@@ -12,18 +12,21 @@ const MAX_LIGHTS: usize = 24;
 /// Changes of the lights that one input may hold.
 const MAX_STEPS: usize = 3;
 
-/// How far shares of lights at infinity, and of all others together, may be from each other: they follow from powers in double precision.
+/// How far shares of lights at infinity, and of all others together, may be from each other: they
+/// follow from powers in double precision.
 const SHARE_ROUNDING: f64 = 2e-5;
 
 /// The largest coordinate that the default tree takes.
 const MAX_PLACE: Vec3 = Vec3::splat(1e36);
 
-/// A tree that follows its lights obeys the laws after each step, as the one that is built of them does, and divides power between the sky and
-/// itself in the same way; it remembers nothing of the steps before; a step that it refuses leaves it as it was.
+/// A tree that follows its lights obeys the laws after each step, as the one that is built of them
+/// does, and divides power between the sky and itself in the same way; it remembers nothing of the
+/// steps before; a step that it refuses leaves it as it was.
 ///
-/// How the lights of a tree share what is emitted depends on its shape, so that no light's share is compared with that in a rebuilt tree. A node
-/// weighs a group by its power times the unit of its axes, which is 0.29 to 1 times the root mean square of axes and offsets in it, in codes
-/// that are right to a sixteenth, and to 2^-34 of the largest child.
+/// How the lights of a tree share what is emitted depends on its shape, so that no light's share is
+/// compared with that in a rebuilt tree. A node weighs a group by its power times the unit of its
+/// axes, which is 0.29 to 1 times the root mean square of axes and offsets in it, in codes that are
+/// right to a sixteenth, and to 2^-34 of the largest child.
 ///
 /// # Panics
 /// If a promise is broken.

@@ -18,7 +18,8 @@ const MAX_LIGHTS: usize = 24;
 /// How many lights are chosen at once: one by itself, and several by a cut.
 const COUNTS: [u32; 2] = [1, 3];
 
-/// Every sampler obeys the laws for every receiver: bits of pmfs, sums, the rest of `u`, and no light lost.
+/// Every sampler obeys the laws for every receiver: bits of pmfs, sums, the rest of `u`, and no
+/// light lost.
 ///
 /// # Panics
 /// If a promise is broken.
@@ -273,7 +274,8 @@ fn check_cut(
     }
 }
 
-/// The choice by power looks at no receiver, and never returns none; a light owns several intervals of its `u`.
+/// The choice by power looks at no receiver, and never returns none; a light owns several intervals
+/// of its `u`.
 fn check_powers(
     sampler: &PowerLightSampler,
     lights: &[LightExtent],

@@ -26,7 +26,8 @@ fn pmf(sampler: &impl LightSampler, query: &Query, light: LightId) -> f32 {
     }
 }
 
-/// A sample is of a light of the set, its pmf has the bits of the queried pmf, and the rest of `u` is in `[0, 1)`.
+/// A sample is of a light of the set, its pmf has the bits of the queried pmf, and the rest of `u`
+/// is in `[0, 1)`.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -63,7 +64,8 @@ pub fn sampled_pmf_is_the_queried_pmf(set: &LightSet, sampler: &impl LightSample
 /// # Panics
 /// If the law does not hold.
 pub fn pmfs_and_none_sum_to_one(set: &LightSet, sampler: &impl LightSampler) {
-    // Stratified u: a sampler that maps each light to an interval misses by less than one stratum a light.
+    // Stratified u: a sampler that maps each light to an interval misses by less than one stratum a
+    // light.
     const STRATA: u32 = 4096;
     let mut rng = Rng::new(32);
     for query in queries(set) {
@@ -78,7 +80,8 @@ pub fn pmfs_and_none_sum_to_one(set: &LightSet, sampler: &impl LightSampler) {
             })
             .count();
         let p_none = none as f64 / f64::from(STRATA);
-        // Of the count that the pmfs predict; a share too small to be seen is seen once in a while nevertheless.
+        // Of the count that the pmfs predict; a share too small to be seen is seen once in a while
+        // nevertheless.
         let predicted = (1.0 - sum).clamp(0.0, 1.0);
         let spread = (predicted * (1.0 - predicted) / f64::from(STRATA)).sqrt();
         let margin = 5.0 * spread + 3.0 / f64::from(STRATA);

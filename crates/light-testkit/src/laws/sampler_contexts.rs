@@ -96,7 +96,8 @@ pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
     all
 }
 
-/// At any context the pmfs are a distribution, sampling and asking agree to the bit, and what is left of `u` is in `[0, 1)`.
+/// At any context the pmfs are a distribution, sampling and asking agree to the bit, and what is
+/// left of `u` is in `[0, 1)`.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -147,8 +148,8 @@ pub fn laws_hold_at_any_context(set: &LightSet, sampler: &impl LightSampler) {
     }
 }
 
-/// A light that contributes at a point by the direction of its normal can be chosen, however long the normal is; and by any light if it has no
-/// direction.
+/// A light that contributes at a point by the direction of its normal can be chosen, however long
+/// the normal is; and by any light if it has no direction.
 ///
 /// # Panics
 /// If the law does not hold.

@@ -13,7 +13,8 @@ pub fn sampler_sets() -> Vec<LightSet> {
     sets
 }
 
-/// Makes a module of tests, one a law, for the sampler that `$build` makes of a [`LightSet`](crate::LightSet).
+/// Makes a module of tests, one a law, for the sampler that `$build` makes of a
+/// [`LightSet`](crate::LightSet).
 ///
 /// Belongs in a file of `tests/`: in unit tests the trait of the crate under test is another one.
 ///

@@ -98,7 +98,8 @@ impl SoakSet {
     }
 }
 
-/// Takes `count` choices, half of them by the default sampler, the others by each of the rest in turn.
+/// Takes `count` choices, half of them by the default sampler, the others by each of the rest in
+/// turn.
 pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
     let mut rng = Rng::new(seed);
     let mut row = Row::default();

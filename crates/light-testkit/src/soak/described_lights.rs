@@ -25,7 +25,8 @@ impl Lights {
     }
 }
 
-/// Lights of every kind and shape in a scene of radius 10 around the origin, all of a few units in size.
+/// Lights of every kind and shape in a scene of radius 10 around the origin, all of a few units in
+/// size.
 pub(super) fn lights() -> Lights {
     let scene = SceneSphere::new(Vec3::ZERO, 10.0).expect("a sphere");
     let mut builder = LightSetBuilder::new(scene);

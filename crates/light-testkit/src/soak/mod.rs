@@ -1,4 +1,5 @@
-//! Long runs: very many choices of lights and samples of lights, each of them held against the query for its probability or density.
+//! Long runs: very many choices of lights and samples of lights, each of them held against the
+//! query for its probability or density.
 
 mod choices;
 mod described_lights;
@@ -27,7 +28,8 @@ pub struct Soak {
 }
 
 impl Soak {
-    /// Runs on all threads of rayon, and tells `progress` from time to time how many samples are done, of how many.
+    /// Runs on all threads of rayon, and tells `progress` from time to time how many samples are
+    /// done, of how many.
     #[must_use]
     pub fn run(&self, progress: impl Fn(u64, u64) + Sync) -> Report {
         let done = AtomicU64::new(0);

@@ -172,7 +172,8 @@ fn compare_decoded(
     let our_w = findings.ours("decoded w", decoded.w);
     let tolerance = Tolerance::new(1e-5, if is_same { 1e-6 } else { 1e-4 });
     findings.near3("w", our_w, w, tolerance);
-    // What our codes stand for; the reference's code may be one too high, and its cone is not widened.
+    // What our codes stand for; the reference's code may be one too high, and its cone is not
+    // widened.
     let [code_o, code_e] = cosines.map(codes::cosine_of);
     let ours = findings.ours("decoded cos_theta_e", decoded.cos_theta_e);
     let tolerance = Tolerance::new(0.0, f32::EPSILON);

@@ -82,8 +82,8 @@ fn compare_subtended(bounds: &Aabb, p: Vec3, theirs: DirectionCone, findings: &m
     }
 }
 
-/// Whether two cones have about the same axis and signed squares of their cosines: the root of `1 - sin^2` near 0 has
-/// half of the digits that its square has.
+/// Whether two cones have about the same axis and signed squares of their cosines: the root of
+/// `1 - sin^2` near 0 has half of the digits that its square has.
 fn is_near(ours: DirectionCone, theirs: DirectionCone) -> bool {
     let signed_square = |x: f32| x * x.abs();
     let [a, b] = [ours, theirs].map(|cone| signed_square(cone.cos_theta));

@@ -52,7 +52,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     Ok(())
 }
 
-/// Holds our importance of `lb` at the point and normal to the oracle, and compares it with the reference's.
+/// Holds our importance of `lb` at the point and normal to the oracle, and compares it with the
+/// reference's.
 pub(super) fn compare(
     lb: &LightBounds,
     at: [Vec3; 2],

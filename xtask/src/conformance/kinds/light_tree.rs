@@ -71,7 +71,8 @@ pub(super) fn compare(
     Ok(())
 }
 
-/// Holds a tree that divides its lights another way than the reference's to the published cost, and to its lights.
+/// Holds a tree that divides its lights another way than the reference's to the published cost, and
+/// to its lights.
 fn check_alone(
     tree: &ReferenceLightBvhRef<'_>,
     lights: &[LightExtent],

@@ -10,11 +10,13 @@ use crate::conformance::oracle::cone::ExactCone;
 
 const BUCKETS: usize = 12;
 
-/// What single precision moves the emission of a side by: its formula, and the angle of a cone that unions have widened.
+/// What single precision moves the emission of a side by: its formula, and the angle of a cone that
+/// unions have widened.
 const MEASURE_ERROR: f64 = 1e-5;
 const COS_ERROR: f64 = 4.0 * f32::EPSILON as f64;
 
-/// Whether every split of the tree is the cheapest one, or as cheap up to rounding; if not, which one is not.
+/// Whether every split of the tree is the cheapest one, or as cheap up to rounding; if not, which
+/// one is not.
 pub(super) fn check(tree: &ReferenceLightBvhRef<'_>, lights: &[LightExtent]) -> Result<(), String> {
     let has_power = |i: &usize| lights[*i].bounded().is_some_and(|lb| lb.phi > 0.0);
     let mut order: Vec<_> = (0..lights.len()).filter(has_power).collect();
@@ -59,7 +61,8 @@ fn check_node(
     check_node(tree, lights, second, b)
 }
 
-/// Moves the lights of the first side to the front by exchanges from both ends, as the published partition does.
+/// Moves the lights of the first side to the front by exchanges from both ends, as the published
+/// partition does.
 fn exchange(order: &mut [usize], is_first: impl Fn(usize) -> bool) {
     let (mut front, mut back) = (0, order.len());
     while front < back {
@@ -165,7 +168,8 @@ impl Side {
         let sin_o = theta_o.sin();
         let beyond = 2.0 * (theta_w - theta_o) * sin_o - (theta_o - 2.0 * theta_w).cos() + cos_o;
         let measure = 2.0 * PI * (1.0 - cos_o) + FRAC_PI_2 * beyond;
-        // The angle of a narrow cone has half of the digits of its cosine; emission grows by at most 5 a radian.
+        // The angle of a narrow cone has half of the digits of its cosine; emission grows by at
+        // most 5 a radian.
         let is_narrow = cos_o > 0.0 && cos_o < 1.0;
         let angle_error = if is_narrow {
             COS_ERROR / sin_o.max(COS_ERROR.sqrt())

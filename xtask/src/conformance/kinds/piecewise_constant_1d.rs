@@ -43,7 +43,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         let is_same = index as f32 == offset;
         let bin = usize::try_from(index).unwrap_or(weights.len());
         let is_exact = bin < weights.len() && can_reach(bin);
-        // Of several bins near an edge ours is the one by its own running sums, which are compared above.
+        // Of several bins near an edge ours is the one by its own running sums, which are compared
+        // above.
         let is_own = table.cdf().get(bin).is_some_and(|&low| low <= u.x as f32)
             && table
                 .cdf()
@@ -54,7 +55,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         });
         findings.settled(Certainty::Determined);
 
-        // In our bin, if the reference takes another one. In a bin as narrow as rounding any place is right.
+        // In our bin, if the reference takes another one. In a bin as narrow as rounding any place
+        // is right.
         let theirs = |x: f32| (ours.index as f32 == offset).then_some(x);
         let settle = |comparison: Comparison, part: usize, findings: &mut Findings| {
             comparison.settle(

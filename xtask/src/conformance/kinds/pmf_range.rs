@@ -1,4 +1,5 @@
-//! The probabilities of lights by importance in double precision, as ranges of what rounding leaves open.
+//! The probabilities of lights by importance in double precision, as ranges of what rounding leaves
+//! open.
 
 use lights::bounds::{LightBounds, LightExtent, LightId};
 use lights::bvh::reference::{Link, ReferenceLightBvhRef, Side};

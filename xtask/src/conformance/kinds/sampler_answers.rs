@@ -53,7 +53,8 @@ impl<'a> Question<'a> {
         n: Vec3,
         ns: Vec3,
     ) -> Result<Self, Malformed> {
-        // Ours all read the shading normal; the reference's exhaustive one reads the geometric normal.
+        // Ours all read the shading normal; the reference's exhaustive one reads the geometric
+        // normal.
         let (sampler, normal) = match sampler {
             Some("uniform") => (Sampler::Uniform, ns),
             Some("power") => (Sampler::Power, ns),
@@ -141,7 +142,8 @@ impl<'a> Question<'a> {
             findings.near("pmf of the sample", own, asked, Tolerance::GENERAL);
             findings.settled(Certainty::Determined);
         }
-        // An alias table's layout is its builder's, and the reference's exhaustive choice depends on a hash.
+        // An alias table's layout is its builder's, and the reference's exhaustive choice depends
+        // on a hash.
         if matches!(self.sampler, Sampler::Power | Sampler::Exhaustive) {
             return;
         }

@@ -219,7 +219,8 @@ fn bilinear_density(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     Ok(())
 }
 
-/// On a row without density the reference divides 0 by 0. Ours stays off it by 2^-24, and x is that of the rows beside.
+/// On a row without density the reference divides 0 by 0. Ours stays off it by 2^-24, and x is that
+/// of the rows beside.
 fn empty_row(u: Vec2, w: [f32; 4], ours: Vec2, findings: &mut Findings) -> Result<(), Malformed> {
     let exact_w = w.map(f64::from);
     let u = u.as_dvec2();
@@ -235,7 +236,8 @@ fn empty_row(u: Vec2, w: [f32; 4], ours: Vec2, findings: &mut Findings) -> Resul
     Ok(())
 }
 
-/// The reference's search ends at about 1e-4 of the width, so its own place is where densities are compared.
+/// The reference's search ends at about 1e-4 of the width, so its own place is where densities are
+/// compared.
 fn smoothstep_density(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
     let [u, a, b, x] = ["u", "a", "b", "x"].map(|name| case.get(name)?.float());
     let (u, a, b, x) = (u?, a?, b?, x?);

@@ -77,7 +77,8 @@ fn compare_area(
     Ok(())
 }
 
-/// The two triangles beside the diagonal that looks shorter, with signs; the smaller of both sides of the sphere.
+/// The two triangles beside the diagonal that looks shorter, with signs; the smaller of both sides
+/// of the sphere.
 fn two_triangles([a, b, c, d]: [DVec3; 4], jitter: &mut Jitter) -> f64 {
     let cosine = |a: DVec3, b: DVec3| a.normalize().dot(b.normalize());
     let triangles = if jitter.at_scale(cosine(a, c) - cosine(b, d), 1.0) >= 0.0 {
@@ -92,8 +93,8 @@ fn two_triangles([a, b, c, d]: [DVec3; 4], jitter: &mut Jitter) -> f64 {
     sum.abs().min(4.0 * PI - sum.abs())
 }
 
-/// The solid angle of three unit vectors, negative if they run clockwise. Where they are in one plane up to rounding it
-/// is 0 by definition, and near 2 pi if they go all around.
+/// The solid angle of three unit vectors, negative if they run clockwise. Where they are in one
+/// plane up to rounding it is 0 by definition, and near 2 pi if they go all around.
 fn signed_area(v: [DVec3; 3], jitter: &mut Jitter) -> f64 {
     const ROUNDING: f64 = 16.0 * f32::EPSILON as f64;
     let volume = v[0].dot(v[1].cross(v[2]));

@@ -7,8 +7,9 @@ const ROUNDING: f64 = 0.06;
 
 /// Whether `code` is that of the direction `w`.
 ///
-/// The lower half of the octahedron is unfolded to the outside of the square, each coordinate with the sign of its own: where one is zero,
-/// as +0 or as -0, the direction lies on the edge of the square and has a code on either side of it.
+/// The lower half of the octahedron is unfolded to the outside of the square, each coordinate with
+/// the sign of its own: where one is zero, as +0 or as -0, the direction lies on the edge of the
+/// square and has a code on either side of it.
 pub(in crate::conformance) fn is_octahedral(code: [i64; 2], w: DVec3) -> bool {
     let p = w / (w.x.abs() + w.y.abs() + w.z.abs());
     let signs = |x: f64| {
@@ -38,11 +39,12 @@ pub(in crate::conformance) fn cosine_of(code: i64) -> f64 {
     2.0 * code as f64 / 32767.0 - 1.0
 }
 
-/// How far the roundings of an encoder or a decoder of cosines in single precision move that number: three of a sum
-/// up to 2, in codes.
+/// How far the roundings of an encoder or a decoder of cosines in single precision move that
+/// number: three of a sum up to 2, in codes.
 const COSINE_ROUNDING: f64 = 3.0 * 32767.0 * 0.5 * f32::EPSILON as f64;
 
-/// Whether `code` is that of a cosine, rounded down, or the one below if rounding may lift the decoded cosine above.
+/// Whether `code` is that of a cosine, rounded down, or the one below if rounding may lift the
+/// decoded cosine above.
 pub(in crate::conformance) fn is_cosine(code: i64, cos_theta: f64) -> bool {
     let (code, exact) = (code as f64, cosine(cos_theta));
     code <= exact && exact - COSINE_ROUNDING < code + 1.0

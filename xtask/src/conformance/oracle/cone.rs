@@ -98,5 +98,6 @@ pub(in crate::conformance) fn importance(
 /// What bounds promise to take for a cosine of light that may arrive, so that rounding drops none.
 const LEAST_COSINE: f64 = 2e-6;
 
-/// How far beyond it light may count: bounds promise so much, as their axis may be too short by rounding.
+/// How far beyond it light may count: bounds promise so much, as their axis may be too short by
+/// rounding.
 const BESIDE: f64 = 2e-5;

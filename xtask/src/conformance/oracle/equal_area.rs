@@ -30,8 +30,8 @@ pub(in crate::conformance) fn sphere_to_square(d: DVec3) -> DVec2 {
     0.5 * DVec2::new(q.x.copysign(d.x), q.y.copysign(d.y)) + 0.5
 }
 
-/// The texel of an `n` by `n` map for indices that may lie beyond its edges by less than `n`: the neighbour on the
-/// sphere.
+/// The texel of an `n` by `n` map for indices that may lie beyond its edges by less than `n`: the
+/// neighbour on the sphere.
 pub(in crate::conformance) fn wrap([x, y]: [i64; 2], n: i64) -> [usize; 2] {
     let beyond = |i: i64| !(0..n).contains(&i);
     let back = |i: i64| {

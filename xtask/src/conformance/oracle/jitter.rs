@@ -7,13 +7,16 @@ const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 /// How many moved inputs are tried.
 const TRIES: u32 = 192;
 
-/// How wide the answers for moved inputs may be spread, relative to their magnitude, to count as one continuous range.
+/// How wide the answers for moved inputs may be spread, relative to their magnitude, to count as
+/// one continuous range.
 const CONTINUOUS: f64 = 0.05;
 
-/// How near to an answer those for moved inputs lie on both sides of it, relatively, where the answer is one for inputs between them.
+/// How near to an answer those for moved inputs lie on both sides of it, relatively, where the
+/// answer is one for inputs between them.
 const BETWEEN: f64 = 0.01;
 
-/// The largest quotient of two answers for moved inputs that still tell an answer from its double and its half.
+/// The largest quotient of two answers for moved inputs that still tell an answer from its double
+/// and its half.
 const TELLING: f64 = 1.5;
 
 /// How far answers may move with their inputs.
@@ -95,9 +98,10 @@ pub(in crate::conformance) struct Ours {
     pub(in crate::conformance) conditioning: Conditioning,
 }
 
-/// Whether `ours` is the truth for inputs as near as rounding moves them: all parts of the answer, each with its
-/// tolerance, for one way to move the inputs. Otherwise each part is that for some way, or within the range of all ways
-/// where that is a narrow one, or a number between the answers of two ways that are next to it on both sides.
+/// Whether `ours` is the truth for inputs as near as rounding moves them: all parts of the answer,
+/// each with its tolerance, for one way to move the inputs. Otherwise each part is that for some
+/// way, or within the range of all ways where that is a narrow one, or a number between the answers
+/// of two ways that are next to it on both sides.
 pub(in crate::conformance) fn confirm(
     ours: &[Ours],
     truth: impl Fn(&mut Jitter) -> Option<Vec<DVec3>>,
@@ -170,7 +174,8 @@ impl Ours {
         (0..3).all(|i| near(self.answer[i], truth[i]))
     }
 
-    /// Whether the answer is a number between two of `truths` that are close to it, and all of them are alike but for those of a miss.
+    /// Whether the answer is a number between two of `truths` that are close to it, and all of them
+    /// are alike but for those of a miss.
     fn is_between(&self, truths: impl Iterator<Item = DVec3>) -> bool {
         if self.answer.y != 0.0 || self.answer.z != 0.0 {
             return false;

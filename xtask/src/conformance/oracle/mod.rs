@@ -1,7 +1,9 @@
-//! The right answers in double precision, from the published formulas and without the library under test.
+//! The right answers in double precision, from the published formulas and without the library under
+//! test.
 //!
-//! Single precision is modelled as double precision for inputs that are off by a few units in the last place: a
-//! [`Jitter`] moves them, and an answer is right if it is the answer for inputs as near as that.
+//! Single precision is modelled as double precision for inputs that are off by a few units in the
+//! last place: a [`Jitter`] moves them, and an answer is right if it is the answer for inputs as
+//! near as that.
 
 pub(super) mod codes;
 pub(super) mod cone;

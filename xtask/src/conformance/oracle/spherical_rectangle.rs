@@ -2,7 +2,8 @@ use super::ExactTriangle;
 use super::warp::bisect;
 use glam::{DVec2, DVec3};
 
-/// A rectangle seen from a point, as Urena et al. 2013 cut it: across by area, then along by the sine of the elevation.
+/// A rectangle seen from a point, as Urena et al. 2013 cut it: across by area, then along by the
+/// sine of the elevation.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::conformance) struct ExactRectangle {
     low: DVec2,
@@ -53,7 +54,8 @@ impl ExactRectangle {
         triangle(a, b, c) + triangle(a, c, d)
     }
 
-    /// The difference of the sines of the elevation between the lower end of the line at `x` and the place `y` on it.
+    /// The difference of the sines of the elevation between the lower end of the line at `x` and
+    /// the place `y` on it.
     fn share(&self, x: f64, y: f64) -> f64 {
         let x = self.low.x + x * self.size.x;
         let dist_sq = x * x + self.height * self.height;

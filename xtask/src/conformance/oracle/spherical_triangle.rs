@@ -1,7 +1,8 @@
 use super::warp::bisect;
 use glam::{DVec2, DVec3};
 
-/// A triangle seen from a point, as Arvo 1995 cuts it: by an arc from the second corner to the opposite side.
+/// A triangle seen from a point, as Arvo 1995 cuts it: by an arc from the second corner to the
+/// opposite side.
 ///
 /// The cut is found by bisection on areas and not by Arvo's formula, which subtracts angles.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +58,8 @@ fn parts(v: DVec3, axis: DVec3) -> (f64, f64) {
     (v.dot(axis), v.cross(axis).length())
 }
 
-/// The solid angle of a triangle by van Oosterom and Strackee 1983, with differences of corners in the volume.
+/// The solid angle of a triangle by van Oosterom and Strackee 1983, with differences of corners in
+/// the volume.
 fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     let volume = a.dot((b - a).cross(c - a)).abs();
     let [la, lb, lc] = [a, b, c].map(DVec3::length);

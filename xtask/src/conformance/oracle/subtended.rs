@@ -1,4 +1,5 @@
-//! The cone that a box subtends, through its bounding sphere: the range that single precision leaves it.
+//! The cone that a box subtends, through its bounding sphere: the range that single precision
+//! leaves it.
 
 use super::Certainty;
 use crate::conformance::Findings;
@@ -9,7 +10,8 @@ use lights::math::{Aabb, DirectionCone};
 /// Half a unit in the last place.
 const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 
-/// A box seen from a point, and what is true of its cone wherever in the box rounding puts the centre.
+/// A box seen from a point, and what is true of its cone wherever in the box rounding puts the
+/// centre.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::conformance) struct Subtended {
     to_corners: [DVec3; 2],
@@ -28,7 +30,8 @@ impl Subtended {
         let center = 0.5 * (min + max);
         let (to_center, radius) = (center - p, 0.5 * (max - min).length());
         let (dist, moved) = (to_center.length(), 1.01 * UNIT * center.length());
-        // 12 units by which the sine grows on purpose, 12 that its rounding may add, and a few of the cosine's own.
+        // 12 units by which the sine grows on purpose, 12 that its rounding may add, and a few of
+        // the cosine's own.
         let least = if dist > moved {
             let sin = (radius + moved) / (dist - moved);
             (1.0 - sin * sin * (1.0 + 24.0 * UNIT)) * (1.0 - 8.0 * UNIT)
@@ -61,7 +64,8 @@ impl Subtended {
         }
     }
 
-    /// From zero on the cosine is in the range; below it there is only -1, where the sphere is reached.
+    /// From zero on the cosine is in the range; below it there is only -1, where the sphere is
+    /// reached.
     pub(in crate::conformance) fn check_cosine(&self, cos_theta: f32, findings: &mut Findings) {
         let [least, largest] = self.cos_sq;
         let cos_sq = f64::from(cos_theta).powi(2);

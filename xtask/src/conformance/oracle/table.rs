@@ -42,7 +42,8 @@ impl ExactTable {
         row[i] <= 2.0 * SUMS * row.iter().sum::<f64>()
     }
 
-    /// The point for `u` in a texel, and its density there; none if the sums of no rounding lead there.
+    /// The point for `u` in a texel, and its density there; none if the sums of no rounding lead
+    /// there.
     pub(in crate::conformance) fn sample_in(
         &self,
         u: DVec2,
@@ -74,7 +75,8 @@ impl ExactTable {
     }
 }
 
-/// The place in bin `i` for `u`, anywhere in it if it is narrower than rounding; none if `u` is not even near.
+/// The place in bin `i` for `u`, anywhere in it if it is narrower than rounding; none if `u` is not
+/// even near.
 fn place_in(weights: &[f64], u: f64, i: usize, jitter: &mut Jitter) -> Option<f64> {
     let sum: f64 = weights.iter().sum();
     let low = weights[..i].iter().sum::<f64>() / sum;

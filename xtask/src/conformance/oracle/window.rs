@@ -42,7 +42,8 @@ impl ExactWindows {
         }
     }
 
-    /// The point of a window for `u`: the first number picks x, the second one y within the column of texels there.
+    /// The point of a window for `u`: the first number picks x, the second one y within the column
+    /// of texels there.
     pub(in crate::conformance) fn sample(
         &self,
         u: DVec2,

@@ -17,8 +17,8 @@ fn cell(p: Vec3) -> (Vec3, [i32; 3]) {
     (place, place.floor().to_array().map(|x| x as i32))
 }
 
-/// Random rays through two layers: the segments follow each other from end to end of the span, and the bound at each
-/// point is the sum of what the layers say of its cell.
+/// Random rays through two layers: the segments follow each other from end to end of the span, and
+/// the bound at each point is the sum of what the layers say of its cell.
 #[test]
 fn a_walk_has_the_bound_of_the_cell_that_it_is_in() {
     let mut rng = Rng::new(81);

@@ -22,7 +22,8 @@ const PIECES: u16 = 24;
 /// Radius of a bulb.
 const BULB: f32 = 0.06;
 
-/// An arched bridge over the canal, outlined with bulbs; at `place` x runs across the canal and z along it.
+/// An arched bridge over the canal, outlined with bulbs; at `place` x runs across the canal and z
+/// along it.
 pub(super) fn bridge(modeller: &mut Modeller, palette: &Palette, place: &Affine3A) {
     let across = |k: u16| REACH * (f32::from(k) / f32::from(PIECES) - 1.0);
     for k in 0..2 * PIECES {

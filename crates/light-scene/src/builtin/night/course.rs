@@ -27,8 +27,8 @@ impl Bank {
 }
 
 impl Course {
-    /// The place `along` metres down the middle and `across` metres to the right of it: x to the right, y up, z back
-    /// along the canal.
+    /// The place `along` metres down the middle and `across` metres to the right of it: x to the
+    /// right, y up, z back along the canal.
     pub(super) fn at(&self, along: f32, across: f32) -> Affine3A {
         let (sin, cos) = (along / self.radius).sin_cos();
         let right = Vec3::new(cos, 0.0, sin);
@@ -42,8 +42,8 @@ impl Course {
         }
     }
 
-    /// A place on a bank, `away` metres from the middle, that faces the water: z toward it, y up, x to the right of who
-    /// looks from the water.
+    /// A place on a bank, `away` metres from the middle, that faces the water: z toward it, y up, x
+    /// to the right of who looks from the water.
     pub(super) fn facing_water(&self, bank: Bank, along: f32, away: f32) -> Affine3A {
         let at = self.at(along, bank.sign() * away);
         let to_water = at.matrix3.x_axis * -bank.sign();

@@ -4,8 +4,8 @@ use crate::MaterialId;
 use crate::builtin::modeller::Modeller;
 use crate::glam::Affine3A;
 
-/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `place`, with holes for the openings of one
-/// floor, which lie side by side from left to right within it.
+/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `place`, with holes for
+/// the openings of one floor, which lie side by side from left to right within it.
 pub(super) fn wall(
     modeller: &mut Modeller,
     material: MaterialId,

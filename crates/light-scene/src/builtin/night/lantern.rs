@@ -13,7 +13,8 @@ const BEHIND_WALL: f32 = 0.9;
 /// Height of a lantern's glass above its foot.
 pub(super) const GLASS: f32 = 3.1;
 
-/// The places of the lanterns of one bank, along the middle of the canal; none where a bridge comes ashore.
+/// The places of the lanterns of one bank, along the middle of the canal; none where a bridge comes
+/// ashore.
 pub(super) fn places(course: &Course, bank: Bank) -> Vec<f32> {
     let along = |k: u8| course.along(bank, WATER, f32::from(k) * SPACING - 8.0);
     let free = |at: &f32| BRIDGES.iter().all(|bridge| (at - bridge).abs() > 4.2);

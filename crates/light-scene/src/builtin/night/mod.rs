@@ -1,8 +1,9 @@
-//! A canal by night, made from a seed: tall narrow houses with lit windows, arched bridges outlined with bulbs, lanterns
-//! along the quays, festoons between them, trees full of small lights, and boats.
+//! A canal by night, made from a seed: tall narrow houses with lit windows, arched bridges outlined
+//! with bulbs, lanterns along the quays, festoons between them, trees full of small lights, and
+//! boats.
 //!
-//! Twenty thousand emissive triangles, most of them hidden from any one point by houses, bridges and boats, none of them
-//! far brighter than the rest: what a light hierarchy is for.
+//! Twenty thousand emissive triangles, most of them hidden from any one point by houses, bridges
+//! and boats, none of them far brighter than the rest: what a light hierarchy is for.
 
 mod boat;
 mod bridge;
@@ -32,7 +33,8 @@ use palette::Palette;
 /// The emissive triangles of the scene.
 const LIGHTS: usize = 20_000;
 
-/// From the middle of the canal to the quay wall, in metres; all lengths of the scene are metres, the water is at height 0.
+/// From the middle of the canal to the quay wall, in metres; all lengths of the scene are metres,
+/// the water is at height 0.
 const WATER: f32 = 8.5;
 
 /// Height of the quays.

@@ -93,8 +93,8 @@ fn grow(
     }
 }
 
-/// Spreads bulbs of `triangles` triangles in all over the branches: eight a bulb, and single ones at the end where the
-/// number asks for it.
+/// Spreads bulbs of `triangles` triangles in all over the branches: eight a bulb, and single ones
+/// at the end where the number asks for it.
 pub(super) fn bulbs(
     modeller: &mut Modeller,
     palette: &Palette,

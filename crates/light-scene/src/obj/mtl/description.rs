@@ -69,7 +69,8 @@ impl Description {
             "Pr" => self.roughness = Some(share(line, "a roughness")?),
             "Pm" => self.metallic = share(line, "a metalness")?,
             "illum" => self.illumination = illumination(line)?,
-            // Ambient light has no place where light is traced; the exponent goes with the gloss of `Ks`.
+            // Ambient light has no place where light is traced; the exponent goes with the gloss of
+            // `Ks`.
             "Ka" | "map_Ka" | "Ns" => {}
             _ => return Ok(false),
         }
@@ -165,7 +166,8 @@ impl Description {
     }
 
     fn surface(&self, scene: &Scene) -> Surface {
-        // Perceived roughness to the width of the microfacet distribution, as exporters of `Pr` mean it.
+        // Perceived roughness to the width of the microfacet distribution, as exporters of `Pr`
+        // mean it.
         let roughness = self.roughness.unwrap_or(0.5);
         let alpha = Vec2::splat(roughness * roughness);
         let reflectance = match self.diffuse_map {

@@ -3,7 +3,8 @@ use crate::glam::{Vec2, Vec3};
 use crate::image::tests::png;
 use crate::{Alpha, Color, ColorImage, Emission, Surface};
 
-/// The scene with the materials of a library beside two images: one of a grey texel, one of a red texel in a hole.
+/// The scene with the materials of a library beside two images: one of a grey texel, one of a red
+/// texel in a hole.
 fn read(mtl: &str) -> Result<Scene, String> {
     let grey = png(image::GrayImage::from_pixel(1, 1, image::Luma([51])));
     let hole = png(image::RgbaImage::from_pixel(

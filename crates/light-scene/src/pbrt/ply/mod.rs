@@ -18,10 +18,12 @@ pub(super) fn read_ply(path: &Path, files: Files<'_>) -> Result<Mesh, Diagnostic
     parse_ply(path, &files.read(path)?)
 }
 
-/// The vertices and faces in the bytes of a PLY file, compressed by gzip or not; `path` names it in messages.
+/// The vertices and faces in the bytes of a PLY file, compressed by gzip or not; `path` names it in
+/// messages.
 ///
 /// # Errors
-/// When the file is broken, or a face names a vertex that is not there: with line or byte, and what was expected.
+/// When the file is broken, or a face names a vertex that is not there: with line or byte, and what
+/// was expected.
 pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
     let bytes = &*gunzipped(path, bytes)?;
     let mut body = Body {

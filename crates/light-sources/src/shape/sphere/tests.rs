@@ -12,7 +12,8 @@ fn numbers() -> impl Iterator<Item = Vec2> {
     (0..256).map(move |i| Vec2::new(along(i % 16), along(i / 16)))
 }
 
-/// Points lie on the side that is asked from by more than rounding: the sphere does not hide its own light.
+/// Points lie on the side that is asked from by more than rounding: the sphere does not hide its
+/// own light.
 #[test]
 fn samples_lie_before_the_surface() {
     for center in [Vec3::ZERO, Vec3::new(3e4, -1e3, 20.0)] {
@@ -33,7 +34,8 @@ fn samples_lie_before_the_surface() {
     }
 }
 
-/// Where rounding may have put a point of the sphere's own surface outside of it, it sees no cone but all of the sphere.
+/// Where rounding may have put a point of the sphere's own surface outside of it, it sees no cone
+/// but all of the sphere.
 #[test]
 fn points_of_the_surface_are_not_outside() {
     let sphere = sphere(Vec3::ZERO, 1.0);

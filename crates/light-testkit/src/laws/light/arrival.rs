@@ -8,7 +8,8 @@ use crate::{Cap, DensityTest, Estimate, Rng};
 /// Relative error that the quadrature of a radiance with jumps may have.
 const QUADRATURE: f64 = 1e-3;
 
-/// Directions toward the light follow `pdf_li`, which integrates to one at most, and which each sample carries.
+/// Directions toward the light follow `pdf_li`, which integrates to one at most, and which each
+/// sample carries.
 ///
 /// A sample that finds no light is `None`, so the samples follow the density where light arrives.
 ///
@@ -85,7 +86,8 @@ pub fn li_adds_up<C: ColorModel, L: Light<C>>(
     }
 }
 
-/// A Dirac light answers the given irradiance (of a plane that faces it) with pdf 1, and its density is 0.
+/// A Dirac light answers the given irradiance (of a plane that faces it) with pdf 1, and its
+/// density is 0.
 ///
 /// # Panics
 /// If the law does not hold.

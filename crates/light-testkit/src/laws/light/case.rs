@@ -19,8 +19,8 @@ pub struct LightCase<'a, C: ColorModel, L> {
 }
 
 impl<'a, C: ColorModel, L: Light<C>> LightCase<'a, C, L> {
-    /// A light at the colour model's reference wavelengths, asked at `count` random points that are up to three
-    /// radii from `center`: on surfaces of any orientation, and in a medium.
+    /// A light at the colour model's reference wavelengths, asked at `count` random points that are
+    /// up to three radii from `center`: on surfaces of any orientation, and in a medium.
     #[must_use]
     pub fn around(name: &'a str, light: &'a L, center: Vec3, radius: f32, count: usize) -> Self {
         let mut rng = Rng::new(41);

@@ -8,7 +8,8 @@ use super::case::le;
 use super::{LightCase, SAMPLES, STRAY};
 use crate::{Cap, Estimate, Rng};
 
-/// The mean of what leaves over its density is `phi`, and `pdf_le` answers the densities that samples carry.
+/// The mean of what leaves over its density is `phi`, and `pdf_le` answers the densities that
+/// samples carry.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -77,7 +78,8 @@ pub fn flux_is_phi<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>) {
     );
 }
 
-/// The radiance of a light at infinity, integrated over the sphere and times the disk of the scene, is `phi`.
+/// The radiance of a light at infinity, integrated over the sphere and times the disk of the scene,
+/// is `phi`.
 ///
 /// # Panics
 /// If the law does not hold.

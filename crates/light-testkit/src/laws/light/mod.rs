@@ -20,9 +20,10 @@ pub use rays::{
 /// Samples that an estimate takes.
 const SAMPLES: u32 = 1 << 14;
 
-/// How far two ways to compute one density may differ, relatively: rounding of grazing and of tiny shapes.
+/// How far two ways to compute one density may differ, relatively: rounding of grazing and of tiny
+/// shapes.
 const DENSITY_ROUNDING: f32 = 2e-3;
 
-/// Fraction of samples that may lie so close to a silhouette, or to the edge of a texel, that by rounding their
-/// density is that of the other side.
+/// Fraction of samples that may lie so close to a silhouette, or to the edge of a texel, that by
+/// rounding their density is that of the other side.
 const STRAY: f64 = 1e-3;

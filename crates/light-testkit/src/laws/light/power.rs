@@ -14,8 +14,8 @@ const DARK: f64 = 1e-7;
 /// Rows and columns of cells, each with one sample.
 const CELLS: u16 = 1024;
 
-/// `phi` is the integral of what leaves the light, to one part in ten thousand: by a million rays whose first numbers are spread
-/// evenly over the unit square, so that their mean is a quadrature.
+/// `phi` is the integral of what leaves the light, to one part in ten thousand: by a million rays
+/// whose first numbers are spread evenly over the unit square, so that their mean is a quadrature.
 ///
 /// # Panics
 /// If the law does not hold.

@@ -7,7 +7,8 @@ use super::case::le;
 use super::{LightCase, SAMPLES, STRAY};
 use crate::{Cap, DensityTest, Estimate, Rng, kolmogorov_smirnov_uniform};
 
-/// Directions of rays that leave follow `pdf_le`, for lights whose directions do not depend on where a ray starts.
+/// Directions of rays that leave follow `pdf_le`, for lights whose directions do not depend on
+/// where a ray starts.
 ///
 /// `cap` holds all directions of travel, `origin` is where `pdf_le` is asked.
 ///
@@ -36,7 +37,8 @@ pub fn le_directions_follow_their_density<C: ColorModel, L: Light<C>>(
     );
 }
 
-/// Rays that leave a diffuse surface are even in the squared sine of the angle with its normal, and in azimuth.
+/// Rays that leave a diffuse surface are even in the squared sine of the angle with its normal, and
+/// in azimuth.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -58,8 +60,8 @@ pub fn le_directions_are_diffuse<C: ColorModel, L: Light<C>>(case: &LightCase<'_
     }
 }
 
-/// Where rays start is even over the surface, for lights that shine alike from all of it. `place` takes a point of
-/// the surface to the unit square so that equal areas stay equal.
+/// Where rays start is even over the surface, for lights that shine alike from all of it. `place`
+/// takes a point of the surface to the unit square so that equal areas stay equal.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -78,8 +80,9 @@ pub fn le_origins_are_even<C: ColorModel, L: Light<C>>(
     outcome.assert(&format!("{}: origins", case.name));
 }
 
-/// A sphere around a bounded light, or one in the middle of a scene that infinite lights surround, is lit alike by rays
-/// that leave and by samples from its points: the power that passes each part of it.
+/// A sphere around a bounded light, or one in the middle of a scene that infinite lights surround,
+/// is lit alike by rays that leave and by samples from its points: the power that passes each part
+/// of it.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -128,7 +131,8 @@ pub fn rays_and_samples_light_alike<C: ColorModel, L: Light<C>>(
                 cell_area * s.l * cos.max(0.0) / f64::from(s.pdf)
             })
         });
-        // Of the few rays that pass a dim part there may be none, which says nothing of their spread.
+        // Of the few rays that pass a dim part there may be none, which says nothing of their
+        // spread.
         let of_few = (phi * by_samples.mean / f64::from(RAYS)).sqrt();
         by_rays.standard_error = by_rays.standard_error.max(of_few);
         assert!(
@@ -139,7 +143,8 @@ pub fn rays_and_samples_light_alike<C: ColorModel, L: Light<C>>(
     }
 }
 
-/// The unit vector from the centre to where a ray passes the sphere: on its way out if it starts inside, in otherwise.
+/// The unit vector from the centre to where a ray passes the sphere: on its way out if it starts
+/// inside, in otherwise.
 fn crossing(ray: &EmittedRay, center: Vec3, radius: f32) -> Option<Vec3> {
     let to = |v: Vec3| v.to_array().map(f64::from);
     let (o, d) = (to(ray.origin - center), to(ray.direction));

@@ -52,7 +52,8 @@ impl LightCase<'_> {
         Ok(())
     }
 
-    /// The reference's power for a white of 1; none of coloured pictures, which it gives at four wavelengths.
+    /// The reference's power for a white of 1; none of coloured pictures, which it gives at four
+    /// wavelengths.
     fn reference_power(&self, white: &[f32]) -> Result<Option<f32>, Malformed> {
         let phi = self.case.get("phi")?;
         if let Ok(phi) = phi.float() {

@@ -75,8 +75,8 @@ impl<'a> LightCase<'a> {
         self.kind.starts_with("area")
     }
 
-    /// `uv` of the truth or the reference as it can be compared with `ours`: an angle around an axis is moved by a full
-    /// turn if that is nearer, and counts as right on the axis.
+    /// `uv` of the truth or the reference as it can be compared with `ours`: an angle around an
+    /// axis is moved by a full turn if that is nearer, and counts as right on the axis.
     fn unwound(&self, uv: DVec2, ours: Vec2) -> DVec2 {
         let x = f64::from(ours.x);
         let on_axis = match self.kind {

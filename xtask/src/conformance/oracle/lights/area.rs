@@ -150,8 +150,9 @@ impl<S: Shape> ExactLight for Area<S> {
     }
 }
 
-/// A density per area as one per solid angle; none where the surface is seen from its edge. The place is rounded before
-/// the receiver is subtracted, which turns a direction along the surface, and the normal is a rounded unit vector.
+/// A density per area as one per solid angle; none where the surface is seen from its edge. The
+/// place is rounded before the receiver is subtracted, which turns a direction along the surface,
+/// and the normal is a rounded unit vector.
 pub(super) fn per_solid_angle(
     pdf_area: f64,
     from: &Receiver,
@@ -165,8 +166,8 @@ pub(super) fn per_solid_angle(
     (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
 }
 
-/// The map of random numbers toward large cosines at a receiver (Hart et al. 2020): bilinear between the corners of the
-/// square, which stand for directions, and none below 1/100.
+/// The map of random numbers toward large cosines at a receiver (Hart et al. 2020): bilinear
+/// between the corners of the square, which stand for directions, and none below 1/100.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cosines(Option<[f64; 4]>);
 

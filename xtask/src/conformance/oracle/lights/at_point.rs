@@ -16,7 +16,8 @@ pub(super) trait Directional {
     /// Density per solid angle.
     fn pdf(&self, w: DVec3) -> f64;
 
-    /// `phi`, `cos_theta_o` and `cos_theta_e` of the bounds, and whether the axis is that of the light's own space.
+    /// `phi`, `cos_theta_o` and `cos_theta_e` of the bounds, and whether the axis is that of the
+    /// light's own space.
     fn bounds(&self) -> ([f64; 3], bool);
 }
 

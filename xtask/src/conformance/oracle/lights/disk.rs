@@ -6,7 +6,8 @@ use crate::conformance::{Case, Malformed};
 use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// A disk, or a ring: points are chosen by area, and the circles of the disk move outward to where they keep theirs.
+/// A disk, or a ring: points are chosen by area, and the circles of the disk move outward to where
+/// they keep theirs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disk {
     to_scene: DMat3,

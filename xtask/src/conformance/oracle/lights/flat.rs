@@ -4,7 +4,8 @@ use super::triangle::Triangle;
 use crate::conformance::oracle::{ExactTriangle, Jitter};
 use glam::{DVec2, DVec3};
 
-/// A flat convex quadrilateral as a receiver sees it: two triangles, chosen by solid angle times mean cosine.
+/// A flat convex quadrilateral as a receiver sees it: two triangles, chosen by solid angle times
+/// mean cosine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flat {
     triangles: [Triangle; 2],

@@ -89,7 +89,8 @@ pub(in crate::conformance) trait ExactLight {
         self.sent(ray, jitter).1
     }
 
-    /// Radiance of a ray that escapes, or of a surface with the normal and in the direction of `ray`.
+    /// Radiance of a ray that escapes, or of a surface with the normal and in the direction of
+    /// `ray`.
     fn radiance(&self, ray: &Leaving, jitter: &mut Jitter) -> DVec3;
 }
 

@@ -7,7 +7,8 @@ use crate::conformance::oracle::Jitter;
 use crate::conformance::{Case, Malformed};
 use glam::{DVec2, DVec3};
 
-/// A bilinear patch that is no rectangle. Points are chosen by area, nearly: bilinear between the corners.
+/// A bilinear patch that is no rectangle. Points are chosen by area, nearly: bilinear between the
+/// corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patch {
     corners: [DVec3; 4],
@@ -69,8 +70,8 @@ impl Patch {
         CORNERS.map(|uv| self.scaled_normal(uv).length())
     }
 
-    /// Parameters and distance of all points that a ray meets: the patch in the plane across the ray is a quadrilateral,
-    /// whose inverse is a quadratic equation.
+    /// Parameters and distance of all points that a ray meets: the patch in the plane across the
+    /// ray is a quadrilateral, whose inverse is a quadratic equation.
     fn crossings(&self, o: DVec3, d: DVec3) -> impl Iterator<Item = (DVec2, f64)> {
         let [du, dv, duv] = self.derivatives();
         let from = self.corners[0] - o;
@@ -96,7 +97,8 @@ impl Patch {
         crossings.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The edge that a ray passes at a distance that the inputs round off; none where they are not moved.
+    /// The edge that a ray passes at a distance that the inputs round off; none where they are not
+    /// moved.
     fn hit_edge(&self, o: DVec3, d: DVec3, jitter: &mut Jitter) -> Option<(DVec2, f64)> {
         let [p00, _, _, p11] = self.corners;
         let magnitude = o.abs().max(p00.abs()).max(p11.abs()).max_element();
@@ -201,7 +203,8 @@ mod tests {
     use crate::conformance::Tolerance;
     use crate::conformance::oracle::{Conditioning, Ours, confirm};
 
-    /// A ray that comes in at a cosine of 4e-4 and passes an edge within rounding, and hits within it if it is moved by a rounding.
+    /// A ray that comes in at a cosine of 4e-4 and passes an edge within rounding, and hits within
+    /// it if it is moved by a rounding.
     #[test]
     fn the_density_of_an_edge_is_an_answer_for_a_ray_that_passes_it() {
         let patch = Patch::new([

@@ -50,7 +50,8 @@ impl Picture {
         self.texels[index(uv.x, self.nx) + self.nx * index(uv.y, self.ny)]
     }
 
-    /// Interpolated between the centres of texels of an equal-area map, across its edges to the neighbours on the sphere.
+    /// Interpolated between the centres of texels of an equal-area map, across its edges to the
+    /// neighbours on the sphere.
     pub(super) fn bilinear(&self, uv: DVec2) -> DVec3 {
         let n = self.nx as i64;
         let t = uv * n as f64 - 0.5;

@@ -10,8 +10,8 @@ use crate::conformance::{Case, Malformed};
 use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A sky seen through a rectangle (Bitterli et al. 2015): the picture over the angles of x and y to z in the frame of
-/// the rectangle.
+/// A sky seen through a rectangle (Bitterli et al. 2015): the picture over the angles of x and y to
+/// z in the frame of the rectangle.
 pub(in crate::conformance) struct PortalSky {
     scene: Scene,
     corner: DVec3,

@@ -73,7 +73,8 @@ impl Shape for Sphere {
         let u = jitter.numbers(u);
         let local = polar(one_minus_cos_max * u.x, u.y);
         let [x, y, z] = frame(to_center.normalize());
-        // The reference's azimuth runs on the sphere, so it is the opposite of that of the direction.
+        // The reference's azimuth runs on the sphere, so it is the opposite of that of the
+        // direction.
         let w = z * local.z - x * local.x - y * local.y;
         let along = to_center.dot(w);
         let across_sq = (to_center - w * along).length_squared();
