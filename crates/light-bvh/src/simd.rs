@@ -102,77 +102,18 @@ fn prefetch_lines<T>(from: *const T, count: usize) {
     let _ = (from, count);
 }
 
+/// The results of `work` in every width that this machine has: the build's target first.
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
-mod tests {
-    use light_math::glam::Vec3;
-
-    use super::*;
-    use crate::importance::glossy::GlossyReceiver;
-    use crate::importance::medium::MediumReceiver;
-    use crate::importance::receiver::Receiver;
-    use crate::importance::segment::SegmentReceiver;
-    use crate::importance::surface::SurfaceReceiver;
-    use crate::importance::two_sided::TwoSidedReceiver;
-    use crate::node::wide_node::{WIDTH, WideNode};
-    use crate::query::into_receiver::{Query, QueryFor};
-    use crate::query::weights::Weights;
-
-    /// The weights of a node's children and their angular_size_sq, as bits.
-    struct Bits<'a>(&'a WideNode);
-
-    impl Query for Bits<'_> {
-        type Output = [[u32; WIDTH]; 2];
-
-        #[inline(always)]
-        fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-            let (weights, angular_size_sq) = Weights::with_angular_size(self.0, receiver);
-            [weights.lanes, angular_size_sq].map(|lanes| lanes.map(f32::to_bits))
-        }
+pub(crate) fn run_with_each_width<W: VectorWork + Copy>(work: W) -> alloc::vec::Vec<W::Output> {
+    let mut results = alloc::vec![work.run()];
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has AVX2, the one feature that the function is compiled for.
+        results.push(unsafe { run_with_avx2(work) });
     }
-
-    /// Trivially true where the machine has no wider vectors than the build's target.
-    #[test]
-    fn wide_vectors_give_the_bits_of_narrow_ones() {
-        fn check<R: Receiver>(node: &WideNode, receiver: &R) {
-            let narrow = Bits(node).run(receiver);
-            let widest = dispatch(QueryFor(receiver, Bits(node)));
-            assert_eq!(narrow, widest, "weights of {node:?}");
-            if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: the machine has AVX2.
-                let wide = unsafe { run_with_avx2(QueryFor(receiver, Bits(node))) };
-                assert_eq!(narrow, wide, "by AVX2, weights of {node:?}");
-            }
-        }
-        let mut state = 1u32;
-        let mut next = || {
-            state = state.wrapping_mul(0x915f_77f5).wrapping_add(1);
-            (state >> 16).to_le_bytes()[0]
-        };
-        for _ in 0..500 {
-            let mut bytes = || core::array::from_fn::<u8, WIDTH, _>(|_| next());
-            let node = WideNode {
-                mean: [bytes(), bytes(), bytes()],
-                extent: [bytes(), bytes(), bytes()],
-                axis: [bytes(), bytes(), bytes()]
-                    .map(|axis| axis.map(|code| i8::from_ne_bytes([code]))),
-                offset: bytes().map(|code| i8::from_ne_bytes([code])),
-                spread: bytes().map(|x| x / 2),
-                power: bytes(),
-                inv_scale: 100.0,
-                ..WideNode::EMPTY
-            };
-            let [x, y, z, ..] = bytes().map(|x| f32::from(x) * 0.01);
-            let (p, n) = (Vec3::new(x, y, z), Vec3::new(y, z, 0.1 - x).normalize());
-            let gloss = light_bounds::Gloss {
-                wo: n,
-                alpha: 0.2,
-                diffuse: 0.5,
-            };
-            check(&node, &SurfaceReceiver::new(p, n));
-            check(&node, &GlossyReceiver::new(p, n, &gloss));
-            check(&node, &TwoSidedReceiver::new(p, n));
-            check(&node, &MediumReceiver::new(p));
-            check(&node, &SegmentReceiver::new(p, n));
-        }
+    #[cfg(avx512)]
+    if has_avx512() {
+        // SAFETY: `has_avx512` has found each feature that the function is compiled for.
+        results.push(unsafe { run_with_avx512(work) });
     }
+    results
 }

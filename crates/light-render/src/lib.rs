@@ -39,6 +39,8 @@ mod tone_map;
 mod view;
 mod world;
 mod world_media;
+mod world_mesh;
+mod world_sphere;
 
 pub use accel::{Accel, Hit, Place, Prototype};
 pub use choice_variance::choice_variance;

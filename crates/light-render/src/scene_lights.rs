@@ -11,7 +11,8 @@ use lights::sources::{
 };
 
 use crate::surface_emission::{HoledLights, Textures};
-use crate::world::{WorldMesh, WorldSphere};
+use crate::world_mesh::WorldMesh;
+use crate::world_sphere::WorldSphere;
 
 /// The lights of a scene.
 #[derive(Debug)]

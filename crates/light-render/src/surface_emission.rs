@@ -8,7 +8,8 @@ use lights::sources::{
     MeshLightDesc, RadianceAmount, Rgb, Sides, SurfaceColor, Texture, TextureMapping,
 };
 
-use crate::world::{WorldMesh, WorldSphere};
+use crate::world_mesh::WorldMesh;
+use crate::world_sphere::WorldSphere;
 
 /// Lights whose surfaces have holes.
 #[derive(Clone, Debug)]

@@ -55,6 +55,7 @@ impl IntoReceiver for &LightSampleContext {
 }
 
 /// A query and for whom it is run.
+#[cfg_attr(test, derive(Clone, Copy))]
 pub(crate) struct QueryFor<A, Q>(pub(crate) A, pub(crate) Q);
 
 impl<A: IntoReceiver, Q: Query> VectorWork for QueryFor<A, Q> {

@@ -6,5 +6,7 @@ pub(crate) mod descent;
 pub(crate) mod into_receiver;
 mod queries;
 pub(crate) mod select;
+#[cfg(all(test, feature = "std", target_arch = "x86_64"))]
+mod vector_width_tests;
 pub(crate) mod weights;
 mod with_infinite;

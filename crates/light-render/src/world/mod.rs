@@ -2,12 +2,10 @@ mod count;
 mod error;
 mod holes;
 mod materials;
-mod mesh;
 mod mixtures;
 mod objects;
 mod primitives;
 mod rays;
-mod sphere;
 
 use light_scene::{Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
@@ -19,11 +17,11 @@ use lights::sources::{Image, LightSet, MediumId, Rgb};
 use crate::scene_lights::{SceneLights, shown_images};
 use crate::surface_emission::HoledLights;
 use crate::world_media::WorldMedia;
+use crate::world_mesh::WorldMesh;
+use crate::world_sphere::WorldSphere;
 use crate::{Accel, Prototype, Ray, Surface};
 pub use error::WorldError;
-pub(crate) use mesh::WorldMesh;
 use objects::Objects;
-pub(crate) use sphere::WorldSphere;
 
 /// A scene made ready for rays: triangles and spheres in hierarchies, materials, lights.
 ///

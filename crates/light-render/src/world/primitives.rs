@@ -3,7 +3,9 @@ use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::sources::SurfacePoint;
 
-use super::{MeshTriangle, World, WorldMesh, WorldSphere};
+use super::{MeshTriangle, World};
+use crate::world_mesh::WorldMesh;
+use crate::world_sphere::WorldSphere;
 use crate::{PrimitiveId, Surface};
 
 /// What is stored under the number of a primitive.

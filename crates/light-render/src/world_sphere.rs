@@ -5,7 +5,7 @@ use lights::math::octahedral;
 use lights::sources::SurfacePoint;
 use lights::sources::shape::{AnyShape, Sphere};
 
-use super::WorldError;
+use crate::WorldError;
 
 /// A sphere of one material.
 #[derive(Debug)]
