@@ -2,7 +2,7 @@ use crate::amount::{IrradianceAmount, RadianceAmount};
 use crate::color::ColorModel;
 use crate::glam::Vec3;
 
-/// A [`SunLight`] as a user describes it.
+/// A [`SunLight`](super::sun::SunLight) as a user describes it.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
