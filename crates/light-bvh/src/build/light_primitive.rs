@@ -24,13 +24,7 @@ pub(crate) struct LightPrimitive {
 impl LightPrimitive {
     #[inline]
     pub(crate) fn new(light: u32, bounds: &LightBounds, power: f32) -> Self {
-        let LightBounds {
-            cos_theta_o,
-            cos_theta_e,
-            two_sided,
-            ..
-        } = *bounds;
-        let length = Moments::axis_length(cos_theta_o, cos_theta_e, two_sided);
+        let length = Moments::axis_length(bounds);
         Self {
             center: bounds.bounds.center(),
             power,

@@ -67,13 +67,7 @@ const fn spread(x: u32) -> u64 {
 /// The highest bit of a key: lights with narrow cones follow all others, because groups of mixed
 /// kinds are best split early.
 fn kind(bounds: &LightBounds) -> u64 {
-    let LightBounds {
-        cos_theta_o,
-        cos_theta_e,
-        two_sided,
-        ..
-    } = *bounds;
-    let length = Moments::axis_length(cos_theta_o, cos_theta_e, two_sided);
+    let length = Moments::axis_length(bounds);
     let is_narrow = length * length > NARROW;
     u64::from(is_narrow) << 63
 }

@@ -86,8 +86,8 @@ impl Moments {
 
     /// The length of the mean axis of one light: 1 for a flat light, longer for a narrower cone.
     #[inline]
-    pub(crate) fn axis_length(cos_theta_o: f32, cos_theta_e: f32, two_sided: bool) -> f32 {
-        Lobe::new(cos_theta_o, cos_theta_e, two_sided).axis
+    pub(crate) fn axis_length(light: &LightBounds) -> f32 {
+        Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided).axis
     }
 
     /// The moments of several groups together; those that are off do not count.
