@@ -87,7 +87,9 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         let transform =
             RigidTransform::new(desc.transform).map_err(ImageInfiniteLightError::from)?;
         let sky = desc.map.into_equal_area()?;
-        let portal = Portal::new(desc.portal).ok_or(PortalInfiniteLightError::Portal)?;
+        let portal = Portal::new(desc.portal)
+            .filter(|portal| (1.0 / (portal.area() * LEAST_COSINE)).is_finite())
+            .ok_or(PortalInfiniteLightError::Portal)?;
 
         // The sky in the portal's own map, and its integrals over the half space in front.
         let [n, _] = sky.size();
@@ -152,23 +154,25 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
     }
 
     /// A direction toward the sky in `window`, chosen by `u`, with its place in the map and its
-    /// density.
+    /// density: those of the direction as it is rounded, which may lie on the texel beside.
     fn sample_direction(&self, u: Vec2, window: &Window) -> Option<(Vec2, Vec3, f32)> {
-        let Sample2D { p: uv, pdf, .. } = self.table.as_ref()?.sample(u, window)?;
-        let (wi, solid_angle) = self.portal.direction(uv);
-        let pdf = pdf / solid_angle;
-        (pdf > 0.0 && pdf.is_finite()).then_some((uv, wi, pdf))
+        let Sample2D { p, .. } = self.table.as_ref()?.sample(u, window)?;
+        let (wi, _) = self.portal.direction(p);
+        let (uv, pdf) = self.look_up(wi, window)?;
+        (pdf > 0.0).then_some((uv, wi, pdf))
+    }
+
+    /// Where a direction lies in the map, and its density among those of `window`.
+    fn look_up(&self, wi: Vec3, window: &Window) -> Option<(Vec2, f32)> {
+        let (uv, solid_angle) = self.portal.uv(wi)?;
+        let inside = nearest_inside(uv, window)?;
+        let pdf = self.table.as_ref()?.pdf(inside, window) / solid_angle;
+        pdf.is_finite().then_some((inside, pdf))
     }
 
     /// The density of [`sample_direction`](Self::sample_direction).
     fn pdf_direction(&self, wi: Vec3, window: &Window) -> f32 {
-        let pdf = || {
-            let (uv, solid_angle) = self.portal.uv(wi)?;
-            let inside = nearest_inside(uv, window)?;
-            let pdf = self.table.as_ref()?.pdf(inside, window) / solid_angle;
-            pdf.is_finite().then_some(pdf)
-        };
-        pdf().unwrap_or(0.0)
+        self.look_up(wi, window).map_or(0.0, |(_, pdf)| pdf)
     }
 
     /// Density of a ray's origin on the portal, per area across the ray; 0 along the portal, which

@@ -163,11 +163,13 @@ impl<C: ColorModel> ProjectionLight<C> {
         (w.z > 0.0).then(|| w.truncate() / w.z)
     }
 
-    /// The same, where that is on the picture. What a direction rounds off is added to the picture.
-    fn on_picture(&self, w: Vec3) -> Option<Vec2> {
+    /// The same, where that is on the picture, with the density of the direction. What a direction
+    /// rounds off is added to the picture.
+    fn on_picture(&self, w: Vec3) -> Option<(Vec2, f32)> {
         let p = self.on_plane(w)?;
         let inside = p.clamp(-self.half, self.half);
-        (p.distance(inside) <= rounding_on_plane(p)).then_some(inside)
+        let pdf = self.table.as_ref()?.pdf(inside) / solid_angle_per_area(inside);
+        (p.distance(inside) <= rounding_on_plane(p)).then_some((inside, pdf))
     }
 }
 
@@ -190,24 +192,26 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
         C::emit_texel(self.power, wavelengths) * self.scale
     }
 
-    /// In proportion to the intensity, by `u1`.
+    /// In proportion to the intensity, by `u1`. Intensity and density are those of the direction as
+    /// it is rounded, which may lie on the texel beside the chosen one.
     fn sample_direction(
         &self,
         u1: Vec2,
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<DirectionSample<C::Radiance>> {
-        let Sample2D { p, pdf, .. } = self.table.as_ref()?.sample(u1);
-        Some(DirectionSample {
-            w: self.transform.vector(p.extend(1.0).normalize()),
+        let Sample2D { p, .. } = self.table.as_ref()?.sample(u1);
+        let w = self.transform.vector(p.extend(1.0).normalize());
+        let (p, pdf) = self.on_picture(w)?;
+        (pdf > 0.0).then(|| DirectionSample {
+            w,
             intensity: self.picture(p, wavelengths),
-            pdf: pdf / solid_angle_per_area(p),
+            pdf,
         })
     }
 
     fn direction_pdf(&self, w: Vec3) -> f32 {
-        let on_picture = self.table.as_ref().zip(self.on_picture(w));
-        on_picture.map_or(0.0, |(table, p)| table.pdf(p) / solid_angle_per_area(p))
+        self.on_picture(w).map_or(0.0, |(_, pdf)| pdf)
     }
 
     fn point_bounds(&self) -> LightBounds {

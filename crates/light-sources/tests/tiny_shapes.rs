@@ -133,3 +133,49 @@ fn samples_at_a_corner_without_area_are_found_again() {
     }
     assert!(compared > 100, "{compared} compared");
 }
+
+/// A flat patch with a corner pushed in covers some directions twice; a ray meets one place.
+#[test]
+fn a_patch_that_folds_over_itself_is_sampled_where_a_ray_meets_it() {
+    let corners = [
+        [0.125, 0.0],
+        [0.125, -5.375],
+        [-5.125, 4.3125],
+        [0.1875, 6.375],
+    ];
+    let corners = corners.map(|[y, z]| Vec3::new(6.5, y, z));
+    let patch = BilinearPatch::new(corners).expect("an area");
+    let ctx = LightSampleContext::medium(Vec3::new(-0.625, -0.0625, 0.0));
+    let (mut kept, mut other) = (0, 0);
+    for i in 0..1024u16 {
+        let u = Vec2::new(f32::from(i % 32), f32::from(i / 32)) / 32.0;
+        let Some(sample) = patch.sample_toward(&ctx, u) else {
+            other += 1;
+            continue;
+        };
+        kept += 1;
+        let pdf = patch.pdf_toward(&ctx, sample.wi);
+        assert!(
+            (pdf - sample.pdf).abs() <= 2e-3 * pdf,
+            "queried {pdf}, {sample:?}"
+        );
+    }
+    assert!(
+        kept > 500 && other > 10,
+        "{kept} kept, {other} on the other side"
+    );
+}
+
+/// The normals at two corners are opposite, but for subnormal numbers.
+#[test]
+fn opposite_normals_have_no_cone() {
+    let corners = [
+        Vec3::ZERO,
+        Vec3::splat(53.0),
+        Vec3::new(53.0, 0.0, 1.081_694_3e-19),
+        Vec3::new(2.449_22, 53.0, 53.0),
+    ];
+    let patch = BilinearPatch::new(corners).expect("an area");
+    let w = patch.normal_cone().w;
+    assert!((w.length() - 1.0).abs() < 1e-6, "{w}");
+}

@@ -17,7 +17,7 @@ use light_math::{Aabb, DirectionCone};
 /// derivatives along u and v.
 ///
 /// A flat convex one is chosen from like two triangles; of others points are chosen by area, nearly
-/// uniformly.
+/// uniformly. Where a patch covers a direction twice, only what a ray meets first is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearPatch {
     p00: Vec3,
@@ -221,9 +221,12 @@ impl Shape for BilinearPatch {
     fn normal_cone(&self) -> DirectionCone {
         let normals = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv)));
         let normals = normals.into_iter().flatten();
-        let Some(axis) = normals.clone().sum::<Vec3>().try_normalize() else {
+        let sum = normals.clone().sum::<Vec3>();
+        // A sum of opposite normals is rounding, and no axis.
+        if !(sum.length() > 1e-3) {
             return DirectionCone::WHOLE_SPHERE;
-        };
+        }
+        let axis = sum.normalize();
         let cos_theta = normals.map(|n| n.dot(axis)).fold(1.0, f32::min);
         // A cone wider than a half space is not convex and promises nothing.
         if cos_theta > 0.0 {
@@ -266,7 +269,10 @@ impl Shape for BilinearPatch {
             // The same distance, but for what rounding takes off at a grazing angle.
             let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
             let (met, t) = self.intersect(ctx.p, wi)?;
-            if t < same * to_light.length() {
+            // A ray that meets the patch twice meets it from both sides. In a flat patch that folds
+            // over itself both are as far away.
+            let is_other_side = self.scaled_normal(met).dot(wi) * at.n.dot(wi) < 0.0;
+            if t < same * to_light.length() || is_other_side {
                 return None;
             }
             if self.is_pinched(at.uv) || is_within_rounding(to_light, at.p) {
