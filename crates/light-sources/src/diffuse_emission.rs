@@ -198,7 +198,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
             Color::Uniform(radiance) => radiance.maximum() * mean.x,
             Color::Image { tint, scale, .. } => (mean * *tint).average() * *scale,
         };
-        PI * radiance * area
+        // In this order only a power that is no float overflows.
+        radiance * (PI * area)
     }
 
     /// What varies over the surface; `None` where nothing does.

@@ -131,3 +131,14 @@ fn a_power_that_no_float_holds_is_infinite_and_refused_by_samplers() {
         assert_eq!(bounds.validate().is_ok(), is_held, "{bounds:?}");
     }
 }
+
+#[test]
+fn a_tiny_bright_surface_has_a_finite_strength() {
+    let edges = [Vec3::X, Vec3::Y].map(|edge| edge * 1e-18);
+    let shape = light_sources::shape::Rectangle::new(Vec3::ZERO, edges).expect("an area");
+    let amount = RadianceAmount::Radiometric(2e38);
+    let desc = DiffuseEmissionDesc::<Rgb>::new(SurfaceColor::Uniform(Vec3::ONE), amount);
+    let emission = DiffuseEmission::new(desc, [&shape]).expect("an emission");
+    let strength = emission.strength(&shape);
+    assert!((strength / 6.283_185e2 - 1.0).abs() < 1e-5, "{strength}");
+}
