@@ -3,7 +3,7 @@
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightExtent, LightSampleContext};
-use light_sources::shape::ShapeDesc;
+use light_sources::shape::{Rectangle, ShapeDesc};
 use light_sources::*;
 
 fn scene() -> SceneSphere {
@@ -135,7 +135,7 @@ fn a_power_that_no_float_holds_is_infinite_and_refused_by_samplers() {
 #[test]
 fn a_tiny_bright_surface_has_a_finite_strength() {
     let edges = [Vec3::X, Vec3::Y].map(|edge| edge * 1e-18);
-    let shape = light_sources::shape::Rectangle::new(Vec3::ZERO, edges).expect("an area");
+    let shape = Rectangle::new(Vec3::ZERO, edges).expect("an area");
     let amount = RadianceAmount::Radiometric(2e38);
     let desc = DiffuseEmissionDesc::<Rgb>::new(SurfaceColor::Uniform(Vec3::ONE), amount);
     let emission = DiffuseEmission::new(desc, [&shape]).expect("an emission");
