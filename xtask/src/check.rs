@@ -1,5 +1,6 @@
 //! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
 
+use crate::arrows;
 use crate::features::{SOFTWARE_FLOATS, for_each_set};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
@@ -9,6 +10,7 @@ use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 pub fn add_steps(steps: &mut Steps) {
     steps.run("format", || passes(&["fmt", "--all", "--check"]));
     steps.run("references", references::check);
+    steps.run("arrows between crates", || arrows::arrows(&[]));
     steps.run("lints of the workspace", || {
         lints(&["--workspace", "--all-targets"]).map(|()| Outcome::Passed)
     });

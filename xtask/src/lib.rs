@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 mod api;
+mod arrows;
 mod bench;
 mod bench_table;
 mod check;
@@ -44,6 +45,7 @@ usage: cargo xtask [COMMAND]
                               (numbers instead: print the first of sets of so many lights)
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   api [--write]               hold the public items of each library crate against docs/api, or write them there
+  arrows [--write]            hold the drawing of the crates in ARCHITECTURE.md against the manifests, or write it
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for the first page of light-media
   median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
@@ -75,6 +77,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("api", rest) => one("public items", || api::api(rest)),
+        ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
         ("march-convergence", []) => one("march-convergence", march_convergence::march_convergence),
         ("median-cut-table", images) => one("median-cut-table", || {
