@@ -151,7 +151,13 @@ mod tests {
                 .to_string_lossy()
                 .into_owned();
             // Programs and test tools have no features to choose from.
-            if ["light-scene", "light-render", "light-testkit"].contains(&name.as_str()) {
+            let others = [
+                "light-conformance",
+                "light-render",
+                "light-scene",
+                "light-testkit",
+            ];
+            if others.contains(&name.as_str()) {
                 continue;
             }
             let sets: Vec<_> = FEATURE_SETS.iter().filter(|s| s.package == name).collect();

@@ -8,7 +8,6 @@ mod bench;
 mod bench_table;
 mod check;
 mod ci;
-pub mod conformance;
 mod counts;
 mod coverage;
 mod debian;
@@ -22,6 +21,7 @@ mod median_cut_table;
 mod mutants;
 mod no_std;
 mod oldest;
+mod programs;
 mod references;
 mod soak;
 mod steps;
@@ -88,7 +88,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("soak", rest) => one("soak", || soak::soak(rest)),
-        ("conformance", rest) => conformance::run(rest),
+        ("conformance", rest) => programs::conformance(rest),
         ("exhaustive", rest) => exhaustive::run(rest),
         ("uplift-table", []) => uplift::run(),
         ("help" | "--help" | "-h", _) => {

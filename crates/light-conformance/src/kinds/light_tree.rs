@@ -1,0 +1,227 @@
+//! The light hierarchy that the reference built: links, and codes of bounds.
+
+use lights::bounds::{LightBounds, LightExtent};
+use lights::bvh::reference::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
+
+use super::compact_codes::{Codes, compact_codes, judge};
+use super::light_tree_splits;
+use super::sampler_set::light_id;
+use crate::oracle::cone::ExactCone;
+use crate::oracle::{Certainty, Jitter, codes};
+use crate::{Case, Findings, Malformed, Rule, Tolerance};
+
+const ROUNDED_CODE: Rule = Rule {
+    name: "rounded_code",
+    reason: "a number lies on the edge between two codes up to single precision; ours is one of its codes in double \
+             precision",
+};
+
+const NARROW_CONE: Rule = Rule {
+    name: "cone one code wider",
+    reason: "rounding makes some cones of the reference narrower than what they hold; ours is a code of the union in \
+             double precision, or the next wider one",
+};
+
+const EQUAL_COST: Rule = Rule {
+    name: "splits of equal cost",
+    reason: "the reference takes another of several splits that cost the least up to single precision; ours is one of \
+             them in double precision",
+};
+
+/// What a node holds, in double precision where it is computed.
+#[derive(Clone, Copy)]
+struct ExactNode {
+    bounds: LightBounds,
+    cone: ExactCone,
+}
+
+/// Compares all nodes and trails.
+pub(super) fn compare(
+    tree: &ReferenceLightBvhRef<'_>,
+    lights: &[LightExtent],
+    case: &Case<'_>,
+    findings: &mut Findings,
+) -> Result<(), Malformed> {
+    let nodes: Vec<_> = case.get("nodes")?.items()?.collect();
+    findings.equal("number of nodes", tree.nodes().len(), nodes.len());
+    let mut exact = vec![None; tree.nodes().len()];
+    for index in (0..tree.nodes().len()).rev() {
+        exact[index] = exact_node(tree, lights, &exact, index);
+    }
+    let is_same_link =
+        |(ours, theirs): (&ReferenceNode, &Case<'_>)| Ok(link(ours) == their_link(theirs)?);
+    let same: Result<Vec<bool>, _> = tree.nodes().iter().zip(&nodes).map(is_same_link).collect();
+    if same?.contains(&false) {
+        return check_alone(tree, lights, &exact, findings);
+    }
+    for (index, (ours, theirs)) in tree.nodes().iter().zip(&nodes).enumerate() {
+        compare_link(ours, theirs, findings)?;
+        let Some(exact) = exact[index] else {
+            findings.fail(format!("node {index} holds nothing"));
+            continue;
+        };
+        compare_bounds(tree, ours, Some(&compact_codes(theirs)?), &exact, findings);
+    }
+    for pair in case.get("bit_trails")?.items()? {
+        let light = light_id(&pair.at(0)?)?;
+        let ours = findings.ours("trail", i64::from(tree.trail(light).bits()));
+        findings.equal(&format!("trail of {light:?}"), ours, pair.at(1)?.integer()?);
+        findings.settled(Certainty::Determined);
+    }
+    Ok(())
+}
+
+/// Holds a tree that divides its lights another way than the reference's to the published cost, and
+/// to its lights.
+fn check_alone(
+    tree: &ReferenceLightBvhRef<'_>,
+    lights: &[LightExtent],
+    exact: &[Option<ExactNode>],
+    findings: &mut Findings,
+) -> Result<(), Malformed> {
+    if let Err(message) = light_tree_splits::check(tree, lights) {
+        findings.fail(message);
+    }
+    for (ours, exact) in tree.nodes().iter().zip(exact) {
+        let Some(exact) = exact else {
+            findings.fail("a node holds nothing".to_owned());
+            continue;
+        };
+        let phi = findings.ours("node phi", ours.bounds().phi());
+        findings.near("phi", phi, exact.bounds.phi, Tolerance::GENERAL);
+        findings.settled(Certainty::Determined);
+        compare_bounds(tree, ours, None, exact, findings);
+        if let Link::Leaf(light) = ours.link() {
+            let mut index = 0;
+            for side in tree.trail(light).sides() {
+                index = match (tree.nodes()[index].link(), side) {
+                    (Link::Interior { .. }, Side::First) => index + 1,
+                    (Link::Interior { second_child }, Side::Second) => second_child as usize,
+                    (Link::Leaf(_), _) => break,
+                };
+            }
+            findings.equal("end of the trail", tree.nodes()[index].link(), ours.link());
+        }
+    }
+    findings.exempt(&EQUAL_COST);
+    Ok(())
+}
+
+/// The union of what is below a node; its children come after it.
+fn exact_node(
+    tree: &ReferenceLightBvhRef<'_>,
+    lights: &[LightExtent],
+    exact: &[Option<ExactNode>],
+    index: usize,
+) -> Option<ExactNode> {
+    match tree.nodes()[index].link() {
+        Link::Leaf(light) => {
+            let bounds = *lights.get(light.index())?.bounded()?;
+            let cone = ExactCone::new(bounds.w, bounds.cos_theta_o);
+            Some(ExactNode { bounds, cone })
+        }
+        Link::Interior { second_child } => {
+            let (a, b) = (exact[index + 1]?, exact[second_child as usize]?);
+            let mut bounds = a.bounds;
+            bounds.bounds.min = bounds.bounds.min.min(b.bounds.bounds.min);
+            bounds.bounds.max = bounds.bounds.max.max(b.bounds.bounds.max);
+            bounds.phi += b.bounds.phi;
+            bounds.cos_theta_e = bounds.cos_theta_e.min(b.bounds.cos_theta_e);
+            bounds.two_sided |= b.bounds.two_sided;
+            let cone = a.cone.union(b.cone, &mut Jitter::default());
+            Some(ExactNode { bounds, cone })
+        }
+    }
+}
+
+fn link(ours: &ReferenceNode) -> [i64; 2] {
+    match ours.link() {
+        Link::Leaf(light) => [1, i64::from(light.0)],
+        Link::Interior { second_child } => [0, i64::from(second_child)],
+    }
+}
+
+fn their_link(theirs: &Case<'_>) -> Result<[i64; 2], Malformed> {
+    let is_leaf = i64::from(theirs.get("leaf")?.flag()?);
+    Ok([is_leaf, theirs.get("child_or_light")?.integer()?])
+}
+
+fn compare_link(
+    ours: &ReferenceNode,
+    theirs: &Case<'_>,
+    findings: &mut Findings,
+) -> Result<(), Malformed> {
+    let link = findings.ours("link", link(ours));
+    findings.equal("link", link, their_link(theirs)?);
+    findings.settled(Certainty::Determined);
+    let phi = findings.ours("node phi", ours.bounds().phi());
+    let their_phi = theirs.get("phi")?.float()?;
+    findings.near("phi of a node", phi, their_phi, Tolerance::GENERAL);
+    findings.settled(Certainty::Determined);
+    Ok(())
+}
+
+fn compare_bounds(
+    tree: &ReferenceLightBvhRef<'_>,
+    ours: &ReferenceNode,
+    theirs: Option<&Codes>,
+    exact: &ExactNode,
+    findings: &mut Findings,
+) {
+    let ours = Codes {
+        w: ours.bounds().w(),
+        packed: ours.bounds().packed(),
+        bounds: ours.bounds().bounds(),
+    };
+    let rule = |rule| if theirs.is_some() { rule } else { &EQUAL_COST };
+
+    let unpack =
+        |packed: u32| [packed & 0x7fff, packed >> 15 & 0x7fff, packed >> 30].map(i64::from);
+
+    // Codes of the axis.
+    let xy = |w: lights::math::OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
+    let w = findings.ours("node axis", xy(ours.w));
+    let is_exact = codes::is_octahedral(w, exact.cone.w);
+    let is_same = theirs.is_some_and(|t| w == xy(t.w));
+    judge("axis", is_same, is_exact, rule(&ROUNDED_CODE), findings);
+
+    // Both cosines, and the flag.
+    let their_packed = theirs.map(|t| unpack(t.packed));
+    let [cos_o, cos_e, two_sided] = unpack(ours.packed);
+    let cos_o = findings.ours("node cos_theta_o", cos_o);
+    let number = codes::cosine(exact.cone.cos_theta);
+    let is_exact = codes::is_below(cos_o, number) || codes::is_below(cos_o + 1, number);
+    let is_same = their_packed.is_some_and(|t| cos_o == t[0]);
+    judge(
+        "cos_theta_o",
+        is_same,
+        is_exact,
+        rule(&NARROW_CONE),
+        findings,
+    );
+    let cos_e = findings.ours("node cos_theta_e", cos_e);
+    let is_exact = codes::is_below(cos_e, codes::cosine(f64::from(exact.bounds.cos_theta_e)));
+    let is_same = their_packed.is_some_and(|t| cos_e == t[1]);
+    judge(
+        "cos_theta_e",
+        is_same,
+        is_exact,
+        rule(&ROUNDED_CODE),
+        findings,
+    );
+    let expected = their_packed.map_or(i64::from(exact.bounds.two_sided), |t| t[2]);
+    findings.equal("two_sided", two_sided, expected);
+
+    let all = tree.bounds();
+    for axis in 0..3 {
+        let number = |x: f32| codes::coordinate(x, all.min[axis], all.max[axis]);
+        let low = findings.ours("node min", i64::from(ours.bounds.min[axis]));
+        let is_exact = codes::is_below(low, number(exact.bounds.bounds.min[axis]));
+        let is_same = theirs.is_some_and(|t| low == i64::from(t.bounds.min[axis]));
+        judge("min", is_same, is_exact, rule(&ROUNDED_CODE), findings);
+        let high = findings.ours("node max", i64::from(ours.bounds.max[axis]));
+        let is_exact = codes::is_above(high, number(exact.bounds.bounds.max[axis]));
+        let is_same = theirs.is_some_and(|t| high == i64::from(t.bounds.max[axis]));
+        judge("max", is_same, is_exact, rule(&ROUNDED_CODE), findings);
+    }
+}

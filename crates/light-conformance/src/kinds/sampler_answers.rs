@@ -1,0 +1,185 @@
+use lights::bounds::{LightExtent, LightId, LightSampleContext};
+use lights::math::glam::Vec3;
+use lights::samplers::LightSampler;
+
+use super::pmf_range::{Importances, Range};
+use super::sampler_set::Set;
+use crate::oracle::Certainty;
+use crate::{Findings, Malformed, Rule, Tolerance};
+
+const NO_POWER: Rule = Rule {
+    name: "light without power",
+    reason: "the reference answers for a light that is not in its tree as if it were at infinity; ours answers 0",
+};
+
+const NOT_A_NUMBER: Rule = Rule {
+    name: "reference is not a number",
+    reason: "it divides 0 by 0 above two children that do not matter, or normalises a vector of length zero at a box centre",
+};
+
+const IMPORTANCE: Rule = Rule {
+    name: "importance in single precision",
+    reason: "cosines of the reference are known to 5e-4, and it drops light at the edge of an emission; ours is the \
+             probability in double precision",
+};
+
+const EDGE_OF_U: Rule = Rule {
+    name: "edge of a choice",
+    reason: "by the reference's importance u falls on the other side of a choice; ours is a choice in double precision",
+};
+
+/// Which sampler is asked, and by whom.
+pub(super) struct Question<'a> {
+    set: &'a Set,
+    sampler: Sampler,
+    /// Point, and the normal that the sampler reads.
+    at: [Vec3; 2],
+    importances: Importances<'a>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sampler {
+    Uniform,
+    Power,
+    Bvh,
+    Exhaustive,
+}
+
+impl<'a> Question<'a> {
+    pub(super) fn new(
+        set: &'a Set,
+        sampler: Option<&str>,
+        p: Vec3,
+        n: Vec3,
+        ns: Vec3,
+    ) -> Result<Self, Malformed> {
+        // Ours all read the shading normal; the reference's exhaustive one reads the geometric
+        // normal.
+        let (sampler, normal) = match sampler {
+            Some("uniform") => (Sampler::Uniform, ns),
+            Some("power") => (Sampler::Power, ns),
+            Some("bvh") => (Sampler::Bvh, ns),
+            Some("exhaustive") => (Sampler::Exhaustive, n),
+            other => return Err(Malformed(format!("no such sampler: {other:?}"))),
+        };
+        let at = [p, normal];
+        Ok(Self {
+            set,
+            sampler,
+            at,
+            importances: Importances::new(at, &set.extents, set.bvh.tree().view()),
+        })
+    }
+
+    fn sampler(&self) -> &dyn LightSampler {
+        match self.sampler {
+            Sampler::Uniform => &self.set.uniform,
+            Sampler::Power => &self.set.power,
+            Sampler::Bvh => &self.set.bvh,
+            Sampler::Exhaustive => &self.set.exhaustive,
+        }
+    }
+
+    fn context(&self) -> LightSampleContext {
+        LightSampleContext::surface(self.at[0], self.at[1], self.at[1])
+    }
+
+    pub(super) fn compare_pmf(&self, light: LightId, theirs: f32, findings: &mut Findings) {
+        let ours = findings.ours("pmf", self.sampler().pmf(&self.context(), light));
+        let by_importance = matches!(self.sampler, Sampler::Bvh | Sampler::Exhaustive);
+        let extent = self.set.extents.get(light.index());
+        let bounded = extent.and_then(LightExtent::bounded);
+        match bounded {
+            Some(bounds) if by_importance && bounds.phi == 0.0 => {
+                findings.equal("pmf of a light without power", ours, 0.0);
+                findings.settled(Certainty::Determined);
+                findings.exempt(&NO_POWER);
+            }
+            Some(_) if by_importance => {
+                let range = self.range(light);
+                findings.check(range.holds(ours), || {
+                    format!("pmf of {light:?}: {ours:?}, reference {theirs:?}, not in {range:?}")
+                });
+                findings.settled(if range.is_wide() {
+                    Certainty::Undetermined
+                } else {
+                    Certainty::Determined
+                });
+                if theirs.is_nan() {
+                    findings.exempt(&NOT_A_NUMBER);
+                } else if !Tolerance::GENERAL.accepts(ours, theirs) {
+                    findings.exempt(&IMPORTANCE);
+                }
+            }
+            _ => {
+                findings.near("pmf", ours, theirs, Tolerance::GENERAL);
+                findings.settled(Certainty::Determined);
+            }
+        }
+    }
+
+    /// The probabilities of a bounded light; all infinite ones together count as one more.
+    fn range(&self, light: LightId) -> Range {
+        let share = Range::exactly(1.0 / (self.infinite().count() + 1) as f64);
+        share.times(match self.sampler {
+            Sampler::Bvh => self.importances.pmf_in_tree(light),
+            _ => self.importances.pmf_among(light),
+        })
+    }
+
+    fn infinite(&self) -> impl Iterator<Item = usize> {
+        let extents = self.set.extents.iter().enumerate();
+        extents.filter_map(|(i, extent)| extent.infinite().map(|_| i))
+    }
+
+    /// Whether the light, or none (-1), that `u` chooses is right.
+    pub(super) fn compare_choice(&self, u: f64, theirs: i64, findings: &mut Findings) {
+        let ctx = self.context();
+        let sample = self.sampler().sample(&ctx, u);
+        if let Some(sample) = sample {
+            let own = findings.ours("pmf of the sample", sample.pmf);
+            let asked = self.sampler().pmf(&ctx, sample.light);
+            findings.near("pmf of the sample", own, asked, Tolerance::GENERAL);
+            findings.settled(Certainty::Determined);
+        }
+        // An alias table's layout is its builder's, and the reference's exhaustive choice depends
+        // on a hash.
+        if matches!(self.sampler, Sampler::Power | Sampler::Exhaustive) {
+            return;
+        }
+        let ours = findings.ours("choice", sample.map_or(-1, |s| i64::from(s.light.0)));
+        let choices = self.choices(u);
+        findings.check(choices.contains(&ours), || {
+            format!("choice by {u}: {ours}, reference {theirs}, exact {choices:?}")
+        });
+        findings.settled(if choices.len() == 1 {
+            Certainty::Determined
+        } else {
+            Certainty::Undetermined
+        });
+        if ours != theirs {
+            findings.exempt(&EDGE_OF_U);
+        }
+    }
+
+    /// All choices that rounding leaves open.
+    fn choices(&self, u: f64) -> Vec<i64> {
+        let count = self.set.extents.len();
+        if self.sampler == Sampler::Uniform {
+            return vec![((u * count as f64) as i64).min(count as i64 - 1)];
+        }
+        let infinite: Vec<_> = self.infinite().collect();
+        let is_in_tree = |extent: &LightExtent| extent.bounded().is_some_and(|lb| lb.phi > 0.0);
+        let has_tree = self.set.extents.iter().any(is_in_tree);
+        let slots = infinite.len() + usize::from(has_tree);
+        let scaled = u * slots as f64;
+        let slot = scaled as usize;
+        match infinite.get(slot) {
+            Some(&light) => vec![light as i64],
+            None if has_tree => self
+                .importances
+                .choices_in_tree(scaled - infinite.len() as f64),
+            None => vec![-1],
+        }
+    }
+}

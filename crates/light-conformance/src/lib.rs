@@ -1,0 +1,78 @@
+//! Replays numbers that a reference renderer returned and compares them with ours.
+//!
+//! A folder of vectors holds one file per kind, one JSON object a line. Each kind has a module here
+//! with one [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from
+//! the reference, an oracle in double precision computes the right answer from the published
+//! formula, without the library under test, and ours has to be that answer. Then the checker names
+//! a [`Rule`], the reason of the difference. There is no number of allowed failures. The self-test
+//! changes one answer of ours after the other and demands that its line fails.
+
+use std::path::{Path, PathBuf};
+
+mod case;
+mod comparison;
+mod files;
+mod findings;
+mod kinds;
+mod oracle;
+mod report;
+mod sabotage;
+pub mod self_test;
+mod tolerance;
+
+pub use case::{Case, Malformed};
+use files::VectorFile;
+pub use findings::{Findings, Rule};
+pub use report::Report;
+pub use tolerance::Tolerance;
+
+/// Compares the lines of one kind, from the first to the last; later lines may refer to earlier
+/// ones.
+pub trait Checker {
+    /// Looks at one line and notes in `findings` what holds and what does not.
+    ///
+    /// # Errors
+    /// [`Malformed`] if the line lacks a field or holds something unexpected.
+    fn check(&mut self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed>;
+}
+
+/// Checkers without memory are plain functions.
+impl<F: FnMut(&Case<'_>, &mut Findings) -> Result<(), Malformed>> Checker for F {
+    fn check(&mut self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
+        self(case, findings)
+    }
+}
+
+/// The vectors that live in the project.
+#[must_use]
+pub fn default_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/pbrt")
+}
+
+/// Checks every vector file in `folder`, in alphabetical order.
+///
+/// # Errors
+/// One line that says why the folder or a file cannot be read.
+pub fn check_folder(folder: &Path) -> Result<Vec<Report>, String> {
+    let files = files::read_folder(folder)?;
+    Ok(files.iter().map(check_file).collect())
+}
+
+fn check_file(file: &VectorFile) -> Report {
+    let mut report = Report::new(&file.kind);
+    let Some(mut checker) = kinds::checker(&file.kind) else {
+        report.unchecked = file.text.lines().count();
+        return report;
+    };
+    for (number, line) in file.text.lines().enumerate() {
+        let mut findings = Findings::default();
+        let outcome = serde_json::from_str(line)
+            .map_err(|e| Malformed(e.to_string()))
+            .and_then(|value| checker.check(&Case::new(&value), &mut findings));
+        if let Err(Malformed(message)) = outcome {
+            findings.fail(format!("malformed: {message}"));
+        }
+        report.add(number + 1, findings);
+    }
+    report
+}
