@@ -179,3 +179,24 @@ fn opposite_normals_have_no_cone() {
     let w = patch.normal_cone().w;
     assert!((w.length() - 1.0).abs() < 1e-6, "{w}");
 }
+
+/// One of the two triangles is a sliver, whose density is not that of the other.
+#[test]
+fn samples_at_the_diagonal_of_a_flat_quad_have_the_queried_density() {
+    let corners = [
+        Vec3::splat(-0.0625),
+        Vec3::splat(-0.125),
+        Vec3::new(-0.125, -0.125, 6.4375),
+        Vec3::new(-5.4375, -5.4375, -1.5625),
+    ];
+    let patch = BilinearPatch::new(corners).expect("an area");
+    let ctx = LightSampleContext::medium(Vec3::new(5.625, 6.375, 2.0625));
+    for i in 0..1024u16 {
+        let u = Vec2::new(f32::from(i % 32), f32::from(i / 32)) / 32.0;
+        let Some(sample) = patch.sample_toward(&ctx, u) else {
+            continue;
+        };
+        let pdf = patch.pdf_toward(&ctx, sample.wi);
+        assert_eq!(pdf, sample.pdf, "for {u}");
+    }
+}

@@ -33,7 +33,9 @@ impl FlatQuad {
         })
     }
 
-    /// A direction toward the quadrilateral; the place on it has the parameters of a triangle.
+    /// A direction toward the quadrilateral; the place on it has the parameters of a triangle. The
+    /// density is that of the direction as it is rounded, which may pass the other triangle: that of
+    /// a sliver, which is sampled by area, differs.
     pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let is_first = u.x < self.first;
         let (triangle, start, chance) = if is_first {
@@ -45,10 +47,8 @@ impl FlatQuad {
         // 1.
         let x = (u.x - start) / chance;
         let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;
-        Some(DirectionSample {
-            pdf: sample.pdf * chance,
-            ..sample
-        })
+        let pdf = self.pdf(ctx, sample.wi);
+        (pdf > 0.0).then_some(DirectionSample { pdf, ..sample })
     }
 
     pub(super) fn pdf(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
