@@ -12,7 +12,6 @@ mod counts;
 mod coverage;
 mod debian;
 mod dependencies;
-pub mod exhaustive;
 mod features;
 mod fuzz;
 mod gallery;
@@ -26,7 +25,6 @@ mod references;
 mod soak;
 mod steps;
 mod tools;
-mod uplift;
 
 use steps::{StepResult, Steps};
 use tools::Install;
@@ -89,8 +87,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("soak", rest) => one("soak", || soak::soak(rest)),
         ("conformance", rest) => programs::conformance(rest),
-        ("exhaustive", rest) => exhaustive::run(rest),
-        ("uplift-table", []) => uplift::run(),
+        ("exhaustive", rest) => programs::exhaustive(rest),
+        ("uplift-table", []) => programs::uplift_table(),
         ("help" | "--help" | "-h", _) => {
             print!("{USAGE}");
             ExitCode::SUCCESS

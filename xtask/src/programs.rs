@@ -11,6 +11,20 @@ pub fn conformance(arguments: &[String]) -> ExitCode {
     program(&["--package", "light-conformance"], arguments)
 }
 
+/// `cargo xtask exhaustive`: the check of all octahedral codes.
+#[must_use]
+pub fn exhaustive(arguments: &[String]) -> ExitCode {
+    let package = ["--release", "--package", "light-testkit"];
+    let example = ["--features", "soak", "--example", "exhaustive"];
+    program(&[&package[..], &example].concat(), arguments)
+}
+
+/// `cargo xtask uplift-table`: the program that makes the table that `light-math` ships.
+#[must_use]
+pub fn uplift_table() -> ExitCode {
+    program(&["--package", "light-math", "--example", "uplift_table"], &[])
+}
+
 /// Builds and runs the program that `selection` names to cargo.
 fn program(selection: &[&str], arguments: &[String]) -> ExitCode {
     let mut command = cargo(["run", "--quiet"]);

@@ -1,9 +1,10 @@
 //! Long runs: very many choices of lights and samples of lights, each of them held against the
-//! query for its probability or density.
+//! query for its probability or density; and every octahedral code.
 
 mod choices;
 mod described_lights;
 mod light_samples;
+pub mod octahedral_codes;
 mod receivers;
 mod report;
 

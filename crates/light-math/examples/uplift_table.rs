@@ -1,24 +1,26 @@
-//! The table of smooth spectra that `light-math` ships: remade by the solver that is its source.
+//! Remakes the table of smooth spectra that `light-math` ships, by the solver that is its source:
+//! `cargo xtask uplift-table`. A table for another colour space is made the same way.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
-use lights::math::spectrum::{RgbColorSpace, UpliftSolver, UpliftTable};
+use light_math::spectrum::{RgbColorSpace, UpliftSolver, UpliftTable};
 
-/// `cargo xtask uplift-table`.
-pub(crate) fn run() -> ExitCode {
-    let path = table_file();
+/// The table of sRGB as little-endian floats, from the crate's root.
+const FILE: &str = "src/spectrum/uplift_srgb.bin";
+
+fn main() -> ExitCode {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(FILE);
     match fs::write(&path, table()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{}: {error}", path.display());
-            ExitCode::from(1)
+            ExitCode::FAILURE
         }
     }
 }
 
-/// The table of sRGB as little-endian floats.
 fn table() -> Vec<u8> {
     let solver = UpliftSolver::new(&RgbColorSpace::srgb());
     let storage = vec![0.0; UpliftTable::<Vec<f32>>::LEN];
@@ -28,8 +30,4 @@ fn table() -> Vec<u8> {
         .iter()
         .flat_map(|c| c.to_le_bytes())
         .collect()
-}
-
-fn table_file() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/light-math/src/spectrum/uplift_srgb.bin")
 }
