@@ -15,14 +15,12 @@ mod dependencies;
 mod features;
 mod fuzz;
 mod gallery;
-mod march_convergence;
 mod median_cut_table;
 mod mutants;
 mod no_std;
 mod oldest;
 mod programs;
 mod references;
-mod soak;
 mod steps;
 mod tools;
 
@@ -77,7 +75,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("api", rest) => one("public items", || api::api(rest)),
         ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
-        ("march-convergence", []) => one("march-convergence", march_convergence::march_convergence),
+        ("march-convergence", []) => one("march-convergence", programs::march_convergence),
         ("median-cut-table", images) => one("median-cut-table", || {
             median_cut_table::median_cut_table(images)
         }),
@@ -85,7 +83,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
-        ("soak", rest) => one("soak", || soak::soak(rest)),
+        ("soak", rest) => one("soak", || programs::soak(rest)),
         ("conformance", rest) => programs::conformance(rest),
         ("exhaustive", rest) => programs::exhaustive(rest),
         ("uplift-table", []) => programs::uplift_table(),

@@ -1,14 +1,13 @@
-//! Commands that are programs of other packages: what they write and their exit status are the
-//! command's.
+//! Commands that are programs of other packages.
 
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
-use crate::steps::cargo;
+use crate::steps::{Outcome, StepResult, cargo, run};
 
 /// `cargo xtask conformance [--self-test] [DIR]`: the program of `light-conformance`.
 #[must_use]
 pub fn conformance(arguments: &[String]) -> ExitCode {
-    program(&["--package", "light-conformance"], arguments)
+    same_exit(program(&["--package", "light-conformance"], arguments))
 }
 
 /// `cargo xtask exhaustive`: the check of all octahedral codes.
@@ -16,19 +15,48 @@ pub fn conformance(arguments: &[String]) -> ExitCode {
 pub fn exhaustive(arguments: &[String]) -> ExitCode {
     let package = ["--release", "--package", "light-testkit"];
     let example = ["--features", "soak", "--example", "exhaustive"];
-    program(&[&package[..], &example].concat(), arguments)
+    same_exit(program(&[&package[..], &example].concat(), arguments))
 }
 
 /// `cargo xtask uplift-table`: the program that makes the table that `light-math` ships.
 #[must_use]
 pub fn uplift_table() -> ExitCode {
-    program(&["--package", "light-math", "--example", "uplift_table"], &[])
+    same_exit(program(
+        &["--package", "light-math", "--example", "uplift_table"],
+        &[],
+    ))
 }
 
-/// Builds and runs the program that `selection` names to cargo.
-fn program(selection: &[&str], arguments: &[String]) -> ExitCode {
+/// `cargo xtask soak [CHOICES] [LIGHT_SAMPLES] [SEED]`: very many samples, each held against the
+/// query for its probability or density.
+///
+/// # Errors
+/// The command line, when a sample broke a promise or an argument is no number.
+pub fn soak(arguments: &[String]) -> StepResult {
+    let package = ["--release", "--package", "light-testkit"];
+    let example = ["--features", "soak", "--example", "soak"];
+    step(program(&[&package[..], &example].concat(), arguments))
+}
+
+/// `cargo xtask march-convergence`: measures how marches through media converge, and draws it.
+///
+/// # Errors
+/// The command line, when the drawing cannot be written.
+pub fn march_convergence() -> StepResult {
+    let package = ["--release", "--package", "light-media"];
+    let example = ["--example", "march_convergence"];
+    step(program(&[&package[..], &example].concat(), &[]))
+}
+
+/// The command that builds and runs the program that `selection` names to cargo.
+fn program(selection: &[&str], arguments: &[String]) -> Command {
     let mut command = cargo(["run", "--quiet"]);
     command.args(selection).arg("--").args(arguments);
+    command
+}
+
+/// Runs a command whose exit status is ours.
+fn same_exit(mut command: Command) -> ExitCode {
     match command.status() {
         // A program that was killed has no code.
         Ok(status) => ExitCode::from(status.code().map_or(1, |code| code as u8)),
@@ -37,4 +65,9 @@ fn program(selection: &[&str], arguments: &[String]) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Runs a command as a step of ours.
+fn step(mut command: Command) -> StepResult {
+    run(&mut command).map(|()| Outcome::Passed)
 }
