@@ -5,18 +5,22 @@
 use light_bvh::light_bounds::light_math::{Aabb, Frame, glam::Vec3};
 use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use light_bvh::reference::{Link, ReferenceLightBvh, ReferenceLightBvhRef, Side};
-use light_testkit::nasty;
+use light_testkit::edge_cases;
 use proptest::prelude::*;
 
 fn place() -> impl Strategy<Value = Vec3> {
-    prop_oneof![nasty::point(), nasty::wild_point(), Just(Vec3::ONE)]
+    prop_oneof![
+        edge_cases::point(),
+        edge_cases::wild_point(),
+        Just(Vec3::ONE)
+    ]
 }
 
 /// Axes of all directions, and many that differ by a hair.
 fn axis() -> impl Strategy<Value = Vec3> {
-    let hair = (nasty::unit_vector(), 0i32..30);
+    let hair = (edge_cases::unit_vector(), 0i32..30);
     let near_z = hair.prop_map(|(w, e)| (Vec3::Z + w * 0.5f32.powi(e)).normalize_or(Vec3::Z));
-    prop_oneof![nasty::unit_vector(), near_z]
+    prop_oneof![edge_cases::unit_vector(), near_z]
 }
 
 fn cosine() -> impl Strategy<Value = f32> {
@@ -30,8 +34,8 @@ fn cosine() -> impl Strategy<Value = f32> {
 }
 
 fn light() -> impl Strategy<Value = LightBounds> {
-    let corners = (place(), prop_oneof![Just(Vec3::ZERO), nasty::point()]);
-    let power = prop_oneof![4 => nasty::moderate(), 1 => nasty::non_negative()];
+    let corners = (place(), prop_oneof![Just(Vec3::ZERO), edge_cases::point()]);
+    let power = prop_oneof![4 => edge_cases::moderate(), 1 => edge_cases::non_negative()];
     (corners, axis(), power, cosine(), cosine(), any::<bool>()).prop_map(
         |((p, size), w, phi, cos_theta_o, cos_theta_e, two_sided)| LightBounds {
             bounds: Aabb::new(p, p + size),
@@ -45,7 +49,7 @@ fn light() -> impl Strategy<Value = LightBounds> {
 }
 
 fn context() -> impl Strategy<Value = LightSampleContext> {
-    let normal = prop_oneof![Just(Vec3::ZERO), nasty::near_unit_vector()];
+    let normal = prop_oneof![Just(Vec3::ZERO), edge_cases::near_unit_vector()];
     (place(), normal).prop_map(|(p, n)| LightSampleContext::surface(p, n, n))
 }
 
@@ -107,7 +111,7 @@ proptest! {
     fn samples_repeat_the_pmf_and_pmfs_are_probabilities(
         lights in prop::collection::vec(light(), 0..40),
         ctx in context(),
-        u in prop::collection::vec(nasty::unit_f64(), 8),
+        u in prop::collection::vec(edge_cases::unit_f64(), 8),
     ) {
         let tree = build(&lights);
         let ids = || (0..).map(LightId).take(lights.len());

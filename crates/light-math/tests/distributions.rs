@@ -14,7 +14,7 @@ use light_math::distribution::{
 use light_math::glam::Vec2;
 use light_math::spectrum::SampledWavelengths;
 use light_math::spectrum::cie::{LAMBDA_MAX, LAMBDA_MIN};
-use light_testkit::{DensityTest, Rng, chi_squared, kolmogorov_smirnov_uniform, nasty};
+use light_testkit::{DensityTest, Rng, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
 use proptest::prelude::*;
 
 /// Twelve columns and rows, so that the cells of the tests are texels.
@@ -204,7 +204,7 @@ proptest! {
 
     #[test]
     fn builders_refuse_exactly_what_makes_no_sense(
-        weights in prop::collection::vec(prop_oneof![8 => nasty::non_negative(), 1 => nasty::anything()], 0..12),
+        weights in prop::collection::vec(prop_oneof![8 => edge_cases::non_negative(), 1 => edge_cases::anything()], 0..12),
     ) {
         let expected = verdict(&weights);
         prop_assert_eq!(AliasTable::new(&weights).err(), expected, "alias table");
@@ -218,9 +218,9 @@ proptest! {
 
     #[test]
     fn samples_have_weight(
-        weights in prop::collection::vec(nasty::non_negative(), 1..40),
-        u in nasty::unit_square(),
-        u64 in nasty::unit_f64(),
+        weights in prop::collection::vec(edge_cases::non_negative(), 1..40),
+        u in edge_cases::unit_square(),
+        u64 in edge_cases::unit_f64(),
         columns in 1usize..5,
     ) {
         prop_assume!(verdict(&weights).is_none());
@@ -248,7 +248,7 @@ proptest! {
     }
 
     #[test]
-    fn a_choice_is_where_the_running_sum_passes_u(weights in nasty::weights(1..20), u in nasty::unit_f64()) {
+    fn a_choice_is_where_the_running_sum_passes_u(weights in edge_cases::weights(1..20), u in edge_cases::unit_f64()) {
         let share = |weights: &[f32]| weights.iter().map(|&w| f64::from(w)).sum::<f64>();
         let total = share(&weights);
         if let Some(s) = discrete::sample(&weights, u) {
@@ -263,9 +263,9 @@ proptest! {
 
     #[test]
     fn windows_hold_their_samples(
-        weights in prop::collection::vec(nasty::non_negative(), 20),
-        u in nasty::unit_square(),
-        corners in prop::array::uniform2(nasty::unit_square()),
+        weights in prop::collection::vec(edge_cases::non_negative(), 20),
+        u in edge_cases::unit_square(),
+        corners in prop::array::uniform2(edge_cases::unit_square()),
     ) {
         let sums = SummedAreaTable::new(&weights, 4, 5).expect("no odd weights");
         let windowed = WindowedPiecewiseConstant2D::new(sums);

@@ -8,7 +8,7 @@ use light_math::warp::{
     uniform_sphere, uniform_triangle,
 };
 use light_math::{float, solid_angle};
-use light_testkit::{Cap, DensityTest, Rng, nasty};
+use light_testkit::{Cap, DensityTest, Rng, edge_cases};
 use proptest::prelude::*;
 
 const TEST: DensityTest = DensityTest {
@@ -153,7 +153,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
-    fn directions_invert(u in nasty::unit_square(), height in 1e-30f32..2.0) {
+    fn directions_invert(u in edge_cases::unit_square(), height in 1e-30f32..2.0) {
         let unit = |w: Vec3| (w.length() - 1.0).abs() < 1e-6;
         let near = |back: Vec2| (back - u).abs().max_element() < 2e-6;
         // At a pole the azimuth is lost.
@@ -174,7 +174,7 @@ proptest! {
     }
 
     #[test]
-    fn flat_samples_invert(u in nasty::unit_square(), w in prop::array::uniform4(nasty::non_negative())) {
+    fn flat_samples_invert(u in edge_cases::unit_square(), w in prop::array::uniform4(edge_cases::non_negative())) {
         let p = concentric_disk::sample(u);
         prop_assert!(concentric_disk::pdf(p) > 0.0, "disk {p}");
         prop_assert!((concentric_disk::invert(p) - u).abs().max_element() < 2e-6, "disk {p}");
@@ -189,8 +189,8 @@ proptest! {
 
     #[test]
     fn nothing_panics(
-        x in prop::array::uniform12(nasty::anything()),
-        y in prop::array::uniform4(nasty::anything()),
+        x in prop::array::uniform12(edge_cases::anything()),
+        y in prop::array::uniform4(edge_cases::anything()),
     ) {
         let v = |i: usize| Vec3::new(x[i], x[i + 1], x[i + 2]);
         let u = Vec2::new(y[0], y[1]);
@@ -215,11 +215,11 @@ proptest! {
 
     #[test]
     fn steps_and_shapes_stay_positive(
-        u in nasty::unit(),
-        a in nasty::finite(),
-        width in nasty::moderate(),
-        v in prop::array::uniform4(nasty::point()),
-        at in nasty::unit_square(),
+        u in edge_cases::unit(),
+        a in edge_cases::finite(),
+        width in edge_cases::moderate(),
+        v in prop::array::uniform4(edge_cases::point()),
+        at in edge_cases::unit_square(),
     ) {
         let b = a + width;
         if b > a && (b - a).is_finite() {

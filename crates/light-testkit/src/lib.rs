@@ -22,6 +22,7 @@ mod chi_squared;
 #[cfg(feature = "samplers")]
 mod contribution;
 mod density;
+pub mod edge_cases;
 #[cfg(feature = "samplers")]
 mod emitter;
 mod estimate;
@@ -39,7 +40,6 @@ mod light_set;
 #[cfg(feature = "samplers")]
 mod may_contribute;
 pub mod naive;
-pub mod nasty;
 mod quadrature;
 mod real3;
 mod rng;

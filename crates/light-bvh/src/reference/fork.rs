@@ -57,7 +57,7 @@ impl Fork {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_testkit::nasty;
+    use light_testkit::edge_cases;
     use proptest::prelude::*;
 
     #[test]
@@ -79,7 +79,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_chosen_is_possible(
-            first in nasty::non_negative(), second in nasty::non_negative(), u in nasty::unit_f64(),
+            first in edge_cases::non_negative(), second in edge_cases::non_negative(), u in edge_cases::unit_f64(),
         ) {
             let fork = Fork::new(0.25 * first, 0.25 * second);
             match fork.choose(u) {

@@ -12,7 +12,7 @@ use light_sources::Rgb;
 
 use super::input::Input;
 use crate::Rng;
-use crate::nasty::EDGES_OF_U;
+use crate::edge_cases::EDGES_OF_U;
 
 /// The largest coordinate and size of a medium.
 const LARGEST: f32 = 1e4;

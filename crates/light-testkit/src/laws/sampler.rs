@@ -3,7 +3,7 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_samplers::LightSampler;
 
-use crate::{LightSet, Rng, chi_squared, kolmogorov_smirnov_uniform, nasty};
+use crate::{LightSet, Rng, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
 
 /// A choice is asked either for a context, or without one.
 type Query = Option<LightSampleContext>;
@@ -34,7 +34,7 @@ fn pmf(sampler: &impl LightSampler, query: &Query, light: LightId) -> f32 {
 pub fn sampled_pmf_is_the_queried_pmf(set: &LightSet, sampler: &impl LightSampler) {
     let mut rng = Rng::new(31);
     for query in queries(set) {
-        let edges = nasty::EDGES_OF_U.map(f64::from);
+        let edges = edge_cases::EDGES_OF_U.map(f64::from);
         let random: Vec<f64> = (0..256).map(|_| rng.f64()).collect();
         for u in edges.into_iter().chain([SampledLight::MAX_U]).chain(random) {
             let Some(chosen) = sample(sampler, &query, u) else {

@@ -5,7 +5,7 @@ use super::described_lights::Lights;
 use super::receivers::receiver;
 use super::report::Row;
 use crate::light_agreement::{Demand, le_agrees, li_agrees};
-use crate::{Rng, nasty};
+use crate::{Rng, edge_cases};
 
 /// Samples that one receiver takes.
 const EACH: u32 = 8;
@@ -61,7 +61,7 @@ pub(super) fn soak(lights: &Lights, index: usize, count: u64, seed: u64) -> Row 
 /// A point of the unit square, now and then at an edge.
 fn point(rng: &mut Rng) -> Vec2 {
     let mut u = || match rng.below(64) {
-        0 => nasty::EDGES_OF_U[rng.below(nasty::EDGES_OF_U.len())],
+        0 => edge_cases::EDGES_OF_U[rng.below(edge_cases::EDGES_OF_U.len())],
         _ => rng.f32(),
     };
     Vec2::new(u(), u())

@@ -4,7 +4,7 @@ use light_sources::{ColorModel, Light, PdfCoverage};
 
 use super::LightCase;
 use super::case::le;
-use crate::{Rng, nasty};
+use crate::{Rng, edge_cases};
 
 /// Where light arrives, the bounds of the light say that it may.
 ///
@@ -51,7 +51,7 @@ pub fn edges_are_survived<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>
         let far = [1e-20, 1e6, 1e18, f32::MAX, f32::NAN];
         contexts.extend(far.map(|x| LightSampleContext::medium(Vec3::new(x, -x, 0.5 * x))));
     }
-    let us = nasty::EDGES_OF_U;
+    let us = edge_cases::EDGES_OF_U;
     let pairs = us.iter().flat_map(|&x| us.map(|y| Vec2::new(x, y)));
     for u in pairs {
         for ctx in &contexts {
