@@ -42,7 +42,7 @@ mod world_media;
 mod world_mesh;
 mod world_sphere;
 
-pub use accel::{Accel, Hit, Place, Prototype};
+pub use accel::{Accel, Hit, InstanceTransform, Prototype};
 pub use choice_variance::choice_variance;
 pub use compare::Comparison;
 pub use exact_sum::ExactSum;

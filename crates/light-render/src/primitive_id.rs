@@ -1,47 +1,47 @@
-/// Which primitive a ray met: the number under which it is stored and, for what stands in several
-/// places, in which of them.
+/// Identifies a primitive: the number under which it is stored and, for a primitive of a prototype,
+/// the instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrimitiveId {
     number: u32,
-    /// `NOWHERE_ELSE` for what stands where it is stored.
-    placement: u32,
+    /// `WORLD` for a primitive in world space.
+    instance: u32,
 }
 
-const NOWHERE_ELSE: u32 = u32::MAX;
+const WORLD: u32 = u32::MAX;
 
 impl PrimitiveId {
-    /// A primitive that stands where it is stored.
+    /// A primitive in world space.
     #[inline]
     #[must_use]
     pub const fn new(number: u32) -> Self {
         Self {
             number,
-            placement: NOWHERE_ELSE,
+            instance: WORLD,
         }
     }
 
-    /// A primitive of a prototype in one of its places.
+    /// A primitive of a prototype in one of its instances.
     #[inline]
     #[must_use]
-    pub(crate) const fn placed(number: u32, placement: u32) -> Self {
-        Self { number, placement }
+    pub(crate) const fn in_instance(number: u32, instance: u32) -> Self {
+        Self { number, instance }
     }
 
-    /// Its number among the stored primitives; those of different placements share it.
+    /// Its number among the stored primitives; all instances share it.
     #[inline]
     #[must_use]
     pub const fn number(self) -> u32 {
         self.number
     }
 
-    /// The number of its placement; `None` for what stands where it is stored.
+    /// The number of its instance; `None` in world space.
     #[inline]
     #[must_use]
-    pub const fn placement(self) -> Option<u32> {
-        if self.placement == NOWHERE_ELSE {
+    pub const fn instance(self) -> Option<u32> {
+        if self.instance == WORLD {
             None
         } else {
-            Some(self.placement)
+            Some(self.instance)
         }
     }
 }

@@ -21,7 +21,7 @@ impl SceneDigest {
             meshes,
             spheres,
             prototypes,
-            placements,
+            instances,
             materials,
             images,
             lights,
@@ -33,7 +33,7 @@ impl SceneDigest {
             // picture.
             warnings: _,
         } = scene;
-        let geometry = (meshes, spheres, prototypes, placements);
+        let geometry = (meshes, spheres, prototypes, instances);
         Self([
             ("geometry", content_digest(&geometry)),
             ("materials", content_digest(materials)),

@@ -10,7 +10,7 @@ use lights::sources::{
     Rgb, SceneSphere, SceneSphereError,
 };
 
-use crate::surface_emission::{HoledLights, Textures};
+use crate::surface_emission::{AlphaMaskedLights, Textures};
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
 
@@ -20,8 +20,8 @@ pub(crate) struct SceneLights {
     pub(crate) lights: LightSet<Rgb>,
     /// Those that rays find by leaving the scene.
     pub(crate) infinite: Vec<LightId>,
-    /// Those whose surfaces have holes, in the order of their ids.
-    pub(crate) holed: Vec<HoledLights>,
+    /// Those with an alpha mask, in the order of their ids.
+    pub(crate) masked: Vec<AlphaMaskedLights>,
 }
 
 /// Why the lights of a scene cannot be built.
@@ -47,8 +47,7 @@ pub enum SceneLightsError {
 }
 
 impl SceneLights {
-    /// Builds all lights, and tells each shining mesh the id of its first triangle, each shining
-    /// sphere its own.
+    /// Builds all lights, and sets the ids of the lights of meshes and spheres.
     pub(crate) fn new(
         meshes: &mut [WorldMesh],
         spheres: &mut [WorldSphere],
@@ -66,20 +65,20 @@ impl SceneLights {
         };
         let mut builder = LightSetBuilder::new(sphere.map_err(SceneLightsError::Bounds)?);
         let mut textures = Textures::new(images);
-        let mut shining = Vec::new();
+        let mut emissive_meshes = Vec::new();
         for (index, mesh) in meshes.iter().enumerate() {
             let material = &materials[mesh.material];
-            if let Some((desc, holes)) = textures.mesh_light(mesh, material) {
+            if let Some((desc, radiance)) = textures.mesh_light(mesh, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                shining.push((index, source, holes));
+                emissive_meshes.push((index, source, radiance));
             }
         }
-        let mut shining_spheres = Vec::new();
+        let mut emissive_spheres = Vec::new();
         for (index, sphere) in spheres.iter().enumerate() {
             let material = &materials[sphere.material];
-            if let Some((desc, holes)) = textures.sphere_light(sphere, material) {
+            if let Some((desc, radiance)) = textures.sphere_light(sphere, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                shining_spheres.push((index, source, holes));
+                emissive_spheres.push((index, source, radiance));
             }
         }
         for (number, light) in scene_lights.into_iter().enumerate() {
@@ -87,29 +86,29 @@ impl SceneLights {
             add(&mut builder, &name, light)?;
         }
         let lights = builder.build();
-        let mut holed = Vec::new();
-        let mut note = |first: Option<LightId>, count, material, holes| {
-            if let Some((LightId(first), holes)) = first.zip(holes) {
+        let mut masked = Vec::new();
+        let mut note = |first: Option<LightId>, count, material, radiance| {
+            if let Some((LightId(first), radiance)) = first.zip(radiance) {
                 let ids = first..first + count;
-                holed.push(HoledLights {
+                masked.push(AlphaMaskedLights {
                     ids,
                     material,
-                    holes,
+                    radiance,
                 });
             }
         };
-        for (index, source, holes) in shining {
+        for (index, source, radiance) in emissive_meshes {
             let mesh = &mut meshes[index];
             mesh.first_light = lights.first_id(source);
             let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
-            note(mesh.first_light, count, mesh.material, holes);
+            note(mesh.first_light, count, mesh.material, radiance);
         }
-        for (index, source, holes) in shining_spheres {
+        for (index, source, radiance) in emissive_spheres {
             let sphere = &mut spheres[index];
             sphere.light = lights.first_id(source);
-            note(sphere.light, 1, sphere.material, holes);
+            note(sphere.light, 1, sphere.material, radiance);
         }
-        holed.sort_by_key(|lights| lights.ids.start);
+        masked.sort_by_key(|lights| lights.ids.start);
         let found_by_rays = |id: &LightId| {
             lights
                 .get(*id)
@@ -118,7 +117,7 @@ impl SceneLights {
         Ok(Self {
             infinite: lights.infinite_ids().filter(found_by_rays).collect(),
             lights,
-            holed,
+            masked,
         })
     }
 }

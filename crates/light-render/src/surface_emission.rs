@@ -11,29 +11,29 @@ use lights::sources::{
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
 
-/// Lights whose surfaces have holes.
+/// Lights of one mesh or sphere with an alpha mask.
 #[derive(Clone, Debug)]
-pub(crate) struct HoledLights {
-    /// Which.
+pub(crate) struct AlphaMaskedLights {
+    /// Their ids.
     pub(crate) ids: Range<u32>,
-    /// Their material, which says where the holes are.
+    /// Index of their material, which has the mask.
     pub(crate) material: usize,
-    pub(crate) holes: Holes,
+    pub(crate) radiance: MaskedRadiance,
 }
 
-/// Whether the radiance of a light knows the holes of its surface.
+/// How the radiance of a light with an alpha mask is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Holes {
-    /// It is that of what is there, as a mean.
-    InRadiance,
-    /// It is that of a whole surface.
-    OnlyInSurface,
+pub(crate) enum MaskedRadiance {
+    /// Multiplied with the opacity: the mean over the rays that hit and those that pass.
+    TimesOpacity,
+    /// That of an opaque surface; samples have to be multiplied with the opacity.
+    Unmasked,
 }
 
-/// A light, and the holes of its surface.
-type Shining = (LightDesc<Rgb>, Option<Holes>);
+/// A light and, if it has an alpha mask, how its radiance is stored.
+type EmissiveSurface = (LightDesc<Rgb>, Option<MaskedRadiance>);
 
-/// The textures of surfaces that shine, each made once.
+/// Builds the lights of emissive surfaces; each texture is made once.
 pub(crate) struct Textures<'a> {
     images: &'a [Image],
     made: HashMap<ImageId, Texture>,
@@ -55,25 +55,29 @@ impl<'a> Textures<'a> {
         self.made.entry(id).or_insert_with(make).clone()
     }
 
-    /// The light that a mesh is, if its material shines.
-    pub(crate) fn mesh_light(&mut self, mesh: &WorldMesh, material: &Material) -> Option<Shining> {
-        let (emission, holes) = self.emission(material)?;
+    /// The light of a mesh, if its material is emissive.
+    pub(crate) fn mesh_light(
+        &mut self,
+        mesh: &WorldMesh,
+        material: &Material,
+    ) -> Option<EmissiveSurface> {
+        let (emission, radiance) = self.emission(material)?;
         let desc = LightDesc::Mesh(MeshLightDesc {
             positions: mesh.positions.clone(),
             indices: mesh.indices.clone(),
             uvs: mesh.uvs.clone(),
             emission,
         });
-        Some((desc, holes))
+        Some((desc, radiance))
     }
 
-    /// The light that a sphere is, if its material shines; the front of the light is the outside.
+    /// The light of a sphere, if its material is emissive; the front of the light is the outside.
     pub(crate) fn sphere_light(
         &mut self,
         sphere: &WorldSphere,
         material: &Material,
-    ) -> Option<Shining> {
-        let (mut emission, holes) = self.emission(material)?;
+    ) -> Option<EmissiveSurface> {
+        let (mut emission, radiance) = self.emission(material)?;
         if sphere.front == SphereFront::Inside {
             if emission.sides == Sides::Front {
                 emission.sides = Sides::Back;
@@ -85,14 +89,14 @@ impl<'a> Textures<'a> {
             };
         }
         let shape = sphere.shape.into();
-        Some((LightDesc::Area(AreaLightDesc { shape, emission }), holes))
+        Some((LightDesc::Area(AreaLightDesc { shape, emission }), radiance))
     }
 
-    /// How a material shines, if it does.
+    /// The emission of a material, if it is emissive.
     fn emission(
         &mut self,
         material: &Material,
-    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<Holes>)> {
+    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<MaskedRadiance>)> {
         let emission = material.emission.as_ref()?;
         let (color, mapping) = match &emission.radiance {
             Color::Constant(radiance) => (SurfaceColor::Uniform(*radiance), None),
@@ -118,32 +122,33 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// An emission with holes; `None` if nothing is there. `mapping` is that of the image, if it
-    /// has one.
+    /// `desc` with the alpha mask; `None` if the surface is masked everywhere. `mapping` is that of
+    /// the radiance image, if there is one.
     ///
-    /// A surface that is not there at all shines as a whole, and is not seen.
+    /// A constant opacity of 0 without a cutoff makes an invisible light with full emission, as in
+    /// pbrt.
     fn masked(
         &mut self,
         desc: DiffuseEmissionDesc<Rgb>,
         mapping: Option<TextureMapping>,
         alpha: &Alpha,
-    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<Holes>)> {
-        let dimmed = |share: f32| match &desc.color {
-            SurfaceColor::Uniform(radiance) => SurfaceColor::Uniform(*radiance * share),
+    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<MaskedRadiance>)> {
+        let scaled = |opacity: f32| match &desc.color {
+            SurfaceColor::Uniform(radiance) => SurfaceColor::Uniform(*radiance * opacity),
             SurfaceColor::Image { texture, tint } => SurfaceColor::Image {
                 texture: texture.clone(),
-                tint: *tint * share,
+                tint: *tint * opacity,
             },
         };
-        Some(match (&alpha.share, alpha.cutoff) {
+        Some(match (&alpha.opacity, alpha.cutoff) {
             (Color::Constant(Vec3 { x, .. }), Some(cutoff)) if *x >= cutoff => (desc, None),
             (Color::Constant(_), Some(_)) => return None,
             (Color::Constant(Vec3 { x, .. }), None) if *x >= 1.0 => (desc, None),
             (Color::Constant(Vec3 { x, .. }), None) if *x > 0.0 => {
-                let color = dimmed(*x);
+                let color = scaled(*x);
                 (
                     DiffuseEmissionDesc { color, ..desc },
-                    Some(Holes::InRadiance),
+                    Some(MaskedRadiance::TimesOpacity),
                 )
             }
             (Color::Constant(_), None) => {
@@ -156,24 +161,25 @@ impl<'a> Textures<'a> {
                     && self.is_mask(shown.image) =>
             {
                 let desc = DiffuseEmissionDesc {
-                    color: dimmed(shown.scale.x),
+                    color: scaled(shown.scale.x),
                     mask: EmissionMask::Alpha(self.texture(shown.image)),
                     mapping: shown.mapping,
                     ..desc
                 };
-                (desc, Some(Holes::InRadiance))
+                (desc, Some(MaskedRadiance::TimesOpacity))
             }
-            (Color::Image(_), _) => (desc, Some(Holes::OnlyInSurface)),
+            (Color::Image(_), _) => (desc, Some(MaskedRadiance::Unmasked)),
         })
     }
 
+    /// Whether no texel of an image is above 1.
     fn is_mask(&mut self, id: ImageId) -> bool {
         let image = &self.images[id.0 as usize];
-        let look = || {
+        let all_below = || {
             image
                 .texels()
                 .all(|texel| texel.x <= 1.0 && texel.max_element() <= 1.0)
         };
-        *self.is_mask.entry(id).or_insert_with(look)
+        *self.is_mask.entry(id).or_insert_with(all_below)
     }
 }

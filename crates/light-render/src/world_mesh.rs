@@ -14,7 +14,7 @@ pub(crate) struct WorldMesh {
     pub(crate) uvs: Option<Arc<[Vec2]>>,
     pub(crate) indices: MeshIndices,
     pub(crate) material: usize,
-    /// The id of the first triangle as a light, if the mesh shines.
+    /// The id of the first triangle as a light, if the mesh is emissive.
     pub(crate) first_light: Option<LightId>,
 }
 

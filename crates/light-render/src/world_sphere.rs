@@ -13,15 +13,15 @@ pub(crate) struct WorldSphere {
     pub(crate) shape: Sphere,
     pub(crate) front: SphereFront,
     pub(crate) material: usize,
-    /// Its id as a light, if it shines.
+    /// Its id as a light, if it is emissive.
     pub(crate) light: Option<LightId>,
 }
 
 impl WorldSphere {
-    /// The point at a place on the octahedral square, with the normal of the outside.
+    /// The point whose outward normal has the octahedral coordinates `coords`, with that normal.
     #[inline]
-    pub(super) fn at(&self, place: Vec2) -> SurfacePoint {
-        self.shape.at(octahedral::from_square(place))
+    pub(super) fn at(&self, coords: Vec2) -> SurfacePoint {
+        self.shape.at(octahedral::from_square(coords))
     }
 
     /// The normal of the front, where that of the outside is `n`.

@@ -46,7 +46,7 @@ fn assert_means(what: &str, scene: &Scene, expected: f64) {
 
 fn constant(share: f32) -> Alpha {
     Alpha {
-        share: Color::Constant(Vec3::splat(share)),
+        opacity: Color::Constant(Vec3::splat(share)),
         cutoff: None,
     }
 }
@@ -145,7 +145,14 @@ fn alpha_images_of_one_value() {
                 radiance,
                 sides: EmissionSides::Front,
             };
-            let scene = under_square(emission, Some(Alpha { share, cutoff }), scene);
+            let scene = under_square(
+                emission,
+                Some(Alpha {
+                    opacity: share,
+                    cutoff,
+                }),
+                scene,
+            );
             let what = format!("{value}, {scale}, {cutoff:?}, {has_image}, {mapping:?}");
             assert_means(&what, &scene, 1.5 * left * square());
         }
@@ -174,7 +181,14 @@ fn alpha_images_over_images_of_emission() {
             radiance: Color::Image(ColorImage::new(third)),
             sides: EmissionSides::Front,
         };
-        let scene = under_square(emission, Some(Alpha { share, cutoff }), scene);
+        let scene = under_square(
+            emission,
+            Some(Alpha {
+                opacity: share,
+                cutoff,
+            }),
+            scene,
+        );
         let shot = |estimator, spp| {
             let shot = Shot {
                 estimator,
@@ -232,7 +246,7 @@ fn spheres_with_holes() {
                     let image = Image::new(1, 1, vec![Vec3::splat(share)]).expect("an image");
                     let share = Color::Image(ColorImage::new(scene.add_image(image)));
                     Alpha {
-                        share,
+                        opacity: share,
                         cutoff: None,
                     }
                 } else {
@@ -264,12 +278,12 @@ fn spheres_with_holes() {
 
 /// Of radius 1/2, with its centre at the [`HEIGHT`].
 fn sphere(material: light_scene::MaterialId) -> Sphere {
-    let place =
+    let transform =
         Affine3A::from_translation(Vec3::Y * HEIGHT) * Affine3A::from_scale(Vec3::splat(0.5));
     Sphere {
         name: "lamp".into(),
         material,
         front: SphereFront::Outside,
-        place,
+        transform,
     }
 }

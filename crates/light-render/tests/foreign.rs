@@ -245,6 +245,6 @@ fn the_same_sky_as_a_lat_long_picture() {
 #[test]
 fn copies_of_a_tree() {
     let scene = scene("orchard");
-    assert_eq!(scene.placements.len(), 12, "stored once");
+    assert_eq!(scene.instances.len(), 12, "stored once");
     assert_looks_like("orchard", &scene);
 }

@@ -10,14 +10,14 @@ pub struct Diagnostic {
     /// The file.
     pub path: PathBuf,
     /// Where in the file.
-    pub place: Place,
+    pub location: Location,
     /// What is wrong there, and what was expected.
     pub message: String,
 }
 
-/// A place in a file.
+/// A location in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// The file as a whole.
     File,
     /// A line of a text file; the first is 1.
@@ -30,15 +30,15 @@ impl Diagnostic {
     /// A message about the file as a whole.
     #[must_use]
     pub fn file(path: &Path, message: impl Into<String>) -> Self {
-        Self::at(path, Place::File, message)
+        Self::at(path, Location::File, message)
     }
 
-    /// A message about one place in the file.
+    /// A message about one location in the file.
     #[must_use]
-    pub fn at(path: &Path, place: Place, message: impl Into<String>) -> Self {
+    pub fn at(path: &Path, location: Location, message: impl Into<String>) -> Self {
         Self {
             path: path.to_path_buf(),
-            place,
+            location,
             message: message.into(),
         }
     }
@@ -47,10 +47,10 @@ impl Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let path = self.path.display();
-        match self.place {
-            Place::File => write!(f, "{path}: ")?,
-            Place::Line(line) => write!(f, "{path}:{line}: ")?,
-            Place::Byte(byte) => write!(f, "{path}: byte {byte}: ")?,
+        match self.location {
+            Location::File => write!(f, "{path}: ")?,
+            Location::Line(line) => write!(f, "{path}:{line}: ")?,
+            Location::Byte(byte) => write!(f, "{path}: byte {byte}: ")?,
         }
         // Names that files give, and messages of decoders, may hold anything.
         let printable = |c: char| if c.is_control() { '?' } else { c };
@@ -70,15 +70,15 @@ mod tests {
     #[test]
     fn shows_one_line() {
         let path = Path::new("a/b.obj");
-        let shown = |place| Diagnostic::at(path, place, "expected a number").to_string();
-        assert_eq!(shown(Place::File), "a/b.obj: expected a number", "file");
+        let shown = |location| Diagnostic::at(path, location, "expected a number").to_string();
+        assert_eq!(shown(Location::File), "a/b.obj: expected a number", "file");
         assert_eq!(
-            shown(Place::Line(7)),
+            shown(Location::Line(7)),
             "a/b.obj:7: expected a number",
             "line"
         );
         assert_eq!(
-            shown(Place::Byte(9)),
+            shown(Location::Byte(9)),
             "a/b.obj: byte 9: expected a number",
             "byte"
         );

@@ -12,23 +12,23 @@ mod broken;
 mod builtin;
 mod camera;
 mod diagnostic;
+mod emissive_copies;
 mod files;
 mod gltf;
 mod grid;
 mod gunzip;
 mod ids;
 mod image;
+mod instance;
 pub mod light_set;
 mod luminaire;
 mod material;
 mod mesh;
 mod obj;
 mod pbrt;
-mod placement;
 mod polygon;
 mod scene;
 mod scene_file;
-mod shining_copies;
 mod sphere;
 #[cfg(test)]
 mod test_folder;
@@ -41,7 +41,8 @@ mod write_whole;
 
 pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Crop, Lens};
-pub use diagnostic::{Diagnostic, Place};
+pub use diagnostic::{Diagnostic, Location};
+pub use emissive_copies::MAX_EMISSIVE_COPIES;
 pub use files::Files;
 pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};
@@ -49,14 +50,13 @@ pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
     write_exr_half, write_hdr, write_image, write_png,
 };
+pub use instance::{Instance, Prototype};
 pub use luminaire::{goniometric_light, in_luminaire, parse_luminaire, read_luminaire};
 pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::{parse_obj, read_obj};
 pub use pbrt::{parse_ply, read_pbrt};
-pub use placement::{Placement, Prototype};
 pub use scene::{NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
-pub use shining_copies::MOST_SHINING_COPIES;
 pub use sphere::{Sphere, SphereFront};
 pub use write_whole::{exit_without_outputs, write_whole};

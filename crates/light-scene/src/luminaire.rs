@@ -8,7 +8,7 @@ use lights::sources::{
 
 use crate::glam::Affine3A;
 use crate::text::{read_text, text_of};
-use crate::{Diagnostic, Files, Place};
+use crate::{Diagnostic, Files, Location};
 
 /// The luminaire that a file describes: EULUMDAT if its name ends in `.ldt`, LM-63 otherwise.
 ///
@@ -50,8 +50,12 @@ pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic
         .tilt_file
         .as_ref()
         .map(|name| path.with_file_name(name));
-    let place = message.line.map_or(Place::File, Place::Line);
-    Diagnostic::at(beside.as_deref().unwrap_or(path), place, &message.message)
+    let location = message.line.map_or(Location::File, Location::Line);
+    Diagnostic::at(
+        beside.as_deref().unwrap_or(path),
+        location,
+        &message.message,
+    )
 }
 
 /// A goniometric light with the distribution and the luminous power of `web`: an equal-area square
@@ -123,7 +127,7 @@ mod tests {
             folder.path("lamp.tlt"),
             "the file that is wrong"
         );
-        assert_eq!(broken.place, Place::Line(4), "and the line");
+        assert_eq!(broken.location, Location::Line(4), "and the line");
     }
 
     #[test]

@@ -3,7 +3,7 @@ use lights::sources::{MediumInterface, TextureMapping};
 use crate::glam::{Vec2, Vec3};
 use crate::{ImageId, MaterialId};
 
-/// What a surface is made of, and whether it shines.
+/// How a surface scatters and emits light.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Material {
     /// The name in the file.
@@ -12,7 +12,7 @@ pub struct Material {
     pub surface: Surface,
     /// The light it emits, if any.
     pub emission: Option<Emission>,
-    /// Where the surface is; absent: everywhere.
+    /// The alpha mask; `None` for an opaque surface.
     pub alpha: Option<Alpha>,
     /// The media behind and in front of the surface; where both are the same, it does not bound a
     /// medium, and rays stay in the one that they come from.
@@ -76,13 +76,13 @@ pub enum Surface {
     /// The surface of one of two materials at each point, chosen at random: paint that comes off,
     /// dust on a metal.
     Mix {
-        /// The two, of which nothing but the surfaces counts. They come before this one in the
-        /// scene's list, or are black.
+        /// The two; only their surfaces are used. One that does not come before this material in
+        /// the scene's list counts as black.
         materials: [MaterialId; 2],
-        /// How likely the second is, in [0, 1]; of a colour the first channel counts.
+        /// The probability of the second, in [0, 1]; the first channel of a colour.
         amount: Color,
     },
-    /// Nothing to see: light passes unchanged; only bounds a medium.
+    /// Invisible: light passes unchanged. It only bounds a medium.
     Interface,
 }
 
@@ -95,16 +95,16 @@ pub enum Color {
     Image(ColorImage),
 }
 
-/// How much of a surface is there: 0 is a hole, 1 is all of it.
+/// An alpha mask. Where the opacity is 0, rays pass and nothing is emitted.
 ///
-/// Holes let rays pass and emit nothing. But a lamp whose share is the constant 0, without a
-/// cutoff, shines as a whole and is not seen.
+/// An emissive surface of constant opacity 0 without a cutoff is an exception: it emits as if it
+/// were opaque, and rays do not hit it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Alpha {
-    /// The share, in [0, 1]; of a colour the first channel counts.
-    pub share: Color,
-    /// The surface is there where the share is at least this, and nowhere else; absent: it is there
-    /// for the share of the rays.
+    /// The probability, in [0, 1], that a ray hits the surface; the first channel of a colour.
+    pub opacity: Color,
+    /// If present, the surface is opaque where the opacity is at least this, and fully transparent
+    /// elsewhere.
     pub cutoff: Option<f32>,
 }
 
@@ -115,7 +115,7 @@ pub struct ColorImage {
     pub image: ImageId,
     /// Multiplies every texel.
     pub scale: Vec3,
-    /// Where it lies, and what is beyond its edges.
+    /// From texture coordinates to the image, with the rule beyond its edges.
     pub mapping: TextureMapping,
 }
 
@@ -124,7 +124,7 @@ pub struct ColorImage {
 pub struct Emission {
     /// Radiance, in W m^-2 sr^-1 per channel of linear RGB.
     pub radiance: Color,
-    /// Which sides shine.
+    /// Which sides emit.
     pub sides: EmissionSides,
 }
 
@@ -138,14 +138,14 @@ pub enum EmissionSides {
 }
 
 impl Material {
-    /// A diffuse material of one colour that does not shine.
+    /// A diffuse material of one colour without emission.
     #[must_use]
     pub fn diffuse(name: impl Into<String>, reflectance: Vec3) -> Self {
         let reflectance = Color::Constant(reflectance);
         Self::new(name, Surface::Diffuse { reflectance })
     }
 
-    /// A material of this surface that does not shine and has no holes.
+    /// A material with this surface, without emission and alpha mask.
     #[must_use]
     pub fn new(name: impl Into<String>, surface: Surface) -> Self {
         Self {
@@ -159,7 +159,7 @@ impl Material {
 }
 
 impl ColorImage {
-    /// The image as it is, over and over.
+    /// The image without scaling, repeated.
     #[must_use]
     pub const fn new(image: ImageId) -> Self {
         Self {
@@ -171,10 +171,10 @@ impl ColorImage {
 }
 
 impl Surface {
-    /// The conductor that reflects the share `reflectance` at normal incidence, with index of
+    /// The conductor of reflectance `reflectance` at normal incidence, with index of
     /// refraction 1.
     ///
-    /// Shares are clamped to 0.9999, as 1 would need infinite absorption.
+    /// Reflectances are clamped to 0.9999, as 1 would need infinite absorption.
     #[must_use]
     pub fn conductor_of_reflectance(reflectance: Vec3, alpha: Vec2) -> Self {
         let r = reflectance.clamp(Vec3::ZERO, Vec3::splat(0.9999));
@@ -213,14 +213,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn conductor_reflects_what_was_asked() {
-        let asked = Vec3::new(0.0, 0.5, 1.0);
+    fn conductor_has_the_requested_reflectance() {
+        let requested = Vec3::new(0.0, 0.5, 1.0);
         let Surface::Conductor { eta, k, .. } =
-            Surface::conductor_of_reflectance(asked, Vec2::ZERO)
+            Surface::conductor_of_reflectance(requested, Vec2::ZERO)
         else {
             panic!("a conductor");
         };
         let got = ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k);
-        assert!(got.abs_diff_eq(asked, 2e-4), "got {got}");
+        assert!(got.abs_diff_eq(requested, 2e-4), "got {got}");
     }
 }

@@ -6,7 +6,7 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 /// Triangles of one material.
 ///
 /// Seen from their front the vertices of a triangle run counter-clockwise: the front normal is
-/// `cross(p1 - p0, p2 - p0)`, and it is the side on which a one-sided emitter shines.
+/// `cross(p1 - p0, p2 - p0)`, and it is the side on which a one-sided emitter emits.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Mesh {
     /// The group's name in the file; may be empty.
@@ -84,18 +84,19 @@ impl Mesh {
         0.5 * doubled.sum::<f32>()
     }
 
-    /// The mesh moved by `place`; what was in front of a triangle stays in front, mirrored or not.
+    /// The mesh under `transform`. The front of a triangle stays its front, even if `transform`
+    /// mirrors.
     #[must_use]
-    pub fn transformed(&self, place: &Affine3A) -> Self {
-        let normal_matrix = place.matrix3.inverse().transpose();
+    pub fn transformed(&self, transform: &Affine3A) -> Self {
+        let normal_matrix = transform.matrix3.inverse().transpose();
         let mut mesh = self.clone();
         for position in &mut mesh.positions {
-            *position = place.transform_point3(*position);
+            *position = transform.transform_point3(*position);
         }
         for normal in mesh.normals.iter_mut().flatten() {
             *normal = (normal_matrix * *normal).normalize_or_zero();
         }
-        if place.matrix3.determinant() < 0.0 {
+        if transform.matrix3.determinant() < 0.0 {
             mesh.turn_triangles();
         }
         mesh

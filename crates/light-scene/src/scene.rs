@@ -7,7 +7,7 @@ use lights::sources::{
 
 use crate::glam::{Affine3A, Vec3};
 use crate::{
-    Camera, Color, Diagnostic, Image, ImageId, Material, MaterialId, Mesh, Placement, Prototype,
+    Camera, Color, Diagnostic, Image, ImageId, Instance, Material, MaterialId, Mesh, Prototype,
     PrototypeId, Sphere,
 };
 
@@ -20,51 +20,49 @@ pub struct NamedMedium {
     pub medium: AnyMedium<Rgb>,
 }
 
-/// What a scene file describes, in the user's units: what is there, what it is made of, what
-/// shines, who looks.
+/// The content of a scene file, in the user's units: geometry, materials, lights, media, camera.
 ///
-/// Right-handed, y up by convention; lengths are in scene units. A `Scene` may hold nonsense (a
-/// material that emits negative radiance); the lights built from it may not.
+/// Right-handed, y up by convention; lengths are in scene units. A `Scene` is not validated (a
+/// material may emit negative radiance); the lights built from it are.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Triangles that stand where they are, one mesh per group and material of the file.
+    /// Meshes in world space, one per group and material of the file.
     pub meshes: Vec<Mesh>,
-    /// Spheres that stand where they are.
+    /// Spheres in world space.
     pub spheres: Vec<Sphere>,
-    /// Objects that stand in several places; a placement names its prototype by position.
+    /// Objects stored once; an instance names its prototype by position.
     pub prototypes: Vec<Prototype>,
-    /// Where they stand.
-    pub placements: Vec<Placement>,
-    /// Materials; a mesh names its material by position. What is made of one that emits light
-    /// shines.
+    /// The instances of the prototypes.
+    pub instances: Vec<Instance>,
+    /// Materials; a mesh names its material by position.
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
-    /// Lights that are no mesh: points, spots, distant lights, environments.
+    /// Lights without geometry: points, spots, distant lights, environments.
     pub lights: Vec<LightDesc<Rgb>>,
     /// Media; materials and lights name them by position.
     pub media: Vec<NamedMedium>,
     /// The camera, if the file has one.
     pub camera: Option<Camera>,
-    /// The medium in which the camera stands; absent for vacuum.
+    /// The medium that the camera is in; `None` for vacuum.
     pub camera_medium: Option<MediumId>,
     /// What the reader ignored or repaired, each with file and line.
     pub warnings: Vec<Diagnostic>,
 }
 
 impl Scene {
-    /// A box around all that is there, empty when there is nothing. Around meshes and spheres it is
-    /// the smallest; a placement counts by the corners of the boxes around what it holds.
+    /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
+    /// spheres; an instance counts by the transformed corners of the boxes of its prototype.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);
         let own = meshes.chain(self.spheres.iter().map(Sphere::bounds));
         let own = own.fold(Aabb::EMPTY, Aabb::union);
         let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
-        let placed = self.placements.iter();
-        let placed =
-            placed.map(|placement| placement.bounds(&boxes[placement.prototype.0 as usize]));
-        placed.fold(own, Aabb::union)
+        let instances = self.instances.iter();
+        let instances =
+            instances.map(|instance| instance.bounds(&boxes[instance.prototype.0 as usize]));
+        instances.fold(own, Aabb::union)
     }
 
     /// The material with this id.
@@ -97,59 +95,60 @@ impl Scene {
         &self.prototypes[id.0 as usize]
     }
 
-    /// The number of triangles to be seen: those of prototypes in each of their places.
+    /// The number of triangles, those of prototypes counted once per instance.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.count(|_| true)
     }
 
-    /// The number of spheres to be seen: those of prototypes in each of their places.
+    /// The number of spheres, those of prototypes counted once per instance.
     #[must_use]
     pub fn sphere_count(&self) -> usize {
-        let placed = self.placements.iter();
-        let placed = placed.map(|p| self.prototype(p.prototype).spheres.len());
-        self.spheres.len() + placed.sum::<usize>()
+        let instances = self.instances.iter();
+        let instanced = instances.map(|p| self.prototype(p.prototype).spheres.len());
+        self.spheres.len() + instanced.sum::<usize>()
     }
 
-    /// The number of triangles to be seen whose material emits light.
+    /// The number of triangles of emissive materials, those of prototypes counted once per
+    /// instance.
     #[must_use]
     pub fn emissive_triangle_count(&self) -> usize {
-        self.count(|mesh| self.shines(mesh.material))
+        self.count(|mesh| self.is_emissive(mesh.material))
     }
 
-    /// Whether what is made of the material emits light.
+    /// Whether the material emits light.
     ///
     /// # Panics
     /// Panics if the scene has no such material; readers never make such an id.
     #[must_use]
-    pub fn shines(&self, material: MaterialId) -> bool {
+    pub fn is_emissive(&self, material: MaterialId) -> bool {
         self.material(material).emission.is_some()
     }
 
-    /// How many triangles and spheres of an object emit light.
-    pub(crate) fn shining_count(&self, prototype: &Prototype) -> usize {
+    /// The number of emissive triangles and spheres of a prototype.
+    pub(crate) fn emissive_count(&self, prototype: &Prototype) -> usize {
         let Prototype {
             meshes, spheres, ..
         } = prototype;
-        let meshes = meshes.iter().filter(|mesh| self.shines(mesh.material));
-        let spheres = spheres.iter().filter(|s| self.shines(s.material));
+        let meshes = meshes.iter().filter(|mesh| self.is_emissive(mesh.material));
+        let spheres = spheres.iter().filter(|s| self.is_emissive(s.material));
         meshes.map(|mesh| mesh.indices.len()).sum::<usize>() + spheres.count()
     }
 
-    /// The triangles of the meshes that `counts`, as often as they are to be seen.
+    /// The number of triangles of the meshes that `counts` accepts, instances included.
     fn count(&self, counts: impl Fn(&Mesh) -> bool) -> usize {
         let of = |meshes: &[Mesh]| -> usize {
             let counted = meshes.iter().filter(|mesh| counts(mesh));
             counted.map(|mesh| mesh.indices.len()).sum()
         };
         let prototypes: Vec<usize> = self.prototypes.iter().map(|p| of(&p.meshes)).collect();
-        let placed = self.placements.iter();
-        let placed: usize = placed.map(|p| prototypes[p.prototype.0 as usize]).sum();
-        of(&self.meshes) + placed
+        let instances = self.instances.iter();
+        let instanced: usize = instances.map(|p| prototypes[p.prototype.0 as usize]).sum();
+        of(&self.meshes) + instanced
     }
 
-    /// The scene's camera or, if it has none, one in front of the scene (toward +z of its centre)
-    /// that sees all of it.
+    /// The scene's camera or, without one, a camera on the +z side of the scene's centre whose view
+    /// contains the whole scene.
     #[must_use]
     pub fn camera_or_default(&self) -> Camera {
         let default = || Camera::framing(&self.bounds(), Vec3::NEG_Z);
@@ -166,7 +165,7 @@ impl Scene {
         MaterialId(id)
     }
 
-    /// Adds a prototype, which stands nowhere yet, and returns its id.
+    /// Adds a prototype without instances and returns its id.
     ///
     /// # Panics
     /// Panics if there are already 2^32 prototypes.
@@ -242,18 +241,25 @@ mod tests {
         let above = corners.map(|p| p + Vec3::Z);
         scene.meshes.push(Mesh::quad("lamp", lamp, above));
         assert_eq!(scene.triangle_count(), 4, "two quads");
-        assert_eq!(scene.emissive_triangle_count(), 2, "one of them shines");
+        assert_eq!(
+            scene.emissive_triangle_count(),
+            2,
+            "one of them is emissive"
+        );
         assert_eq!(scene.bounds(), Aabb::new(Vec3::ZERO, Vec3::ONE), "box");
 
         let lamps = vec![Mesh::quad("lamp", lamp, corners)];
         let prototype = scene.add_prototype(Prototype::new("lamps", lamps));
-        assert_eq!(scene.triangle_count(), 4, "it stands nowhere");
+        assert_eq!(scene.triangle_count(), 4, "no instance yet");
         for x in [0.0, 4.0] {
-            let place = Affine3A::from_translation(Vec3::X * x);
-            scene.placements.push(Placement { prototype, place });
+            let transform = Affine3A::from_translation(Vec3::X * x);
+            scene.instances.push(Instance {
+                prototype,
+                transform,
+            });
         }
-        assert_eq!(scene.triangle_count(), 8, "it stands twice");
-        assert_eq!(scene.emissive_triangle_count(), 6, "and shines twice");
+        assert_eq!(scene.triangle_count(), 8, "two instances");
+        assert_eq!(scene.emissive_triangle_count(), 6, "both emissive");
         let farthest = Vec3::new(5.0, 1.0, 1.0);
         assert_eq!(scene.bounds(), Aabb::new(Vec3::ZERO, farthest), "box");
     }

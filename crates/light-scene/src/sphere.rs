@@ -9,7 +9,7 @@ use crate::{MaterialId, Mesh};
 /// A whole sphere of one material: round, not made of triangles.
 ///
 /// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the
-/// axis +z of `place`, v from the lower pole to the upper.
+/// axis +z of `transform`, v from the lower pole to the upper.
 ///
 /// One that shines is one light, which is found best where no light passes its surface: what a
 /// sphere with holes or of [`Surface::Interface`](crate::Surface::Interface) gives off at its
@@ -22,8 +22,8 @@ pub struct Sphere {
     pub material: MaterialId,
     /// From the unit sphere around the origin to the scene: a turn, mirrored or not, with one scale
     /// in all directions.
-    pub place: Affine3A,
-    /// Which side is the front, on which a one-sided emitter shines.
+    pub transform: Affine3A,
+    /// Which side is the front, on which a one-sided emitter emits.
     pub front: SphereFront,
 }
 
@@ -38,13 +38,13 @@ pub enum SphereFront {
 }
 
 impl Sphere {
-    /// The unit sphere as `place` moves it, seen from outside.
+    /// The unit sphere as `transform` moves it, seen from outside.
     #[must_use]
-    pub fn new(name: impl Into<String>, material: MaterialId, place: Affine3A) -> Self {
+    pub fn new(name: impl Into<String>, material: MaterialId, transform: Affine3A) -> Self {
         Self {
             name: name.into(),
             material,
-            place,
+            transform,
             front: SphereFront::Outside,
         }
     }
@@ -52,13 +52,13 @@ impl Sphere {
     /// The centre.
     #[must_use]
     pub fn center(&self) -> Vec3 {
-        self.place.translation.into()
+        self.transform.translation.into()
     }
 
     /// The radius, in scene units.
     #[must_use]
     pub fn radius(&self) -> f32 {
-        self.place.matrix3.z_axis.length()
+        self.transform.matrix3.z_axis.length()
     }
 
     /// The area, in scene units squared.
@@ -76,7 +76,7 @@ impl Sphere {
         }
     }
 
-    /// The shape of a light with this surface; it makes no sense where `place` does not keep
+    /// The shape of a light with this surface; it makes no sense where `transform` does not keep
     /// angles.
     #[must_use]
     pub fn shape(&self) -> ShapeDesc {
@@ -88,7 +88,7 @@ impl Sphere {
                     z_axis,
                 },
             translation,
-        } = self.place;
+        } = self.transform;
         let radius = self.radius();
         let axes = [x_axis, y_axis, z_axis].map(|axis| axis / radius);
         ShapeDesc::Sphere {
@@ -100,17 +100,17 @@ impl Sphere {
         }
     }
 
-    /// The sphere moved by `place`, its front as it was; `None` where it would be none.
+    /// The sphere moved by `transform`, its front as it was; `None` where it would be none.
     #[must_use]
-    pub fn transformed(&self, place: &Affine3A) -> Option<Self> {
+    pub fn transformed(&self, transform: &Affine3A) -> Option<Self> {
         let moved = Self {
-            place: *place * self.place,
+            transform: *transform * self.transform,
             ..self.clone()
         };
         moved.shape().build().is_ok().then_some(moved)
     }
 
-    /// Triangles in its place: `columns` around, and half as many rows.
+    /// Triangles that replace it: `columns` around, and half as many rows.
     #[must_use]
     pub fn mesh(&self, columns: u16) -> Mesh {
         let unit = Mesh::grid([columns, columns / 2], |u, v| {
@@ -118,7 +118,7 @@ impl Sphere {
             let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
             (normal, normal)
         });
-        let mut mesh = unit.transformed(&self.place);
+        let mut mesh = unit.transformed(&self.transform);
         mesh.drop_empty_triangles();
         if self.front == SphereFront::Inside {
             mesh.turn_over();
@@ -136,8 +136,8 @@ mod tests {
     fn sphere() -> Sphere {
         let turn = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 2.0) / 3.0, 0.8);
         let scale = Affine3A::from_scale(Vec3::splat(2.0));
-        let place = Affine3A::from_translation(Vec3::new(5.0, 0.0, -1.0)) * turn * scale;
-        Sphere::new("ball", MaterialId(0), place)
+        let transform = Affine3A::from_translation(Vec3::new(5.0, 0.0, -1.0)) * turn * scale;
+        Sphere::new("ball", MaterialId(0), transform)
     }
 
     #[test]
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn it_stays_a_sphere_only_in_places_that_keep_angles() {
+    fn only_similarities_keep_a_sphere_a_sphere() {
         let sphere = sphere();
         let mirrored = Affine3A::from_scale(Vec3::new(3.0, 3.0, -3.0));
         let moved = sphere.transformed(&mirrored).expect("a sphere");

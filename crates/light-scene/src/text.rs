@@ -8,7 +8,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use crate::glam::{Vec2, Vec3};
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
@@ -96,7 +96,7 @@ impl<'a> Line<'a> {
 
     /// A message about this line.
     pub(crate) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Line(self.number), message)
+        Diagnostic::at(self.path, Location::Line(self.number), message)
     }
 
     /// The next word, if there is one.

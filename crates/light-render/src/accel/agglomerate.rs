@@ -4,12 +4,12 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::morton::morton_encode_u64_unorm;
 
-/// So many neighbours in a row of which none is the nearest of the other are a chain.
+/// A run of this many neighbours without a mutually nearest pair counts as a chain.
 const CHAIN: usize = 256;
 
-/// Whether agglomeration of the nearest neighbours would merge only the ends of long rows: boxes
-/// that coincide, that stand in an even row, or of which each is larger than the one before. It
-/// then takes a pass over all boxes for each of them.
+/// Whether nearest-neighbour agglomeration would only merge the ends of long chains: coincident
+/// boxes, evenly spaced rows, or rows in which each box is larger than the one before. It would
+/// then take one pass over all boxes per merge.
 pub(super) fn is_chained(boxes: &[Aabb]) -> bool {
     if boxes.len() <= CHAIN {
         return false;
@@ -32,8 +32,8 @@ pub(super) fn is_chained(boxes: &[Aabb]) -> bool {
     false
 }
 
-/// A hierarchy of nearest neighbours along a curve, in which rows without any are merged pair by
-/// pair: in a time of `n log n`, with a depth of a few `log n`, for any boxes.
+/// A hierarchy of nearest neighbours along a Morton curve. Chains without a mutually nearest pair
+/// are merged in pairs, so that any input takes `O(n log n)` time and `O(log n)` depth.
 pub(super) fn agglomerate(boxes: &[Aabb]) -> Bvh2 {
     let mut bvh = Bvh2::zeroed(boxes.len());
     let count = u32::try_from(boxes.len()).expect("fewer than 2^32 boxes");
@@ -67,13 +67,13 @@ pub(super) fn agglomerate(boxes: &[Aabb]) -> Bvh2 {
     bvh
 }
 
-/// What a place of the next row is made of.
+/// What an entry of the next row is made of.
 enum Merged {
     One(usize),
     Pair(usize),
 }
 
-/// The order of the boxes along a curve through their middles.
+/// The order of the boxes along a Morton curve through their centers.
 fn sorted(boxes: &[Aabb]) -> impl Iterator<Item = u32> {
     let middle = |b: &Aabb| 0.5 * b.min + 0.5 * b.max;
     let mut around = Aabb::empty();
@@ -82,7 +82,7 @@ fn sorted(boxes: &[Aabb]) -> impl Iterator<Item = u32> {
     }
     let size = (around.max - around.min).max(Vec3A::splat(f32::MIN_POSITIVE));
     let code = |b: &Aabb| {
-        // All that lies beyond the largest code has the largest one.
+        // Positions beyond the largest code are clamped to it.
         let place = (middle(b).as_dvec3() - around.min.as_dvec3()) / size.as_dvec3();
         morton_encode_u64_unorm(place.min(DVec3::splat(1.0 - 1e-9)))
     };
@@ -91,8 +91,7 @@ fn sorted(boxes: &[Aabb]) -> impl Iterator<Item = u32> {
     order.into_iter().map(|(_, i)| i)
 }
 
-/// The first of each two neighbours of which either is nearer to the other than to its other
-/// neighbour.
+/// The first of each mutually nearest pair of neighbours.
 fn mutual(row: &[Aabb]) -> Vec<usize> {
     let cost = |i: usize| row[i].union(&row[i + 1]).half_area();
     let mut costs: Vec<f32> = (0..row.len().saturating_sub(1)).map(cost).collect();
@@ -100,7 +99,7 @@ fn mutual(row: &[Aabb]) -> Vec<usize> {
     let mut pairs = Vec::new();
     let mut before = f32::INFINITY;
     for i in 0..row.len() - 1 {
-        // As the agglomeration that this foretells: of two alike the later one.
+        // On a tie the later one, as in the agglomeration that this predicts.
         if before >= costs[i] && costs[i] < costs[i + 1] {
             pairs.push(i);
         }
@@ -109,7 +108,7 @@ fn mutual(row: &[Aabb]) -> Vec<usize> {
     pairs
 }
 
-/// How many neighbours in a row there are at most that are in none of the pairs.
+/// The length of the longest run of neighbours that are in none of the pairs.
 fn longest_gap(pairs: &[usize], count: usize) -> usize {
     let ends = pairs.iter().map(|&i| i + 2);
     let starts = pairs.iter().copied().chain([count]);
@@ -117,7 +116,7 @@ fn longest_gap(pairs: &[usize], count: usize) -> usize {
     gaps.map(|(end, start)| start - end).max().unwrap_or(0)
 }
 
-/// The pairs, and as many pairs of neighbours as have room between them.
+/// The pairs, and as many further pairs as fit between them.
 fn without_gaps(pairs: &[usize], count: usize) -> Vec<usize> {
     let mut all = Vec::new();
     let mut next = 0;
@@ -137,7 +136,7 @@ fn without_gaps(pairs: &[usize], count: usize) -> Vec<usize> {
     all
 }
 
-/// Says of each place of the next row what it is made of.
+/// For each entry of the next row, what it is made of.
 fn merge(pairs: &[usize], count: usize, mut each: impl FnMut(usize, Merged)) {
     let (mut to, mut from) = (0, 0);
     let mut pairs = pairs.iter().copied().peekable();

@@ -29,8 +29,8 @@ pub(super) fn over_boxes(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     })
 }
 
-/// A hierarchy over boxes for which the usual way takes a time of `n^2` and goes as deep as there
-/// are boxes.
+/// A hierarchy over boxes for which the default builder takes quadratic time and a depth linear in
+/// the number of boxes.
 fn plain(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     let mut bvh = agglomerate(boxes);
     let most = params.max_prims_per_leaf;
@@ -40,8 +40,8 @@ fn plain(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     bvh
 }
 
-/// Enlarges each box by its rounding error, so that a ray along an edge of a box cannot slip past
-/// what is inside; and makes room for all nodes that may wait for a ray.
+/// Enlarges each box by its rounding error, so that a ray along an edge of a box cannot miss its
+/// content, and sets the depth of the traversal stack.
 fn finished(mut bvh: Bvh2) -> Bvh2 {
     for node in &mut bvh.nodes {
         let mut aabb = *node.aabb();
@@ -54,7 +54,7 @@ fn finished(mut bvh: Bvh2) -> Bvh2 {
     bvh
 }
 
-/// How many nodes lie one below the other at most.
+/// The depth of the tree: the largest number of nodes on a path from the root.
 fn depth(bvh: &Bvh2) -> usize {
     let mut deepest = 0;
     let mut waiting = vec![(0, 1)];
@@ -81,7 +81,7 @@ mod tests {
         corners.map(|(min, max)| Aabb::new(min, max)).collect()
     }
 
-    /// Sets whose nearest neighbours are chains: all alike, in a row, pairs in a row, around one
+    /// Sets whose nearest neighbours form chains: coincident, in a row, pairs in a row, around one
     /// corner.
     fn chains() -> [(&'static str, Vec<Aabb>); 4] {
         let at = |x: f32| (Vec3A::X * x, Vec3A::X * x + Vec3A::splat(0.5));

@@ -7,6 +7,6 @@ pub(super) struct BvhHit {
     pub(super) number: u32,
     /// Distance along the ray.
     pub(super) t: f32,
-    /// Where on it, as [`Hit::place`](super::Hit::place) has it.
-    pub(super) place: Vec2,
+    /// Coordinates on the primitive, as in [`Hit::coords`](super::Hit::coords).
+    pub(super) coords: Vec2,
 }

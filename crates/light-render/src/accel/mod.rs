@@ -1,9 +1,9 @@
 mod agglomerate;
 mod build;
 mod bvh_hit;
-mod place;
-mod placements;
-mod solids;
+mod geometry;
+mod instance_transform;
+mod instances;
 mod sphere_bvh;
 #[cfg(test)]
 mod tests;
@@ -18,10 +18,10 @@ use lights::sources::shape::Sphere;
 use obvhs::aabb::Aabb as ObvhsAabb;
 
 use crate::{PrimitiveId, Ray};
-pub use place::Place;
-use placements::Placements;
-pub use placements::Prototype;
-use solids::{Numbers, Solids};
+use geometry::{Geometry, Numbers};
+pub use instance_transform::InstanceTransform;
+use instances::Instances;
+pub use instances::Prototype;
 
 /// Where a ray meets the scene first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,21 +30,21 @@ pub struct Hit {
     pub primitive: PrimitiveId,
     /// Distance along the ray, in scene units.
     pub t: f32,
-    /// Where on it: of a triangle the weights of its second and third corner, the first has the
-    /// rest; of a sphere the place of its outward normal, before it was placed, on the
+    /// Coordinates on the primitive. Triangle: barycentric weights of the second and the third
+    /// corner. Sphere: outward normal in object space, as a point of the
     /// [octahedral square](lights::math::octahedral::to_square).
-    pub place: Vec2,
+    pub coords: Vec2,
 }
 
-/// Answers where rays meet triangles and spheres: those that stand where they are stored, and those
-/// that stand in several places.
+/// Intersects rays with triangles and spheres: geometry in world space, and instances of
+/// prototypes.
 ///
-/// All triangles have numbers before all spheres; among each, those that stand where they are
-/// stored come first.
+/// All triangles have smaller numbers than all spheres. Among each, primitives in world space come
+/// before those of prototypes.
 #[derive(Default)]
 pub struct Accel {
-    world: Solids,
-    placements: Placements,
+    world: Geometry,
+    instances: Instances,
 }
 
 impl Accel {
@@ -57,7 +57,7 @@ impl Accel {
         Self::with_spheres_and_prototypes(triangles, &[], Vec::new())
     }
 
-    /// As [`new`](Self::new), with spheres, and with prototypes in their places.
+    /// As [`new`](Self::new), with spheres, and with instances of prototypes.
     ///
     /// # Panics
     /// Panics at 2^32 primitives.
@@ -67,15 +67,15 @@ impl Accel {
         spheres: &[Sphere],
         prototypes: Vec<Prototype>,
     ) -> Self {
-        let placed = prototypes.iter().map(|prototype| prototype.triangles.len());
-        let count = triangles.len() + placed.sum::<usize>();
+        let instanced = prototypes.iter().map(|prototype| prototype.triangles.len());
+        let count = triangles.len() + instanced.sum::<usize>();
         let mut next = Numbers {
             triangle: 0,
             sphere: u32::try_from(count).expect("fewer than 2^32 triangles"),
         };
-        let world = Solids::new(triangles, spheres, &mut next);
-        let placements = Placements::new(prototypes, next);
-        Self { world, placements }
+        let world = Geometry::new(triangles, spheres, &mut next);
+        let instances = Instances::new(prototypes, next);
+        Self { world, instances }
     }
 
     /// The first hit of `ray`, leaving out the primitive `from` that the ray starts on.
@@ -85,30 +85,30 @@ impl Accel {
         self.closest_where(ray, from, |_, _| true)
     }
 
-    /// [`closest`](Self::closest), where only those hits count of which `is_there` says so, by
-    /// primitive and place.
+    /// [`closest`](Self::closest) among the hits that `any_hit` accepts. It receives the primitive
+    /// and the coordinates on it, as [`Hit::coords`] defines them.
     #[inline]
     #[must_use]
     pub fn closest_where(
         &self,
         ray: &Ray,
         from: Option<PrimitiveId>,
-        is_there: impl Fn(PrimitiveId, Vec2) -> bool,
+        any_hit: impl Fn(PrimitiveId, Vec2) -> bool,
     ) -> Option<Hit> {
-        let there = |number, place| is_there(PrimitiveId::new(number), place);
+        let filter = |number, coords| any_hit(PrimitiveId::new(number), coords);
         let hit = self
             .world
-            .closest(ray, f32::INFINITY, in_the_world(from), there);
+            .closest(ray, f32::INFINITY, from_in_world(from), filter);
         let hit = hit.map(|hit| Hit {
             primitive: PrimitiveId::new(hit.number),
             t: hit.t,
-            place: hit.place,
+            coords: hit.coords,
         });
-        if self.placements.is_empty() {
+        if self.instances.is_empty() {
             return hit;
         }
         let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
-        self.placements.closest(ray, t_max, from, &is_there).or(hit)
+        self.instances.closest(ray, t_max, from, &any_hit).or(hit)
     }
 
     /// Whether anything but the primitive `from` lies between the start of `ray` and the distance
@@ -119,8 +119,8 @@ impl Accel {
         self.occluded_where(ray, t_max, from, |_, _| true)
     }
 
-    /// [`occluded`](Self::occluded), where only those hits count of which `is_there` says so, by
-    /// primitive and place.
+    /// [`occluded`](Self::occluded) by a hit that `any_hit` accepts. It receives the primitive and
+    /// the coordinates on it, as [`Hit::coords`] defines them.
     #[inline]
     #[must_use]
     pub fn occluded_where(
@@ -128,40 +128,39 @@ impl Accel {
         ray: &Ray,
         t_max: f32,
         from: Option<PrimitiveId>,
-        is_there: impl Fn(PrimitiveId, Vec2) -> bool,
+        any_hit: impl Fn(PrimitiveId, Vec2) -> bool,
     ) -> bool {
-        let there = |number, place| is_there(PrimitiveId::new(number), place);
-        self.world.occluded(ray, t_max, in_the_world(from), there)
-            || (!self.placements.is_empty()
-                && self.placements.occluded(ray, t_max, from, &is_there))
+        let filter = |number, coords| any_hit(PrimitiveId::new(number), coords);
+        self.world.occluded(ray, t_max, from_in_world(from), filter)
+            || (!self.instances.is_empty() && self.instances.occluded(ray, t_max, from, &any_hit))
     }
 
-    /// Where a placement stands.
+    /// The transform of an instance.
     ///
     /// # Panics
-    /// Panics if there is no such placement.
+    /// Panics if there is no such instance.
     #[inline]
     #[must_use]
-    pub fn place(&self, placement: u32) -> &Place {
-        self.placements.place(placement)
+    pub fn instance_transform(&self, instance: u32) -> &InstanceTransform {
+        self.instances.transform(instance)
     }
 
-    /// The numbers of the triangles and of the spheres that stand where they are stored.
+    /// The numbers of the triangles and of the spheres in world space.
     #[must_use]
     pub fn world(&self) -> [Range<u32>; 2] {
         self.world.numbers()
     }
 
-    /// The numbers of the triangles and of the spheres in every placement.
+    /// The numbers of the triangles and of the spheres in every instance.
     #[must_use]
-    pub fn placements(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
-        self.placements.solids().map(Solids::numbers)
+    pub fn instances(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
+        self.instances.geometry().map(Geometry::numbers)
     }
 
     /// How many prototypes there are.
     #[must_use]
     pub fn prototype_count(&self) -> usize {
-        self.placements.prototype_count()
+        self.instances.prototype_count()
     }
 }
 
@@ -169,10 +168,10 @@ fn boxed(bounds: &Aabb) -> ObvhsAabb {
     ObvhsAabb::new(bounds.min.into(), bounds.max.into())
 }
 
-/// The number of what a ray starts on, if that stands where it is stored.
+/// The number of the primitive that a ray starts on, if it is one in world space.
 #[inline]
-fn in_the_world(from: Option<PrimitiveId>) -> Option<u32> {
-    from.filter(|from| from.placement().is_none())
+fn from_in_world(from: Option<PrimitiveId>) -> Option<u32> {
+    from.filter(|from| from.instance().is_none())
         .map(PrimitiveId::number)
 }
 
@@ -180,7 +179,7 @@ impl fmt::Debug for Accel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Accel")
             .field("world", &self.world.count())
-            .field("placements", &self.placements.solids().len())
+            .field("instances", &self.instances.geometry().len())
             .finish_non_exhaustive()
     }
 }

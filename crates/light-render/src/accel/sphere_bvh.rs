@@ -60,9 +60,8 @@ impl SphereBvh {
         self.leaves.is_empty()
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
-    /// that they count, by sphere and place. Of the sphere `from`, on which the ray starts, the
-    /// opposite side counts alone.
+    /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts, by sphere and octahedral
+    /// coordinates. Of the sphere `from`, on which the ray starts, only the opposite side is hit.
     // Kept out of the code that scenes without spheres run.
     #[inline(never)]
     pub(super) fn closest(
@@ -70,37 +69,37 @@ impl SphereBvh {
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> Option<BvhHit> {
         let bare = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         let mut hit = RayHit::none();
         self.bvh.ray_traverse(bare, &mut hit, |bare, slot| {
-            self.distance(ray, bare.tmax, slot, from, &is_there)
+            self.distance(ray, bare.tmax, slot, from, &any_hit)
         });
         let leaf = self.leaves.get(hit.primitive_id as usize)?;
         Some(BvhHit {
             number: self.bvh.primitive_indices[hit.primitive_id as usize],
             t: hit.t,
-            place: leaf.chord(ray)?.place(hit.t),
+            coords: leaf.chord(ray)?.coords(hit.t),
         })
     }
 
-    /// Whether anything that counts is nearer than `t_max`.
+    /// Whether any hit that [`closest`](Self::closest) could return is nearer than `t_max`.
     #[inline(never)]
     pub(super) fn occluded(
         &self,
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> bool {
         let bare = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         !self.bvh.ray_traverse_miss(bare, |_, slot| {
-            self.distance(ray, t_max, slot, from, &is_there)
+            self.distance(ray, t_max, slot, from, &any_hit)
         })
     }
 
-    /// The distance to the sphere in `slot`, infinite where it does not count before `t_max`.
+    /// The distance to the sphere in `slot`, infinite without an accepted hit before `t_max`.
     #[inline(always)]
     fn distance(
         &self,
@@ -108,7 +107,7 @@ impl SphereBvh {
         t_max: f32,
         slot: usize,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> f32 {
         let Some(chord) = self.leaves[slot].chord(ray) else {
             return f32::INFINITY;
@@ -117,10 +116,10 @@ impl SphereBvh {
         let [enters, leaves] = chord.ends();
         let starts_here = from == Some(number);
         // Rounding decides where a ray enters that starts there; whether it goes inward is certain.
-        let counts = |t: f32| t > 0.0 && t < t_max && is_there(number, chord.place(t));
-        if !starts_here && counts(enters) {
+        let accepts = |t: f32| t > 0.0 && t < t_max && any_hit(number, chord.coords(t));
+        if !starts_here && accepts(enters) {
             enters
-        } else if !(starts_here && chord.t <= 0.0) && counts(leaves) {
+        } else if !(starts_here && chord.t <= 0.0) && accepts(leaves) {
             leaves
         } else {
             f32::INFINITY
@@ -158,7 +157,7 @@ impl Chord {
 
     /// The octahedral coordinates of the end at distance `t`, seen from the centre.
     #[inline]
-    fn place(&self, t: f32) -> Vec2 {
+    fn coords(&self, t: f32) -> Vec2 {
         let half = if t == self.ends()[0] {
             -self.half
         } else {

@@ -29,7 +29,7 @@ fn the_closest_hit_knows_its_triangle_and_place() {
         "the first square"
     );
     let [a, b, c] = square(1.0)[0];
-    let Vec2 { x, y } = hit.place;
+    let Vec2 { x, y } = hit.coords;
     let p = a * (1.0 - x - y) + b * x + c * y;
     assert!(
         p.distance(Vec3::new(0.75, 0.25, 1.0)) < 1e-6,

@@ -13,7 +13,7 @@ use crate::Ray;
 #[derive(Default)]
 pub(super) struct TriangleBvh {
     bvh: Bvh2,
-    /// Triangles in leaf order; one that was split stands in several leaves.
+    /// Triangles in leaf order; a triangle that the builder split is in several leaves.
     leaves: Vec<RtTriangle>,
 }
 
@@ -31,8 +31,8 @@ impl TriangleBvh {
         if triangles.is_empty() {
             return Self::default();
         }
-        // Splitting pays most for the long triangles of buildings, but its memory does not suit the
-        // largest scenes.
+        // Splitting gains most for the long triangles of buildings, but takes too much memory for
+        // the largest scenes.
         let params = if triangles.len() < 1 << 20 {
             BvhBuildParams::slow_build()
         } else {
@@ -47,59 +47,59 @@ impl TriangleBvh {
         Self { bvh, leaves }
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
-    /// that they count, by triangle and barycentric coordinates; leaving out the triangle `from`.
+    /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts, by triangle and
+    /// barycentric coordinates. The triangle `from` is skipped.
     #[inline]
     pub(super) fn closest(
         &self,
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> Option<BvhHit> {
         let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         let mut hit = RayHit::none();
         self.bvh.ray_traverse(ray, &mut hit, |ray, slot| {
-            self.distance(ray, slot, from, &is_there)
+            self.distance(ray, slot, from, &any_hit)
         });
         let leaf = self.leaves.get(hit.primitive_id as usize)?;
         Some(BvhHit {
             number: self.bvh.primitive_indices[hit.primitive_id as usize],
             t: hit.t,
-            place: leaf.compute_barycentric(&ray),
+            coords: leaf.compute_barycentric(&ray),
         })
     }
 
-    /// Whether anything that counts, other than the triangle `from`, is nearer than `t_max`.
+    /// Whether any hit that [`closest`](Self::closest) could return is nearer than `t_max`.
     #[inline]
     pub(super) fn occluded(
         &self,
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> bool {
         let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
         !self
             .bvh
-            .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &is_there))
+            .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &any_hit))
     }
 
     /// The distance to the triangle in `slot`, infinite for a miss, for the triangle that the ray
-    /// starts on, and for a hit that does not count.
+    /// starts on, and for a hit that `any_hit` rejects.
     #[inline(always)]
     fn distance(
         &self,
         ray: &ObvhsRay,
         slot: usize,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> f32 {
         let leaf = &self.leaves[slot];
         let t = leaf.intersect(ray);
         if t < f32::INFINITY {
             let number = self.bvh.primitive_indices[slot];
-            if from == Some(number) || !is_there(number, leaf.compute_barycentric(ray)) {
+            if from == Some(number) || !any_hit(number, leaf.compute_barycentric(ray)) {
                 return f32::INFINITY;
             }
         }

@@ -78,7 +78,7 @@ impl InfoArgs {
             "spheres": world.sphere_count(),
             "stored_spheres": world.stored_sphere_count(),
             "prototypes": world.prototype_count(),
-            "placements": world.placement_count(),
+            "placements": world.instance_count(),
             "bounds": [bounds.min.to_array(), bounds.max.to_array()],
             "lights": count,
             "kinds": kinds,
@@ -114,11 +114,11 @@ impl InfoArgs {
         if world.sphere_count() > 0 {
             say!("  spheres    {}", world.sphere_count())?;
         }
-        if world.placement_count() > 0 {
+        if world.instance_count() > 0 {
             say!(
                 "  objects    {} stored once, in {} places: {} triangles, {} spheres stored",
                 world.prototype_count(),
-                world.placement_count(),
+                world.instance_count(),
                 world.stored_triangle_count(),
                 world.stored_sphere_count()
             )?;

@@ -4,43 +4,43 @@ use super::World;
 use crate::PrimitiveId;
 
 impl World {
-    /// How many triangles there are to be seen: those of prototypes in each of their places.
+    /// The number of triangles, those of prototypes counted once per instance.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.count(|[triangles, _]| triangles.len())
     }
 
-    /// How many spheres there are to be seen: those of prototypes in each of their places.
+    /// The number of spheres, those of prototypes counted once per instance.
     #[must_use]
     pub fn sphere_count(&self) -> usize {
         self.count(|[_, spheres]| spheres.len())
     }
 
-    /// How many triangles are stored.
+    /// The number of stored triangles, those of prototypes counted once.
     #[must_use]
     pub fn stored_triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// How many spheres are stored.
+    /// The number of stored spheres, those of prototypes counted once.
     #[must_use]
     pub fn stored_sphere_count(&self) -> usize {
         self.spheres.len()
     }
 
-    /// How many objects are stored once and stand in several places.
+    /// The number of prototypes.
     #[must_use]
     pub fn prototype_count(&self) -> usize {
         self.accel.prototype_count()
     }
 
-    /// In how many places they stand, all together.
+    /// The number of instances of all prototypes.
     #[must_use]
-    pub fn placement_count(&self) -> usize {
-        self.accel.placements().len()
+    pub fn instance_count(&self) -> usize {
+        self.accel.instances().len()
     }
 
-    /// The `n`th of all triangles and spheres that there are to be seen.
+    /// The `n`th of all triangles and spheres, those of prototypes counted once per instance.
     #[must_use]
     pub fn primitive(&self, mut n: usize) -> Option<PrimitiveId> {
         let mut among = |ranges: [Range<u32>; 2]| {
@@ -54,12 +54,12 @@ impl World {
             return Some(PrimitiveId::new(number));
         }
         (0u32..)
-            .zip(self.accel.placements())
-            .find_map(|(placement, ranges)| Some(PrimitiveId::placed(among(ranges)?, placement)))
+            .zip(self.accel.instances())
+            .find_map(|(instance, ranges)| Some(PrimitiveId::in_instance(among(ranges)?, instance)))
     }
 
-    /// Adds up what `of` counts where things stand where they are stored, and in every placement.
+    /// The sum of `of` over the ranges of world space and of every instance.
     fn count(&self, of: impl Fn([Range<u32>; 2]) -> usize) -> usize {
-        of(self.accel.world()) + self.accel.placements().map(of).sum::<usize>()
+        of(self.accel.world()) + self.accel.instances().map(of).sum::<usize>()
     }
 }

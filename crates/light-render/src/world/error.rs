@@ -9,22 +9,21 @@ use crate::SceneLightsError;
 pub enum WorldError {
     /// A light makes no sense.
     Lights(SceneLightsError),
-    /// A sphere has no radius, or its place does not keep angles.
+    /// A sphere has no radius, or its transform is not a similarity.
     Sphere {
         /// Its name.
         name: String,
     },
-    /// A placement makes an object flat, or as good as.
-    Place {
+    /// The transform of an instance is singular or close to it.
+    Instance {
         /// The object's name.
         name: String,
     },
-    /// Objects that shine stand in too many places: each triangle that shines is a light of its
-    /// own.
+    /// There are too many emissive primitives in all instances: each is a light of its own.
     Copies {
-        /// The name of the object that is too much.
+        /// The name of the object that exceeds the limit.
         name: String,
-        /// How many triangles that shine may be placed.
+        /// The limit.
         most: usize,
     },
 }
@@ -41,14 +40,17 @@ impl fmt::Display for WorldError {
             Self::Lights(error) => error.fmt(f),
             Self::Sphere { name } => write!(
                 f,
-                "sphere {name}: expected a place that turns, moves, and scales all axes alike"
+                "sphere {name}: expected a transform of rotation, translation and uniform scale"
             ),
-            Self::Place { name } => {
-                write!(f, "object {name}: expected places that do not make it flat")
+            Self::Instance { name } => {
+                write!(
+                    f,
+                    "object {name}: expected transforms that do not make it flat"
+                )
             }
             Self::Copies { name, most } => write!(
                 f,
-                "object {name}: expected at most {most} triangles that shine in all places of objects"
+                "object {name}: expected at most {most} emissive triangles and spheres in all instances"
             ),
         }
     }

@@ -1,6 +1,6 @@
+mod alpha_mask;
 mod count;
 mod error;
-mod holes;
 mod materials;
 mod mixtures;
 mod objects;
@@ -15,7 +15,7 @@ use lights::sources::shape::Sphere;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
 use crate::scene_lights::{SceneLights, shown_images};
-use crate::surface_emission::HoledLights;
+use crate::surface_emission::AlphaMaskedLights;
 use crate::world_media::WorldMedia;
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
@@ -23,18 +23,18 @@ use crate::{Accel, Prototype, Ray, Surface};
 pub use error::WorldError;
 use objects::Objects;
 
-/// A scene made ready for rays: triangles and spheres in hierarchies, materials, lights.
+/// A scene prepared for rendering: acceleration structures, materials, lights, media.
 ///
-/// What stands in several places is stored once, but for what shines: each triangle and each sphere
-/// is a light of its own, with an id and a place in the scene. Objects of very few triangles are
-/// copied as well, because a placement takes as much memory as they do.
+/// Prototypes are stored once, except for emissive primitives: each copy of such a triangle or
+/// sphere is a light of its own, with an id. Objects of very few triangles are copied as well,
+/// because an instance takes as much memory as they do.
 #[derive(Debug)]
 pub struct World {
-    /// Those that stand where they are stored, then those of prototypes.
+    /// Those in world space, then those of prototypes.
     meshes: Vec<WorldMesh>,
-    /// Mesh and number in the mesh, a stored triangle.
+    /// For each stored triangle its mesh and its index there.
     triangles: Vec<MeshTriangle>,
-    /// Those that stand where they are stored, then those of prototypes.
+    /// Those in world space, then those of prototypes.
     spheres: Vec<WorldSphere>,
     accel: Accel,
     materials: Vec<Material>,
@@ -43,10 +43,10 @@ pub struct World {
     lights: LightSet<Rgb>,
     infinite: Vec<LightId>,
     media: WorldMedia,
-    /// Whether any surface has holes.
-    has_holes: bool,
-    /// The lights whose surfaces have, in the order of their ids.
-    holed_lights: Vec<HoledLights>,
+    /// Whether any material has an alpha mask.
+    has_alpha_masks: bool,
+    /// The lights with an alpha mask, in the order of their ids.
+    masked_lights: Vec<AlphaMaskedLights>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -59,11 +59,11 @@ impl World {
     /// The world that `scene` describes.
     ///
     /// # Errors
-    /// When a light of the scene makes no sense, a sphere is none, an object stands where it would
-    /// be flat, or shining objects stand in too many places.
+    /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there
+    /// are too many emissive primitives in all instances.
     pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
         let bounds = scene.bounds();
-        let Objects { placed } = Objects::take(&mut scene)?;
+        let Objects { instanced } = Objects::take(&mut scene)?;
         let Scene {
             meshes,
             spheres,
@@ -81,7 +81,7 @@ impl World {
         let SceneLights {
             lights,
             infinite,
-            holed: holed_lights,
+            masked: masked_lights,
         } = SceneLights::new(
             &mut meshes,
             &mut spheres,
@@ -92,8 +92,8 @@ impl World {
         )?;
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_spheres = shapes(&spheres);
-        let mut prototypes = Vec::with_capacity(placed.len());
-        for object in placed {
+        let mut prototypes = Vec::with_capacity(instanced.len());
+        for object in instanced {
             let (first_mesh, first_sphere) = (meshes.len(), spheres.len());
             meshes.extend(object.meshes.into_iter().map(WorldMesh::from));
             spheres.extend(world_spheres(object.spheres)?);
@@ -101,7 +101,7 @@ impl World {
             prototypes.push(Prototype {
                 triangles: triangles.collect(),
                 spheres: shapes(&spheres[first_sphere..]),
-                places: object.places,
+                transforms: object.transforms,
             });
         }
         let accel = Accel::with_spheres_and_prototypes(&corners, &own_spheres, prototypes);
@@ -110,8 +110,8 @@ impl World {
             indices.map(move |(index, _)| MeshTriangle { mesh, index })
         });
         Ok(Self {
-            has_holes: materials.iter().any(|material| material.alpha.is_some()),
-            holed_lights,
+            has_alpha_masks: materials.iter().any(|material| material.alpha.is_some()),
+            masked_lights,
             triangles: triangles.collect(),
             accel,
             meshes,
@@ -125,7 +125,7 @@ impl World {
         })
     }
 
-    /// A box around all triangles.
+    /// A box around all geometry.
     #[must_use]
     pub const fn bounds(&self) -> &Aabb {
         &self.bounds

@@ -1,33 +1,33 @@
 use std::collections::HashSet;
 
 use light_scene::glam::Affine3A;
-use light_scene::{MOST_SHINING_COPIES, Mesh, Placement, Prototype, Scene, Sphere};
+use light_scene::{Instance, MAX_EMISSIVE_COPIES, Mesh, Prototype, Scene, Sphere};
 
 use super::WorldError;
-use crate::Place;
+use crate::InstanceTransform;
 
-/// Objects of no more triangles and spheres are copied: those take no more memory than a placement
-/// does, and rays find them sooner.
+/// Objects of at most this many triangles and spheres are copied: copies take no more memory than
+/// instances, and rays find them faster.
 const FEW: usize = 2;
 
-/// Columns around a sphere that shines and that a place stretches, which no light is.
+/// Columns of the mesh that replaces an emissive ellipsoid: no light has that shape.
 const COLUMNS: u16 = 64;
 
-/// A scene's objects that need not be copied.
+/// The objects of a scene that are instanced rather than copied.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
-    pub(super) placed: Vec<PlacedObject>,
+    pub(super) instanced: Vec<InstancedObject>,
 }
 
-/// What an object consists of and is stored once, and where it stands.
+/// The instanced part of an object, with the transforms of its instances.
 #[derive(Debug)]
-pub(super) struct PlacedObject {
+pub(super) struct InstancedObject {
     pub(super) meshes: Vec<Mesh>,
     pub(super) spheres: Vec<Sphere>,
-    pub(super) places: Vec<Place>,
+    pub(super) transforms: Vec<InstanceTransform>,
 }
 
-/// A part of an object.
+/// Meshes and spheres of an object.
 #[derive(Debug, Default)]
 struct Part {
     meshes: Vec<Mesh>,
@@ -35,53 +35,64 @@ struct Part {
 }
 
 impl Objects {
-    /// Takes the objects out of `scene`. What shines is a light of its own in every place, so that
-    /// it is copied there; so is what stands in one place only, or is small.
+    /// Takes the objects out of `scene`. Emissive primitives are copied for every instance, because
+    /// each copy is a light of its own; objects with a single instance and small ones are copied
+    /// too.
     pub(super) fn take(scene: &mut Scene) -> Result<Self, WorldError> {
-        let mut places: Vec<Vec<Affine3A>> = vec![Vec::new(); scene.prototypes.len()];
-        for Placement { prototype, place } in core::mem::take(&mut scene.placements) {
-            places[prototype.0 as usize].push(place);
+        let mut transforms: Vec<Vec<Affine3A>> = vec![Vec::new(); scene.prototypes.len()];
+        for Instance {
+            prototype,
+            transform,
+        } in core::mem::take(&mut scene.instances)
+        {
+            transforms[prototype.0 as usize].push(transform);
         }
         let prototypes = core::mem::take(&mut scene.prototypes);
         let mut objects = Self::default();
-        let mut left = MOST_SHINING_COPIES;
-        for (prototype, places) in prototypes.into_iter().zip(places) {
+        let mut left = MAX_EMISSIVE_COPIES;
+        for (prototype, transforms) in prototypes.into_iter().zip(transforms) {
             let name = prototype.name.clone();
-            let (mut copied, mut placed) = Part::shining_and_dark(prototype, scene);
-            let shining = places.iter().map(|place| copied.count_at(place)).sum();
+            let (mut copied, mut instanced) = Part::split_emissive(prototype, scene);
+            let emissive = transforms
+                .iter()
+                .map(|transform| copied.count_under(transform))
+                .sum();
             left = left
-                .checked_sub(shining)
+                .checked_sub(emissive)
                 .ok_or_else(|| WorldError::Copies {
                     name: name.clone(),
-                    most: MOST_SHINING_COPIES,
+                    most: MAX_EMISSIVE_COPIES,
                 })?;
-            let dark_places = if placed.is_sparse(scene) {
-                places.clone()
+            let shared_transforms = if instanced.has_fractional_opacity(scene) {
+                transforms.clone()
             } else {
-                distinct(&places)
+                distinct(&transforms)
             };
-            let is_small = dark_places.len() < 2 || placed.count() <= FEW;
-            if is_small && placed.stays_round(&dark_places) {
-                let small = core::mem::take(&mut placed);
-                if dark_places.len() == places.len() {
+            let is_small = shared_transforms.len() < 2 || instanced.count() <= FEW;
+            if is_small && instanced.spheres_stay_spheres(&shared_transforms) {
+                let small = core::mem::take(&mut instanced);
+                if shared_transforms.len() == transforms.len() {
                     copied.meshes.extend(small.meshes);
                     copied.spheres.extend(small.spheres);
                 } else {
-                    for place in &dark_places {
-                        small.copy_to(scene, place);
+                    for transform in &shared_transforms {
+                        small.copy_to(scene, transform);
                     }
                 }
             }
-            for place in &places {
-                copied.copy_to(scene, place);
+            for transform in &transforms {
+                copied.copy_to(scene, transform);
             }
-            if placed.count() > 0 {
-                let places: Option<_> = dark_places.into_iter().map(Place::new).collect();
-                let places = places.ok_or(WorldError::Place { name })?;
-                objects.placed.push(PlacedObject {
-                    meshes: placed.meshes,
-                    spheres: placed.spheres,
-                    places,
+            if instanced.count() > 0 {
+                let transforms: Option<_> = shared_transforms
+                    .into_iter()
+                    .map(InstanceTransform::new)
+                    .collect();
+                let transforms = transforms.ok_or(WorldError::Instance { name })?;
+                objects.instanced.push(InstancedObject {
+                    meshes: instanced.meshes,
+                    spheres: instanced.spheres,
+                    transforms,
                 });
             }
         }
@@ -89,67 +100,72 @@ impl Objects {
     }
 }
 
-/// The places, each once: what stands twice in exactly the same place looks as if it stood there
-/// once.
-fn distinct(places: &[Affine3A]) -> Vec<Affine3A> {
+/// The transforms without duplicates: opaque instances that coincide look like one.
+fn distinct(transforms: &[Affine3A]) -> Vec<Affine3A> {
     let mut known = HashSet::new();
-    let is_new = |place: &&Affine3A| known.insert(place.to_cols_array().map(f32::to_bits));
-    places.iter().filter(is_new).copied().collect()
+    let is_new = |transform: &&Affine3A| known.insert(transform.to_cols_array().map(f32::to_bits));
+    transforms.iter().filter(is_new).copied().collect()
 }
 
 impl Part {
-    /// Whether some of it is there for a share of the rays only, so that two of it hide more than
-    /// one.
-    fn is_sparse(&self, scene: &Scene) -> bool {
+    /// Whether a material has fractional opacity: coincident copies of such a part hide more than
+    /// one copy.
+    fn has_fractional_opacity(&self, scene: &Scene) -> bool {
         let meshes = self.meshes.iter().map(|mesh| mesh.material);
         let spheres = self.spheres.iter().map(|sphere| sphere.material);
         let mut alphas = meshes.chain(spheres).map(|id| scene.material(id).alpha);
         alphas.any(|alpha| alpha.is_some_and(|alpha| alpha.cutoff.is_none()))
     }
 
-    fn shining_and_dark(prototype: Prototype, scene: &Scene) -> (Self, Self) {
+    fn split_emissive(prototype: Prototype, scene: &Scene) -> (Self, Self) {
         let Prototype {
             meshes, spheres, ..
         } = prototype;
         let meshes = meshes
             .into_iter()
-            .partition(|mesh| scene.shines(mesh.material));
+            .partition(|mesh| scene.is_emissive(mesh.material));
         let spheres = spheres
             .into_iter()
-            .partition(|sphere| scene.shines(sphere.material));
+            .partition(|sphere| scene.is_emissive(sphere.material));
         let part = |meshes, spheres| Self { meshes, spheres };
         (part(meshes.0, spheres.0), part(meshes.1, spheres.1))
     }
 
-    /// How many triangles and spheres there are.
+    /// The number of triangles and spheres.
     fn count(&self) -> usize {
         let triangles = self.meshes.iter().map(|mesh| mesh.indices.len());
         triangles.sum::<usize>() + self.spheres.len()
     }
 
-    /// How many there are in a place that may stretch spheres.
-    fn count_at(&self, place: &Affine3A) -> usize {
+    /// The number of triangles and spheres of a copy; a stretched sphere counts as its mesh.
+    fn count_under(&self, transform: &Affine3A) -> usize {
         let stretched = self
             .spheres
             .iter()
-            .filter(|s| s.transformed(place).is_none());
+            .filter(|s| s.transformed(transform).is_none());
         self.count() + stretched.count() * usize::from(COLUMNS).pow(2)
     }
 
-    /// Whether all spheres are spheres in all places.
-    fn stays_round(&self, places: &[Affine3A]) -> bool {
+    /// Whether all spheres stay spheres under all transforms.
+    fn spheres_stay_spheres(&self, transforms: &[Affine3A]) -> bool {
         let mut spheres = self.spheres.iter();
-        spheres.all(|s| places.iter().all(|place| s.transformed(place).is_some()))
+        spheres.all(|s| {
+            transforms
+                .iter()
+                .all(|transform| s.transformed(transform).is_some())
+        })
     }
 
-    /// Adds a copy of it to what stands in `scene` where it is stored.
-    fn copy_to(&self, scene: &mut Scene, place: &Affine3A) {
-        let meshes = self.meshes.iter().map(|mesh| mesh.transformed(place));
+    /// Adds a copy to the world space geometry of `scene`.
+    fn copy_to(&self, scene: &mut Scene, transform: &Affine3A) {
+        let meshes = self.meshes.iter().map(|mesh| mesh.transformed(transform));
         scene.meshes.extend(meshes);
         for sphere in &self.spheres {
-            match sphere.transformed(place) {
+            match sphere.transformed(transform) {
                 Some(moved) => scene.spheres.push(moved),
-                None => scene.meshes.push(sphere.mesh(COLUMNS).transformed(place)),
+                None => scene
+                    .meshes
+                    .push(sphere.mesh(COLUMNS).transformed(transform)),
             }
         }
     }

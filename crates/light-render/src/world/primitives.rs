@@ -6,7 +6,7 @@ use lights::sources::SurfacePoint;
 use super::{MeshTriangle, World};
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
-use crate::{PrimitiveId, Surface};
+use crate::{InstanceTransform, PrimitiveId, Surface};
 
 /// What is stored under the number of a primitive.
 #[derive(Clone, Copy, Debug)]
@@ -18,16 +18,16 @@ enum Stored<'a> {
 }
 
 impl World {
-    /// The point of a primitive at the given place, as [`Hit::place`](crate::Hit::place) has it.
+    /// The point of a primitive at the coordinates of [`Hit::coords`](crate::Hit::coords).
     ///
     /// # Panics
     /// Panics if there is no such primitive.
     #[inline]
     #[must_use]
-    pub fn surface(&self, primitive: PrimitiveId, place: Vec2) -> Surface {
+    pub fn surface(&self, primitive: PrimitiveId, coords: Vec2) -> Surface {
         match self.stored(primitive) {
-            Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, place),
-            Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, place),
+            Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, coords),
+            Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, coords),
         }
     }
 
@@ -38,16 +38,16 @@ impl World {
         index: u32,
         barycentric: Vec2,
     ) -> Surface {
-        let (indices, weights) = self.spot(triangle, mesh.vertices(index), barycentric);
+        let (indices, weights) = self.oriented(triangle, mesh.vertices(index), barycentric);
         let (mut corners, mut normals) = (mesh.corners(indices), mesh.normals(indices));
-        let place = triangle.placement().map(|p| self.accel.place(p));
-        if let Some(place) = place {
-            // As a copy would look: corners and normals are moved before they are mixed.
-            corners = corners.map(|corner| place.point(corner));
-            normals = normals.map(|all| all.map(|n| place.normal(n).normalize_or_zero()));
+        let transform = self.transform(triangle);
+        if let Some(transform) = transform {
+            // Transformed before they are interpolated, as those of a copied mesh are.
+            corners = corners.map(|corner| transform.point(corner));
+            normals = normals.map(|all| all.map(|n| transform.normal(n).normalize_or_zero()));
         }
         let surface = Surface::on_triangle(triangle, corners, weights);
-        let error = place.map_or(Vec3::ZERO, |place| place.error(surface.p));
+        let error = transform.map_or(Vec3::ZERO, |transform| transform.error(surface.p));
         Surface {
             uv: mesh.uv(indices, weights),
             p_error: surface.p_error + error,
@@ -55,14 +55,14 @@ impl World {
         }
     }
 
-    // Kept out of the code that scenes without spheres run.
+    // Not inlined: most scenes have no spheres.
     #[inline(never)]
-    fn on_sphere(&self, id: PrimitiveId, sphere: &WorldSphere, place: Vec2) -> Surface {
-        let at = sphere.at(place);
+    fn on_sphere(&self, id: PrimitiveId, sphere: &WorldSphere, coords: Vec2) -> Surface {
+        let at = sphere.at(coords);
         let n = sphere.front_normal(at.n);
         let surface = Surface::on_sphere(id, &sphere.shape, &SurfacePoint { n, ..at });
-        match id.placement().map(|p| self.accel.place(p)) {
-            Some(place) => place.surface(&surface),
+        match self.transform(id) {
+            Some(transform) => transform.surface(&surface),
             None => surface,
         }
     }
@@ -77,14 +77,14 @@ impl World {
         (id, &self.materials[id])
     }
 
-    /// The texture coordinates at a place of a primitive.
-    pub(super) fn uv(&self, primitive: PrimitiveId, place: Vec2) -> Vec2 {
+    /// The texture coordinates of a point on a primitive.
+    pub(super) fn uv(&self, primitive: PrimitiveId, coords: Vec2) -> Vec2 {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => {
-                let (indices, weights) = self.spot(primitive, mesh.vertices(index), place);
+                let (indices, weights) = self.oriented(primitive, mesh.vertices(index), coords);
                 mesh.uv(indices, weights)
             }
-            Stored::Sphere(sphere) => sphere.at(place).uv,
+            Stored::Sphere(sphere) => sphere.at(coords).uv,
         }
     }
 
@@ -103,7 +103,7 @@ impl World {
                 let LightId(first) = mesh.first_light?;
                 (LightId(first + index), surface.n)
             }
-            // The normals of both lie on the same side or on opposite ones.
+            // The light of a sphere has its front outside, whatever the front of the surface is.
             Stored::Sphere(sphere) => (sphere.light?, sphere.front_normal(surface.n)),
         };
         let at = SurfacePoint {
@@ -112,7 +112,14 @@ impl World {
             uv: surface.uv,
         };
         let l = self.lights.get(id)?.l(&at, wo, &());
-        (l != Vec3::ZERO).then(|| (id, self.where_met(id, surface.uv, l)))
+        (l != Vec3::ZERO).then(|| (id, self.radiance_at_hit(id, surface.uv, l)))
+    }
+
+    /// The transform of the instance that the primitive belongs to; `None` in world space.
+    #[inline]
+    fn transform(&self, primitive: PrimitiveId) -> Option<&InstanceTransform> {
+        let instance = primitive.instance()?;
+        Some(self.accel.instance_transform(instance))
     }
 
     #[inline]
@@ -127,17 +134,17 @@ impl World {
         }
     }
 
-    /// The corners of a triangle in the order in which they run counter-clockwise on its front, and
-    /// the weights of the second and the third: where a placement mirrors, these change places.
+    /// The corners of a triangle, counter-clockwise on its front, and the weights of the second and
+    /// the third. A mirroring transform swaps these two.
     #[inline]
-    fn spot(
+    fn oriented(
         &self,
         triangle: PrimitiveId,
         [a, b, c]: [u32; 3],
         barycentric: Vec2,
     ) -> ([u32; 3], Vec2) {
-        match triangle.placement() {
-            Some(placement) if self.accel.place(placement).mirrors() => {
+        match self.transform(triangle) {
+            Some(transform) if transform.mirrors() => {
                 ([a, c, b], Vec2::new(barycentric.y, barycentric.x))
             }
             _ => ([a, b, c], barycentric),

@@ -8,27 +8,27 @@ impl World {
     #[inline]
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Surface> {
-        let hit = if self.has_holes {
-            let is_there = |primitive, place| self.is_there(ray, primitive, place);
-            self.accel.closest_where(ray, from, is_there)?
+        let hit = if self.has_alpha_masks {
+            let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
+            self.accel.closest_where(ray, from, any_hit)?
         } else {
             self.accel.closest(ray, from)?
         };
-        Some(self.surface(hit.primitive, hit.place))
+        Some(self.surface(hit.primitive, hit.coords))
     }
 
     /// Whether anything but the primitive `from` lies within `distance` along `ray`.
     #[inline]
     pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<PrimitiveId>) -> bool {
-        if self.has_holes {
-            let is_there = |primitive, place| self.is_there(ray, primitive, place);
-            self.accel.occluded_where(ray, distance, from, is_there)
+        if self.has_alpha_masks {
+            let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
+            self.accel.occluded_where(ray, distance, from, any_hit)
         } else {
             self.accel.occluded(ray, distance, from)
         }
     }
 
-    /// Whether nothing lies between two points; a surface that the second lies on does not count.
+    /// Whether nothing lies between two points; a surface through the second is ignored.
     #[inline]
     pub(crate) fn sees(&self, from: Vec3, to: Vec3) -> bool {
         let way = to - from;
@@ -40,12 +40,12 @@ impl World {
         !(distance > 0.0 && self.blocked(&ray, distance * (1.0 - 1e-4), None))
     }
 
-    /// Whether anything lies between `surface` and the point `p_light` that is seen from it in
-    /// direction `wi`.
+    /// Whether anything lies between `surface` and the point `p_light`, which lies in the direction
+    /// `wi`.
     #[inline]
     #[must_use]
     pub fn occluded(&self, surface: &Surface, wi: Vec3, p_light: Vec3) -> bool {
-        /// How much of the way is looked at: the light itself must not be in the way.
+        /// The tested part of the way: it ends before the light itself.
         const PART: f32 = 1.0 - 1e-4;
         let origin = surface.spawn(wi).origin;
         let way = p_light - origin;

@@ -2,7 +2,7 @@
 
 use light_render::{Ray, Surface};
 use light_scene::glam::{Affine3A, Quat, Vec2, Vec3};
-use light_scene::{Material, Mesh, Placement, Prototype, Scene};
+use light_scene::{Instance, Material, Mesh, Prototype, Scene};
 
 use super::{flattened, green, grove, world};
 use crate::support::room;
@@ -21,14 +21,14 @@ fn rays() -> impl Iterator<Item = Ray> {
 #[test]
 fn rays_meet_what_they_meet_of_copies() {
     let scene = grove(green());
-    let (placed, flat) = (world(&scene), world(&flattened(&scene)));
+    let (instanced, flat) = (world(&scene), world(&flattened(&scene)));
     let mut met = 0;
     for ray in rays() {
-        let hits = [&placed, &flat].map(|world| world.closest(&ray, None));
+        let hits = [&instanced, &flat].map(|world| world.closest(&ray, None));
         let [Some(a), Some(b)] = hits else {
             panic!("the room is closed: {hits:?}");
         };
-        if a.primitive.placement().is_none() {
+        if a.primitive.instance().is_none() {
             // Where two walls meet, either may be hit first.
             assert!(a.p.distance(b.p) < 1e-5, "{} and {}", a.p, b.p);
             continue;
@@ -39,7 +39,7 @@ fn rays_meet_what_they_meet_of_copies() {
         assert!(a.ns.distance(b.ns) < 1e-3, "{} and {}", a.ns, b.ns);
         assert!(a.uv.distance(b.uv) < 1e-3, "{} and {}", a.uv, b.uv);
         let light = |surface: &Surface| surface.p + a.n * 0.3;
-        let hidden = [(&placed, &a), (&flat, &b)]
+        let hidden = [(&instanced, &a), (&flat, &b)]
             .map(|(world, surface)| world.occluded(surface, a.n, light(surface)));
         assert_eq!(hidden[0], hidden[1], "the same shadow at {}", a.p);
     }
@@ -64,13 +64,16 @@ fn no_ray_meets_the_plane_that_it_starts_on() {
         (Vec3::splat(1e5), Vec3::splat(1e3)),
         (Vec3::splat(1e-3), Vec3::splat(10.0)),
     ] {
-        let place = Affine3A::from_scale_rotation_translation(scale, turn, at)
+        let transform = Affine3A::from_scale_rotation_translation(scale, turn, at)
             * Affine3A::from_quat(turn.inverse());
-        scene.placements.push(Placement { prototype, place });
+        scene.instances.push(Instance {
+            prototype,
+            transform,
+        });
     }
     let world = world(&scene);
-    let places = world.placement_count();
-    assert_eq!(places, 5, "none is copied");
+    let transforms = world.instance_count();
+    assert_eq!(transforms, 5, "none is copied");
     for n in 0..world.triangle_count() {
         let triangle = world.primitive(n).expect("there");
         let surface = world.surface(triangle, Vec2::new(0.3, 0.4));
@@ -81,7 +84,7 @@ fn no_ray_meets_the_plane_that_it_starts_on() {
             for side in [surface.n, -surface.n] {
                 let wi = (along + side * 0.01 * f32::from(k)).normalize();
                 let met = world.closest(&surface.spawn(wi), Some(surface.primitive));
-                let met = met.filter(|met| met.primitive.placement() == triangle.placement());
+                let met = met.filter(|met| met.primitive.instance() == triangle.instance());
                 assert_eq!(met, None, "from {triangle:?} along {wi}");
             }
         }

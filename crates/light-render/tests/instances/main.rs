@@ -1,4 +1,4 @@
-//! Objects that stand in several places look as copies of them do, and are stored once.
+//! Objects that stand in several transforms look as copies of them do, and are stored once.
 
 mod hits;
 mod pictures;
@@ -8,7 +8,7 @@ mod support;
 
 use light_render::World;
 use light_scene::glam::{Affine3A, Vec2, Vec3};
-use light_scene::{Material, MaterialId, Mesh, Placement, Prototype, Scene};
+use light_scene::{Instance, Material, MaterialId, Mesh, Prototype, Scene};
 
 use support::{cornell, room};
 
@@ -52,8 +52,8 @@ fn block(material: MaterialId) -> Mesh {
     mesh
 }
 
-/// Turned, mirrored, squeezed and skewed places in the box `[0, 1]^3`.
-fn places() -> Vec<Affine3A> {
+/// Turned, mirrored, squeezed and skewed transforms in the box `[0, 1]^3`.
+fn transforms() -> Vec<Affine3A> {
     let turn = |angle| Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 2.0) / 3.0, angle);
     [
         (Vec3::new(0.3, 0.7, 0.4), turn(0.0), Vec3::splat(0.1)),
@@ -79,17 +79,18 @@ fn places() -> Vec<Affine3A> {
     .to_vec()
 }
 
-/// The room with a tree of matt wood, in [`places`], its crown of `crown`.
+/// The room with a tree of matt wood, in [`transforms`], its crown of `crown`.
 fn grove(crown: Material) -> Scene {
     let mut scene = cornell();
     let wood = scene.add_material(Material::diffuse("wood", Vec3::new(0.5, 0.4, 0.2)));
     let crown = scene.add_material(crown);
     let tree = Prototype::new("tree", vec![block(wood), ball(crown, 16)]);
     let prototype = scene.add_prototype(tree);
-    let placed = places()
-        .into_iter()
-        .map(|place| Placement { prototype, place });
-    scene.placements.extend(placed);
+    let instanced = transforms().into_iter().map(|transform| Instance {
+        prototype,
+        transform,
+    });
+    scene.instances.extend(instanced);
     scene
 }
 
@@ -97,20 +98,24 @@ fn green() -> Material {
     Material::diffuse("leaves", Vec3::new(0.2, 0.6, 0.1))
 }
 
-/// The same scene with copies instead of placements.
+/// The same scene with copies instead of instances.
 fn flattened(scene: &Scene) -> Scene {
     let mut flat = scene.clone();
     flat.prototypes.clear();
-    for Placement { prototype, place } in core::mem::take(&mut flat.placements) {
+    for Instance {
+        prototype,
+        transform,
+    } in core::mem::take(&mut flat.instances)
+    {
         let Prototype {
             meshes, spheres, ..
         } = scene.prototype(prototype);
         flat.meshes
-            .extend(meshes.iter().map(|mesh| mesh.transformed(&place)));
+            .extend(meshes.iter().map(|mesh| mesh.transformed(&transform)));
         for sphere in spheres {
-            match sphere.transformed(&place) {
+            match sphere.transformed(&transform) {
                 Some(sphere) => flat.spheres.push(sphere),
-                None => flat.meshes.push(sphere.mesh(512).transformed(&place)),
+                None => flat.meshes.push(sphere.mesh(512).transformed(&transform)),
             }
         }
     }

@@ -14,7 +14,7 @@ use serde_json::json;
 use super::{flattened, green, grove, world};
 use crate::support::{Shot, agree};
 
-/// The placements of `scene` look like copies: with the same random numbers no more than one pixel
+/// The instances of `scene` look like copies: with the same random numbers no more than one pixel
 /// in a hundred differs, where rounding sent a path another way, and the means agree within their
 /// noise.
 fn assert_looks_flattened(scene: &Scene, what: &str) {
@@ -73,7 +73,7 @@ fn objects_of_pbrt_files_look_flattened() {
     let scene = scene.expect("a scene");
     let world = world(&scene);
     assert_eq!(
-        (world.prototype_count(), world.placement_count()),
+        (world.prototype_count(), world.instance_count()),
         (1, 3),
         "stools"
     );
@@ -94,12 +94,12 @@ fn nodes_of_gltf_files_look_flattened() {
         document[list].as_array_mut().expect("a list").push(more);
     };
     lists(&mut document, "meshes", json!({"primitives": primitives}));
-    let places = [
+    let transforms = [
         json!({"mesh": 4, "translation": [0.4, 0.5, 0.0], "scale": [0.2, 0.3, 0.2]}),
         json!({"mesh": 4, "translation": [-0.6, 1.0, 0.5], "scale": [-0.2, 0.1, 0.3], "rotation": [0.0, 0.6, 0.0, 0.8]}),
         json!({"mesh": 4, "translation": [0.7, 1.4, 0.5], "scale": [0.2, 0.2, 0.2], "rotation": [0.36, 0.48, 0.0, 0.8]}),
     ];
-    for (number, node) in (5..).zip(places) {
+    for (number, node) in (5..).zip(transforms) {
         lists(&mut document, "nodes", node);
         lists(&mut document["scenes"][0], "nodes", json!(number));
     }
@@ -107,9 +107,9 @@ fn nodes_of_gltf_files_look_flattened() {
     let scene = parse_scene(&path, text.as_bytes(), Files::DISK).expect("a scene");
     let world = world(&scene);
     assert_eq!(
-        (world.prototype_count(), world.placement_count()),
+        (world.prototype_count(), world.instance_count()),
         (1, 3),
-        "placed"
+        "instanced"
     );
     assert_eq!(
         world.stored_triangle_count(),
@@ -131,7 +131,7 @@ fn textures_and_holes_are_placed_with_their_meshes() {
     assert_looks_flattened(&scene, "textured");
     let leaves = scene.materials.iter_mut().find(|m| m.name == "leaves");
     leaves.expect("the crown's").alpha = Some(Alpha {
-        share: color,
+        opacity: color,
         cutoff: Some(0.5),
     });
     assert_looks_flattened(&scene, "with holes");

@@ -2,7 +2,7 @@
 
 use light_render::{World, WorldError};
 use light_scene::glam::{Affine3A, Vec3};
-use light_scene::{Alpha, Color, Emission, Material, Placement};
+use light_scene::{Alpha, Color, Emission, Instance, Material};
 
 use super::{flattened, green, grove, world};
 use crate::support::{Shot, agree};
@@ -10,15 +10,13 @@ use crate::support::{Shot, agree};
 #[test]
 fn what_shines_is_copied_and_the_rest_is_stored_once() {
     let tree = grove(green());
-    let own = tree
-        .prototype(tree.placements[0].prototype)
-        .triangle_count();
+    let own = tree.prototype(tree.instances[0].prototype).triangle_count();
     let room: usize = tree.meshes.iter().map(|mesh| mesh.indices.len()).sum();
     let dark = world(&tree);
     assert_eq!(dark.stored_triangle_count(), room + own, "stored once");
     assert_eq!(dark.triangle_count(), room + 4 * own, "seen four times");
     assert_eq!(
-        (dark.prototype_count(), dark.placement_count()),
+        (dark.prototype_count(), dark.instance_count()),
         (1, 4),
         "counted"
     );
@@ -27,11 +25,15 @@ fn what_shines_is_copied_and_the_rest_is_stored_once() {
         emission: Some(Emission::one_sided(Vec3::ONE)),
         ..green()
     });
-    let (placed, flat) = (world(&shining), world(&flattened(&shining)));
-    assert_eq!(placed.lights().len(), flat.lights().len(), "all its lights");
+    let (instanced, flat) = (world(&shining), world(&flattened(&shining)));
+    assert_eq!(
+        instanced.lights().len(),
+        flat.lights().len(),
+        "all its lights"
+    );
     let crown = own - 12;
     assert_eq!(
-        placed.stored_triangle_count(),
+        instanced.stored_triangle_count(),
         room + 12 + 4 * crown,
         "copies"
     );
@@ -43,38 +45,41 @@ fn what_shines_is_copied_and_the_rest_is_stored_once() {
 fn a_forest_takes_the_memory_of_a_tree() {
     let mut scene = grove(green());
     let stored = world(&scene).stored_triangle_count();
-    let prototype = scene.placements[0].prototype;
-    scene.placements.extend((0..10_000u16).map(|i| {
+    let prototype = scene.instances[0].prototype;
+    scene.instances.extend((0..10_000u16).map(|i| {
         let at = Vec3::new(f32::from(i % 100), 0.0, f32::from(i / 100));
-        let place = Affine3A::from_translation(at) * Affine3A::from_scale(Vec3::splat(0.3));
-        Placement { prototype, place }
+        let transform = Affine3A::from_translation(at) * Affine3A::from_scale(Vec3::splat(0.3));
+        Instance {
+            prototype,
+            transform,
+        }
     }));
     let forest = world(&scene);
     assert_eq!(forest.stored_triangle_count(), stored, "none more");
-    assert_eq!(forest.placement_count(), 10_004, "all are there");
+    assert_eq!(forest.instance_count(), 10_004, "all are there");
     let count = forest.triangle_count();
     assert!(count > 2_000_000, "{count} triangles to be seen");
     let last = forest.primitive(count - 1).expect("there");
-    assert!(last.placement().is_some(), "the last one is placed");
+    assert!(last.instance().is_some(), "the last one is instanced");
     assert_eq!(forest.primitive(count), None, "no more");
 }
 
-/// Copies in exactly the same place are stored once, so that a ray does not visit all of them,
-/// unless each hides a share of what is behind: a long row of them and one place elsewhere.
+/// Copies in exactly the same transform are stored once, so that a ray does not visit all of them,
+/// unless each hides a share of what is behind: a long row of them and one transform elsewhere.
 #[test]
 fn copies_in_the_same_place_are_one() {
     let count = |crown: Material, copies: usize| {
         let mut scene = grove(crown);
-        let first = scene.placements[0];
-        let others = scene.placements.len();
-        scene.placements.extend(vec![first; copies]);
+        let first = scene.instances[0];
+        let others = scene.instances.len();
+        scene.instances.extend(vec![first; copies]);
         let world = World::new(scene).expect("a world");
-        (world.placement_count(), others)
+        (world.instance_count(), others)
     };
     let (found, others) = count(green(), 20_000);
     assert_eq!(found, others, "those that were there");
     let half = Some(Alpha {
-        share: Color::Constant(Vec3::splat(0.5)),
+        opacity: Color::Constant(Vec3::splat(0.5)),
         cutoff: None,
     });
     let lace = || Material {
@@ -88,17 +93,17 @@ fn copies_in_the_same_place_are_one() {
 #[test]
 fn impossible_objects_are_refused() {
     let mut scene = grove(green());
-    scene.placements[1].place = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
+    scene.instances[1].transform = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
     let error = World::new(scene).err().map(|error| error.to_string());
-    let flat = "object tree: expected places that do not make it flat";
+    let flat = "object tree: expected transforms that do not make it flat";
     assert_eq!(error.as_deref(), Some(flat), "flat");
 
     let mut scene = grove(Material {
         emission: Some(Emission::one_sided(Vec3::ONE)),
         ..green()
     });
-    let placement = scene.placements[0];
-    scene.placements.resize(200_000, placement);
+    let instance = scene.instances[0];
+    scene.instances.resize(200_000, instance);
     let error = World::new(scene).err();
     assert_eq!(
         error,

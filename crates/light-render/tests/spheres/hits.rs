@@ -4,7 +4,7 @@ use light_render::{PrimitiveId, Ray};
 use light_scene::glam::{Vec2, Vec3};
 use light_scene::{Material, Scene, SphereFront};
 
-use super::{add, place, tessellated, world};
+use super::{add, similarity, tessellated, world};
 
 #[test]
 fn rays_meet_what_they_meet_of_triangles() {
@@ -12,12 +12,12 @@ fn rays_meet_what_they_meet_of_triangles() {
     add(
         &mut scene,
         Material::diffuse("a", Vec3::ONE),
-        place(Vec3::new(0.4, 0.5, 0.6), 0.3),
+        similarity(Vec3::new(0.4, 0.5, 0.6), 0.3),
     );
     add(
         &mut scene,
         Material::diffuse("b", Vec3::ONE),
-        place(Vec3::new(0.8, 0.2, 0.3), 0.2),
+        similarity(Vec3::new(0.8, 0.2, 0.3), 0.2),
     );
     scene.spheres[1].front = SphereFront::Inside;
     let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 512))];
@@ -63,7 +63,7 @@ fn rays_that_start_on_a_sphere_meet_its_other_side_alone() {
         add(
             &mut scene,
             Material::diffuse("ball", Vec3::ONE),
-            place(center, radius),
+            similarity(center, radius),
         );
         let world = world(scene);
         for k in 0..64u8 {

@@ -16,14 +16,14 @@ use light_scene::{Emission, Files, Material, Scene, Sphere, Surface as Finish, p
 
 const ALL: [Estimator; 3] = [Estimator::Light, Estimator::Bsdf, Estimator::Mis];
 
-fn place(center: Vec3, radius: f32) -> Affine3A {
+fn similarity(center: Vec3, radius: f32) -> Affine3A {
     let turn = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, -2.0) / 3.0, 0.9);
     Affine3A::from_translation(center) * turn * Affine3A::from_scale(Vec3::splat(radius))
 }
 
-fn add(scene: &mut Scene, material: Material, place: Affine3A) {
+fn add(scene: &mut Scene, material: Material, transform: Affine3A) {
     let material = scene.add_material(material);
-    scene.spheres.push(Sphere::new("ball", material, place));
+    scene.spheres.push(Sphere::new("ball", material, transform));
 }
 
 fn lamp(emission: Emission) -> Material {

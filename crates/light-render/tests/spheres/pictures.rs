@@ -2,20 +2,24 @@
 
 use light_scene::glam::{Affine3A, Vec2, Vec3};
 use light_scene::{
-    Alpha, Color, Emission, Image, Material, Placement, Prototype, Scene, Sphere, SphereFront,
+    Alpha, Color, Emission, Image, Instance, Material, Prototype, Scene, Sphere, SphereFront,
     Surface as Finish,
 };
 use lights::media::phase::Isotropic;
 use lights::media::{Homogeneous, Phase, Region, Substance};
 use lights::sources::MediumInterface;
 
-use super::{add, glass, lamp, place, tessellated, world};
+use super::{add, glass, lamp, similarity, tessellated, world};
 use crate::support::{Shot, agree, assert_estimators_agree, cornell};
 
 /// A room with a ball of `material` in it, an ordinary lamp above.
 fn ball_in_room(material: Material) -> Scene {
     let mut scene = cornell();
-    add(&mut scene, material, place(Vec3::new(0.65, 0.3, 0.4), 0.2));
+    add(
+        &mut scene,
+        material,
+        similarity(Vec3::new(0.65, 0.3, 0.4), 0.2),
+    );
     scene
 }
 
@@ -44,7 +48,7 @@ fn pictures_are_those_of_fine_triangles() {
         lamp(Emission::two_sided(Vec3::ONE)),
         Material {
             alpha: Some(Alpha {
-                share: Color::Constant(Vec3::splat(0.4)),
+                opacity: Color::Constant(Vec3::splat(0.4)),
                 cutoff: None,
             }),
             ..Material::diffuse("holes", grey)
@@ -70,7 +74,7 @@ fn textures_lie_on_spheres_as_on_triangles() {
     assert_looks_tessellated(&scene, "textured");
     let ball = scene.materials.last_mut().expect("the ball's");
     ball.alpha = Some(Alpha {
-        share: color,
+        opacity: color,
         cutoff: Some(0.5),
     });
     assert_looks_tessellated(&scene, "with holes");
@@ -84,7 +88,7 @@ fn estimators_agree_on_lamps_inside_and_outside() {
             scene.spheres[0].front = front;
             assert_estimators_agree(&scene);
             // From inside of it.
-            scene.spheres[0].place = place(Vec3::new(0.5, 0.5, 0.9), 0.3);
+            scene.spheres[0].transform = similarity(Vec3::new(0.5, 0.5, 0.9), 0.3);
             assert_estimators_agree(&scene);
         }
     }
@@ -109,9 +113,9 @@ fn media_are_bounded_by_spheres() {
 
 #[test]
 fn prototypes_hold_spheres_which_places_may_stretch() {
-    let stretched =
-        place(Vec3::new(0.6, 0.6, 0.5), 1.0) * Affine3A::from_scale(Vec3::new(0.2, 0.1, -0.15));
-    let places = [stretched, place(Vec3::new(0.25, 0.6, 0.4), 0.12)];
+    let stretched = similarity(Vec3::new(0.6, 0.6, 0.5), 1.0)
+        * Affine3A::from_scale(Vec3::new(0.2, 0.1, -0.15));
+    let transforms = [stretched, similarity(Vec3::new(0.25, 0.6, 0.4), 0.12)];
     for (shines, material) in [
         (false, Material::new("glass", glass())),
         (true, lamp(Emission::one_sided(Vec3::ONE))),
@@ -121,17 +125,21 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
         let ball = Sphere::new("ball", id, Affine3A::IDENTITY);
         let mut flat = scene.clone();
         let fine = ball.mesh(128);
-        flat.meshes
-            .extend(places.iter().map(|place| fine.transformed(place)));
+        flat.meshes.extend(
+            transforms
+                .iter()
+                .map(|transform| fine.transformed(transform)),
+        );
         let mut prototype = Prototype::new("ball", Vec::new());
         prototype.spheres.push(ball);
         let prototype = scene.add_prototype(prototype);
-        scene
-            .placements
-            .extend(places.map(|place| Placement { prototype, place }));
+        scene.instances.extend(transforms.map(|transform| Instance {
+            prototype,
+            transform,
+        }));
 
         let world = world(scene.clone());
-        let count = (world.placement_count(), world.stored_sphere_count());
+        let count = (world.instance_count(), world.stored_sphere_count());
         assert_eq!(
             count,
             if shines { (0, 1) } else { (2, 1) },

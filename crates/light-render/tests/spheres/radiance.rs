@@ -5,7 +5,7 @@ use light_scene::glam::{DVec3, Vec3};
 use light_scene::{Camera, Emission, Material, Scene, SphereFront};
 use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
 
-use super::{ALL, add, glass, lamp, place};
+use super::{ALL, add, glass, lamp, similarity};
 use crate::support::{Shot, agree, plane};
 
 /// Direct light on a plane at the origin, below or beside a sphere of radiance 1.
@@ -23,7 +23,7 @@ fn a_sphere_gives_the_irradiance_of_its_solid_angle() {
         add(
             &mut scene,
             lamp(Emission::one_sided(Vec3::ONE)),
-            place(center, radius),
+            similarity(center, radius),
         );
         let (distance, radius) = (f64::from(center.length()), f64::from(radius));
         let sine = radius / distance;
@@ -57,7 +57,11 @@ fn a_furnace_inside_of_a_sphere_is_the_geometric_series() {
         emission: Some(Emission::one_sided(Vec3::new(1.0, 2.0, 3.0))),
         ..Material::diffuse("wall", Vec3::splat(ALBEDO))
     };
-    add(&mut scene, wall, place(Vec3::new(10.0, 0.0, -3.0), 2.0));
+    add(
+        &mut scene,
+        wall,
+        similarity(Vec3::new(10.0, 0.0, -3.0), 2.0),
+    );
     scene.spheres[0].front = SphereFront::Inside;
     let eye = Vec3::new(10.5, 0.3, -2.0);
     scene.camera = Camera::look_at(eye, eye + Vec3::X, Vec3::Y, 1.5).ok();
@@ -85,7 +89,7 @@ fn glass_balls_under_an_even_sky_are_not_seen() {
     add(
         &mut scene,
         Material::new("glass", glass()),
-        place(Vec3::ZERO, 1.0),
+        similarity(Vec3::ZERO, 1.0),
     );
     let sky = UniformInfiniteLightDesc {
         emission: Vec3::ONE,

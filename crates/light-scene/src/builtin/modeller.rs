@@ -45,16 +45,17 @@ impl Modeller {
         self.mesh(material, Shading::Flat).push_triangle(corners);
     }
 
-    /// An upright rectangle at depth `z` of `place`, from corner `min` to corner `max`, facing +z.
+    /// An upright rectangle at depth `z` of `transform`, from corner `min` to corner `max`, facing
+    /// +z.
     pub(super) fn panel(
         &mut self,
         material: MaterialId,
-        place: &Affine3A,
+        transform: &Affine3A,
         min: Vec2,
         max: Vec2,
         z: f32,
     ) {
-        let corner = |x, y| place.transform_point3(Vec3::new(x, y, z));
+        let corner = |x, y| transform.transform_point3(Vec3::new(x, y, z));
         let corners = [
             corner(min.x, min.y),
             corner(max.x, min.y),
@@ -64,8 +65,14 @@ impl Modeller {
         self.quad(material, corners);
     }
 
-    /// A box in the axes of `place`.
-    pub(super) fn block(&mut self, material: MaterialId, place: &Affine3A, min: Vec3, max: Vec3) {
+    /// A box in the axes of `transform`.
+    pub(super) fn block(
+        &mut self,
+        material: MaterialId,
+        transform: &Affine3A,
+        min: Vec3,
+        max: Vec3,
+    ) {
         let sides = [
             // Each face: its four corners as bits (x, y, z), 1 = max.
             [4, 6, 7, 5],
@@ -80,7 +87,7 @@ impl Modeller {
             let x = pick(4, min.x, max.x);
             let y = pick(2, min.y, max.y);
             let z = pick(1, min.z, max.z);
-            place.transform_point3(Vec3::new(x, y, z))
+            transform.transform_point3(Vec3::new(x, y, z))
         };
         for side in sides {
             self.quad(material, side.map(corner));
@@ -127,12 +134,12 @@ impl Modeller {
         }
     }
 
-    /// A smooth solid of revolution around the y axis of `place`: `profile` lists radius and height
-    /// from the top down.
+    /// A smooth solid of revolution around the y axis of `transform`: `profile` lists radius and
+    /// height from the top down.
     pub(super) fn turned(
         &mut self,
         material: MaterialId,
-        place: &Affine3A,
+        transform: &Affine3A,
         profile: &[Vec2],
         sides: u16,
     ) {
@@ -151,8 +158,8 @@ impl Modeller {
                 let way = after - before;
                 let normal = out * -way.y + Vec3::Y * way.x;
                 mesh.positions
-                    .push(place.transform_point3(out * at.x + Vec3::Y * at.y));
-                normals.push(place.transform_vector3(normal).normalize_or(Vec3::Y));
+                    .push(transform.transform_point3(out * at.x + Vec3::Y * at.y));
+                normals.push(transform.transform_vector3(normal).normalize_or(Vec3::Y));
             }
         }
         let rows = u32::try_from(profile.len()).expect("a short profile");
@@ -170,12 +177,12 @@ impl Modeller {
     pub(super) fn turned_with_edges(
         &mut self,
         material: MaterialId,
-        place: &Affine3A,
+        transform: &Affine3A,
         profile: &[Vec2],
         sides: u16,
     ) {
         for piece in profile.windows(2) {
-            self.turned(material, place, piece, sides);
+            self.turned(material, transform, piece, sides);
         }
     }
 
@@ -187,8 +194,8 @@ impl Modeller {
             Vec2::new(angle.sin(), angle.cos()) * radius
         };
         let profile: Vec<Vec2> = (0..=ROWS).map(point).collect();
-        let place = Affine3A::from_translation(center);
-        self.turned(material, &place, &profile, 2 * ROWS);
+        let transform = Affine3A::from_translation(center);
+        self.turned(material, &transform, &profile, 2 * ROWS);
     }
 
     fn mesh(&mut self, material: MaterialId, shading: Shading) -> &mut Mesh {
@@ -225,8 +232,9 @@ mod tests {
 
     #[test]
     fn solids_face_outward_and_have_their_volume() {
-        let place = Affine3A::from_translation(Vec3::new(3.0, 1.0, -2.0));
-        let block = model(|m, grey| m.block(grey, &place, Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)));
+        let transform = Affine3A::from_translation(Vec3::new(3.0, 1.0, -2.0));
+        let block =
+            model(|m, grey| m.block(grey, &transform, Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)));
         assert!((volume(&block) - 6.0).abs() < 1e-4, "1 x 2 x 3");
         let bulb = model(|m, grey| m.octahedron(grey, Vec3::ONE, 0.5));
         assert!((volume(&bulb) - 4.0 / 3.0 * 0.125).abs() < 1e-4, "4/3 r^3");

@@ -80,43 +80,43 @@ fn plinth(modeller: &mut Modeller, marble: MaterialId) {
 
 /// Plinth, base, a shaft that swells and tapers, and a capital.
 fn column(modeller: &mut Modeller, marble: MaterialId, foot: Vec3) {
-    let place = Affine3A::from_translation(foot);
-    base(modeller, marble, &place);
-    shaft(modeller, marble, &place, 3.3);
+    let transform = Affine3A::from_translation(foot);
+    base(modeller, marble, &transform);
+    shaft(modeller, marble, &transform, 3.3);
     let capital = [(0.27, 3.3), (0.31, 3.36), (0.27, 3.42)];
-    modeller.turned(marble, &place, &from_the_top(&capital), 32);
+    modeller.turned(marble, &transform, &from_the_top(&capital), 32);
     let bell = [(0.26, 3.42), (0.28, 3.5), (0.36, 3.58)];
-    modeller.turned(marble, &place, &from_the_top(&bell), 32);
+    modeller.turned(marble, &transform, &from_the_top(&bell), 32);
     let abacus = (Vec3::new(-0.4, 3.58, -0.4), Vec3::new(0.4, 3.7, 0.4));
     modeller.block(marble, &turned_to_centre(foot), abacus.0, abacus.1);
 }
 
 /// What is left of a column: base and the lower part of the shaft.
 fn stump(modeller: &mut Modeller, marble: MaterialId, foot: Vec3, height: f32) {
-    let place = Affine3A::from_translation(foot);
-    base(modeller, marble, &place);
-    shaft(modeller, marble, &place, height);
+    let transform = Affine3A::from_translation(foot);
+    base(modeller, marble, &transform);
+    shaft(modeller, marble, &transform, height);
     let radius = shaft_radius(height);
     let cap = [Vec2::new(0.0, height), Vec2::new(radius, height)];
-    modeller.turned_with_edges(marble, &place, &cap, 32);
+    modeller.turned_with_edges(marble, &transform, &cap, 32);
 }
 
-fn base(modeller: &mut Modeller, marble: MaterialId, place: &Affine3A) {
-    let foot = Vec3::from(place.translation);
+fn base(modeller: &mut Modeller, marble: MaterialId, transform: &Affine3A) {
+    let foot = Vec3::from(transform.translation);
     let (low, high) = (Vec3::new(-0.44, 0.0, -0.44), Vec3::new(0.44, 0.12, 0.44));
     modeller.block(marble, &turned_to_centre(foot), low, high);
     for (height, radius, thickness) in [(0.12, 0.40, 0.12), (0.24, 0.36, 0.08)] {
-        modeller.turned(marble, place, &torus(height, radius, thickness), 32);
+        modeller.turned(marble, transform, &torus(height, radius, thickness), 32);
     }
 }
 
-fn shaft(modeller: &mut Modeller, marble: MaterialId, place: &Affine3A, top: f32) {
+fn shaft(modeller: &mut Modeller, marble: MaterialId, transform: &Affine3A, top: f32) {
     let at = |k: u16| 0.32 + (top - 0.32) * f32::from(k) / 12.0;
     let profile: Vec<Vec2> = (0..=12)
         .rev()
         .map(|k| Vec2::new(shaft_radius(at(k)), at(k)))
         .collect();
-    modeller.turned(marble, place, &profile, 32);
+    modeller.turned(marble, transform, &profile, 32);
 }
 
 /// Entasis: the shaft is widest at a third of its height.
@@ -138,7 +138,7 @@ fn torus(height: f32, radius: f32, thickness: f32) -> Vec<Vec2> {
 
 /// The beam that the columns carry, open above; it has fallen where they have.
 fn entablature(modeller: &mut Modeller, marble: MaterialId) {
-    let place = Affine3A::from_translation(Vec3::Y * (FLOOR + 3.7));
+    let transform = Affine3A::from_translation(Vec3::Y * (FLOOR + 3.7));
     let profile = [
         (3.62, 0.0),
         (3.62, 0.75),
@@ -148,12 +148,12 @@ fn entablature(modeller: &mut Modeller, marble: MaterialId) {
         (4.38, 0.0),
         (3.62, 0.0),
     ];
-    modeller.turned_with_edges(marble, &place, &profile.map(Vec2::from), 96);
+    modeller.turned_with_edges(marble, &transform, &profile.map(Vec2::from), 96);
 }
 
 /// A mirror on a pedestal, and gold, glass and clay around it.
 fn spheres(modeller: &mut Modeller, marble: MaterialId) {
-    let place = Affine3A::from_translation(Vec3::Y * FLOOR);
+    let transform = Affine3A::from_translation(Vec3::Y * FLOOR);
     let pedestal = [
         (0.95, 0.5),
         (0.95, 0.42),
@@ -161,9 +161,9 @@ fn spheres(modeller: &mut Modeller, marble: MaterialId) {
         (0.8, 0.1),
         (0.95, 0.0),
     ];
-    modeller.turned_with_edges(marble, &place, &pedestal.map(Vec2::from), 64);
+    modeller.turned_with_edges(marble, &transform, &pedestal.map(Vec2::from), 64);
     let top = [Vec2::new(0.0, 0.5), Vec2::new(0.95, 0.5)];
-    modeller.turned_with_edges(marble, &place, &top, 64);
+    modeller.turned_with_edges(marble, &transform, &top, 64);
     let reflectance = Vec3::splat(0.92);
     let mirror = Material::new("mirror", Surface::Mirror { reflectance });
     let gold = Vec3::new(0.94, 0.72, 0.33);

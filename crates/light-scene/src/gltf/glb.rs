@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// What a glTF file consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ struct Rest<'a> {
 
 impl<'a> Rest<'a> {
     fn error(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Byte(self.at), message)
+        Diagnostic::at(self.path, Location::Byte(self.at), message)
     }
 
     fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Diagnostic> {

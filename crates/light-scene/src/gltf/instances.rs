@@ -1,33 +1,37 @@
 use super::mesh_uses::MeshUse;
 use super::reader::Reader;
+use crate::emissive_copies::EmissiveCopies;
 use crate::glam::Affine3A;
-use crate::shining_copies::ShiningCopies;
-use crate::{Diagnostic, Placement, Prototype};
+use crate::{Diagnostic, Instance, Prototype};
 
 impl Reader<'_> {
-    /// Meshes that one node shows stand where they are; those of several nodes are prototypes.
-    pub(super) fn place_meshes(&mut self) -> Result<(), Diagnostic> {
-        let mut copies = ShiningCopies::default();
-        for MeshUse { mesh, places } in core::mem::take(&mut self.uses).uses {
-            if let [(_, place)] = &places[..] {
-                let placed = self.primitives(&mesh, place)?;
-                self.scene.meshes.extend(placed);
+    /// Adds meshes of one node in world space, and meshes of several nodes as prototypes with
+    /// instances.
+    pub(super) fn add_instances(&mut self) -> Result<(), Diagnostic> {
+        let mut copies = EmissiveCopies::default();
+        for MeshUse { mesh, transforms } in core::mem::take(&mut self.uses).uses {
+            if let [(_, transform)] = &transforms[..] {
+                let meshes = self.primitives(&mesh, transform)?;
+                self.scene.meshes.extend(meshes);
                 continue;
             }
             let meshes = self.primitives(&mesh, &Affine3A::IDENTITY)?;
             let prototype = Prototype::new(mesh.name(), meshes);
             let boxes = prototype.boxes();
-            let shining = self.scene.shining_count(&prototype);
+            let emissive = self.scene.emissive_count(&prototype);
             let prototype = self.scene.add_prototype(prototype);
-            for (node, place) in places {
+            for (node, transform) in transforms {
                 copies
-                    .add(shining, 1)
+                    .add(emissive, 1)
                     .map_err(|message| node.error(&message))?;
-                let placement = Placement { prototype, place };
-                if !placement.is_finite(&boxes) {
+                let instance = Instance {
+                    prototype,
+                    transform,
+                };
+                if !instance.is_finite(&boxes) {
                     return Err(node.error("expected a transform that keeps vertices finite"));
                 }
-                self.scene.placements.push(placement);
+                self.scene.instances.push(instance);
             }
         }
         Ok(())

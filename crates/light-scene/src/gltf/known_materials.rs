@@ -2,7 +2,8 @@ use std::collections::HashMap;
 
 use crate::MaterialId;
 
-/// The materials so far, by their places in the document, and which texture coordinates each uses.
+/// The materials so far, by their positions in the document, and which texture coordinates each
+/// uses.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
     pub(super) known: HashMap<usize, (MaterialId, usize)>,

@@ -19,20 +19,24 @@ const WEB_SIZE: u32 = 256;
 
 impl<'a> Reader<'a> {
     /// The lights that extensions hang on a node.
-    pub(super) fn lights(&mut self, node: &Item<'a>, place: &Affine3A) -> Result<(), Diagnostic> {
+    pub(super) fn lights(
+        &mut self,
+        node: &Item<'a>,
+        transform: &Affine3A,
+    ) -> Result<(), Diagnostic> {
         let root = self.document.root();
         if let Some(extension) = node.extension("KHR_lights_punctual")? {
             let owner = root
                 .extension("KHR_lights_punctual")?
                 .unwrap_or(root.clone());
             let (_, light) = extension.require("light")?.target_in(&owner, "lights")?;
-            let light = punctual(&light, node, place)?;
+            let light = punctual(&light, node, transform)?;
             self.scene.lights.push(light);
         }
         if let Some(extension) = node.extension("EXT_lights_ies")? {
             let owner = root.extension("EXT_lights_ies")?.unwrap_or(root);
             let (_, profile) = extension.require("light")?.target_in(&owner, "lights")?;
-            let light = self.measured(&extension, &profile, node, place)?;
+            let light = self.measured(&extension, &profile, node, transform)?;
             self.scene.lights.push(light);
         }
         Ok(())
@@ -44,7 +48,7 @@ impl<'a> Reader<'a> {
         extension: &Item<'a>,
         profile: &Item<'a>,
         node: &Item<'a>,
-        place: &Affine3A,
+        transform: &Affine3A,
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
         profile.get("mimeType")?;
         let bytes = match profile.get("uri")? {
@@ -65,14 +69,14 @@ impl<'a> Reader<'a> {
             self.warn(profile, &warning.message);
         }
         let web = luminaire.web;
-        // Where the extension wants the place that files call (0, 0): along -z.
+        // The extension puts the direction (0, 0) of the file along -z.
         let turned = match web.web_type() {
             WebType::A => Quat::from_rotation_y(FRAC_PI_2),
             WebType::B | WebType::C => Quat::from_rotation_x(FRAC_PI_2),
         };
         let color = color(extension)?.min(Vec3::ONE);
         let multiplier = extension.amount_or("multiplier", 1.0)?;
-        let transform = rigid(node, place)? * Affine3A::from_quat(turned);
+        let transform = rigid(node, transform)? * Affine3A::from_quat(turned);
         let mut light = goniometric_light(&web, transform, color, WEB_SIZE);
         // A tint takes away what it does not let through.
         let lumens = web.total_lumens() * multiplier * rec709_luminance(color);
@@ -85,7 +89,7 @@ impl<'a> Reader<'a> {
 fn punctual(
     light: &Item<'_>,
     node: &Item<'_>,
-    place: &Affine3A,
+    transform: &Affine3A,
 ) -> Result<LightDesc<Rgb>, Diagnostic> {
     // How far real-time renderers look.
     light.get("range")?;
@@ -94,7 +98,7 @@ fn punctual(
     let kind = light.require("type")?;
     Ok(match kind.text()? {
         "point" => LightDesc::Point(PointLightDesc {
-            position: place.translation.into(),
+            position: transform.translation.into(),
             emission,
             amount: IntensityAmount::default(),
             media,
@@ -105,7 +109,7 @@ fn punctual(
                 Some(spot) => {
                     let start = spot.number_or("innerConeAngle", 0.0)?;
                     let angle = spot.number_or("outerConeAngle", FRAC_PI_4)?;
-                    // One unit in the last place more is still a right angle.
+                    // One unit in the last transform more is still a right angle.
                     if !(0.0 <= start && start < angle && angle <= FRAC_PI_2 * 1.000_001) {
                         let message = "expected an `innerConeAngle` from 0 on, below an `outerConeAngle` of at most pi/2";
                         return Err(spot.error(message));
@@ -113,10 +117,10 @@ fn punctual(
                     (start, angle)
                 }
             };
-            // Ours shine along +z.
+            // Ours emit along +z.
             let turned = Affine3A::from_rotation_x(core::f32::consts::PI);
             LightDesc::Spot(SpotLightDesc {
-                transform: rigid(node, place)? * turned,
+                transform: rigid(node, transform)? * turned,
                 angle,
                 falloff_start: start,
                 emission,
@@ -125,7 +129,7 @@ fn punctual(
             })
         }
         "directional" => LightDesc::Distant(DistantLightDesc {
-            direction: rigid(node, place)?.transform_vector3(Vec3::Z),
+            direction: rigid(node, transform)?.transform_vector3(Vec3::Z),
             emission,
             amount: IrradianceAmount::default(),
         }),
@@ -133,18 +137,19 @@ fn punctual(
     })
 }
 
-/// The place of a light, which no scale changes.
-fn rigid(node: &Item<'_>, place: &Affine3A) -> Result<Affine3A, Diagnostic> {
-    let m = &place.matrix3;
+/// The rotation and the translation of a node: scale does not change a light.
+fn rigid(node: &Item<'_>, transform: &Affine3A) -> Result<Affine3A, Diagnostic> {
+    let m = &transform.matrix3;
     let axes = || {
         let z = m.z_axis.try_normalize()?;
         let x = (m.x_axis - z * m.x_axis.dot(z)).try_normalize()?;
         Some(Mat3A::from_cols(x, z.cross(x), z))
     };
-    let matrix3 = axes().ok_or_else(|| node.error("expected a light whose place is not flat"))?;
+    let matrix3 =
+        axes().ok_or_else(|| node.error("expected a light whose transform is not flat"))?;
     Ok(Affine3A {
         matrix3,
-        translation: place.translation,
+        translation: transform.translation,
     })
 }
 

@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// One colour for a surface that has no place for more.
+    /// One colour, for a surface model that takes no texture.
     fn one_color(&mut self, item: &Item<'a>, color: Color) -> Vec3 {
         if let Color::Image(_) = color {
             self.warn(
@@ -210,12 +210,12 @@ impl<'a> Reader<'a> {
             },
         };
         let scale = Vec3::splat(opacity);
-        let share = match base.and_then(|texture| self.alpha_image(texture, scale)) {
+        let opacity = match base.and_then(|texture| self.alpha_image(texture, scale)) {
             Some(image) => Color::Image(image),
             None if opacity == 1.0 => return Ok(None),
             None => Color::Constant(scale),
         };
-        Ok(Some(Alpha { share, cutoff }))
+        Ok(Some(Alpha { opacity, cutoff }))
     }
 }
 

@@ -13,17 +13,23 @@ pub(super) struct MeshUses<'a> {
 #[derive(Debug)]
 pub(super) struct MeshUse<'a> {
     pub(super) mesh: Item<'a>,
-    pub(super) places: Vec<(Item<'a>, Affine3A)>,
+    pub(super) transforms: Vec<(Item<'a>, Affine3A)>,
 }
 
 impl<'a> MeshUses<'a> {
     /// `node` shows the mesh with this index.
-    pub(super) fn add(&mut self, index: usize, mesh: Item<'a>, node: Item<'a>, place: Affine3A) {
+    pub(super) fn add(
+        &mut self,
+        index: usize,
+        mesh: Item<'a>,
+        node: Item<'a>,
+        transform: Affine3A,
+    ) {
         let number = *self.by_mesh.entry(index).or_insert(self.uses.len());
         if number == self.uses.len() {
-            let places = Vec::new();
-            self.uses.push(MeshUse { mesh, places });
+            let transforms = Vec::new();
+            self.uses.push(MeshUse { mesh, transforms });
         }
-        self.uses[number].places.push((node, place));
+        self.uses[number].transforms.push((node, transform));
     }
 }

@@ -33,8 +33,8 @@ use crate::{Diagnostic, Files, Scene};
 
 /// Reads a glTF file, as text or binary, and what it names.
 ///
-/// What is understood stands in the crate's documentation; everything else is named once in a
-/// warning, by its path in the document. Lengths are metres; the camera looks along -z with y up.
+/// The supported features are listed in the crate's documentation; everything else is named once in
+/// a warning, by its path in the document. Lengths are metres; the camera looks along -z with y up.
 ///
 /// # Errors
 /// When a file cannot be read, is no glTF file, or a part of it makes no sense: with file, path in

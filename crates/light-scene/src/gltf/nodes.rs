@@ -19,13 +19,13 @@ impl<'a> Reader<'a> {
             if core::mem::replace(&mut parented[index], true) {
                 return Err(reference.expected("a node that hangs nowhere else"));
             }
-            let place = parent * local(&node)?;
-            if !place.is_finite() {
-                return Err(node.error("expected a finite place"));
+            let transform = parent * local(&node)?;
+            if !transform.is_finite() {
+                return Err(node.error("expected a finite transform"));
             }
-            self.node(&node, &place)?;
+            self.node(&node, &transform)?;
             let children = node.list("children")?;
-            waiting.extend(children.into_iter().rev().map(|child| (child, place)));
+            waiting.extend(children.into_iter().rev().map(|child| (child, transform)));
         }
         Ok(())
     }
@@ -47,32 +47,32 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn node(&mut self, node: &Item<'a>, place: &Affine3A) -> Result<(), Diagnostic> {
+    fn node(&mut self, node: &Item<'a>, transform: &Affine3A) -> Result<(), Diagnostic> {
         if let Some(camera) = node.get("camera")? {
             let (_, described) = camera.target("cameras")?;
             if self.scene.camera.is_some() {
                 self.warn(&camera, "was ignored: an earlier camera looks");
             } else {
-                self.scene.camera = self.camera(&described, place)?;
+                self.scene.camera = self.camera(&described, transform)?;
             }
         }
-        self.lights(node, place)?;
+        self.lights(node, transform)?;
         let Some(mesh) = node.get("mesh")? else {
             return Ok(());
         };
         let (index, mesh) = mesh.target("meshes")?;
-        if place.matrix3.determinant() == 0.0 {
+        if transform.matrix3.determinant() == 0.0 {
             self.warn(node, "was left out: its transform makes its mesh flat");
             return Ok(());
         }
-        self.uses.add(index, mesh, node.clone(), *place);
+        self.uses.add(index, mesh, node.clone(), *transform);
         Ok(())
     }
 
     fn camera(
         &mut self,
         camera: &Item<'a>,
-        place: &Affine3A,
+        transform: &Affine3A,
     ) -> Result<Option<Camera>, Diagnostic> {
         let Some(perspective) = camera.get("perspective")? else {
             self.warn(camera, "was ignored: it has no perspective");
@@ -89,8 +89,8 @@ impl<'a> Reader<'a> {
         let aspect = perspective.amount_or("aspectRatio", 1.0)?.min(1.0);
         // Ours is that of the shorter side.
         let fov = 2.0 * (tan * aspect).atan();
-        let position = Vec3::from(place.translation);
-        let [forward, up] = [Vec3::NEG_Z, Vec3::Y].map(|axis| place.transform_vector3(axis));
+        let position = Vec3::from(transform.translation);
+        let [forward, up] = [Vec3::NEG_Z, Vec3::Y].map(|axis| transform.transform_vector3(axis));
         let camera = Camera::look_at(position, position + forward.normalize_or_zero(), up, fov);
         camera
             .map(Some)

@@ -8,19 +8,19 @@ use crate::{Diagnostic, Mesh};
 const MOST_TRIANGLES: usize = 1 << 27;
 
 impl<'a> Reader<'a> {
-    /// The primitives of a mesh that have triangles, moved by `place`.
+    /// The primitives of a mesh that have triangles, under `transform`.
     pub(super) fn primitives(
         &mut self,
         mesh: &Item<'a>,
-        place: &Affine3A,
+        transform: &Affine3A,
     ) -> Result<Vec<Mesh>, Diagnostic> {
-        let mut placed = Vec::new();
+        let mut meshes = Vec::new();
         for primitive in mesh.list("primitives")? {
             let Some(mut triangles) = self.primitive(&primitive)? else {
                 continue;
             };
             mesh.name().clone_into(&mut triangles.name);
-            let mut triangles = triangles.transformed(place);
+            let mut triangles = triangles.transformed(transform);
             triangles.drop_empty_triangles();
             if !triangles.positions.iter().all(|p| p.is_finite()) {
                 return Err(primitive.error("expected a transform that keeps vertices finite"));
@@ -31,10 +31,10 @@ impl<'a> Reader<'a> {
                 return Err(primitive.error(&message));
             }
             if !triangles.indices.is_empty() {
-                placed.push(triangles);
+                meshes.push(triangles);
             }
         }
-        Ok(placed)
+        Ok(meshes)
     }
 
     /// The triangles of a primitive, if it has any.

@@ -53,7 +53,7 @@ impl<'a> Reader<'a> {
                 return Err(required.expected("an extension that is read"));
             }
         }
-        // Each use is looked at where it stands.
+        // Each use is checked where it occurs.
         root.get("extensionsUsed")?;
         Ok(Self {
             document,
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
     /// The scene.
     pub(super) fn read(mut self) -> Result<Scene, Diagnostic> {
         self.nodes()?;
-        self.place_meshes()?;
+        self.add_instances()?;
         for item in self.document.unasked() {
             self.warn(&item, "was ignored");
         }

@@ -69,7 +69,7 @@ fn reads_nodes_meshes_materials_and_a_camera() {
         "(0, 0) is the lower left corner"
     );
     let material = scene.material(mesh.material);
-    let emission = material.emission.expect("it shines");
+    let emission = material.emission.expect("it is emissive");
     let radiance = Color::Constant(Vec3::new(2.0, 1.0, 0.0));
     assert_eq!(
         emission.radiance, radiance,
@@ -87,7 +87,7 @@ fn reads_nodes_meshes_materials_and_a_camera() {
     let color = Color::Constant(Vec3::new(0.1, 0.2, 0.3));
     assert_eq!((reflectance, eta, alpha), (color, 1.5, Vec2::ONE), "rough");
     let camera = scene.camera.expect("a camera");
-    assert_eq!(camera.position, Vec3::Z * 5.0, "where it stands");
+    assert_eq!(camera.position, Vec3::Z * 5.0, "its position");
     assert_eq!(
         (camera.forward, camera.right),
         (Vec3::NEG_Z, Vec3::X),
@@ -119,7 +119,7 @@ fn reads_nodes_meshes_materials_and_a_camera() {
 }
 
 #[test]
-fn meshes_of_several_nodes_are_placed() {
+fn meshes_of_several_nodes_are_instanced() {
     let json = r#""scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [{"mesh": 0, "scale": [2, 1, 1], "children": [3]}, {"mesh": 1}, {"mesh": 0},
             {"mesh": 0, "translation": [1, 0, 0]}],
@@ -131,11 +131,11 @@ fn meshes_of_several_nodes_are_placed() {
         panic!("one, not {}", scene.prototypes.len());
     };
     assert_eq!(square.name, "square", "its name");
-    assert_eq!(square.meshes[0].positions[1], Vec3::X, "in its own place");
-    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    assert_eq!(square.meshes[0].positions[1], Vec3::X, "in object space");
+    let transforms: Vec<_> = scene.instances.iter().map(|i| i.transform).collect();
     let wide = Affine3A::from_scale(Vec3::new(2.0, 1.0, 1.0));
     let moved = wide * Affine3A::from_translation(Vec3::X);
-    assert_eq!(places, [wide, moved, Affine3A::IDENTITY], "three nodes");
+    assert_eq!(transforms, [wide, moved, Affine3A::IDENTITY], "three nodes");
     assert_eq!(scene.triangle_count(), 8, "four squares");
     let far = json.replace("[1, 0, 0]", "[3e38, 0, 0]");
     let far = far.replace("[2, 1, 1]", "[1, 1, 1]");

@@ -125,10 +125,10 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
     else {
         panic!("diffuse, not {:?}", glow.surface);
     };
-    let Some(Color::Image(shine)) = glow.emission.map(|e| e.radiance) else {
-        panic!("a shining texture");
+    let Some(Color::Image(emission)) = glow.emission.map(|e| e.radiance) else {
+        panic!("an emissive texture");
     };
-    assert_eq!(base.image, shine.image, "one image for both");
+    assert_eq!(base.image, emission.image, "one image for both");
     assert_eq!(
         scene.images[base.image.0 as usize].texels(),
         texels,
@@ -137,7 +137,7 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
     let metal = scene.material(scene.meshes[1].material);
     let alpha = metal.alpha.expect("holes");
     assert_eq!(alpha.cutoff, Some(0.3), "a mask");
-    let Color::Image(share) = alpha.share else {
+    let Color::Image(share) = alpha.opacity else {
         panic!("an image");
     };
     assert_eq!(share.mapping.wrap, [Wrap::Clamp, Wrap::Mirror], "edges");

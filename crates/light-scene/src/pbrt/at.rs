@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::parameters::Parameters;
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// Where a directive stands.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub(super) struct At<'a> {
 
 impl At<'_> {
     pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Line(self.line), message)
+        Diagnostic::at(self.path, Location::Line(self.line), message)
     }
 
     /// Says that a directive lacks the one that it ends, or one in between.

@@ -97,7 +97,7 @@ fn attributes_speak_to_what_follows_in_their_block() {
         .iter()
         .map(|mesh| {
             let alpha = scene.material(mesh.material).alpha;
-            alpha.map(|Alpha { share, .. }| share)
+            alpha.map(|Alpha { opacity, .. }| opacity)
         })
         .collect();
     let share = |share: f32| Some(Color::Constant(Vec3::splat(share)));

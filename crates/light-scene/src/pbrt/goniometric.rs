@@ -24,13 +24,13 @@ impl Reader {
     pub(super) fn goniometric(
         &mut self,
         typed: &Typed<'_>,
-        place: Affine3A,
+        transform: Affine3A,
         scale: f32,
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
         let color = self.emission(typed, "I");
         let name = typed.parameters.string("filename");
         if let Some(name) = name.filter(|name| is_luminaire_name(name)) {
-            return self.luminaire(typed, name, place, color * scale);
+            return self.luminaire(typed, name, transform, color * scale);
         }
         let image = match name {
             Some(_) => self.light_image(typed)?,
@@ -58,7 +58,7 @@ impl Reader {
             Mat3A::from_cols(Vec3::X.into(), Vec3::Z.into(), Vec3::Y.into()).into(),
         );
         Ok(LightDesc::Goniometric(GoniometricLightDesc {
-            transform: place * z_up,
+            transform: transform * z_up,
             distribution,
             emission: color,
             amount: IntensityAmount::Radiometric(scale),
@@ -73,7 +73,7 @@ impl Reader {
         &mut self,
         typed: &Typed<'_>,
         name: &str,
-        place: Affine3A,
+        transform: Affine3A,
         color: Vec3,
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
         let path = self.beside(name);
@@ -88,8 +88,8 @@ impl Reader {
             .positive("power")
             .map(|watts| watts * 683.0);
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
-        let place = place * self.web_to_light();
-        let mut light = goniometric_light(&luminaire.web, place, color, WEB_SIZE);
+        let transform = transform * self.web_to_light();
+        let mut light = goniometric_light(&luminaire.web, transform, color, WEB_SIZE);
         let tint = rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens * tint));
         light.media = self.light_media();

@@ -26,9 +26,9 @@ impl Reader {
             parameters,
         } = typed;
         let at = *at;
-        let place = Affine3A::from_mat4(self.state.transform);
-        let from = place.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
-        let to = place.transform_point3(parameters.vec3_or("to", Vec3::Z));
+        let transform = Affine3A::from_mat4(self.state.transform);
+        let from = transform.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
+        let to = transform.transform_point3(parameters.vec3_or("to", Vec3::Z));
         let scale = parameters.amount_or("scale", 1.0);
         let media = self.light_media();
         let light = match kind.as_str() {
@@ -71,7 +71,7 @@ impl Reader {
             }),
             "projection" => LightDesc::Projection(ProjectionLightDesc {
                 // Rows run downward where y runs upward.
-                transform: place * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
+                transform: transform * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
                 image: self.light_image(typed)?,
                 fov: fov(typed).to_radians(),
                 amount: match parameters.positive("power") {
@@ -80,8 +80,8 @@ impl Reader {
                 },
                 media,
             }),
-            "goniometric" => self.goniometric(typed, place, scale)?,
-            "infinite" => self.infinite(typed, place, scale)?,
+            "goniometric" => self.goniometric(typed, transform, scale)?,
+            "infinite" => self.infinite(typed, transform, scale)?,
             other => {
                 let what = format!("LightSource \"{other}\"");
                 self.warn(at, &what, "is not understood and was left out");
@@ -224,8 +224,8 @@ fn one_color(color: Vec3) -> Result<Image, ImageError> {
 fn upward_illuminance(map: &Image) -> f32 {
     let [n, _] = map.size();
     let seen = |(index, texel): (u32, Vec3)| {
-        let place = Vec2::new((index % n) as f32, (index / n) as f32) + 0.5;
-        let up = square_to_sphere(place / n as f32).z.max(0.0);
+        let center = Vec2::new((index % n) as f32, (index / n) as f32) + 0.5;
+        let up = square_to_sphere(center / n as f32).z.max(0.0);
         f64::from(rec709_luminance(texel) * up)
     };
     let sum: f64 = (0..).zip(map.texels()).map(seen).sum();

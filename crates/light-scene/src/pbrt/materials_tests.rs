@@ -7,17 +7,17 @@ use crate::glam::Vec3;
 use crate::{Color, Diagnostic, Surface};
 
 #[test]
-fn alpha_is_the_share_that_is_there() {
-    let share = |alpha: &str| {
+fn alpha_is_the_opacity() {
+    let opacity = |alpha: &str| {
         let text = format!("WorldBegin Shape \"disk\" {alpha}");
         let scene = read("pbrt_alpha", &text).expect("a scene");
         let alpha = scene.material(scene.meshes[0].material).alpha;
-        alpha.map(|alpha| (alpha.share, alpha.cutoff))
+        alpha.map(|alpha| (alpha.opacity, alpha.cutoff))
     };
     let half = Color::Constant(Vec3::splat(0.5));
-    assert_eq!(share("\"float alpha\" 0.5"), Some((half, None)), "half");
-    assert_eq!(share("\"float alpha\" 1"), None, "all of it");
-    assert_eq!(share(""), None, "nothing said");
+    assert_eq!(opacity("\"float alpha\" 0.5"), Some((half, None)), "half");
+    assert_eq!(opacity("\"float alpha\" 1"), None, "all of it");
+    assert_eq!(opacity(""), None, "nothing said");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::state::Reader;
 use super::tokens::{Token, Tokens};
 use crate::glam::Vec3;
 use crate::text::shown;
-use crate::{Diagnostic, MaterialId, NamedMedium, Place};
+use crate::{Diagnostic, Location, MaterialId, NamedMedium};
 
 /// Names of what was measured: reduced scattering and absorption per millimetre, for red, green and
 /// blue light.
@@ -102,7 +102,7 @@ impl Reader {
             None => {
                 let (path, line) = slot.first_use;
                 let message = format!("expected a named medium, found \"{}\"", shown(&slot.name));
-                Err(Diagnostic::at(&path, Place::Line(line), message))
+                Err(Diagnostic::at(&path, Location::Line(line), message))
             }
         });
         slots.collect()

@@ -56,12 +56,12 @@ impl Reader {
         let sigma_s = self.coefficient(typed, "sigma_s", Vec3::ONE);
         let scale = parameters.amount_or("scale", 1.0);
         let substance = substance(typed, [sigma_a, sigma_s], scale, le)?;
-        let place = self.medium_to_scene();
+        let transform = self.medium_to_scene();
         let medium = GridMedium::new(
             substance,
             phase(typed)?,
             bounds(typed),
-            place,
+            transform,
             density,
             glow,
         );
@@ -93,9 +93,15 @@ impl Reader {
         };
         let [sigma_a, sigma_s] = sigmas.map(|grid| grid.unwrap_or_else(ones));
         let le = grid("Le", le_scale)?;
-        let place = self.medium_to_scene();
-        let medium =
-            ColorGridMedium::new(sigma_a, sigma_s, le, phase(typed)?, bounds(typed), place);
+        let transform = self.medium_to_scene();
+        let medium = ColorGridMedium::new(
+            sigma_a,
+            sigma_s,
+            le,
+            phase(typed)?,
+            bounds(typed),
+            transform,
+        );
         Ok(medium.map_err(|error| refused(typed, error))?.into())
     }
 
@@ -120,8 +126,8 @@ impl Reader {
         let sigma_a = self.coefficient(typed, "sigma_a", Vec3::ONE);
         let sigma_s = self.coefficient(typed, "sigma_s", Vec3::ONE);
         let substance = substance(typed, [sigma_a, sigma_s], 1.0, Vec3::ZERO)?;
-        let (place, glow) = (self.medium_to_scene(), Glow::uniform());
-        let medium = GridMedium::new(substance, phase(typed)?, bounds, place, density, glow);
+        let (transform, glow) = (self.medium_to_scene(), Glow::uniform());
+        let medium = GridMedium::new(substance, phase(typed)?, bounds, transform, density, glow);
         Ok(medium.map_err(|error| refused(typed, error))?.into())
     }
 }

@@ -59,8 +59,8 @@ use state::Reader;
 
 /// Reads a pbrt-v4 file and what it includes.
 ///
-/// What is understood stands in the crate's documentation; everything else is named once in a
-/// warning. Coordinates stay as written; the camera keeps pbrt's left-handed view.
+/// The supported features are listed in the crate's documentation; everything else is named once in
+/// a warning. Coordinates stay as written; the camera keeps pbrt's left-handed view.
 ///
 /// # Errors
 /// When a file cannot be read, is no pbrt file, or a directive lacks what it needs: with file, line

@@ -1,30 +1,30 @@
 use std::collections::HashMap;
 
 use super::at::At;
-use crate::shining_copies::ShiningCopies;
+use crate::emissive_copies::EmissiveCopies;
 use crate::text::shown;
 use crate::{Diagnostic, Prototype, PrototypeId};
 
-/// What `ObjectBegin` describes and `ObjectInstance` places; files may place an object before they
-/// describe it.
+/// Objects of `ObjectBegin`, by the names that `ObjectInstance` uses; a file may use an object
+/// before it defines it.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
     pub(super) by_name: HashMap<String, PrototypeId>,
     pub(super) slots: Vec<ObjectSlot>,
-    pub(super) copies: ShiningCopies,
-    /// The one that is being described.
+    pub(super) copies: EmissiveCopies,
+    /// The one that is being defined.
     pub(super) open: Option<OpenObject>,
 }
 
 #[derive(Debug)]
 pub(super) struct ObjectSlot {
-    /// What to say if nobody describes it.
+    /// The error if it is never defined.
     pub(super) unknown: Diagnostic,
     pub(super) prototype: Option<Prototype>,
-    /// How many triangles and spheres of it shine, once it is described.
-    pub(super) shining: usize,
-    /// How often it was placed before that.
-    pub(super) places: usize,
+    /// The number of its emissive triangles and spheres, once it is defined.
+    pub(super) emissive: usize,
+    /// The number of its instances so far.
+    pub(super) instances: usize,
 }
 
 /// An object between `ObjectBegin` and `ObjectEnd`.
@@ -32,12 +32,12 @@ pub(super) struct ObjectSlot {
 pub(super) struct OpenObject {
     pub(super) id: PrototypeId,
     pub(super) prototype: Prototype,
-    /// How many states are saved, its own included.
+    /// The number of saved states, its own included.
     pub(super) depth: usize,
 }
 
 impl Objects {
-    /// The id of the object with this name, described or not.
+    /// The id of the object with this name, defined or not.
     pub(super) fn id(&mut self, at: At<'_>, name: &str) -> PrototypeId {
         if let Some(&id) = self.by_name.get(name) {
             return id;
@@ -48,8 +48,8 @@ impl Objects {
         self.slots.push(ObjectSlot {
             unknown: at.diagnostic(message),
             prototype: None,
-            shining: 0,
-            places: 0,
+            emissive: 0,
+            instances: 0,
         });
         PrototypeId(id)
     }

@@ -3,13 +3,13 @@ use super::object_slots::{ObjectSlot, Objects, OpenObject};
 use super::state::{Reader, State};
 use crate::glam::Affine3A;
 use crate::text::shown;
-use crate::{Diagnostic, Mesh, Placement, Prototype, Sphere};
+use crate::{Diagnostic, Instance, Mesh, Prototype, Sphere};
 
-/// Triangles that a scene may hold, however often it names the same files.
+/// The most triangles that a scene may store, also if it includes the same files many times.
 const MOST_TRIANGLES: usize = 1 << 27;
 
 impl Reader {
-    /// `ObjectBegin "name"`: what follows stands nowhere yet.
+    /// `ObjectBegin "name"`: the shapes that follow belong to a prototype.
     pub(super) fn object_begin(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before another `ObjectBegin`"));
@@ -35,34 +35,37 @@ impl Reader {
             return Err(at.unmatched("AttributeEnd"));
         }
         let slot = &mut self.objects.slots[open.id.0 as usize];
-        slot.shining = self.scene.shining_count(&open.prototype);
+        slot.emissive = self.scene.emissive_count(&open.prototype);
         slot.prototype = Some(open.prototype);
-        let (shining, places) = (slot.shining, slot.places);
-        let copies = self.objects.copies.add(shining, places);
+        let (emissive, instances) = (slot.emissive, slot.instances);
+        let copies = self.objects.copies.add(emissive, instances);
         copies.map_err(|message| at.diagnostic(message))?;
         let saved = self.saved.pop();
         self.state = saved.ok_or_else(|| at.unmatched("ObjectBegin"))?.state;
         Ok(())
     }
 
-    /// `ObjectInstance "name"`: the transform in force acts on top of those that the object was
-    /// described with.
+    /// `ObjectInstance "name"`: the current transform is applied after those of the object's
+    /// definition.
     pub(super) fn object_instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));
         }
         let prototype = self.objects.id(at, name);
         let slot = &mut self.objects.slots[prototype.0 as usize];
-        slot.places += 1;
-        let shining = slot.shining;
-        let copies = self.objects.copies.add(shining, 1);
+        slot.instances += 1;
+        let emissive = slot.emissive;
+        let copies = self.objects.copies.add(emissive, 1);
         copies.map_err(|message| at.diagnostic(message))?;
-        let place = Affine3A::from_mat4(self.state.transform);
-        self.scene.placements.push(Placement { prototype, place });
+        let transform = Affine3A::from_mat4(self.state.transform);
+        self.scene.instances.push(Instance {
+            prototype,
+            transform,
+        });
         Ok(())
     }
 
-    /// The state that `AttributeEnd` goes back to, unless it belongs to an object.
+    /// The state that `AttributeEnd` restores, unless it belongs to an object.
     pub(super) fn saved_state(&mut self) -> Option<State> {
         let open = self.objects.open.as_ref();
         let kept = open.map_or(0, |open| open.depth);
@@ -70,7 +73,7 @@ impl Reader {
         saved.map(|saved| saved.state)
     }
 
-    /// A mesh of the world, or of the object that is being described.
+    /// Adds a mesh to the object that is being defined, or to the world.
     pub(super) fn add_mesh(&mut self, at: At<'_>, mesh: Mesh) -> Result<(), Diagnostic> {
         self.triangles = self.triangles.saturating_add(mesh.indices.len());
         if self.triangles > MOST_TRIANGLES {
@@ -84,7 +87,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A sphere of the world, or of the object that is being described.
+    /// Adds a sphere to the object that is being defined, or to the world.
     pub(super) fn add_sphere(&mut self, sphere: Sphere) {
         match &mut self.objects.open {
             Some(open) => open.prototype.spheres.push(sphere),
@@ -92,7 +95,7 @@ impl Reader {
         }
     }
 
-    /// All objects, in the order of their ids, once everything is read.
+    /// All objects, in the order of their ids, after the last directive.
     pub(super) fn finished_objects(&mut self) -> Result<Vec<Prototype>, Diagnostic> {
         let Objects { slots, .. } = core::mem::take(&mut self.objects);
         let described = |slot: ObjectSlot| slot.prototype.ok_or(slot.unknown);

@@ -1,11 +1,11 @@
 use super::tests::read;
-use crate::MOST_SHINING_COPIES;
+use crate::MAX_EMISSIVE_COPIES;
 use crate::glam::{Affine3A, Vec3};
 
 const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]";
 
 #[test]
-fn transforms_of_places_act_on_top_of_those_of_objects() {
+fn transforms_of_instances_are_applied_after_those_of_objects() {
     let text = format!(
         "Scale 9 9 9 WorldBegin
         ObjectInstance \"later\"
@@ -15,18 +15,18 @@ fn transforms_of_places_act_on_top_of_those_of_objects() {
         ObjectInstance \"later\""
     );
     let scene = read("pbrt_places", &text).expect("a scene");
-    assert!(scene.meshes.is_empty(), "nothing stands by itself");
+    assert!(scene.meshes.is_empty(), "no mesh in world space");
     let own = scene.prototypes[0].meshes[0].positions[1];
     assert_eq!(own, Vec3::X * 7.0, "moved where it is described");
-    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    let transforms: Vec<_> = scene.instances.iter().map(|i| i.transform).collect();
     let moved = Affine3A::from_translation(Vec3::X * 5.0);
     let mirrored = moved * Affine3A::from_scale(Vec3::new(2.0, 2.0, -2.0));
     assert_eq!(
-        places,
+        transforms,
         [Affine3A::IDENTITY, mirrored, moved],
         "the state of the object ended with it"
     );
-    assert_eq!(scene.triangle_count(), 3, "one in three places");
+    assert_eq!(scene.triangle_count(), 3, "three instances of one");
     assert_eq!(
         scene.bounds().max,
         Vec3::new(19.0, 2.0, 0.0),
@@ -35,14 +35,10 @@ fn transforms_of_places_act_on_top_of_those_of_objects() {
 }
 
 #[test]
-fn nothing_can_be_placed() {
+fn empty_objects_can_be_instanced() {
     let text = "WorldBegin ObjectBegin \"n\" ObjectEnd ObjectInstance \"n\"";
     let scene = read("pbrt_nothing", text).expect("a scene");
-    assert_eq!(
-        (scene.placements.len(), scene.triangle_count()),
-        (1, 0),
-        "n"
-    );
+    assert_eq!((scene.instances.len(), scene.triangle_count()), (1, 0), "n");
     assert!(scene.bounds().is_empty(), "it is nowhere");
 }
 
@@ -85,27 +81,33 @@ fn misplaced_objects_give_one_clear_line() {
 }
 
 #[test]
-fn too_many_copies_of_what_shines_are_refused_where_they_are_placed() {
+fn too_many_emissive_copies_are_refused_at_their_instance() {
     let object = "WorldBegin ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]
         Shape \"sphere\" \"float zmax\" .5 ObjectEnd\n";
-    let place = "ObjectInstance \"lamp\"\n";
-    let one = read("pbrt_lamp", &format!("{object}{place}")).expect("a scene");
-    let most = MOST_SHINING_COPIES / one.emissive_triangle_count();
-    let scene = read("pbrt_lamps", &format!("{object}{}", place.repeat(most)));
+    let instance = "ObjectInstance \"lamp\"\n";
+    let one = read("pbrt_lamp", &format!("{object}{instance}")).expect("a scene");
+    let most = MAX_EMISSIVE_COPIES / one.emissive_triangle_count();
+    let scene = read("pbrt_lamps", &format!("{object}{}", instance.repeat(most)));
     assert_eq!(
-        scene.expect("a scene").placements.len(),
+        scene.expect("a scene").instances.len(),
         most,
         "as many as may be"
     );
 
-    let error = read("pbrt_lamps", &format!("{object}{}", place.repeat(most + 9)));
-    let error = error.expect_err("too many").to_string();
-    let line = format!("a.pbrt:{}: expected at most 33554432 triangles", most + 3);
-    assert!(error.contains(&line), "{error}");
-    // Described after it was placed.
     let error = read(
         "pbrt_lamps",
-        &format!("WorldBegin {}{}", place.repeat(most + 1), &object[10..]),
+        &format!("{object}{}", instance.repeat(most + 9)),
+    );
+    let error = error.expect_err("too many").to_string();
+    let line = format!(
+        "a.pbrt:{}: expected at most 33554432 emissive triangles",
+        most + 3
+    );
+    assert!(error.contains(&line), "{error}");
+    // Defined after its instances.
+    let error = read(
+        "pbrt_lamps",
+        &format!("WorldBegin {}{}", instance.repeat(most + 1), &object[10..]),
     );
     let error = error.expect_err("too many").to_string();
     let line = format!("a.pbrt:{}: expected at most", most + 3);

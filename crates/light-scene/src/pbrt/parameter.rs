@@ -5,7 +5,7 @@ use std::path::Path;
 use super::tokens::{Token, Tokens, number_of};
 use crate::glam::Vec3;
 use crate::text::shown;
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// One parameter of a directive; its values are of its type, and as many as that needs.
 #[derive(Debug)]
@@ -151,7 +151,8 @@ impl Parameter {
     /// Whether there are as many values as belong together.
     fn check(&self, path: &Path) -> Result<(), Diagnostic> {
         let (count, width) = (self.numbers.len(), self.kind.width());
-        let refuse = |message: String| Err(Diagnostic::at(path, Place::Line(self.line), message));
+        let refuse =
+            |message: String| Err(Diagnostic::at(path, Location::Line(self.line), message));
         let name = shown(&self.name);
         if !self.words.is_empty() && !self.numbers.is_empty() {
             return refuse(format!(

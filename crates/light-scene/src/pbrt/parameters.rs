@@ -8,7 +8,7 @@ use super::spectrum;
 use super::tokens::{Token, Tokens};
 use crate::glam::{Vec2, Vec3};
 use crate::text::{shown, text_of};
-use crate::{Diagnostic, Files, Place};
+use crate::{Diagnostic, Files, Location};
 
 /// The parameter list of a directive, which remembers what was asked for and what made no sense.
 ///
@@ -34,8 +34,8 @@ impl Parameters {
             let parameter = Parameter::read(tokens, &declaration)?;
             if !names.insert(parameter.name.clone()) {
                 let message = format!("expected one `{}`, found another", parameter.shown());
-                let place = Place::Line(parameter.line);
-                return Err(Diagnostic::at(tokens.path(), place, message));
+                let location = Location::Line(parameter.line);
+                return Err(Diagnostic::at(tokens.path(), location, message));
             }
             list.push(parameter);
         }
@@ -64,8 +64,8 @@ impl Parameters {
             if file.extension().is_none() {
                 continue;
             }
-            let place = Place::Line(parameter.line);
-            let refuse = |message: String| Diagnostic::at(&self.path, place, message);
+            let location = Location::Line(parameter.line);
+            let refuse = |message: String| Diagnostic::at(&self.path, location, message);
             let bytes = files
                 .read(&file)
                 .map_err(|error| refuse(error.to_string()))?;
@@ -261,7 +261,7 @@ impl Parameters {
 
     fn keep(&self, path: &Path, line: usize, message: String) {
         let mut fault = self.fault.borrow_mut();
-        fault.get_or_insert_with(|| Diagnostic::at(path, Place::Line(line), message));
+        fault.get_or_insert_with(|| Diagnostic::at(path, Location::Line(line), message));
     }
 
     fn find(&self, name: &str) -> Option<(&Parameter, &Path)> {

@@ -28,9 +28,9 @@ impl Reader {
         }
         let material = self.material();
         let unit = Sphere::new("sphere", material, Affine3A::IDENTITY);
-        let place = Affine3A::from_mat4(self.state.transform);
-        let place = place * Affine3A::from_scale(Vec3::splat(radius));
-        let sphere = unit.transformed(&place);
+        let transform = Affine3A::from_mat4(self.state.transform);
+        let transform = transform * Affine3A::from_scale(Vec3::splat(radius));
+        let sphere = unit.transformed(&transform);
         Ok(sphere.map(|sphere| Sphere { front, ..sphere }))
     }
 
@@ -57,7 +57,7 @@ impl Reader {
 /// The part of a sphere that there is.
 struct Parts {
     radius: f32,
-    /// Its lowest and its highest place.
+    /// Its lowest and its highest z.
     z: [f32; 2],
     /// The part of a full turn.
     turn: f32,

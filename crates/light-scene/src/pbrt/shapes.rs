@@ -102,17 +102,19 @@ impl Reader {
         self.twin(material, |twin| twin.emission = Some(emission))
     }
 
-    /// A material of its own with holes, if `alpha` says where.
+    /// The material with the alpha mask of the parameter `alpha`; the same material without one.
     fn with_alpha(&mut self, material: MaterialId, typed: &Typed<'_>) -> MaterialId {
         if !typed.parameters.has("alpha") {
             return material;
         }
-        let share = self.share(typed, "alpha", 1.0);
-        if share == Color::Constant(Vec3::ONE) {
+        let opacity = self.share(typed, "alpha", 1.0);
+        if opacity == Color::Constant(Vec3::ONE) {
             return material;
         }
         let cutoff = None;
-        self.twin(material, |twin| twin.alpha = Some(Alpha { share, cutoff }))
+        self.twin(material, |twin| {
+            twin.alpha = Some(Alpha { opacity, cutoff })
+        })
     }
 }
 

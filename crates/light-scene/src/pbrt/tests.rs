@@ -55,7 +55,7 @@ fn reads_camera_materials_shapes_instances_and_lights() {
         panic!("one mesh, not {}", scene.meshes.len());
     };
     assert_eq!(quad.positions[0], Vec3::Y * 2.0, "translated");
-    assert_eq!(scene.emissive_triangle_count(), 2, "the quad shines");
+    assert_eq!(scene.emissive_triangle_count(), 2, "the quad is emissive");
     let emission = scene.material(quad.material).emission.expect("emission");
     let radiance = Color::Constant(Vec3::new(2.0, 4.0, 6.0));
     assert_eq!(emission.radiance, radiance, "scaled");
@@ -65,9 +65,9 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     };
     assert_eq!((name.as_str(), spheres.len()), ("ball", 1), "a sphere");
     let ball = &spheres[0];
-    let places: Vec<_> = scene.placements.iter().map(|p| p.place).collect();
+    let transforms: Vec<_> = scene.instances.iter().map(|i| i.transform).collect();
     let moved = [Vec3::X * 3.0, Vec3::ZERO].map(Affine3A::from_translation);
-    assert_eq!(places, moved, "placed twice");
+    assert_eq!(transforms, moved, "two instances");
     let gold = &scene.material(ball.material).surface;
     let Surface::Conductor { alpha, .. } = gold else {
         panic!("a metal, not {gold:?}");
@@ -92,8 +92,8 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     let expected = ["LightSource \"point\": parameter `fog` was ignored"];
     assert_eq!(warnings, expected, "named once");
     assert_eq!(
-        scene.warnings[0].place,
-        crate::Place::Line(18),
+        scene.warnings[0].location,
+        crate::Location::Line(18),
         "with its line"
     );
 }

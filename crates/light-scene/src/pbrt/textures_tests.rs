@@ -33,7 +33,9 @@ fn colors(scene: &Scene) -> [Color; 2] {
         panic!("a matt surface");
     };
     let whole = Color::Constant(Vec3::ONE);
-    let share = material.alpha.map_or(whole, |Alpha { share, .. }| share);
+    let share = material
+        .alpha
+        .map_or(whole, |Alpha { opacity, .. }| opacity);
     [reflectance, share]
 }
 

@@ -2,7 +2,7 @@ use alloc::borrow::Cow;
 use std::path::Path;
 
 use crate::text::shown;
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// The words of a pbrt file, one after the other, each with its line.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl<'a> Tokens<'a> {
 
     /// A message about the line of the token that came last.
     pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.path, Place::Line(self.line), message)
+        Diagnostic::at(self.path, Location::Line(self.line), message)
     }
 
     /// The next token without taking it.

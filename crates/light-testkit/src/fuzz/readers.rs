@@ -102,14 +102,17 @@ fn scene(answered: Result<Scene, Diagnostic>) {
             .emission
             .iter()
             .for_each(|emission| image(&emission.radiance));
-        material.alpha.iter().for_each(|alpha| image(&alpha.share));
+        material
+            .alpha
+            .iter()
+            .for_each(|alpha| image(&alpha.opacity));
     }
-    for placement in &scene.placements {
+    for instance in &scene.instances {
         assert!(
-            (placement.prototype.0 as usize) < scene.prototypes.len(),
+            (instance.prototype.0 as usize) < scene.prototypes.len(),
             "a prototype"
         );
-        assert!(placement.place.is_finite(), "a place");
+        assert!(instance.transform.is_finite(), "a transform");
     }
     let prototypes = scene.prototypes.iter();
     let placed = prototypes.flat_map(|prototype| &prototype.meshes);

@@ -23,8 +23,8 @@ const MOORINGS: [(Bank, f32, f32); 8] = [
 pub(super) fn boats(modeller: &mut Modeller, palette: &Palette, dice: &mut Dice, course: &Course) {
     for (bank, along, length) in MOORINGS {
         let hull = dice.pick(&palette.colours);
-        let place = course.facing_water(bank, along, WATER - 1.5);
-        boat(modeller, palette, dice, &place, hull, length);
+        let transform = course.facing_water(bank, along, WATER - 1.5);
+        boat(modeller, palette, dice, &transform, hull, length);
     }
 }
 
@@ -33,7 +33,7 @@ fn boat(
     modeller: &mut Modeller,
     palette: &Palette,
     dice: &mut Dice,
-    place: &Affine3A,
+    transform: &Affine3A,
     hull: MaterialId,
     length: f32,
 ) {
@@ -51,7 +51,7 @@ fn boat(
     let at = |(t, half, rim): (f32, f32, f32), side: f32, low: f32| {
         let y = if low > 0.0 { -0.2 } else { rim };
         let waist = 1.0 - 0.22 * low;
-        place.transform_point3(Vec3::new(t * length, y, side * half * waist))
+        transform.transform_point3(Vec3::new(t * length, y, side * half * waist))
     };
     for pair in SHAPE.windows(2) {
         let (a, b) = (pair[0], pair[1]);
@@ -93,7 +93,7 @@ fn boat(
         at(stern, -1.0, 0.0),
     ];
     modeller.quad(hull, transom);
-    cabin(modeller, palette, dice, place, length);
+    cabin(modeller, palette, dice, transform, length);
 }
 
 /// A cabin with three windows on each side.
@@ -101,21 +101,21 @@ fn cabin(
     modeller: &mut Modeller,
     palette: &Palette,
     dice: &mut Dice,
-    place: &Affine3A,
+    transform: &Affine3A,
     length: f32,
 ) {
     let (x0, x1) = (-0.32 * length, 0.16 * length);
     let (low, high) = (Vec3::new(x0, 0.55, -0.72), Vec3::new(x1, 1.65, 0.72));
-    modeller.block(palette.paint, place, low, high);
+    modeller.block(palette.paint, transform, low, high);
     let (low, high) = (
         Vec3::new(x0 - 0.12, 1.65, -0.85),
         Vec3::new(x1 + 0.12, 1.74, 0.85),
     );
-    modeller.block(palette.bark, place, low, high);
+    modeller.block(palette.bark, transform, low, high);
     let room = dice.pick(&palette.rooms);
     let half_turn = Affine3A::from_rotation_y(core::f32::consts::PI);
-    for side in [*place, *place * half_turn] {
-        let mirrored = side.matrix3.z_axis.dot(place.matrix3.z_axis) < 0.0;
+    for side in [*transform, *transform * half_turn] {
+        let mirrored = side.matrix3.z_axis.dot(transform.matrix3.z_axis) < 0.0;
         let [from, to] = if mirrored { [-x1, -x0] } else { [x0, x1] };
         for k in 0..3u8 {
             let share = (to - from) / 3.0;

@@ -22,22 +22,22 @@ const PIECES: u16 = 24;
 /// Radius of a bulb.
 const BULB: f32 = 0.06;
 
-/// An arched bridge over the canal, outlined with bulbs; at `place` x runs across the canal and z
-/// along it.
-pub(super) fn bridge(modeller: &mut Modeller, palette: &Palette, place: &Affine3A) {
+/// An arched bridge over the canal, outlined with bulbs; at `transform` x runs across the canal and
+/// z along it.
+pub(super) fn bridge(modeller: &mut Modeller, palette: &Palette, transform: &Affine3A) {
     let across = |k: u16| REACH * (f32::from(k) / f32::from(PIECES) - 1.0);
     for k in 0..2 * PIECES {
-        slice(modeller, palette, place, [across(k), across(k + 1)]);
+        slice(modeller, palette, transform, [across(k), across(k + 1)]);
     }
     for z in [-HALF_WIDTH, HALF_WIDTH] {
-        railing(modeller, palette, place, z);
-        outline(modeller, palette, place, z);
+        railing(modeller, palette, transform, z);
+        outline(modeller, palette, transform, z);
     }
     for x in [-REACH + 1.2, REACH - 1.2] {
         for z in [-HALF_WIDTH, HALF_WIDTH] {
             let foot = Vec3::new(x, deck(x) - 0.02, z);
-            let place = *place * Affine3A::from_translation(foot);
-            lantern(modeller, palette, &place, 2.7);
+            let transform = *transform * Affine3A::from_translation(foot);
+            lantern(modeller, palette, &transform, 2.7);
         }
     }
 }
@@ -58,8 +58,8 @@ fn arch(x: f32) -> f32 {
 }
 
 /// One slice across the canal: deck, both faces, underside.
-fn slice(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, [a, b]: [f32; 2]) {
-    let at = |x: f32, y: f32, z: f32| place.transform_point3(Vec3::new(x, y, z));
+fn slice(modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, [a, b]: [f32; 2]) {
+    let at = |x: f32, y: f32, z: f32| transform.transform_point3(Vec3::new(x, y, z));
     let w = HALF_WIDTH;
     let top = [
         at(a, deck(a), w),
@@ -89,10 +89,10 @@ fn slice(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, [a, b]: [
 }
 
 /// A kerb, posts, and two rails.
-fn railing(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, z: f32) {
+fn railing(modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, z: f32) {
     const POSTS: u16 = 26;
     let x = |k: u16| REACH * (2.0 * f32::from(k) / f32::from(POSTS) - 1.0);
-    let at = |x: f32, above: f32| place.transform_point3(Vec3::new(x, deck(x) + above, z));
+    let at = |x: f32, above: f32| transform.transform_point3(Vec3::new(x, deck(x) + above, z));
     for k in 0..=POSTS {
         modeller.bar(
             palette.iron,
@@ -115,10 +115,10 @@ fn railing(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, z: f32)
 }
 
 /// Bulbs along the arch and along the deck, on the face at `z`.
-fn outline(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, z: f32) {
+fn outline(modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, z: f32) {
     let out = z + 0.12 * z.signum();
     let mut bulb = |material: MaterialId, x: f32, y: f32| {
-        let center = place.transform_point3(Vec3::new(x, y, out));
+        let center = transform.transform_point3(Vec3::new(x, y, out));
         modeller.octahedron(material, center, BULB);
     };
     const ARCH: u16 = 44;

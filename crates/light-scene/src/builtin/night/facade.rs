@@ -4,12 +4,12 @@ use crate::MaterialId;
 use crate::builtin::modeller::Modeller;
 use crate::glam::Affine3A;
 
-/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `place`, with holes for
-/// the openings of one floor, which lie side by side from left to right within it.
+/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `transform`, with holes
+/// for the openings of one floor, which lie side by side from left to right within it.
 pub(super) fn wall(
     modeller: &mut Modeller,
     material: MaterialId,
-    place: &Affine3A,
+    transform: &Affine3A,
     x: [f32; 2],
     y: [f32; 2],
     openings: &[Opening],
@@ -17,7 +17,7 @@ pub(super) fn wall(
     let mut panel = |x: [f32; 2], y: [f32; 2]| {
         if x[1] > x[0] && y[1] > y[0] {
             let [min, max] = corners(x, y);
-            modeller.panel(material, place, min, max, 0.0);
+            modeller.panel(material, transform, min, max, 0.0);
         }
     };
     let mut left = x[0];

@@ -13,14 +13,14 @@ impl House {
         modeller: &mut Modeller,
         palette: &Palette,
         dice: &mut Dice,
-        place: &Affine3A,
+        transform: &Affine3A,
         top: f32,
     ) {
         match self.style {
-            Gable::Stepped => self.stepped_gable(modeller, palette, dice, place, top),
-            Gable::Necked => self.necked_gable(modeller, palette, dice, place, top),
-            Gable::Pointed => self.pointed_gable(modeller, palette, place, top),
-            Gable::Cornice => self.cornice(modeller, palette, place, top),
+            Gable::Stepped => self.stepped_gable(modeller, palette, dice, transform, top),
+            Gable::Necked => self.necked_gable(modeller, palette, dice, transform, top),
+            Gable::Pointed => self.pointed_gable(modeller, palette, transform, top),
+            Gable::Cornice => self.cornice(modeller, palette, transform, top),
         }
     }
 
@@ -39,7 +39,7 @@ impl House {
         modeller: &mut Modeller,
         palette: &Palette,
         dice: &mut Dice,
-        place: &Affine3A,
+        transform: &Affine3A,
         top: f32,
     ) {
         const STEPS: u16 = 4;
@@ -48,16 +48,16 @@ impl House {
             let half = 0.5 * self.width * (1.0 - f32::from(k) / f32::from(STEPS)) - 0.1;
             let y = top + rise * f32::from(k);
             let (low, high) = (Vec3::new(-half, y, -0.4), Vec3::new(half, y + rise, 0.0));
-            modeller.block(self.front, place, low, high);
+            modeller.block(self.front, transform, low, high);
             for side in [-1.0, 1.0] {
                 let outer = side * half;
                 let inner = outer - side * 0.125 * self.width;
                 let low = Vec3::new(outer.min(inner) - 0.04, y + rise, -0.44);
                 let high = Vec3::new(outer.max(inner) + 0.04, y + rise + 0.12, 0.04);
-                modeller.block(palette.stone, place, low, high);
+                modeller.block(palette.stone, transform, low, high);
             }
         }
-        self.attic(modeller, palette, dice, place, top);
+        self.attic(modeller, palette, dice, transform, top);
     }
 
     /// A tall narrow middle with a small pediment, and shoulders on both sides.
@@ -66,7 +66,7 @@ impl House {
         modeller: &mut Modeller,
         palette: &Palette,
         dice: &mut Dice,
-        place: &Affine3A,
+        transform: &Affine3A,
         top: f32,
     ) {
         let half = 0.26 * self.width;
@@ -75,17 +75,17 @@ impl House {
             Vec3::new(-half, top, -0.4),
             Vec3::new(half, top + height, 0.0),
         );
-        modeller.block(self.front, place, low, high);
+        modeller.block(self.front, transform, low, high);
         for side in [-1.0f32, 1.0] {
             let (a, b) = (side * half, side * 0.48 * self.width);
             let low = Vec3::new(a.min(b), top, -0.3);
             let high = Vec3::new(a.max(b), top + 0.42 * height, -0.05);
-            modeller.block(palette.stone, place, low, high);
+            modeller.block(palette.stone, transform, low, high);
         }
         let cap = Vec3::new(half + 0.15, top + height + 0.15, 0.12);
         let low = Vec3::new(-half - 0.15, top + height, -0.45);
-        modeller.block(palette.stone, place, low, cap);
-        let at = |x: f32, y: f32, z: f32| place.transform_point3(Vec3::new(x, y, z));
+        modeller.block(palette.stone, transform, low, cap);
+        let at = |x: f32, y: f32, z: f32| transform.transform_point3(Vec3::new(x, y, z));
         let y = cap.y;
         let front = [at(-half, y, 0.0), at(half, y, 0.0), at(0.0, y + 0.6, 0.0)];
         let back = [
@@ -97,7 +97,7 @@ impl House {
         modeller.triangle(palette.stone, back);
         modeller.quad(palette.stone, [front[1], back[0], back[2], front[2]]);
         modeller.quad(palette.stone, [back[1], front[0], front[2], back[2]]);
-        self.attic(modeller, palette, dice, place, top);
+        self.attic(modeller, palette, dice, transform, top);
     }
 
     /// A plain triangle with a coping of stone.
@@ -105,32 +105,32 @@ impl House {
         &self,
         modeller: &mut Modeller,
         palette: &Palette,
-        place: &Affine3A,
+        transform: &Affine3A,
         top: f32,
     ) {
         let half = 0.5 * self.width;
         let ridge = top + self.roof_height();
-        let at = |x: f32, y: f32, z: f32| place.transform_point3(Vec3::new(x, y, z));
+        let at = |x: f32, y: f32, z: f32| transform.transform_point3(Vec3::new(x, y, z));
         let front = [at(-half, top, 0.0), at(half, top, 0.0), at(0.0, ridge, 0.0)];
         modeller.triangle(self.front, front);
         for side in [-1.0, 1.0] {
             let ends = [at(side * half, top, -0.05), at(0.0, ridge + 0.1, -0.05)];
             modeller.bar(palette.stone, ends, [0.16, 0.16], 4);
         }
-        self.hoist(modeller, palette, place, ridge - 0.7);
+        self.hoist(modeller, palette, transform, ridge - 0.7);
     }
 
     /// A straight cornice, carried by brackets.
-    fn cornice(&self, modeller: &mut Modeller, palette: &Palette, place: &Affine3A, top: f32) {
+    fn cornice(&self, modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, top: f32) {
         let half = 0.5 * self.width;
         let low = Vec3::new(-half, top - 0.1, -0.3);
         let high = Vec3::new(half, top + 0.25, 0.35);
-        modeller.block(palette.paint, place, low, high);
+        modeller.block(palette.paint, transform, low, high);
         for k in 0..9u8 {
             let x = half * (f32::from(k) / 4.5 - 0.89);
             let low = Vec3::new(x - 0.06, top - 0.35, 0.0);
             let high = Vec3::new(x + 0.06, top - 0.1, 0.25);
-            modeller.block(palette.paint, place, low, high);
+            modeller.block(palette.paint, transform, low, high);
         }
     }
 
@@ -140,7 +140,7 @@ impl House {
         modeller: &mut Modeller,
         palette: &Palette,
         dice: &mut Dice,
-        place: &Affine3A,
+        transform: &Affine3A,
         top: f32,
     ) {
         let half = 0.42;
@@ -151,7 +151,7 @@ impl House {
             palette.dark_glass
         };
         let [min, max] = corners([-half, half], [y0, y1]);
-        modeller.panel(pane, place, min, max, 0.03);
+        modeller.panel(pane, transform, min, max, 0.03);
         let frame = [
             ([-half - 0.08, -half], [y0, y1]),
             ([half, half + 0.08], [y0, y1]),
@@ -161,13 +161,13 @@ impl House {
         ];
         for (x, y) in frame {
             let low = Vec3::new(x[0], y[0], 0.0);
-            modeller.block(palette.paint, place, low, Vec3::new(x[1], y[1], 0.08));
+            modeller.block(palette.paint, transform, low, Vec3::new(x[1], y[1], 0.08));
         }
-        self.hoist(modeller, palette, place, y1 + 0.35);
+        self.hoist(modeller, palette, transform, y1 + 0.35);
     }
 
-    fn hoist(&self, modeller: &mut Modeller, palette: &Palette, place: &Affine3A, y: f32) {
+    fn hoist(&self, modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, y: f32) {
         let low = Vec3::new(-0.07, y, -0.2);
-        modeller.block(palette.iron, place, low, Vec3::new(0.07, y + 0.16, 0.9));
+        modeller.block(palette.iron, transform, low, Vec3::new(0.07, y + 0.16, 0.9));
     }
 }

@@ -39,9 +39,9 @@ pub(super) fn row(
     while at < ROW[1] {
         let house = House::new(palette, dice);
         let middle = course.along(bank, FRONTS, at + 0.5 * house.width);
-        let place = course.facing_water(bank, middle, FRONTS);
-        let place = place * Affine3A::from_translation(Vec3::Y * QUAY);
-        house.build(modeller, palette, dice, &place);
+        let transform = course.facing_water(bank, middle, FRONTS);
+        let transform = transform * Affine3A::from_translation(Vec3::Y * QUAY);
+        house.build(modeller, palette, dice, &transform);
         at += house.width;
     }
 }
@@ -64,7 +64,13 @@ impl House {
         }
     }
 
-    fn build(&self, modeller: &mut Modeller, palette: &Palette, dice: &mut Dice, place: &Affine3A) {
+    fn build(
+        &self,
+        modeller: &mut Modeller,
+        palette: &Palette,
+        dice: &mut Dice,
+        transform: &Affine3A,
+    ) {
         let half = 0.5 * self.width;
         let mut bottom = 0.0;
         for (floor, height) in self.floors.iter().enumerate() {
@@ -77,19 +83,19 @@ impl House {
             wall(
                 modeller,
                 self.front,
-                place,
+                transform,
                 [-half, half],
                 [bottom, top],
                 &openings,
             );
             for opening in &openings {
-                opening.fill(modeller, palette, dice, place);
+                opening.fill(modeller, palette, dice, transform);
             }
             bottom = top;
         }
-        self.band(modeller, palette, place, self.floors[0] - 0.2);
-        self.body(modeller, palette, place, bottom);
-        self.gable(modeller, palette, dice, place, bottom);
+        self.band(modeller, palette, transform, self.floors[0] - 0.2);
+        self.body(modeller, palette, transform, bottom);
+        self.gable(modeller, palette, dice, transform, bottom);
     }
 
     /// A door and a large window, of a shop or of a dwelling.
@@ -149,17 +155,22 @@ impl House {
     }
 
     /// A course of stone across the front.
-    fn band(&self, modeller: &mut Modeller, palette: &Palette, place: &Affine3A, y: f32) {
+    fn band(&self, modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, y: f32) {
         let half = 0.5 * self.width;
         let low = Vec3::new(-half, y, 0.0);
-        modeller.block(palette.stone, place, low, Vec3::new(half, y + 0.18, 0.09));
+        modeller.block(
+            palette.stone,
+            transform,
+            low,
+            Vec3::new(half, y + 0.18, 0.09),
+        );
     }
 
     /// Side walls, back, roof and chimney behind a front of height `top`.
-    fn body(&self, modeller: &mut Modeller, palette: &Palette, place: &Affine3A, top: f32) {
+    fn body(&self, modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, top: f32) {
         let half = 0.5 * self.width;
         let ridge = top + self.roof_height();
-        let at = |x: f32, y: f32, z: f32| place.transform_point3(Vec3::new(x, y, z));
+        let at = |x: f32, y: f32, z: f32| transform.transform_point3(Vec3::new(x, y, z));
         for side in [-1.0, 1.0] {
             let x = side * half;
             let wall = [
@@ -201,6 +212,6 @@ impl House {
         modeller.quad(self.front, back);
         let low = Vec3::new(0.25 * self.width, top, -4.0);
         let high = Vec3::new(0.25 * self.width + 0.6, ridge + 0.5, -3.2);
-        modeller.block(self.front, place, low, high);
+        modeller.block(self.front, transform, low, high);
     }
 }

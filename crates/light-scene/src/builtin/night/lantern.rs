@@ -23,31 +23,36 @@ pub(super) fn places(course: &Course, bank: Bank) -> Vec<f32> {
 
 /// The foot of a lantern's post.
 pub(super) fn foot(course: &Course, bank: Bank, along: f32) -> Vec3 {
-    let place = course.facing_water(bank, along, WATER + BEHIND_WALL);
-    Vec3::from(place.translation) + Vec3::Y * QUAY
+    let transform = course.facing_water(bank, along, WATER + BEHIND_WALL);
+    Vec3::from(transform.translation) + Vec3::Y * QUAY
 }
 
 /// The lanterns of one bank.
 pub(super) fn row(modeller: &mut Modeller, palette: &Palette, course: &Course, bank: Bank) {
     for along in places(course, bank) {
-        let mut place = course.facing_water(bank, along, WATER + BEHIND_WALL);
-        place.translation.y += QUAY;
-        lantern(modeller, palette, &place, GLASS);
+        let mut transform = course.facing_water(bank, along, WATER + BEHIND_WALL);
+        transform.translation.y += QUAY;
+        lantern(modeller, palette, &transform, GLASS);
     }
 }
 
-/// A lantern whose glass begins `height` above the origin of `place`: post, four panes, roof.
-pub(super) fn lantern(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, height: f32) {
-    let at = |y: f32| place.transform_point3(Vec3::Y * y);
+/// A lantern whose glass begins `height` above the origin of `transform`: post, four panes, roof.
+pub(super) fn lantern(
+    modeller: &mut Modeller,
+    palette: &Palette,
+    transform: &Affine3A,
+    height: f32,
+) {
+    let at = |y: f32| transform.transform_point3(Vec3::Y * y);
     modeller.bar(palette.iron, [at(0.0), at(0.5)], [0.13, 0.09], 8);
     modeller.bar(palette.iron, [at(0.5), at(height)], [0.06, 0.045], 8);
     let base = Vec3::new(0.16, 0.05, 0.16);
     let floor = Vec3::Y * height;
-    modeller.block(palette.iron, place, floor - base, floor + base);
+    modeller.block(palette.iron, transform, floor - base, floor + base);
     // The glass widens upward, as the old lanterns do.
     let (bottom, top, y0, y1) = (0.13, 0.21, height + 0.05, height + 0.5);
     let corner = |x: f32, z: f32, half: f32, y: f32| {
-        place.transform_point3(Vec3::new(x * half, y, z * half))
+        transform.transform_point3(Vec3::new(x * half, y, z * half))
     };
     let around = [
         (-1.0, 1.0),

@@ -8,23 +8,23 @@ use crate::glam::{Affine3A, Vec3};
 
 /// A church tower behind the houses of the bend: the mark by which one knows the town.
 pub(super) fn tower(modeller: &mut Modeller, palette: &Palette, course: &Course) {
-    let mut place = course.facing_water(Bank::Left, 72.0, FRONTS + 19.0);
-    place.translation.y += QUAY;
+    let mut transform = course.facing_water(Bank::Left, 72.0, FRONTS + 19.0);
+    transform.translation.y += QUAY;
     // Storeys from the ground up: height of the top, and half width.
     let storeys = [(17.0, 3.6), (23.0, 3.0), (27.0, 2.3), (30.0, 1.6)];
     let mut bottom = 0.0;
     for (top, half) in storeys {
         let (low, high) = (Vec3::new(-half, bottom, -half), Vec3::new(half, top, half));
-        modeller.block(palette.stone, &place, low, high);
+        modeller.block(palette.stone, &transform, low, high);
         let rim = Vec3::new(half + 0.3, 0.2, half + 0.3);
         let edge = Vec3::Y * top;
-        modeller.block(palette.paint, &place, edge - rim, edge + rim);
+        modeller.block(palette.paint, &transform, edge - rim, edge + rim);
         bottom = top;
     }
-    spire(modeller, palette, &place, bottom);
+    spire(modeller, palette, &transform, bottom);
     for quarter in 0..4u8 {
         let turn = Affine3A::from_rotation_y(0.25 * TAU * f32::from(quarter));
-        let face = place * turn;
+        let face = transform * turn;
         clock(modeller, palette, &face, Vec3::new(0.0, 20.0, 3.05));
         for x in [-2.0, 0.0, 2.0] {
             flood(modeller, palette, &face, Vec3::new(x, 17.25, 3.75));
@@ -33,8 +33,8 @@ pub(super) fn tower(modeller: &mut Modeller, palette: &Palette, course: &Course)
     }
 }
 
-fn spire(modeller: &mut Modeller, palette: &Palette, place: &Affine3A, bottom: f32) {
-    let at = |y: f32| place.transform_point3(Vec3::Y * y);
+fn spire(modeller: &mut Modeller, palette: &Palette, transform: &Affine3A, bottom: f32) {
+    let at = |y: f32| transform.transform_point3(Vec3::Y * y);
     let profile = [(0.0, 1.5), (1.2, 1.7), (2.6, 1.0), (4.2, 0.55), (9.0, 0.03)];
     for pair in profile.windows(2) {
         let ends = [at(bottom + pair[0].0), at(bottom + pair[1].0)];

@@ -144,13 +144,13 @@ impl Description {
         // What glass does not hold back is light that passes it.
         let is_glass = self.finish() == Finish::Glass;
         let scale = Vec3::splat(stated.filter(|_| !is_glass).unwrap_or(1.0));
-        let share = match self.dissolve_map {
+        let opacity = match self.dissolve_map {
             Some(image) => Color::Image(ColorImage { scale, ..image }),
             None if scale == Vec3::ONE => return None,
             None => Color::Constant(scale),
         };
         let cutoff = None;
-        Some(Alpha { share, cutoff })
+        Some(Alpha { opacity, cutoff })
     }
 
     fn finish(&self) -> Finish {

@@ -32,7 +32,10 @@ fn warnings(mtl: &str) -> Vec<String> {
 fn share(mtl: &str) -> Option<Color> {
     let scene = read(&format!("newmtl a\n{mtl}")).expect("a scene");
     assert_eq!(scene.warnings, [], "{mtl}");
-    let share = |Alpha { share, cutoff }| {
+    let share = |Alpha {
+                     opacity: share,
+                     cutoff,
+                 }| {
         assert_eq!(cutoff, None, "by share");
         share
     };
@@ -169,7 +172,7 @@ fn dissolve_is_how_much_is_there() {
 fn opacity_is_the_alpha_channel_or_the_brightness() {
     for (file, factor, texel) in [("hole.png", "", 0.4), ("a b.png", "d .5\n", 0.2)] {
         let scene = read(&format!("newmtl a\n{factor}map_d {file}")).expect("a scene");
-        let Some(Color::Image(shown)) = scene.materials[0].alpha.map(|alpha| alpha.share) else {
+        let Some(Color::Image(shown)) = scene.materials[0].alpha.map(|alpha| alpha.opacity) else {
             panic!("{file}: an image");
         };
         let image = &scene.images[shown.image.0 as usize];

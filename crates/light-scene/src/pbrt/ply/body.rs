@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::element::{Format, Number, Property};
 use crate::text::shown;
-use crate::{Diagnostic, Place};
+use crate::{Diagnostic, Location};
 
 /// A PLY file and how far it has been read.
 pub(super) struct Body<'a> {
@@ -17,16 +17,16 @@ pub(super) struct Body<'a> {
 
 impl Body<'_> {
     pub(super) fn error(&self, message: impl Into<String>) -> Diagnostic {
-        let place = match self.format {
-            Format::Text => Place::Line(
+        let location = match self.format {
+            Format::Text => Location::Line(
                 1 + self.bytes[..self.at]
                     .iter()
                     .filter(|&&b| b == b'\n')
                     .count(),
             ),
-            _ => Place::Byte(self.at),
+            _ => Location::Byte(self.at),
         };
-        Diagnostic::at(self.path, place, message)
+        Diagnostic::at(self.path, location, message)
     }
 
     /// The values of a property: one, or those of the list.

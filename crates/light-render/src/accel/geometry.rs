@@ -8,9 +8,9 @@ use super::sphere_bvh::SphereBvh;
 use super::triangle_bvh::TriangleBvh;
 use crate::Ray;
 
-/// Triangles and spheres in the same coordinates, under the numbers of their primitives.
+/// The triangles and the spheres of one coordinate system, with consecutive primitive numbers.
 #[derive(Default)]
-pub(super) struct Solids {
+pub(super) struct Geometry {
     triangles: TriangleBvh,
     spheres: SphereBvh,
     first: Numbers,
@@ -24,7 +24,7 @@ pub(super) struct Numbers {
     pub(super) sphere: u32,
 }
 
-impl Solids {
+impl Geometry {
     /// Hierarchies over the corners of `triangles` and over `spheres`, numbered from `next` on,
     /// which counts them.
     ///
@@ -64,21 +64,20 @@ impl Solids {
         ]
     }
 
-    /// The first hit of `ray` that is nearer than `t_max`, among those of which `is_there` says
-    /// that they count, by number and place. The triangle `from` does not count, nor does the near
-    /// side of the sphere `from`.
+    /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts, by number and
+    /// coordinates. The triangle `from` is skipped, and so is the near side of the sphere `from`.
     #[inline]
     pub(super) fn closest(
         &self,
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> Option<BvhHit> {
         let Numbers { triangle, sphere } = self.first;
         let start = from.map(|from| from.wrapping_sub(triangle));
-        let there = |number, place| is_there(triangle + number, place);
-        let hit = self.triangles.closest(ray, t_max, start, there);
+        let filter = |number, coords| any_hit(triangle + number, coords);
+        let hit = self.triangles.closest(ray, t_max, start, filter);
         let hit = hit.map(|hit| BvhHit {
             number: triangle + hit.number,
             ..hit
@@ -88,8 +87,8 @@ impl Solids {
         }
         let t_max = hit.map_or(t_max, |hit| hit.t);
         let start = from.map(|from| from.wrapping_sub(sphere));
-        let there = |number, place| is_there(sphere + number, place);
-        let nearer = self.spheres.closest(ray, t_max, start, there);
+        let filter = |number, coords| any_hit(sphere + number, coords);
+        let nearer = self.spheres.closest(ray, t_max, start, filter);
         let nearer = nearer.map(|hit| BvhHit {
             number: sphere + hit.number,
             ..hit
@@ -97,26 +96,26 @@ impl Solids {
         nearer.or(hit)
     }
 
-    /// Whether anything that counts is nearer than `t_max`.
+    /// Whether any hit that [`closest`](Self::closest) could return is nearer than `t_max`.
     #[inline]
     pub(super) fn occluded(
         &self,
         ray: &Ray,
         t_max: f32,
         from: Option<u32>,
-        is_there: impl Fn(u32, Vec2) -> bool,
+        any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> bool {
         let Numbers { triangle, sphere } = self.first;
         let start = from.map(|from| from.wrapping_sub(triangle));
-        let there = |number, place| is_there(triangle + number, place);
-        if self.triangles.occluded(ray, t_max, start, there) {
+        let filter = |number, coords| any_hit(triangle + number, coords);
+        if self.triangles.occluded(ray, t_max, start, filter) {
             return true;
         }
         if self.spheres.is_empty() {
             return false;
         }
         let start = from.map(|from| from.wrapping_sub(sphere));
-        let there = |number, place| is_there(sphere + number, place);
-        self.spheres.occluded(ray, t_max, start, there)
+        let filter = |number, coords| any_hit(sphere + number, coords);
+        self.spheres.occluded(ray, t_max, start, filter)
     }
 }

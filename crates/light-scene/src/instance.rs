@@ -3,30 +3,30 @@ use lights::math::Aabb;
 use crate::glam::{Affine3A, Vec3};
 use crate::{Mesh, PrototypeId, Sphere};
 
-/// Meshes and spheres that stand in several places, stored once: a tree of a forest. In itself it
-/// stands nowhere.
+/// Meshes and spheres in object space, stored once for any number of [`Instance`]s: a tree of a
+/// forest. A prototype without instances is not part of the picture.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Prototype {
     /// The name in the file; may be empty.
     pub name: String,
-    /// What it consists of, in coordinates of its own.
+    /// The meshes in it.
     pub meshes: Vec<Mesh>,
-    /// The spheres in it; a place may stretch them.
+    /// The spheres in it; the transform of an instance may make ellipsoids of them.
     pub spheres: Vec<Sphere>,
 }
 
-/// A place where a prototype stands.
+/// A prototype with the transform that puts it into the scene.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Placement {
-    /// What stands there.
+pub struct Instance {
+    /// The prototype.
     pub prototype: PrototypeId,
-    /// From its coordinates to those of the scene; what was in front of a triangle stays in front,
-    /// mirrored or not.
-    pub place: Affine3A,
+    /// From object space to world space. The front of a triangle stays its front, even if the
+    /// transform mirrors.
+    pub transform: Affine3A,
 }
 
 impl Prototype {
-    /// These meshes under a name.
+    /// A prototype of these meshes.
     #[must_use]
     pub fn new(name: impl Into<String>, meshes: Vec<Mesh>) -> Self {
         Self {
@@ -51,22 +51,22 @@ impl Prototype {
     }
 }
 
-impl Placement {
-    /// A box around `boxes` where the placement puts them.
+impl Instance {
+    /// A world space box around `boxes` of object space.
     pub(crate) fn bounds(&self, boxes: &[Aabb]) -> Aabb {
         Aabb::from_points(self.corners(boxes))
     }
 
-    /// Whether all that lies in `boxes` has finite coordinates where the placement puts it.
+    /// Whether the transformed corners of `boxes` are finite.
     pub(crate) fn is_finite(&self, boxes: &[Aabb]) -> bool {
         self.corners(boxes).all(|corner| corner.is_finite())
     }
 
-    /// The corners of `boxes` where the placement puts them.
+    /// The transformed corners of `boxes`.
     fn corners(&self, boxes: &[Aabb]) -> impl Iterator<Item = Vec3> {
         let boxes = boxes.iter().filter(|bounds| !bounds.is_empty());
         let corners = boxes.flat_map(corners);
-        corners.map(|corner| self.place.transform_point3(corner))
+        corners.map(|corner| self.transform.transform_point3(corner))
     }
 }
 

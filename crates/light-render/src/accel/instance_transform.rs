@@ -3,20 +3,20 @@ use lights::math::Aabb;
 
 use crate::{Ray, Surface};
 
-/// Where a prototype stands: an affine map that can be undone.
+/// An invertible affine map from the object space of a prototype to world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct InstanceTransform {
     to_world: Affine3A,
-    /// Undoes `to_world` but for its translation.
+    /// Inverse of the linear part of `to_world`.
     to_object: Mat3A,
 }
 
-/// A generous multiple of the rounding error of one component of a map.
+/// A generous multiple of the rounding error of one component of a transformed point.
 const ERROR: f32 = 8.0 * f32::EPSILON;
 
-impl Place {
-    /// The place that `to_world` takes a prototype to; `None` unless both the map and its inverse
-    /// are finite, squares included.
+impl InstanceTransform {
+    /// Wraps `to_world`; `None` unless the map and its inverse are finite, and so are the squared
+    /// lengths of their columns.
     #[must_use]
     pub fn new(to_world: Affine3A) -> Option<Self> {
         let to_object = to_world.matrix3.inverse();
@@ -31,31 +31,31 @@ impl Place {
         })
     }
 
-    /// A point of the prototype in the world.
+    /// Takes a point from object space to world space.
     #[inline]
     #[must_use]
     pub fn point(&self, p: Vec3) -> Vec3 {
         self.to_world.transform_point3(p)
     }
 
-    /// A normal of the prototype in the world, of any length.
+    /// Takes a normal from object space to world space; the result has any length.
     #[inline]
     #[must_use]
     pub fn normal(&self, n: Vec3) -> Vec3 {
         (self.to_object.transpose() * Vec3A::from(n)).into()
     }
 
-    /// Whether what runs counter-clockwise in the prototype runs clockwise in the world.
+    /// Whether the map turns counter-clockwise triangles into clockwise ones.
     #[inline]
     #[must_use]
     pub fn mirrors(&self) -> bool {
         self.to_world.matrix3.determinant() < 0.0
     }
 
-    /// `ray` as the prototype sees it, and how long a scene unit along it is there.
+    /// Takes `ray` to object space; also the length there of a unit of world space along the ray.
     ///
-    /// The direction gets unit length again: among components near the rounding unit a ray is taken
-    /// as parallel to its box.
+    /// The direction is normalised again: the box test takes a ray whose direction components are
+    /// near the rounding unit as parallel to the box.
     #[inline]
     #[must_use]
     pub fn to_object(&self, ray: &Ray) -> (Ray, f32) {
@@ -69,8 +69,8 @@ impl Place {
         (ray, stretch)
     }
 
-    /// How far from `p`, component by component, rounding may move a ray that starts there on its
-    /// way to the prototype.
+    /// Bound, for each component, on the distance that rounding moves a ray with origin `p` in
+    /// [`to_object`](Self::to_object), in world space.
     #[inline]
     #[must_use]
     pub fn error(&self, p: Vec3) -> Vec3 {
@@ -79,7 +79,7 @@ impl Place {
         (self.to_world.matrix3.abs() * there * ERROR).into()
     }
 
-    /// A point of a prototype in the world, with its error.
+    /// Takes a surface point from object space to world space, with its error bound.
     #[must_use]
     pub(crate) fn surface(&self, there: &Surface) -> Surface {
         let p = self.point(there.p);
@@ -94,7 +94,7 @@ impl Place {
         }
     }
 
-    /// A box around what `bounds` contains, in the world, rounding errors included.
+    /// A world space box around the object space box `bounds`, rounding errors included.
     #[must_use]
     pub fn bounds(&self, bounds: &Aabb) -> Aabb {
         let center = bounds.center();
@@ -115,24 +115,24 @@ mod tests {
     use super::*;
     use lights::glam::Quat;
 
-    fn skewed() -> Place {
+    fn skewed() -> InstanceTransform {
         let rotation = Quat::from_axis_angle(Vec3::new(1.0, 2.0, -2.0) / 3.0, 1.1);
         let turned = Affine3A::from_quat(rotation);
         let to_world = Affine3A::from_translation(Vec3::new(5.0, -3.0, 100.0))
             * turned
             * Affine3A::from_scale(Vec3::new(-2.0, 0.1, 7.0))
             * turned;
-        Place::new(to_world).expect("it can be undone")
+        InstanceTransform::new(to_world).expect("an invertible map")
     }
 
     #[test]
-    fn rays_meet_in_the_prototype_what_they_meet_in_the_world() {
-        let place = skewed();
+    fn rays_hit_the_same_point_in_both_spaces() {
+        let transform = skewed();
         let p = Vec3::new(0.3, -0.2, 0.9);
         let origin = Vec3::new(7.0, 1.0, 90.0);
-        let way = place.point(p) - origin;
+        let way = transform.point(p) - origin;
         let direction = way.normalize();
-        let (ray, stretch) = place.to_object(&Ray { origin, direction });
+        let (ray, stretch) = transform.to_object(&Ray { origin, direction });
         assert!(
             (ray.direction.length() - 1.0).abs() < 1e-6,
             "of unit length"
@@ -143,24 +143,24 @@ mod tests {
 
     #[test]
     fn normals_stay_normals_and_boxes_contain() {
-        let place = skewed();
+        let transform = skewed();
         let [a, b, c] = [Vec3::X, Vec3::new(0.1, 0.9, 0.0), Vec3::splat(-0.5)];
-        let n = place.normal((b - a).cross(c - a)).normalize();
-        let [p, q, r] = [a, b, c].map(|v| place.point(v));
+        let n = transform.normal((b - a).cross(c - a)).normalize();
+        let [p, q, r] = [a, b, c].map(|v| transform.point(v));
         let across = (q - p).cross(r - p).normalize();
-        assert!(place.mirrors(), "one scale is negative");
+        assert!(transform.mirrors(), "one scale is negative");
         assert!(n.distance(-across) < 1e-5, "mirrored, the front stays");
-        let bounds = place.bounds(&Aabb::from_points([a, b, c]));
+        let bounds = transform.bounds(&Aabb::from_points([a, b, c]));
         assert!([p, q, r].iter().all(|&v| bounds.contains(v)), "in the box");
     }
 
     #[test]
-    fn maps_that_cannot_be_undone_are_no_places() {
+    fn singular_and_non_finite_maps_are_refused() {
         let flat = Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0));
         let nowhere = Affine3A::from_translation(Vec3::NAN);
         let huge = Affine3A::from_scale(Vec3::splat(1e30));
         for bad in [flat, nowhere, huge] {
-            assert_eq!(Place::new(bad), None, "{bad}");
+            assert_eq!(InstanceTransform::new(bad), None, "{bad}");
         }
     }
 }

@@ -33,7 +33,7 @@ fn under_roof(alpha: impl Fn(&mut Scene) -> Option<Alpha>) -> Scene {
 fn share(share: f32, cutoff: Option<f32>) -> Scene {
     under_roof(|_| {
         Some(Alpha {
-            share: Color::Constant(Vec3::splat(share)),
+            opacity: Color::Constant(Vec3::splat(share)),
             cutoff,
         })
     })
@@ -79,7 +79,7 @@ fn holes_are_where_the_image_says() {
         let texels = [1.0, 1.0, 0.0, 0.0].map(Vec3::splat).to_vec();
         let image = scene.add_image(Image::new(1, 4, texels).expect("an image"));
         Some(Alpha {
-            share: Color::Image(ColorImage::new(image)),
+            opacity: Color::Image(ColorImage::new(image)),
             cutoff: Some(0.5),
         })
     });
@@ -125,7 +125,7 @@ fn a_lamp_that_is_not_seen_gives_all_its_light() {
         shot.mean(scene)
     };
     let hidden = lamps(Some(Alpha {
-        share: Color::Constant(Vec3::ZERO),
+        opacity: Color::Constant(Vec3::ZERO),
         cutoff: None,
     }));
     let whole = of(&lamps(None), Estimator::Mis);

@@ -5,71 +5,75 @@ use lights::sources::shape::{AnyShape, Shape};
 use lights::sources::{AreaLight, Light, LightLiSample, LightRef, PdfCoverage, Rgb, SurfacePoint};
 
 use super::World;
-use crate::surface_emission::{HoledLights, Holes};
+use crate::surface_emission::{AlphaMaskedLights, MaskedRadiance};
 use crate::{PrimitiveId, Ray, sobol};
 
 impl World {
-    /// Whether `ray` meets a primitive at a place of it, or passes through a hole.
+    /// Any-hit test: whether `ray` hits a primitive at `coords`, or passes through its alpha mask.
     ///
-    /// A surface that is partly there is met by its share of the rays, chosen by a hash of ray and
-    /// primitive: the same ray always gets the same answer. A sphere, which it may meet twice, is
-    /// asked about each place for itself.
-    pub(super) fn is_there(&self, ray: &Ray, primitive: PrimitiveId, place: Vec2) -> bool {
+    /// A surface of fractional opacity is hit by that share of the rays, chosen by a hash of ray
+    /// and primitive, so that the same ray always gets the same answer. A ray may cross a sphere
+    /// twice, so that the hash of a sphere includes the coordinates.
+    pub(super) fn any_hit(&self, ray: &Ray, primitive: PrimitiveId, coords: Vec2) -> bool {
         let (_, material) = self.material(primitive);
         if material.alpha.is_none() {
             return true;
         }
-        let share = self.share(material, self.uv(primitive, place));
-        let place = if self.is_sphere(primitive) {
-            place
+        let opacity = self.opacity(material, self.uv(primitive, coords));
+        let coords = if self.is_sphere(primitive) {
+            coords
         } else {
             Vec2::ZERO
         };
-        share >= 1.0 || chance(ray, primitive, place) < share
+        opacity >= 1.0 || chance(ray, primitive, coords) < opacity
     }
 
-    /// How much of the rays a surface of `material` meets where the texture coordinates are `uv`,
-    /// in `[0, 1]`.
-    fn share(&self, material: &Material, uv: Vec2) -> f32 {
-        let Some(Alpha { share, cutoff }) = &material.alpha else {
+    /// The share of rays, in `[0, 1]`, that a surface of `material` stops at the texture
+    /// coordinates `uv`.
+    fn opacity(&self, material: &Material, uv: Vec2) -> f32 {
+        let Some(Alpha { opacity, cutoff }) = &material.alpha else {
             return 1.0;
         };
-        let share = self.color(share, uv).x;
+        let opacity = self.color(opacity, uv).x;
         match cutoff {
-            Some(cutoff) => f32::from(u8::from(share >= *cutoff)),
-            None => share.clamp(0.0, 1.0),
+            Some(cutoff) => f32::from(u8::from(opacity >= *cutoff)),
+            None => opacity.clamp(0.0, 1.0),
         }
     }
 
-    /// The lights with holes that `id` is one of.
+    /// The lights with an alpha mask that `id` is one of.
     #[inline]
-    fn holed(&self, LightId(id): LightId) -> Option<&HoledLights> {
+    fn masked(&self, LightId(id): LightId) -> Option<&AlphaMaskedLights> {
         let after = self
-            .holed_lights
+            .masked_lights
             .partition_point(|lights| lights.ids.start <= id);
-        let lights = self.holed_lights.get(after.checked_sub(1)?)?;
+        let lights = self.masked_lights.get(after.checked_sub(1)?)?;
         lights.ids.contains(&id).then_some(lights)
     }
 
-    /// The radiance that a ray finds where it meets the light `id`, of which the radiance is `l`:
-    /// it meets only what is there.
+    /// The radiance along a ray that hit the light `id`, of which the mean radiance is `l`: the
+    /// any-hit test has already removed the rays that pass through the mask.
     #[inline]
-    pub(super) fn where_met(&self, id: LightId, uv: Vec2, l: Vec3) -> Vec3 {
-        match self.holed(id) {
-            Some(&HoledLights {
+    pub(super) fn radiance_at_hit(&self, id: LightId, uv: Vec2, l: Vec3) -> Vec3 {
+        match self.masked(id) {
+            Some(&AlphaMaskedLights {
                 material,
-                holes: Holes::InRadiance,
+                radiance: MaskedRadiance::TimesOpacity,
                 ..
             }) => {
-                let share = self.share(&self.materials[material], uv);
-                if share > 0.0 { l / share } else { Vec3::ZERO }
+                let opacity = self.opacity(&self.materials[material], uv);
+                if opacity > 0.0 {
+                    l / opacity
+                } else {
+                    Vec3::ZERO
+                }
             }
             _ => l,
         }
     }
 
-    /// A direction in which the light `id` arrives, by its own sampling; holes of its surface send
-    /// none.
+    /// Samples a direction toward the light `id` with the light's own strategy; radiance is zero
+    /// where the light's alpha mask is.
     #[inline]
     pub(crate) fn sample_light(
         &self,
@@ -79,41 +83,41 @@ impl World {
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<Vec3>> {
         let light = self.lights.get(id)?;
-        match self.holed(id) {
-            Some(holed) => self.sample_holed(holed, &light, ctx, u, coverage),
+        match self.masked(id) {
+            Some(masked) => self.sample_masked(masked, &light, ctx, u, coverage),
             None => light.sample_li(ctx, u, &(), coverage),
         }
     }
 
-    // Kept out of the code that scenes without holes run.
+    // Not inlined: most scenes have no masked lights.
     #[inline(never)]
-    fn sample_holed(
+    fn sample_masked(
         &self,
-        holed: &HoledLights,
+        masked: &AlphaMaskedLights,
         light: &LightRef<'_, Rgb>,
         ctx: &LightSampleContext,
         u: Vec2,
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<Vec3>> {
-        let there = |uv, l: Vec3| match holed.holes {
-            Holes::InRadiance => l,
-            Holes::OnlyInSurface => l * self.share(&self.materials[holed.material], uv),
+        let times_opacity = |uv, l: Vec3| match masked.radiance {
+            MaskedRadiance::TimesOpacity => l,
+            MaskedRadiance::Unmasked => l * self.opacity(&self.materials[masked.material], uv),
         };
         let sample = match light {
             LightRef::Area(area) if matches!(area.shape(), AnyShape::Sphere(_)) => {
                 let toward = area.shape().sample_toward(ctx, u)?;
                 let (near, wi) = (toward.at, toward.wi);
                 let mut sample = LightLiSample {
-                    l: there(near.uv, area.l(&near, -wi, &())),
+                    l: times_opacity(near.uv, area.l(&near, -wi, &())),
                     wi,
                     pdf: toward.pdf,
                     p_light: near.p,
                     n_light: near.n,
                     uv: near.uv,
                 };
-                // Through a hole of the near side the far side is seen from within.
+                // Through the mask of the near side, the inside of the far side is visible.
                 if let Some(far) = far_side(area.shape(), &near, wi) {
-                    let l = there(far.uv, area.l(&far, -wi, &()));
+                    let l = times_opacity(far.uv, area.l(&far, -wi, &()));
                     let is_far = sample.l == Vec3::ZERO || (l != Vec3::ZERO && coin(wi));
                     let is_one_of_two = sample.l != Vec3::ZERO && l != Vec3::ZERO;
                     if is_far {
@@ -128,7 +132,7 @@ impl World {
             }
             _ => {
                 let sample = light.sample_li(ctx, u, &(), coverage)?;
-                let l = there(sample.uv, sample.l);
+                let l = times_opacity(sample.uv, sample.l);
                 LightLiSample { l, ..sample }
             }
         };
@@ -145,23 +149,23 @@ fn far_side(sphere: &AnyShape, near: &SurfacePoint, wi: Vec3) -> Option<SurfaceP
     sphere.hit(near.p + wi * to_middle, wi)
 }
 
-/// Heads or tails, as a direction decides.
+/// One pseudorandom bit, a hash of a direction.
 fn coin(w: Vec3) -> bool {
     let bits = w.to_array().map(f32::to_bits);
     sobol::hash(bits[0] ^ sobol::hash(bits[1] ^ sobol::hash(bits[2]))) & 1 == 1
 }
 
-/// A number in `[0, 1)` that ray, primitive and place decide.
-fn chance(ray: &Ray, primitive: PrimitiveId, place: Vec2) -> f32 {
+/// A pseudorandom number in `[0, 1)`, a hash of ray, primitive and coordinates.
+fn chance(ray: &Ray, primitive: PrimitiveId, coords: Vec2) -> f32 {
     let parts = [ray.origin, ray.direction].map(|v| v.to_array());
     let bits = parts.as_flattened().iter().map(|x| x.to_bits());
-    let placement = primitive.placement().map_or(0, sobol::hash);
-    let start = primitive.number() ^ placement ^ place_bits(place);
+    let instance = primitive.instance().map_or(0, sobol::hash);
+    let start = primitive.number() ^ instance ^ coords_bits(coords);
     let hash = bits.fold(start, |hash, bits| sobol::hash(hash.rotate_left(9) ^ bits));
     (hash >> 8) as f32 / (1u32 << 24) as f32
 }
 
-/// Bits of a place; those of the origin are 0.
-fn place_bits(Vec2 { x, y }: Vec2) -> u32 {
+/// The bits of both coordinates; 0 for the origin.
+fn coords_bits(Vec2 { x, y }: Vec2) -> u32 {
     x.to_bits().rotate_left(16) ^ y.to_bits()
 }
