@@ -43,8 +43,8 @@ usage: cargo xtask [COMMAND]
   api [--write]               hold the public items of each library crate against docs/api, or write them there
   arrows [--write]            hold the drawing of the crates in ARCHITECTURE.md against the manifests, or write it
   gallery                     remake the pictures of the README and the references of the demo
-  march-convergence           redraw how marches through media converge, for the first page of light-media
-  median-cut-table [IMAGE...] remeasure median-cut lights for the first page of light-sources
+  march-convergence           redraw how marches through media converge, for docs/light-media.md
+  median-cut-table [IMAGE...] remeasure median-cut lights for docs/light-sources.md
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   coverage                    which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies

@@ -1,9 +1,12 @@
-//! `cargo xtask median-cut-table [IMAGE...]`: measures median-cut lights and puts the table on
-//! light-sources' first page.
+//! `cargo xtask median-cut-table [IMAGE...]`: measures median-cut lights and puts the table into
+//! `docs/light-sources.md`.
 
 use std::fs;
 
 use crate::steps::{Outcome, StepResult, cargo, output, root};
+
+/// Where the table goes, from the root.
+const PAGE: &str = "docs/light-sources.md";
 
 const BEGIN: &str = "<!-- begin median-cut-table -->\n";
 const END: &str = "<!-- end median-cut-table -->";
@@ -23,9 +26,9 @@ pub fn median_cut_table(images: &[String]) -> StepResult {
     command.args(["--example", "median_cut_table", "--"]);
     let table = output(command.args(images))?;
 
-    let path = root().join("crates/light-sources/README.md");
+    let path = root().join(PAGE);
     let page = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let page = replaced(&page, &table).ok_or("light-sources/README.md: no place for the table")?;
+    let page = replaced(&page, &table).ok_or_else(|| format!("{PAGE}: no place for the table"))?;
     fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
     print!("{table}");
     Ok(Outcome::Passed)

@@ -1,5 +1,5 @@
 //! Prints how far directional lights from a median cut stand from image importance sampling, as the
-//! table of light-sources' first page: `cargo xtask median-cut-table [IMAGE...]` runs it and puts
+//! table of `docs/light-sources.md`: `cargo xtask median-cut-table [IMAGE...]` runs it and puts
 //! the result there.
 //!
 //! What is estimated is the unshadowed irradiance of 64 normals, against the exact integral over

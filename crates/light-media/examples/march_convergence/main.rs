@@ -1,4 +1,4 @@
-//! Measures how marches through media converge and draws it for the crate's first page:
+//! Measures how marches through media converge and draws it for `docs/light-media.md`:
 //! `cargo xtask march-convergence`. Prints the slopes, and how far trackers are from the truth.
 
 #[path = "../../tests/support/convergence.rs"]
