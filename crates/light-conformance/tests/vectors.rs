@@ -1,4 +1,4 @@
-//! The project's reference vectors, all 12,000 cases, on every test run, and a part of the
+//! The project's reference vectors, all 11,964 cases, on every test run, and a part of the
 //! self-test.
 
 use light_conformance::self_test::{Selection, run_folder};

@@ -17,7 +17,7 @@ const FEWEST_OF_CUT: u32 = 2;
 /// occlusion.
 ///
 /// Reads `ctx.ns`. Lights at infinity are weighed by their own estimated irradiance against that of
-/// the tree, by day and by night. About 27 bytes a light; a query evaluates a node of sixteen
+/// the tree, by day and by night. 26 to 28 bytes a light; a query evaluates a node of sixteen
 /// children a level, and every light at infinity.
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {
