@@ -1,5 +1,7 @@
-//! What the benches in `benches/` and the counts in `examples/counts.rs` share: who asks, and for
-//! how long.
+//! What the benches in `benches/`, the counts in `examples/counts.rs` and the tables of the pages
+//! share: who asks, for how long, and where tables are written.
+
+pub mod page;
 
 use std::time::Duration;
 

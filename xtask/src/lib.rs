@@ -5,7 +5,6 @@ use std::process::ExitCode;
 mod api;
 mod arrows;
 mod bench;
-mod bench_table;
 mod check;
 mod ci;
 mod counts;
@@ -15,7 +14,6 @@ mod dependencies;
 mod features;
 mod fuzz;
 mod gallery;
-mod median_cut_table;
 mod mutants;
 mod no_std;
 mod oldest;
@@ -68,7 +66,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("oldest", []) => all(oldest::add_steps),
         ("no-std", []) => all(no_std::add_steps),
         ("bench", [flag, names @ ..]) if flag == "--table" => {
-            one("bench --table", || bench_table::bench_table(names))
+            one("bench --table", || programs::bench_tables(names))
         }
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
@@ -76,9 +74,9 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
         ("march-convergence", []) => one("march-convergence", programs::march_convergence),
-        ("median-cut-table", images) => one("median-cut-table", || {
-            median_cut_table::median_cut_table(images)
-        }),
+        ("median-cut-table", images) => {
+            one("median-cut-table", || programs::median_cut_table(images))
+        }
         ("coverage", []) => one("coverage", coverage::coverage),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),

@@ -48,6 +48,33 @@ pub fn march_convergence() -> StepResult {
     step(program(&[&package[..], &example].concat(), &[]))
 }
 
+/// `cargo xtask median-cut-table [IMAGE...]`: measures median-cut lights on the sky that ships and
+/// on the given lat-long images, for `docs/light-sources.md`.
+///
+/// # Errors
+/// The command line, when an image cannot be read or the page not be written.
+pub fn median_cut_table(images: &[String]) -> StepResult {
+    let images = images.iter().map(|path| {
+        let path = std::path::absolute(path).map_err(|error| format!("{path}: {error}"))?;
+        Ok(path.to_string_lossy().into_owned())
+    });
+    let images = images.collect::<Result<Vec<_>, String>>()?;
+    step(bench_example("median_cut_table", &images))
+}
+
+/// `cargo xtask bench --table [TABLE...]`: measures light hierarchies for `docs/light-bvh.md`.
+///
+/// # Errors
+/// The command line, when a name is none, a law is broken, or the page cannot be written.
+pub fn bench_tables(names: &[String]) -> StepResult {
+    step(bench_example("bench_tables", names))
+}
+
+fn bench_example(name: &str, arguments: &[String]) -> Command {
+    let package = ["--release", "--package", "benches", "--example", name];
+    program(&package, arguments)
+}
+
 /// The command that builds and runs the program that `selection` names to cargo.
 fn program(selection: &[&str], arguments: &[String]) -> Command {
     let mut command = cargo(["run", "--quiet"]);

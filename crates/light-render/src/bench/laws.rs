@@ -25,6 +25,17 @@ pub struct Laws {
     pub pmf_sum_max_error: f64,
 }
 
+/// How far a sum may exceed 1 by rounding alone.
+const ROUNDING: f64 = 1e-5;
+
+impl Laws {
+    /// Whether pmfs are probabilities, add up, and are those of the queries, to the bit.
+    #[must_use]
+    pub fn hold(&self) -> bool {
+        self.pmf_mismatch == 0.0 && self.pmf_nan == 0.0 && self.pmf_sum_max_error <= ROUNDING
+    }
+}
+
 /// Samples at all points and sums at as many as there is time for.
 pub(super) fn check(candidate: &Candidate, contexts: &[LightSampleContext]) -> Laws {
     let sampler = candidate.sampler();

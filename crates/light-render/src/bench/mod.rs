@@ -54,6 +54,22 @@ pub struct BenchOptions {
     pub occluders: usize,
 }
 
+impl Default for BenchOptions {
+    /// One sample a call of a diffuse surface with nothing in the way, one thread, the samplers
+    /// whose time does not grow with the lights.
+    fn default() -> Self {
+        Self {
+            samplers: SamplerKind::SUBLINEAR.to_vec(),
+            k: 1,
+            var_points: None,
+            threads: 1,
+            ground_truth: GroundTruth::default(),
+            receiver: ReceiverKind::default(),
+            occluders: 0,
+        }
+    }
+}
+
 impl BenchOptions {
     /// How many points of the set its variance is taken over.
     fn points_of(&self, set: &LightSetFile) -> usize {
@@ -141,10 +157,7 @@ mod tests {
             samplers: vec![SamplerKind::Uniform],
             k,
             var_points: Some(16),
-            threads: 1,
-            ground_truth: GroundTruth::Centroid,
-            receiver: ReceiverKind::Diffuse,
-            occluders: 0,
+            ..BenchOptions::default()
         }
     }
 

@@ -174,7 +174,6 @@ impl fmt::Display for RefitRow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{GroundTruth, ReceiverKind};
     use light_scene::light_set::SetKind;
 
     #[test]
@@ -182,12 +181,8 @@ mod tests {
         let set = LightSetFile::generate(SetKind::Uniform, 500, 1);
         let options = BenchOptions {
             samplers: vec![SamplerKind::Uniform, SamplerKind::Bvh],
-            k: 1,
             var_points: Some(16),
-            threads: 1,
-            ground_truth: GroundTruth::Centroid,
-            receiver: ReceiverKind::Diffuse,
-            occluders: 0,
+            ..BenchOptions::default()
         };
         let rows = refits("uniform", &set, &options, 7).expect("valid lights");
         assert_eq!(rows.len(), 8, "uniform sampling follows nothing");

@@ -110,7 +110,7 @@ impl fmt::Display for BenchRow {
             self.laws.no_light,
         )?;
         let laws = &self.laws;
-        if laws.pmf_mismatch > 0.0 || laws.pmf_nan > 0.0 || laws.pmf_sum_max_error > 1e-5 {
+        if !laws.hold() {
             write!(
                 f,
                 "  BROKEN: mismatch {:.1e}, nan {:.1e}, sum {:+.1e}",

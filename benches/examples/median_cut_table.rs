@@ -1,6 +1,6 @@
-//! Prints how far directional lights from a median cut stand from image importance sampling, as the
-//! table of `docs/light-sources.md`: `cargo xtask median-cut-table [IMAGE...]` runs it and puts
-//! the result there.
+//! How far directional lights from a median cut are from image importance sampling, on the sky that
+//! ships and on given lat-long images: the table of `docs/light-sources.md`.
+//! `cargo xtask median-cut-table [IMAGE...]`.
 //!
 //! What is estimated is the unshadowed irradiance of 64 normals, against the exact integral over
 //! the same equal-area image.
@@ -9,6 +9,8 @@ use core::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use benches::page::{root, write_table};
+use light_testkit::Rng;
 use lights::bounds::LightSampleContext;
 use lights::glam::{Affine3A, DVec3, Vec2, Vec3};
 use lights::math::SphereMap;
@@ -19,8 +21,13 @@ use lights::sources::{
     LightSet, LightSetBuilder, MedianCut, MedianCutLight, PdfCoverage, RadianceAmount, RegionSums,
     Rgb, SceneSphere, equal_area_size,
 };
-use rand_core::{Rng as _, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+
+const PAGE: &str = "docs/light-sources.md";
+
+const HEADER: &str = "\
+| map | lights | ready, ms | pyramid | ns a sample | bias^2 | squared centroid | pyramid | variance | 16 samples | 64 | 256 | 1024 |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+";
 
 const NORMALS: u32 = 64;
 const TRIALS: u32 = 64;
@@ -43,24 +50,23 @@ struct Errors {
 }
 
 fn main() -> Result<(), Failure> {
-    println!(
-        "| map | lights | ready, ms | pyramid | ns a sample | bias^2 | squared centroid | pyramid | variance | 16 samples | 64 | 256 | 1024 |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sky.exr");
+    let mut table = HEADER.to_owned();
+    let shipped = root().join("crates/light-scene/assets/sky.exr");
     let given = std::env::args_os().skip(1).map(PathBuf::from);
     for path in core::iter::once(shipped).chain(given) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let sky = Sky::read(&path)?;
-        image_row(&name, &sky)?;
+        table += &image_row(&name, &sky)?;
         for n in LIGHTS {
-            median_cut_row(&name, &sky, n)?;
+            table += &median_cut_row(&name, &sky, n)?;
         }
     }
+    write_table(PAGE, "median-cut-table", &table)?;
+    print!("{table}");
     Ok(())
 }
 
-fn image_row(name: &str, sky: &Sky) -> Result<(), Failure> {
+fn image_row(name: &str, sky: &Sky) -> Result<String, Failure> {
     let build = || {
         let desc = ImageInfiniteLightDesc {
             transform: Affine3A::IDENTITY,
@@ -72,21 +78,20 @@ fn image_row(name: &str, sky: &Sky) -> Result<(), Failure> {
     let (ms, light) = timed(build);
     let light = light?;
     let errors = sky.errors(|rng, ctx| {
-        let u = Vec2::new(unit(rng), unit(rng));
+        let u = rng.vec2();
         light
             .sample_li(ctx, u, &(), PdfCoverage::Complete)
             .map_or(0.0, |s| {
                 f64::from(luminance(s.l) * s.wi.dot(ctx.ns).max(0.0) / s.pdf)
             })
     });
-    println!(
-        "| {name} | image | {ms:.1} | | {errors}",
-        errors = row(&errors, "0 | |")
-    );
-    Ok(())
+    Ok(format!(
+        "| {name} | image | {ms:.1} | | {}\n",
+        row(&errors, "0 | |")
+    ))
 }
 
-fn median_cut_row(name: &str, sky: &Sky, n: usize) -> Result<(), Failure> {
+fn median_cut_row(name: &str, sky: &Sky, n: usize) -> Result<String, Failure> {
     let cut = |sums, centroid| {
         timed(|| MedianCut::new(sky.image.clone(), SphereMap::EqualArea, sums)?.lights(n, centroid))
     };
@@ -104,7 +109,7 @@ fn median_cut_row(name: &str, sky: &Sky, n: usize) -> Result<(), Failure> {
     let [squared, pyramid] = [lights(squared?)?, lights(pyramid?)?];
     let sampler = PowerLightSampler::new(&set.powers())?;
     let errors = sky.errors(|rng, ctx| {
-        let chosen = sampler.sample(ctx, f64::from(rng.next_u32()) / 4_294_967_296.0);
+        let chosen = sampler.sample(ctx, f64::from(rng.u32()) / 4_294_967_296.0);
         let chosen = chosen.and_then(|s| set.get(s.light).map(|light| (light, s.pmf)));
         chosen.map_or(0.0, |(light, pmf)| {
             let sample = light.sample_li(ctx, Vec2::ZERO, &(), PdfCoverage::Complete);
@@ -119,11 +124,10 @@ fn median_cut_row(name: &str, sky: &Sky, n: usize) -> Result<(), Failure> {
         sky.bias_sq(&squared),
         sky.bias_sq(&pyramid)
     );
-    println!(
-        "| {name} | {n} | {ms:.1} | {pyramid_ms:.1} | {}",
+    Ok(format!(
+        "| {name} | {n} | {ms:.1} | {pyramid_ms:.1} | {}\n",
         row(&errors, &bias)
-    );
-    Ok(())
+    ))
 }
 
 impl Sky {
@@ -141,11 +145,8 @@ impl Sky {
     }
 
     /// What an estimator of one sample gives, over all normals and several numbers of samples.
-    fn errors(
-        &self,
-        mut estimate: impl FnMut(&mut Pcg64Mcg, &LightSampleContext) -> f64,
-    ) -> Errors {
-        let mut rng = Pcg64Mcg::seed_from_u64(7);
+    fn errors(&self, mut estimate: impl FnMut(&mut Rng, &LightSampleContext) -> f64) -> Errors {
+        let mut rng = Rng::new(7);
         let (mut variance, mut mse) = (0.0, [0.0; SAMPLES.len()]);
         let start = Instant::now();
         for &(normal, exact) in &self.exact {
@@ -236,10 +237,6 @@ fn timed<T>(mut f: impl FnMut() -> T) -> (f64, T) {
         best = if next.0 < best.0 { next } else { best };
     }
     best
-}
-
-fn unit(rng: &mut Pcg64Mcg) -> f32 {
-    (rng.next_u32() >> 8) as f32 / 16_777_216.0
 }
 
 fn scene() -> SceneSphere {

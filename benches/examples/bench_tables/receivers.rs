@@ -1,0 +1,57 @@
+//! Who asks, and what stands between: variance against the light of whole areas.
+
+use light_render::SamplerKind;
+use light_render::bench::{BenchOptions, GroundTruth, ReceiverKind};
+use light_scene::light_set::SetKind;
+
+use super::measure::{figure, measure, options, set};
+
+const SETS: [SetKind; 4] = [
+    SetKind::Uniform,
+    SetKind::Clusters,
+    SetKind::Spots,
+    SetKind::Mixed,
+];
+
+const LIGHTS: u32 = 10_000;
+
+/// Who asks, how many spheres stand between, and the table's words for it.
+const RECEIVERS: [(&str, ReceiverKind, usize); 5] = [
+    ("diffuse", ReceiverKind::Diffuse, 0),
+    ("two-sided", ReceiverKind::TwoSided, 0),
+    ("medium", ReceiverKind::Medium, 0),
+    ("glossy, roughness 0.2", ReceiverKind::Glossy(0.2), 0),
+    ("diffuse behind 64 spheres", ReceiverKind::Diffuse, 64),
+];
+
+const HEADER: &str = "\
+| set | who asks | reference: V mean | V median | V 99 % | default: V mean | V median | V 99 % |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+";
+
+/// A line a set and receiver.
+pub(super) fn table() -> Result<String, String> {
+    let mut table = HEADER.to_owned();
+    for kind in SETS {
+        let set = set(kind, LIGHTS);
+        for (name, receiver, occluders) in RECEIVERS {
+            let options = BenchOptions {
+                ground_truth: GroundTruth::Area,
+                receiver,
+                occluders,
+                ..options(&[SamplerKind::BvhReference, SamplerKind::Bvh], 512)
+            };
+            let mut line = format!("| {} | {name} |", kind.name());
+            for row in measure(kind, &set, &options)? {
+                let variance = row.variance;
+                for quantity in [variance.mean, variance.median, variance.p99] {
+                    line += &format!(" {} |", figure(quantity));
+                }
+            }
+            println!("{line}");
+            table += &line;
+            table.push('\n');
+        }
+    }
+    Ok(table)
+}
