@@ -1,11 +1,4 @@
-//! Replays numbers that a reference renderer returned and compares them with ours.
-//!
-//! A folder of vectors holds one file per kind, one JSON object a line. Each kind has a module here
-//! with one [`Checker`]; what a checker sees on a line goes into [`Findings`]. Where we differ from
-//! the reference, an oracle in double precision computes the right answer from the published
-//! formula, without the library under test, and ours has to be that answer. Then the checker names
-//! a [`Rule`], the reason of the difference. There is no number of allowed failures. The self-test
-//! changes one answer of ours after the other and demands that its line fails.
+#![doc = include_str!("../README.md")]
 
 use std::path::{Path, PathBuf};
 
