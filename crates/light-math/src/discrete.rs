@@ -6,7 +6,7 @@
 /// One of several indices, chosen with probability `pmf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledIndex {
-    /// Which one.
+    /// Which one, from 0 on, in the order of the weights.
     pub index: usize,
     /// Its probability, above 0.
     pub pmf: f32,

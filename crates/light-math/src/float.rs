@@ -91,14 +91,14 @@ pub fn safe_sqrt(x: f32) -> f32 {
     sqrt(x.max(0.0))
 }
 
-/// Arc cosine of `x` clamped to `[-1, 1]`.
+/// Arc cosine of `x` clamped to `[-1, 1]`: radians in `[0, pi]`.
 #[inline]
 #[must_use]
 pub fn safe_acos(x: f32) -> f32 {
     acos(x.clamp(-1.0, 1.0))
 }
 
-/// Arc sine of `x` clamped to `[-1, 1]`.
+/// Arc sine of `x` clamped to `[-1, 1]`: radians in `[-pi/2, pi/2]`.
 #[inline]
 #[must_use]
 pub fn safe_asin(x: f32) -> f32 {

@@ -1,6 +1,7 @@
 use glam::Vec3;
 
-/// An orthonormal, right-handed coordinate frame: `x`, `y`, `z` in the outer space.
+/// An orthonormal, right-handed coordinate frame: the unit vectors `x`, `y`, `z` in the outer
+/// space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Frame {

@@ -25,7 +25,8 @@ impl<R: Radiance> VolumeLight<R> {
     }
 }
 
-/// The radiance that a medium emits toward the start of a ray; what it scatters is left out.
+/// The radiance that a medium emits along `span` toward the start of `ray`, in W m^-2 sr^-1, and
+/// the transmittance of the span; what the medium scatters is left out.
 ///
 /// Marches in equal steps from one random offset, in the manner of the first two editions of the
 /// pbrt book. `next_u` gives independent numbers in `[0, 1)`.

@@ -60,10 +60,10 @@ impl StepSize {
     }
 }
 
-/// Equal steps along a ray.
+/// Equal steps along a ray, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct March {
-    /// Where the first step begins.
+    /// The distance at which the first step begins.
     pub t0: f32,
     /// The length of a step.
     pub step: f32,

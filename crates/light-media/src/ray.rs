@@ -4,7 +4,7 @@ use light_math::glam::{Affine3A, Vec3};
 /// transform has touched it; `t` then still counts lengths of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Origin.
+    /// Origin, the point at `t = 0`.
     pub o: Vec3,
     /// Direction; of unit length in the scene.
     pub d: Vec3,
@@ -29,7 +29,7 @@ impl Ray {
     }
 }
 
-/// The part of a ray from `t0` to `t1`, with `0 <= t0 <= t1`.
+/// The part of a ray from `t0` to `t1`, with `0 <= t0 <= t1`, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Where it begins.
@@ -53,7 +53,7 @@ impl Span {
         (self.t1 - self.t0).min(f32::MAX)
     }
 
-    /// The part that both have in common.
+    /// The part that both have in common; `None` when that holds no length.
     #[must_use]
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         Self::new(self.t0.max(other.t0), self.t1.min(other.t1))

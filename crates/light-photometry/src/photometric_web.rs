@@ -159,7 +159,8 @@ impl PhotometricWeb {
     }
 
     /// The distribution over directions as an equal-area square of `size` texels a side, row by row
-    /// from row 0: each the mean intensity over what it covers, as a part of the peak.
+    /// from row 0, `size * size` in all: each the mean intensity over what it covers, in `[0, 1]` of
+    /// the peak.
     ///
     /// # Source
     /// The map of the square is that of [`light_math::equal_area`].

@@ -144,7 +144,7 @@ impl Image {
         row(y.texels[0]).lerp(row(y.texels[1]), y.part)
     }
 
-    /// All texels, row by row.
+    /// All texels, row by row from row 0: linear RGB, three equal values where the image is grey.
     pub fn texels(&self) -> impl Iterator<Item = Vec3> + '_ {
         let [width, height] = self.size;
         (0..height).flat_map(move |y| (0..width).map(move |x| self.texel(x, y)))

@@ -7,7 +7,7 @@ use crate::media::MediumInterface;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
-/// A light that stands in one point: its kinds differ in nothing but the intensity by direction.
+/// A light in one point: its kinds differ in nothing but the intensity by direction.
 /// Whatever is a `PointSource` is a [`Light`].
 ///
 /// Directions are unit vectors in scene space, away from the light.
@@ -15,7 +15,7 @@ pub trait PointSource {
     /// In which terms it has a colour.
     type Color: ColorModel;
 
-    /// Where it stands.
+    /// Where it is, in scene space.
     fn position(&self) -> Vec3;
 
     /// Intensity in W/sr in the direction `w`.
@@ -24,8 +24,8 @@ pub trait PointSource {
     /// Emitted power in W: the integral of the intensity.
     fn power(&self, wavelengths: &Wavelengths<Self>) -> Emitted<Self>;
 
-    /// A direction with its intensity and density, about in proportion to the intensity; both `u`
-    /// lie in `[0, 1)`. None when no light goes there.
+    /// A direction with its intensity in W/sr and its density in sr^-1, about in proportion to the
+    /// intensity; both `u` lie in `[0, 1)`. `None` when no light goes there.
     fn sample_direction(
         &self,
         u1: Vec2,
@@ -36,7 +36,7 @@ pub trait PointSource {
     /// Density in sr^-1 with which [`sample_direction`](Self::sample_direction) chooses `w`.
     fn direction_pdf(&self, w: Vec3) -> f32;
 
-    /// Bounds in space, direction and power.
+    /// Bounds in space, direction and power in W.
     fn point_bounds(&self) -> LightBounds;
 
     /// The moments of the intensity, if they say more than the bounds do.

@@ -35,7 +35,7 @@ pub struct Sample1D {
     pub x: f32,
     /// The density there, per unit of the domain; above 0.
     pub pdf: f32,
-    /// The bin.
+    /// The bin that holds `x`, counted from 0 at the low end.
     pub index: usize,
 }
 
@@ -49,7 +49,7 @@ impl PiecewiseConstant1D<()> {
 
 #[cfg(feature = "alloc")]
 impl PiecewiseConstant1D<Vec<f32>> {
-    /// The density over `[0, 1]` proportional to `weights`, one for each bin.
+    /// The density over `[0, 1]` proportional to `weights`: `weights[i]` is that of the `i`th bin.
     ///
     /// # Errors
     /// [`TableError`] if there are no weights, all are zero, or one is negative or not finite.

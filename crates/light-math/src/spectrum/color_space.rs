@@ -90,14 +90,14 @@ impl RgbColorSpace {
         self.illuminant
     }
 
-    /// The matrix from linear RGB to XYZ.
+    /// The matrix from linear RGB to XYZ, column vectors; white has `Y` = 1.
     #[inline]
     #[must_use]
     pub const fn xyz_from_rgb(&self) -> Mat3 {
         self.xyz_from_rgb
     }
 
-    /// The matrix from XYZ to linear RGB.
+    /// The matrix from XYZ to linear RGB, column vectors.
     #[inline]
     #[must_use]
     pub const fn rgb_from_xyz(&self) -> Mat3 {

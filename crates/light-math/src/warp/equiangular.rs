@@ -52,7 +52,7 @@ impl Equiangular {
         })
     }
 
-    /// The distance for `u`, between `t_min` and `t_max`.
+    /// The distance along the ray for `u` in `[0, 1)`: between `t_min` and `t_max`, in their unit.
     #[inline]
     #[must_use]
     pub fn sample(&self, u: f32) -> f32 {
@@ -66,7 +66,7 @@ impl Equiangular {
         }
     }
 
-    /// The density per length at distance `t`; 0 outside the part.
+    /// The density per length at distance `t` along the ray; 0 outside the part.
     #[inline]
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {

@@ -5,7 +5,7 @@
 
 use crate::float::{cbrt, next_up};
 
-/// The `x` in `[a, b]` for `u`.
+/// The `x` in `[a, b]` for `u` in `[0, 1)`, with `a <= b`.
 ///
 /// # Source
 /// `[PBRT4]` A.4.6 inverts by bisection. Ours starts above the root of the convex
@@ -26,7 +26,7 @@ pub fn sample(u: f32, a: f32, b: f32) -> f32 {
     x.max(next_up(a)).min(b)
 }
 
-/// The density at `x`; 0 outside `[a, b]`.
+/// The density at `x`, per unit of `x`; 0 outside `[a, b]`.
 #[inline]
 #[must_use]
 pub fn pdf(x: f32, a: f32, b: f32) -> f32 {
