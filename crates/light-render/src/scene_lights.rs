@@ -68,17 +68,17 @@ impl SceneLights {
         let mut emissive_meshes = Vec::new();
         for (index, mesh) in meshes.iter().enumerate() {
             let material = &materials[mesh.material];
-            if let Some((desc, radiance)) = textures.mesh_light(mesh, material) {
+            if let Some((desc, is_masked)) = textures.mesh_light(mesh, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                emissive_meshes.push((index, source, radiance));
+                emissive_meshes.push((index, source, is_masked));
             }
         }
         let mut emissive_spheres = Vec::new();
         for (index, sphere) in spheres.iter().enumerate() {
             let material = &materials[sphere.material];
-            if let Some((desc, radiance)) = textures.sphere_light(sphere, material) {
+            if let Some((desc, is_masked)) = textures.sphere_light(sphere, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                emissive_spheres.push((index, source, radiance));
+                emissive_spheres.push((index, source, is_masked));
             }
         }
         for (number, light) in scene_lights.into_iter().enumerate() {
@@ -87,26 +87,22 @@ impl SceneLights {
         }
         let lights = builder.build();
         let mut masked = Vec::new();
-        let mut note = |first: Option<LightId>, count, material, radiance| {
-            if let Some((LightId(first), radiance)) = first.zip(radiance) {
+        let mut note = |first: Option<LightId>, count, material, is_masked| {
+            if let (Some(LightId(first)), true) = (first, is_masked) {
                 let ids = first..first + count;
-                masked.push(AlphaMaskedLights {
-                    ids,
-                    material,
-                    radiance,
-                });
+                masked.push(AlphaMaskedLights { ids, material });
             }
         };
-        for (index, source, radiance) in emissive_meshes {
+        for (index, source, is_masked) in emissive_meshes {
             let mesh = &mut meshes[index];
             mesh.first_light = lights.first_id(source);
             let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
-            note(mesh.first_light, count, mesh.material, radiance);
+            note(mesh.first_light, count, mesh.material, is_masked);
         }
-        for (index, source, radiance) in emissive_spheres {
+        for (index, source, is_masked) in emissive_spheres {
             let sphere = &mut spheres[index];
             sphere.light = lights.first_id(source);
-            note(sphere.light, 1, sphere.material, radiance);
+            note(sphere.light, 1, sphere.material, is_masked);
         }
         masked.sort_by_key(|lights| lights.ids.start);
         let found_by_rays = |id: &LightId| {

@@ -4,41 +4,30 @@ use std::collections::HashMap;
 use light_scene::{Alpha, Color, EmissionSides, ImageId, Material, SphereFront};
 use lights::glam::Vec3;
 use lights::sources::{
-    AreaLightDesc, DiffuseEmissionDesc, EmissionMask, Image, LightDesc, MediumInterface,
+    AlphaMask, AreaLightDesc, DiffuseEmissionDesc, EmissionMask, Image, LightDesc, MediumInterface,
     MeshLightDesc, RadianceAmount, Rgb, Sides, SurfaceColor, Texture, TextureMapping,
 };
 
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
 
-/// Lights of one mesh or sphere with an alpha mask.
+/// Lights of one mesh or sphere with an alpha mask, of which the radiance is multiplied with the
+/// opacity: the mean over the rays that hit and those that pass.
 #[derive(Clone, Debug)]
 pub(crate) struct AlphaMaskedLights {
     /// Their ids.
     pub(crate) ids: Range<u32>,
     /// Index of their material, which has the mask.
     pub(crate) material: usize,
-    pub(crate) radiance: MaskedRadiance,
 }
 
-/// How the radiance of a light with an alpha mask is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum MaskedRadiance {
-    /// Multiplied with the opacity: the mean over the rays that hit and those that pass.
-    TimesOpacity,
-    /// That of an opaque surface; samples have to be multiplied with the opacity.
-    Unmasked,
-}
-
-/// A light and, if it has an alpha mask, how its radiance is stored.
-type EmissiveSurface = (LightDesc<Rgb>, Option<MaskedRadiance>);
+/// A light, and whether it has an alpha mask.
+type EmissiveSurface = (LightDesc<Rgb>, bool);
 
 /// Builds the lights of emissive surfaces; each texture is made once.
 pub(crate) struct Textures<'a> {
     images: &'a [Image],
     made: HashMap<ImageId, Texture>,
-    /// Whether an image has no texel above 1.
-    is_mask: HashMap<ImageId, bool>,
 }
 
 impl<'a> Textures<'a> {
@@ -46,7 +35,6 @@ impl<'a> Textures<'a> {
         Self {
             images,
             made: HashMap::new(),
-            is_mask: HashMap::new(),
         }
     }
 
@@ -61,14 +49,14 @@ impl<'a> Textures<'a> {
         mesh: &WorldMesh,
         material: &Material,
     ) -> Option<EmissiveSurface> {
-        let (emission, radiance) = self.emission(material)?;
+        let (emission, is_masked) = self.emission(material)?;
         let desc = LightDesc::Mesh(MeshLightDesc {
             positions: mesh.positions.clone(),
             indices: mesh.indices.clone(),
             uvs: mesh.uvs.clone(),
             emission,
         });
-        Some((desc, radiance))
+        Some((desc, is_masked))
     }
 
     /// The light of a sphere, if its material is emissive; the front of the light is the outside.
@@ -77,7 +65,7 @@ impl<'a> Textures<'a> {
         sphere: &WorldSphere,
         material: &Material,
     ) -> Option<EmissiveSurface> {
-        let (mut emission, radiance) = self.emission(material)?;
+        let (mut emission, is_masked) = self.emission(material)?;
         if sphere.front == SphereFront::Inside {
             if emission.sides == Sides::Front {
                 emission.sides = Sides::Back;
@@ -89,21 +77,23 @@ impl<'a> Textures<'a> {
             };
         }
         let shape = sphere.shape.into();
-        Some((LightDesc::Area(AreaLightDesc { shape, emission }), radiance))
+        Some((
+            LightDesc::Area(AreaLightDesc { shape, emission }),
+            is_masked,
+        ))
     }
 
     /// The emission of a material, if it is emissive.
-    fn emission(
-        &mut self,
-        material: &Material,
-    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<MaskedRadiance>)> {
+    fn emission(&mut self, material: &Material) -> Option<(DiffuseEmissionDesc<Rgb>, bool)> {
         let emission = material.emission.as_ref()?;
         let (color, mapping) = match &emission.radiance {
-            Color::Constant(radiance) => (SurfaceColor::Uniform(*radiance), None),
+            Color::Constant(radiance) => {
+                (SurfaceColor::Uniform(*radiance), TextureMapping::default())
+            }
             Color::Image(shown) => {
                 let texture = self.texture(shown.image);
                 let tint = shown.scale;
-                (SurfaceColor::Image { texture, tint }, Some(shown.mapping))
+                (SurfaceColor::Image { texture, tint }, shown.mapping)
             }
         };
         let sides = match emission.sides {
@@ -112,27 +102,25 @@ impl<'a> Textures<'a> {
         };
         let desc = DiffuseEmissionDesc {
             sides,
-            mapping: mapping.unwrap_or_default(),
+            mapping,
             media: material.media,
             ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
         };
         match &material.alpha {
-            Some(alpha) => self.masked(desc, mapping, alpha),
-            None => Some((desc, None)),
+            Some(alpha) => self.masked(desc, alpha),
+            None => Some((desc, false)),
         }
     }
 
-    /// `desc` with the alpha mask; `None` if the surface is masked everywhere. `mapping` is that of
-    /// the radiance image, if there is one.
+    /// `desc` with the alpha mask; `None` if the surface is masked everywhere.
     ///
     /// A constant opacity of 0 without a cutoff makes an invisible light with full emission, as in
     /// pbrt.
     fn masked(
         &mut self,
         desc: DiffuseEmissionDesc<Rgb>,
-        mapping: Option<TextureMapping>,
         alpha: &Alpha,
-    ) -> Option<(DiffuseEmissionDesc<Rgb>, Option<MaskedRadiance>)> {
+    ) -> Option<(DiffuseEmissionDesc<Rgb>, bool)> {
         let scaled = |opacity: f32| match &desc.color {
             SurfaceColor::Uniform(radiance) => SurfaceColor::Uniform(*radiance * opacity),
             SurfaceColor::Image { texture, tint } => SurfaceColor::Image {
@@ -141,45 +129,106 @@ impl<'a> Textures<'a> {
             },
         };
         Some(match (&alpha.opacity, alpha.cutoff) {
-            (Color::Constant(Vec3 { x, .. }), Some(cutoff)) if *x >= cutoff => (desc, None),
+            (Color::Constant(Vec3 { x, .. }), Some(cutoff)) if *x >= cutoff => (desc, false),
             (Color::Constant(_), Some(_)) => return None,
-            (Color::Constant(Vec3 { x, .. }), None) if *x >= 1.0 => (desc, None),
+            (Color::Constant(Vec3 { x, .. }), None) if *x >= 1.0 => (desc, false),
             (Color::Constant(Vec3 { x, .. }), None) if *x > 0.0 => {
                 let color = scaled(*x);
-                (
-                    DiffuseEmissionDesc { color, ..desc },
-                    Some(MaskedRadiance::TimesOpacity),
-                )
+                (DiffuseEmissionDesc { color, ..desc }, true)
             }
             (Color::Constant(_), None) => {
                 let mask = EmissionMask::Invisible;
-                (DiffuseEmissionDesc { mask, ..desc }, None)
+                (DiffuseEmissionDesc { mask, ..desc }, false)
             }
-            (Color::Image(shown), None)
-                if mapping.unwrap_or(shown.mapping) == shown.mapping
-                    && (0.0..=1.0).contains(&shown.scale.x)
-                    && self.is_mask(shown.image) =>
-            {
-                let desc = DiffuseEmissionDesc {
-                    color: scaled(shown.scale.x),
-                    mask: EmissionMask::Alpha(self.texture(shown.image)),
-                    mapping: shown.mapping,
-                    ..desc
-                };
-                (desc, Some(MaskedRadiance::TimesOpacity))
+            (Color::Image(shown), cutoff) => {
+                let mask = EmissionMask::Alpha(AlphaMask {
+                    texture: self.texture(shown.image),
+                    scale: shown.scale.x.max(0.0),
+                    mapping: Some(shown.mapping),
+                    cutoff,
+                });
+                (DiffuseEmissionDesc { mask, ..desc }, true)
             }
-            (Color::Image(_), _) => (desc, Some(MaskedRadiance::Unmasked)),
         })
     }
+}
 
-    /// Whether no texel of an image is above 1.
-    fn is_mask(&mut self, id: ImageId) -> bool {
-        let image = &self.images[id.0 as usize];
-        let all_below = || {
-            image
-                .texels()
-                .all(|texel| texel.x <= 1.0 && texel.max_element() <= 1.0)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_scene::glam::{Affine2, Vec2};
+    use light_scene::{ColorImage, Emission};
+    use lights::bounds::LightId;
+    use lights::sources::{Channels, Light, LightSetBuilder, SceneSphere, Wrap};
+
+    /// The power is that of the part that emits, where the mask has a cutoff, a mapping that is not that
+    /// of the image of emission, or values above 1.
+    #[test]
+    fn the_power_is_that_of_the_part_that_emits() {
+        let halves = Image::from_f32([2, 1], Channels::Gray, vec![0.0, 1.0]).expect("an image");
+        let ramp = Image::from_f32([1, 2], Channels::Gray, vec![1.0, 0.5]).expect("an image");
+        let images = [halves, ramp];
+        let image = |id, scale, turn| {
+            Color::Image(ColorImage {
+                scale: Vec3::splat(scale),
+                mapping: TextureMapping {
+                    transform: Affine2::from_angle(turn),
+                    wrap: [Wrap::Repeat; 2],
+                },
+                ..ColorImage::new(ImageId(id))
+            })
         };
-        *self.is_mask.entry(id).or_insert_with(all_below)
+        let one = Color::Constant(Vec3::ONE);
+        let quarter = core::f32::consts::FRAC_PI_2;
+        for (what, radiance, share, cutoff, expected) in [
+            ("a cutoff", one, image(0, 1.0, 0.0), Some(0.5), 0.5),
+            ("a high cutoff", one, image(0, 1.0, 0.0), Some(0.75), 0.25),
+            (
+                "a mapping",
+                image(1, 1.0, 0.0),
+                image(1, 1.0, quarter),
+                None,
+                0.75 * 0.75,
+            ),
+            ("above 1", one, image(0, 2.0, 0.0), None, 0.75),
+            (
+                "both",
+                image(1, 1.0, 0.0),
+                image(0, 1.0, 0.0),
+                Some(0.5),
+                0.375,
+            ),
+        ] {
+            let material = Material {
+                emission: Some(Emission {
+                    radiance,
+                    sides: EmissionSides::Front,
+                }),
+                alpha: Some(Alpha {
+                    opacity: share,
+                    cutoff,
+                }),
+                ..Material::diffuse("lamp", Vec3::ZERO)
+            };
+            let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
+            let mesh = WorldMesh {
+                positions: corners.into(),
+                indices: [[0, 1, 2], [0, 2, 3]].into(),
+                uvs: Some(corners.map(|p| Vec2::new(p.x, p.y)).into()),
+                normals: None,
+                material: 0,
+                first_light: None,
+            };
+            let light = Textures::new(&images).mesh_light(&mesh, &material);
+            let (desc, is_masked) = light.expect("a light");
+            assert!(is_masked, "{what}");
+            let sphere = SceneSphere::new(Vec3::ZERO, 2.0).expect("a sphere");
+            let mut builder = LightSetBuilder::<Rgb>::new(sphere);
+            builder.add(desc).expect("a light");
+            let set = builder.build();
+            let power = |id| set.get(LightId(id)).expect("a triangle").phi(&()).x;
+            let mean = (power(0) + power(1)) / core::f32::consts::PI;
+            assert!((mean - expected).abs() < 1e-5, "{what}: {mean}");
+        }
     }
 }

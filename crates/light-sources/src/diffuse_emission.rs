@@ -43,7 +43,7 @@ enum Color<C: ColorModel> {
 pub enum DiffuseEmissionError {
     /// `color` or `amount` makes no sense.
     Emission(EmissionError),
-    /// `mask` has a texel above 1.
+    /// `mask` has a scale that is negative or not finite, or a cutoff that is no number.
     Mask,
 }
 
@@ -74,8 +74,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
         surface: Option<SurfaceTexture>,
         shapes: impl FnOnce() -> I,
     ) -> Result<Self, DiffuseEmissionError> {
-        if let EmissionMask::Alpha(texture) = &desc.mask {
-            if texture.brightest().max_element() > 1.0 {
+        if let EmissionMask::Alpha(mask) = &desc.mask {
+            if !mask.is_valid() {
                 return Err(DiffuseEmissionError::Mask);
             }
         }
@@ -155,7 +155,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
         };
         match &self.mask {
             EmissionMask::Opaque | EmissionMask::Invisible => l,
-            EmissionMask::Alpha(texture) => l * shown(texture).x,
+            EmissionMask::Alpha(mask) => l * mask.opacity(at.uv, &self.mapping),
         }
     }
 
@@ -212,7 +212,9 @@ impl fmt::Display for DiffuseEmissionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Emission(error) => error.fmt(f),
-            Self::Mask => f.write_str("mask: alpha must lie in [0, 1]"),
+            Self::Mask => {
+                f.write_str("mask: scale must be finite and not negative, cutoff a number")
+            }
         }
     }
 }

@@ -1,3 +1,4 @@
+use crate::alpha_mask::AlphaMask;
 use crate::amount::SurfaceAmount;
 use crate::color::ColorModel;
 use crate::glam::Vec3;
@@ -22,7 +23,7 @@ pub struct DiffuseEmissionDesc<C: ColorModel> {
     pub sides: Sides,
     /// Where it emits.
     pub mask: EmissionMask,
-    /// How the images of colour and mask lie on the surface.
+    /// How the image of the colour lies on the surface, and the mask that has no mapping of its own.
     pub mapping: TextureMapping,
     /// The media behind and in front of the surface.
     pub media: MediumInterface,
@@ -69,9 +70,9 @@ pub enum EmissionMask {
     /// Everywhere.
     #[default]
     Opaque,
-    /// In proportion to an image over the surface parameters, `[0, 1]`. Emission already holds this
-    /// factor: a ray that meets the surface counts in full.
-    Alpha(Texture),
+    /// By an image over the surface parameters. Emission already holds this factor: a ray that
+    /// meets the surface counts in full.
+    Alpha(AlphaMask),
     /// Everywhere, but no ray meets the surface: the light stays, of type
     /// [`DeltaPosition`](crate::LightType::DeltaPosition), and is found by sampling it alone.
     Invisible,

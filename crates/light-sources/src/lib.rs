@@ -12,6 +12,8 @@ pub use light_bounds;
 pub use light_bounds::glam;
 pub use light_bounds::light_math;
 
+#[cfg(feature = "alloc")]
+mod alpha_mask;
 mod amount;
 #[cfg(feature = "alloc")]
 mod area;
@@ -42,12 +44,16 @@ mod goniometric;
 #[cfg(feature = "alloc")]
 mod image;
 #[cfg(feature = "alloc")]
+mod image_behind;
+#[cfg(feature = "alloc")]
 mod image_error;
 #[cfg(feature = "alloc")]
 mod image_infinite;
 mod kind;
 #[cfg(feature = "alloc")]
 mod known_means;
+#[cfg(feature = "alloc")]
+mod level_quadrature;
 mod light;
 #[cfg(feature = "alloc")]
 mod light_ref;
@@ -57,6 +63,8 @@ mod light_set;
 mod light_set_builder;
 #[cfg(feature = "alloc")]
 mod light_set_bytes;
+#[cfg(feature = "alloc")]
+mod mask_share;
 mod media;
 #[cfg(feature = "alloc")]
 mod median_cut;
@@ -105,10 +113,14 @@ mod texture;
 mod texture_integral;
 #[cfg(feature = "alloc")]
 mod texture_mapping;
+#[cfg(feature = "alloc")]
+mod triangle_rules;
 mod uniform_infinite;
 #[cfg(feature = "alloc")]
 mod uv_polygon;
 
+#[cfg(feature = "alloc")]
+pub use alpha_mask::AlphaMask;
 pub use amount::{IntensityAmount, IrradianceAmount, RadianceAmount, SurfaceAmount};
 #[cfg(feature = "alloc")]
 pub use area::DiffuseAreaLight;

@@ -1,8 +1,10 @@
 use crate::floor::floor;
-use crate::glam::{DVec3, Vec3};
+use crate::glam::{DVec2, DVec3, Vec3};
 use crate::image::Image;
+use crate::level_quadrature::{Level, each_node};
+use crate::mask_share::MaskShare;
 use crate::texture_mapping::Wrap;
-use crate::uv_polygon::Axis;
+use crate::uv_polygon::{Axis, Corner, UvPolygon};
 
 /// One axis of an image between two centres of texels, where its colour is a line: two texels, and
 /// how far from the first to the second a place is.
@@ -96,42 +98,50 @@ pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
     f64::INFINITY
 }
 
-/// What a surface shows: an image, or the product of two that lie on it alike.
+/// What a surface shows: an image, the share of a mask, or the product of both where they lie on it
+/// alike.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
-    pub(crate) image: &'a Image,
-    /// A grey factor.
-    pub(crate) alpha: Option<&'a Image>,
+    /// White where there is none.
+    pub(crate) image: Option<&'a Image>,
+    pub(crate) mask: Option<(&'a Image, MaskShare)>,
     pub(crate) wrap: [Wrap; 2],
 }
 
-/// [`Shown`] between neighbouring bends of all images: a polynomial.
+/// [`Shown`] between neighbouring bends of all images: a polynomial, but where the share of the
+/// mask bends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShownCell {
-    image: Cell,
-    alpha: Option<Cell>,
+    image: Option<Cell>,
+    mask: Option<(Cell, MaskShare)>,
 }
 
 impl<'a> Shown<'a> {
     pub(crate) fn cell(&self, middle: [f64; 2]) -> ShownCell {
+        let cell = |image: &Image| Cell::new(image, self.wrap, middle);
         ShownCell {
-            image: Cell::new(self.image, self.wrap, middle),
-            alpha: self.alpha.map(|a| Cell::new(a, self.wrap, middle)),
+            image: self.image.map(cell),
+            mask: self.mask.map(|(image, share)| (cell(image), share)),
         }
     }
 
     pub(crate) fn next_bend(&self, axis: Axis, from: f64) -> f64 {
         let axis = axis as usize;
-        let bend = |image: &Image| next_bend(self.wrap[axis], image.size()[axis], from);
-        let alpha = self.alpha.map_or(f64::INFINITY, bend);
-        bend(self.image).min(alpha)
+        let bends = self
+            .images()
+            .map(|image| next_bend(self.wrap[axis], image.size()[axis], from));
+        bends.fold(f64::INFINITY, f64::min)
     }
 
     /// Texels along an axis, of the image that has more of them.
     pub(crate) fn texels(&self, axis: Axis) -> u32 {
-        let axis = axis as usize;
-        let alpha = self.alpha.map_or(0, |a| a.size()[axis]);
-        self.image.size()[axis].max(alpha)
+        let counts = self.images().map(|image| image.size()[axis as usize]);
+        counts.fold(1, u32::max)
+    }
+
+    fn images(&self) -> impl Iterator<Item = &'a Image> + use<'a> {
+        let mask = self.mask.map(|(image, _)| image);
+        self.image.into_iter().chain(mask)
     }
 
     /// The integral over the rectangle between two places.
@@ -160,8 +170,25 @@ impl<'a> Shown<'a> {
 impl ShownCell {
     #[inline]
     pub(crate) fn at(&self, x: f64, y: f64) -> DVec3 {
-        let color = self.image.at(x, y);
-        self.alpha.map_or(color, |alpha| color * alpha.at(x, y).x)
+        let color = self.image.map_or(DVec3::ONE, |image| image.at(x, y));
+        let share = |(mask, share): (Cell, MaskShare)| share.of(mask.at(x, y).x);
+        self.mask.map_or(color, |mask| color * share(mask))
+    }
+
+    /// Where the share of the mask bends, if it does so in this cell.
+    pub(crate) fn level(&self) -> Option<Level> {
+        let (mask, share) = self.mask.as_ref()?;
+        let values = mask.colors.map(|row| row.map(|color| color.x));
+        let [least, most] = [f64::min, f64::max].map(|of| {
+            let values = values.as_flattened().iter().copied();
+            values.reduce(of).unwrap_or_default()
+        });
+        let bend = share.bend(least, most)?;
+        Some(Level {
+            start: DVec2::new(mask.x.start, mask.y.start),
+            slope: DVec2::new(mask.x.slope, mask.y.slope),
+            corners: values.map(|row| row.map(|value| value - bend)),
+        })
     }
 
     /// The mean over a rectangle: exact, as the product of two lines is of degree 2 along each
@@ -169,8 +196,11 @@ impl ShownCell {
     pub(crate) fn mean(&self, low: [f64; 2], high: [f64; 2]) -> DVec3 {
         /// The nodes of Gauss and Legendre, from the middle, in half sizes.
         const NODE: f64 = 0.577_350_269_189_625_8;
+        if let Some(level) = self.level() {
+            return self.mean_beside(&level, low.into(), high.into());
+        }
         let [x, y] = [0, 1].map(|i| 0.5 * (low[i] + high[i]));
-        if self.alpha.is_none() {
+        if self.image.is_none() || self.mask.is_none() {
             return self.at(x, y);
         }
         let [dx, dy] = [0, 1].map(|i| 0.5 * NODE * (high[i] - low[i]));
@@ -179,6 +209,26 @@ impl ShownCell {
             + self.at(x - dx, y + dy)
             + self.at(x + dx, y + dy);
         0.25 * sum
+    }
+
+    fn mean_beside(&self, level: &Level, low: DVec2, high: DVec2) -> DVec3 {
+        let corners = [
+            low,
+            DVec2::new(high.x, low.y),
+            high,
+            DVec2::new(low.x, high.y),
+        ];
+        let rectangle = UvPolygon::new(&corners.map(|place| Corner { uv: place, place }));
+        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+        each_node(&rectangle, level, |Corner { place, .. }, weight| {
+            sum += self.at(place.x, place.y) * weight;
+            total += weight;
+        });
+        if total > 0.0 {
+            sum / total
+        } else {
+            DVec3::ZERO
+        }
     }
 }
 

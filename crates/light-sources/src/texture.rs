@@ -27,8 +27,8 @@ impl Texture {
     #[must_use]
     pub fn new(image: Image) -> Self {
         let blocks = BlockMeans::new(&Shown {
-            image: &image,
-            alpha: None,
+            image: Some(&image),
+            mask: None,
             wrap: [Wrap::Clamp; 2],
         });
         let brightest = image.texels().fold(Vec3::ZERO, Vec3::max);

@@ -1,10 +1,13 @@
 use crate::block_means::{Block, BlockMeans};
 use crate::floor::floor;
 use crate::glam::{DVec2, DVec3, Vec2, Vec3};
+use crate::image_behind::{ImageBehind, Places};
+use crate::level_quadrature::each_node;
 use crate::row_integral::mean_by_rows;
 use crate::shape::{UvArea, UvDensity};
 use crate::texel_cells::{Shown, ShownCell};
 use crate::texture_mapping::{TextureMapping, Wrap};
+use crate::triangle_rules::{DEGREE_2, DEGREE_5};
 use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
 
 /// The mean of what a surface shows over its area.
@@ -14,19 +17,19 @@ use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
 /// wherever the surface shows any light.
 ///
 /// Only what covers more than [`FINEST`] blocks along an axis is cut more coarsely.
+///
+/// `behind` is an image of which `shown` is the mask, where they have different mappings; it is
+/// exact up to [`FINEST_APART`] blocks.
 pub(crate) fn mean(
     shown: &Shown<'_>,
     blocks: &BlockMeans,
     mapping: &TextureMapping,
+    behind: Option<ImageBehind<'_>>,
     area: &UvArea,
 ) -> Vec3 {
     let mut integral = Integral {
-        shown,
-        blocks,
-        density: UvDensity::Even,
-        sum: DVec3::ZERO,
-        total: 0.0,
-        nearby: DVec3::ZERO,
+        behind,
+        ..Integral::new(shown, blocks, UvDensity::Even)
     };
     match *area {
         // The area is even whatever the surface parameters are, so that any others do as well.
@@ -64,6 +67,11 @@ fn pieces(density: &UvDensity) -> impl Iterator<Item = [Vec2; 2]> {
 /// How many blocks along an axis, as a power of two, a surface is cut into at most.
 const FINEST: u32 = 12;
 
+/// As [`FINEST`], of a mask with a mapping of its own: in blocks that are partly masked, and are
+/// smaller than one in so many along an axis, it counts by its mean, as if the image behind had
+/// nothing to do with it.
+const FINEST_APART: u32 = 5;
+
 /// How many times an image that is repeated counts at most: more do not change the mean.
 const MOST_REPEATED: f64 = 1024.0;
 
@@ -81,9 +89,25 @@ struct Integral<'a> {
     sum: DVec3,
     total: f64,
     nearby: DVec3,
+    behind: Option<ImageBehind<'a>>,
+    /// Where the polygon that is added lies in the image, and in the image behind.
+    places: Option<[Places; 2]>,
 }
 
-impl Integral<'_> {
+impl<'a> Integral<'a> {
+    fn new(shown: &'a Shown<'a>, blocks: &'a BlockMeans, density: UvDensity) -> Self {
+        Self {
+            shown,
+            blocks,
+            density,
+            sum: DVec3::ZERO,
+            total: 0.0,
+            nearby: DVec3::ZERO,
+            behind: None,
+            places: None,
+        }
+    }
+
     /// Adds the polygon with these surface parameters, which shows what lies at others.
     fn add<const N: usize>(
         &mut self,
@@ -91,6 +115,29 @@ impl Integral<'_> {
         shown: [Vec2; N],
         mapping: &TextureMapping,
     ) {
+        let corners = self.folded(corners, shown, mapping);
+        let polygon = UvPolygon::new(&corners);
+        let mut nearby = self.near(&polygon);
+        if let Some(behind) = self.behind {
+            let image = Integral::new(behind.shown, behind.blocks, self.density);
+            let uvs = corners.map(|corner| corner.uv.as_vec2());
+            let corners_behind = image.folded(uvs, shown, behind.mapping);
+            nearby *= image.near(&UvPolygon::new(&corners_behind));
+            let places = |c: &[Corner; N]| Places::new([c[0], c[1], c[2]]);
+            self.places = Some([places(&corners), places(&corners_behind)]);
+        }
+        self.nearby += nearby;
+        self.polygon(polygon);
+    }
+
+    /// Where surface parameters `corners` lie that show what lies at `shown`, moved to where the
+    /// image repeats itself.
+    fn folded<const N: usize>(
+        &self,
+        corners: [Vec2; N],
+        shown: [Vec2; N],
+        mapping: &TextureMapping,
+    ) -> [Corner; N] {
         let transform = &mapping.transform;
         let [x, y] = [transform.x_axis, transform.y_axis].map(|axis| axis.as_dvec2());
         let offset = transform.translation.as_dvec2();
@@ -108,9 +155,7 @@ impl Integral<'_> {
         };
         let mut corners: [Corner; N] = core::array::from_fn(corner);
         self.fold(&mut corners);
-        let polygon = UvPolygon::new(&corners);
-        self.nearby += self.near(&polygon);
-        self.polygon(polygon);
+        corners
     }
 
     fn mean(self) -> Vec3 {
@@ -172,7 +217,8 @@ impl Integral<'_> {
             return;
         }
         let (level, [low, high]) = self.covering(inside.place_bounds());
-        let finest = level.saturating_sub(FINEST);
+        let most = self.behind.map_or(FINEST, |_| FINEST_APART);
+        let finest = level.saturating_sub(most);
         let mut rows = inside;
         for y in low[1]..=high[1] {
             let [mut row, above] = rows.split(Axis::Y, self.edge(Axis::Y, level, y + 1));
@@ -210,7 +256,13 @@ impl Integral<'_> {
             return;
         }
         let Block { level, index } = block;
-        if let Some(mean) = self.blocks.mean(block, self.shown.wrap) {
+        let mean = self.blocks.mean(block, self.shown.wrap);
+        if let (Some(mean), Some([_, behind])) = (mean, self.places) {
+            let is_coarse = level > 0 && level <= finest;
+            if is_coarse || mean.x == 0.0 || mean.x == 1.0 {
+                return self.add_behind(mean.x, &behind.of(part));
+            }
+        } else if let Some(mean) = mean {
             let side = |axis: Axis| {
                 let edge = |i| self.edge(axis, level, index[axis as usize] + i);
                 // Of the last block there may be no more than the image.
@@ -251,12 +303,26 @@ impl Integral<'_> {
         }
     }
 
+    /// Adds a share of what a polygon shows of the image behind.
+    fn add_behind(&mut self, share: f64, polygon: &UvPolygon) {
+        let Some(behind) = self.behind else {
+            return;
+        };
+        let mut image = Integral::new(behind.shown, behind.blocks, self.density);
+        image.polygon(*polygon);
+        self.sum += image.sum * share;
+        self.total += image.total;
+    }
+
     /// Adds a polygon that is small and evenly measured, and shows one image; says whether it does.
     fn rows(&mut self, polygon: &UvPolygon) -> bool {
-        if self.shown.alpha.is_some() || self.density != UvDensity::Even {
+        let (Some(image), None) = (self.shown.image, self.shown.mask) else {
+            return false;
+        };
+        if self.density != UvDensity::Even {
             return false;
         }
-        let mean = mean_by_rows(self.shown.image, self.shown.wrap, polygon);
+        let mean = mean_by_rows(image, self.shown.wrap, polygon);
         if let Some(mean) = mean {
             let weight = self.weight(polygon);
             self.sum += mean * weight;
@@ -275,27 +341,49 @@ impl Integral<'_> {
         });
     }
 
-    /// Adds a polygon within which the colour is a polynomial.
+    /// Adds a polygon between the bends of what is shown.
     fn piece(&mut self, cell: &ShownCell, piece: &UvPolygon) {
-        for corners in piece.triangles() {
-            let area = 0.5 * doubled_area(corners);
-            for ([a, b, c], share) in self.rule() {
-                let [p, q, r] = corners;
-                let at = |of: fn(&Corner) -> DVec2| of(&p) * a + of(&q) * b + of(&r) * c;
-                let weight = share * area * self.density.at(at(|corner| corner.uv));
-                let place = at(|corner| corner.place);
-                self.sum += cell.at(place.x, place.y) * weight;
-                self.total += weight;
-            }
-        }
+        let (Some(behind), Some([here, there])) = (self.behind, self.places) else {
+            return self.product(cell, piece, |_| DVec3::ONE);
+        };
+        let image = behind.shown;
+        each_strip(image, Axis::X, &there.of(piece), |x, column| {
+            each_strip(image, Axis::Y, column, |y, part| {
+                let color = image.cell([x, y]);
+                self.product(cell, &here.of(part), |uv| {
+                    let place = there.at(uv);
+                    color.at(place.x, place.y)
+                });
+            });
+        });
     }
 
-    /// Barycentric coordinates and weights of a quadrature over triangles that is exact for what is
-    /// shown.
-    fn rule(&self) -> impl Iterator<Item = ([f64; 3], f64)> + use<> {
-        let is_square = self.shown.alpha.is_none() && self.density == UvDensity::Even;
-        let rule: &[_] = if is_square { &DEGREE_2 } else { &DEGREE_5 };
-        rule.iter().copied()
+    /// Adds a polygon between the bends of what is shown, of which the colour is the product of
+    /// that with another.
+    fn product(&mut self, cell: &ShownCell, piece: &UvPolygon, color: impl Fn(DVec2) -> DVec3) {
+        let mut add = |Corner { uv, place }: Corner, area: f64| {
+            let weight = area * self.density.at(uv);
+            self.sum += cell.at(place.x, place.y) * color(uv) * weight;
+            self.total += weight;
+        };
+        if let Some(level) = cell.level() {
+            return each_node(piece, &level, add);
+        }
+        let is_simple =
+            self.behind.is_none() && self.shown.mask.is_none() && self.density == UvDensity::Even;
+        let rule: &[_] = if is_simple { &DEGREE_2 } else { &DEGREE_5 };
+        for corners in piece.triangles() {
+            let area = 0.5 * doubled_area(corners);
+            for ([a, b, c], share) in rule {
+                let [p, q, r] = corners;
+                let at = |of: fn(&Corner) -> DVec2| of(&p) * *a + of(&q) * *b + of(&r) * *c;
+                let corner = Corner {
+                    uv: at(|corner| corner.uv),
+                    place: at(|corner| corner.place),
+                };
+                add(corner, share * area);
+            }
+        }
     }
 
     /// The area of a polygon, by the density.
@@ -387,33 +475,6 @@ fn each_strip(
 fn whole(x: f64) -> i64 {
     floor(x) as i64
 }
-
-/// Exact for polynomials up to degree 2: the middles of the sides.
-const DEGREE_2: [([f64; 3], f64); 3] = [
-    ([0.5, 0.5, 0.0], 1.0 / 3.0),
-    ([0.0, 0.5, 0.5], 1.0 / 3.0),
-    ([0.5, 0.0, 0.5], 1.0 / 3.0),
-];
-
-/// Exact for polynomials up to degree 5.
-///
-/// # Source
-/// `[Radon1948]`: the centroid, and two triples on the medians.
-const DEGREE_5: [([f64; 3], f64); 7] = {
-    const A: f64 = 0.101_286_507_323_456_34;
-    const B: f64 = 0.470_142_064_105_115_1;
-    const WEIGHT_A: f64 = 0.125_939_180_544_827_17;
-    const WEIGHT_B: f64 = 0.132_394_152_788_506_16;
-    [
-        ([1.0 / 3.0; 3], 0.225),
-        ([1.0 - 2.0 * A, A, A], WEIGHT_A),
-        ([A, 1.0 - 2.0 * A, A], WEIGHT_A),
-        ([A, A, 1.0 - 2.0 * A], WEIGHT_A),
-        ([1.0 - 2.0 * B, B, B], WEIGHT_B),
-        ([B, 1.0 - 2.0 * B, B], WEIGHT_B),
-        ([B, B, 1.0 - 2.0 * B], WEIGHT_B),
-    ]
-};
 
 #[cfg(test)]
 mod tests;

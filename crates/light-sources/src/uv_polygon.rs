@@ -14,12 +14,9 @@ pub(crate) struct Corner {
 /// What the mapping shrinks to a line or to a point in the image keeps its area on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UvPolygon {
-    corners: [Corner; MOST],
+    corners: [Corner; Self::MOST],
     count: usize,
 }
-
-/// A parallelogram that is cut by two lines along each axis has eight corners; rounding adds few.
-const MOST: usize = 12;
 
 /// An axis of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +37,10 @@ impl Axis {
 }
 
 impl UvPolygon {
+    /// A parallelogram that is cut by two lines along each axis of two images has twelve corners;
+    /// rounding adds few.
+    pub(crate) const MOST: usize = 16;
+
     pub(crate) fn new(corners: &[Corner]) -> Self {
         let mut polygon = Self::empty();
         corners.iter().for_each(|&corner| polygon.push(corner));
@@ -52,13 +53,16 @@ impl UvPolygon {
             place: DVec2::ZERO,
         };
         Self {
-            corners: [nowhere; MOST],
+            corners: [nowhere; Self::MOST],
             count: 0,
         }
     }
 
     fn push(&mut self, corner: Corner) {
-        debug_assert!(self.count < MOST, "a convex polygon, cut by rectangles");
+        debug_assert!(
+            self.count < Self::MOST,
+            "a convex polygon, cut by rectangles"
+        );
         if let Some(place) = self.corners.get_mut(self.count) {
             *place = corner;
             self.count += 1;
@@ -67,6 +71,14 @@ impl UvPolygon {
 
     pub(crate) fn corners(&self) -> &[Corner] {
         &self.corners[..self.count]
+    }
+
+    /// The same surface with other places.
+    pub(crate) fn with_places(mut self, place: impl Fn(DVec2) -> DVec2) -> Self {
+        for corner in &mut self.corners[..self.count] {
+            corner.place = place(corner.uv);
+        }
+        self
     }
 
     /// Whether there is nothing to measure.

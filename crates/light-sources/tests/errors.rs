@@ -149,14 +149,21 @@ fn emissions() {
         RadianceAmount::Radiometric(1e30),
     );
     assert!(said(bright).starts_with("area light, amount: "), "overflow");
-    let mask = DiffuseEmissionDesc {
-        mask: EmissionMask::Alpha(image([1, 1], Channels::Gray, 1.5).into()),
-        ..emission()
-    };
-    assert!(
-        said(mask).starts_with("area light, mask: "),
-        "alpha above 1"
-    );
+    for (scale, cutoff) in [(-1.0, None), (f32::INFINITY, None), (1.0, Some(f32::NAN))] {
+        let mask = DiffuseEmissionDesc {
+            mask: EmissionMask::Alpha(AlphaMask {
+                scale,
+                cutoff,
+                ..image([1, 1], Channels::Gray, 1.5).into()
+            }),
+            ..emission()
+        };
+        let error = said(mask);
+        assert!(
+            error.starts_with("area light, mask: "),
+            "{scale}, {cutoff:?}: {error}"
+        );
+    }
 }
 
 #[test]

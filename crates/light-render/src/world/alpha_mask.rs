@@ -5,7 +5,7 @@ use lights::sources::shape::{AnyShape, Shape};
 use lights::sources::{AreaLight, Light, LightLiSample, LightRef, PdfCoverage, Rgb, SurfacePoint};
 
 use super::World;
-use crate::surface_emission::{AlphaMaskedLights, MaskedRadiance};
+use crate::surface_emission::AlphaMaskedLights;
 use crate::{PrimitiveId, Ray, sobol};
 
 impl World {
@@ -56,19 +56,15 @@ impl World {
     #[inline]
     pub(super) fn radiance_at_hit(&self, id: LightId, uv: Vec2, l: Vec3) -> Vec3 {
         match self.masked(id) {
-            Some(&AlphaMaskedLights {
-                material,
-                radiance: MaskedRadiance::TimesOpacity,
-                ..
-            }) => {
-                let opacity = self.opacity(&self.materials[material], uv);
+            Some(lights) => {
+                let opacity = self.opacity(&self.materials[lights.material], uv);
                 if opacity > 0.0 {
                     l / opacity
                 } else {
                     Vec3::ZERO
                 }
             }
-            _ => l,
+            None => l,
         }
     }
 
@@ -84,60 +80,50 @@ impl World {
     ) -> Option<LightLiSample<Vec3>> {
         let light = self.lights.get(id)?;
         match self.masked(id) {
-            Some(masked) => self.sample_masked(masked, &light, ctx, u, coverage),
+            Some(_) => sample_masked(&light, ctx, u, coverage),
             None => light.sample_li(ctx, u, &(), coverage),
         }
     }
+}
 
-    // Not inlined: most scenes have no masked lights.
-    #[inline(never)]
-    fn sample_masked(
-        &self,
-        masked: &AlphaMaskedLights,
-        light: &LightRef<'_, Rgb>,
-        ctx: &LightSampleContext,
-        u: Vec2,
-        coverage: PdfCoverage,
-    ) -> Option<LightLiSample<Vec3>> {
-        let times_opacity = |uv, l: Vec3| match masked.radiance {
-            MaskedRadiance::TimesOpacity => l,
-            MaskedRadiance::Unmasked => l * self.opacity(&self.materials[masked.material], uv),
-        };
-        let sample = match light {
-            LightRef::Area(area) if matches!(area.shape(), AnyShape::Sphere(_)) => {
-                let toward = area.shape().sample_toward(ctx, u)?;
-                let (near, wi) = (toward.at, toward.wi);
-                let mut sample = LightLiSample {
-                    l: times_opacity(near.uv, area.l(&near, -wi, &())),
-                    wi,
-                    pdf: toward.pdf,
-                    p_light: near.p,
-                    n_light: near.n,
-                    uv: near.uv,
-                };
-                // Through the mask of the near side, the inside of the far side is visible.
-                if let Some(far) = far_side(area.shape(), &near, wi) {
-                    let l = times_opacity(far.uv, area.l(&far, -wi, &()));
-                    let is_far = sample.l == Vec3::ZERO || (l != Vec3::ZERO && coin(wi));
-                    let is_one_of_two = sample.l != Vec3::ZERO && l != Vec3::ZERO;
-                    if is_far {
-                        (sample.l, sample.p_light) = (l, far.p);
-                        (sample.n_light, sample.uv) = (far.n, far.uv);
-                    }
-                    if is_one_of_two {
-                        sample.l *= 2.0;
-                    }
+// Not inlined: most scenes have no masked lights.
+#[inline(never)]
+fn sample_masked(
+    light: &LightRef<'_, Rgb>,
+    ctx: &LightSampleContext,
+    u: Vec2,
+    coverage: PdfCoverage,
+) -> Option<LightLiSample<Vec3>> {
+    let sample = match light {
+        LightRef::Area(area) if matches!(area.shape(), AnyShape::Sphere(_)) => {
+            let toward = area.shape().sample_toward(ctx, u)?;
+            let (near, wi) = (toward.at, toward.wi);
+            let mut sample = LightLiSample {
+                l: area.l(&near, -wi, &()),
+                wi,
+                pdf: toward.pdf,
+                p_light: near.p,
+                n_light: near.n,
+                uv: near.uv,
+            };
+            // Through the mask of the near side, the inside of the far side is visible.
+            if let Some(far) = far_side(area.shape(), &near, wi) {
+                let l = area.l(&far, -wi, &());
+                let is_far = sample.l == Vec3::ZERO || (l != Vec3::ZERO && coin(wi));
+                let is_one_of_two = sample.l != Vec3::ZERO && l != Vec3::ZERO;
+                if is_far {
+                    (sample.l, sample.p_light) = (l, far.p);
+                    (sample.n_light, sample.uv) = (far.n, far.uv);
                 }
-                sample
+                if is_one_of_two {
+                    sample.l *= 2.0;
+                }
             }
-            _ => {
-                let sample = light.sample_li(ctx, u, &(), coverage)?;
-                let l = times_opacity(sample.uv, sample.l);
-                LightLiSample { l, ..sample }
-            }
-        };
-        (sample.l != Vec3::ZERO).then_some(sample)
-    }
+            sample
+        }
+        _ => light.sample_li(ctx, u, &(), coverage)?,
+    };
+    (sample.l != Vec3::ZERO).then_some(sample)
 }
 
 /// Where a ray that enters a sphere at `near` leaves it; `None` for a ray from inside.

@@ -4,6 +4,7 @@ use super::*;
 use crate::channels::Channels;
 use crate::glam::Affine2;
 use crate::image::Image;
+use crate::mask_share::MaskShare;
 use light_testkit::Rng;
 
 const ONCE: TextureMapping = TextureMapping {
@@ -26,12 +27,12 @@ fn halves() -> Image {
 /// The mean by the blocks that a texture has.
 fn over(image: &Image, mapping: &TextureMapping, area: &UvArea) -> f32 {
     let shown = |wrap| Shown {
-        image,
-        alpha: None,
+        image: Some(image),
+        mask: None,
         wrap,
     };
     let blocks = BlockMeans::new(&shown([Wrap::Clamp; 2]));
-    mean(&shown(mapping.wrap), &blocks, mapping, area).x
+    mean(&shown(mapping.wrap), &blocks, mapping, None, area).x
 }
 
 fn triangle(uv: [[f32; 2]; 3]) -> UvArea {
@@ -162,10 +163,10 @@ fn blocks_change_nothing() {
         [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]],
     ];
     for (wrap, uv) in WRAPS.into_iter().flat_map(|w| uvs.map(|uv| (w, uv))) {
-        for alpha in [None, Some(&mask)] {
+        for mask in [None, Some((&mask, MaskShare::Linear))] {
             let shown = Shown {
-                image: &image,
-                alpha,
+                image: Some(&image),
+                mask,
                 wrap: [wrap, WRAPS[3]],
             };
             let mapping = TextureMapping {
@@ -173,15 +174,8 @@ fn blocks_change_nothing() {
                 ..ONCE
             };
             let blocks = BlockMeans::new(&shown);
-            let whole = mean(&shown, &blocks, &mapping, &triangle(uv));
-            let mut integral = Integral {
-                shown: &shown,
-                blocks: &blocks,
-                density: UvDensity::Even,
-                sum: DVec3::ZERO,
-                total: 0.0,
-                nearby: DVec3::ZERO,
-            };
+            let whole = mean(&shown, &blocks, &mapping, None, &triangle(uv));
+            let mut integral = Integral::new(&shown, &blocks, UvDensity::Even);
             let corner = |i: usize| Corner {
                 uv: [DVec2::ZERO, DVec2::X, DVec2::Y][i],
                 place: mapping.place(Vec2::from(uv[i])).as_dvec2(),
@@ -205,8 +199,8 @@ fn rows_change_nothing() {
     let mut by_rows = 0;
     for i in 0..800 {
         let shown = Shown {
-            image: &image,
-            alpha: None,
+            image: Some(&image),
+            mask: None,
             wrap: [WRAPS[i % 4], WRAPS[i / 4 % 4]],
         };
         let size = [0.8, 0.1, 0.01, 1e-4][i / 16 % 4];
@@ -220,14 +214,8 @@ fn rows_change_nothing() {
             continue;
         };
         by_rows += 1;
-        let mut integral = Integral {
-            shown: &shown,
-            blocks: &BlockMeans::new(&shown),
-            density: UvDensity::Even,
-            sum: DVec3::ZERO,
-            total: 0.0,
-            nearby: DVec3::ZERO,
-        };
+        let blocks = BlockMeans::new(&shown);
+        let mut integral = Integral::new(&shown, &blocks, UvDensity::Even);
         integral.cells(&triangle);
         let exact = integral.sum / integral.total;
         let near = mean.abs_diff_eq(exact, 1e-8 * exact.x.max(1.0));

@@ -223,7 +223,12 @@ fn what(emission: &DiffuseEmissionDesc<Rgb>) -> String {
         SurfaceColor::Uniform(_) => None,
     };
     let mask = match &emission.mask {
-        EmissionMask::Alpha(texture) => Some(texture.image().size()),
+        EmissionMask::Alpha(mask) => Some((
+            mask.texture.image().size(),
+            mask.scale,
+            mask.cutoff,
+            mask.mapping,
+        )),
         _ => None,
     };
     format!("image {color:?}, mask {mask:?}, {:?}", emission.mapping)

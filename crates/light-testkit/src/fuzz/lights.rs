@@ -204,7 +204,7 @@ fn diffuse(input: &mut Input<'_>) -> DiffuseEmissionDesc<Rgb> {
         amount: surface_amount(input),
         sides: [Sides::Front, Sides::Back, Sides::Both][input.below(3)],
         mask: match input.byte() % 4 {
-            0 => EmissionMask::Alpha(Texture::new(square(input, Channels::Gray))),
+            0 => EmissionMask::Alpha(square(input, Channels::Gray).into()),
             1 => EmissionMask::Invisible,
             _ => EmissionMask::Opaque,
         },

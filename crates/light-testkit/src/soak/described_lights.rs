@@ -174,7 +174,7 @@ fn textured() -> Vec<Named> {
         texture: Texture::new(image([8, 8], Channels::Rgb, 3)),
         tint: Vec3::ONE,
     };
-    let mask = EmissionMask::Alpha(Texture::new(image([5, 5], Channels::Gray, 4)));
+    let mask = EmissionMask::Alpha(image([5, 5], Channels::Gray, 4).into());
     let masked = LightDesc::Area(AreaLightDesc {
         shape: triangle(1.5),
         emission: DiffuseEmissionDesc {

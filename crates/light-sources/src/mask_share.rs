@@ -1,0 +1,30 @@
+/// How much of a surface emits where its mask has a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum MaskShare {
+    /// As much as the value.
+    Linear,
+    /// As much as this factor, which is above 0, times the value, and at most all of it.
+    AtMostOne(f64),
+    /// All of it where the value is at least this, which is above 0; else nothing.
+    Cutoff(f64),
+}
+
+impl MaskShare {
+    pub(crate) fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::AtMostOne(scale) => (value * scale).min(1.0),
+            Self::Cutoff(least) => f64::from(u8::from(value >= least)),
+        }
+    }
+
+    /// The value between `least` and `most` at which the share bends or jumps.
+    pub(crate) fn bend(self, least: f64, most: f64) -> Option<f64> {
+        let bend = match self {
+            Self::Linear => return None,
+            Self::AtMostOne(scale) => 1.0 / scale,
+            Self::Cutoff(bend) => bend,
+        };
+        (least < bend && bend <= most).then_some(bend)
+    }
+}
