@@ -15,8 +15,8 @@ use light_media::{
 };
 use light_samplers::{LightSampler, PowerLightSampler};
 use light_sources::{
-    IntensityAmount, LightDesc, LightSet, LightSetBuilder, MediumInterface, PointLightDesc,
-    RadianceAmount, Rgb, SceneSphere, UniformInfiniteLightDesc,
+    DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, LightSet, LightSetBuilder,
+    MediumInterface, PointLightDesc, RadianceAmount, Rgb, SceneSphere, UniformInfiniteLightDesc,
 };
 use light_testkit::{Estimate, Rng};
 
@@ -264,6 +264,50 @@ fn lights_are_chosen_for_the_part_of_the_ray_in_the_medium() {
         let asked = sampler.0.into_inner();
         assert_eq!(asked, [expected; 3], "{sigma}: {start} + {length}");
     }
+}
+
+/// A sun over a slab that starts far along the ray: what reaches the middle of the slab is weaker by
+/// the unit of medium over it.
+#[test]
+fn a_sun_over_a_medium_that_starts_later() {
+    let slab = Aabb::new(Vec3::new(2.0, -1.0, -1.0), Vec3::new(5.0, 1.0, 1.0));
+    let medium = Homogeneous {
+        region: Region::new(slab, Affine3A::IDENTITY).expect("a box"),
+        ..medium(0.1, 0.4, 0.0)
+    };
+    let scene = SceneSphere::new(Vec3::ZERO, 10.0).expect("a sphere");
+    let mut lights = LightSetBuilder::<Rgb>::new(scene);
+    let sun = DistantLightDesc {
+        direction: Vec3::Y,
+        emission: Vec3::ONE,
+        amount: IrradianceAmount::Radiometric(3.0),
+    };
+    lights.add(LightDesc::Distant(sun)).expect("a sun");
+    let step = StepSize::new(0.05).expect("positive");
+    let integrator = VolumeIntegrator {
+        medium: &medium,
+        lights: &lights.build(),
+        sampler: &PowerLightSampler::new(&[1.0]).expect("a power"),
+        scene: &NothingInTheWay,
+        wavelengths: &(),
+        step,
+        shadow_step: step,
+    };
+    let endless = Span {
+        t0: 0.5,
+        t1: f32::INFINITY,
+    };
+    let mut rng = Rng::new(62);
+    let found = Estimate::of(1 << 12, || {
+        let seed = rng.u32();
+        let seen = integrator.next_event(&RAY, endless, 4, seed, &mut || rng.f32());
+        seen.l.x.into()
+    });
+    let sigma_t = 0.5f64;
+    let along = (1.0 - (-3.0 * sigma_t).exp()) / sigma_t;
+    let truth = 0.4 * 3.0 / (4.0 * core::f64::consts::PI) * (-sigma_t).exp() * along;
+    let margin = found.margin(truth) + 1e-4 * truth;
+    assert!((found.mean - truth).abs() <= margin, "{found:?}, {truth}");
 }
 
 /// Whether a dark light can be seen is not asked, nor how much of its light would be left.

@@ -240,3 +240,36 @@ fn places_that_are_no_numbers_or_far_away_are_survived() {
         }
     }
 }
+
+/// Parts of a sphere weigh what their area is, of a part of a disk its distance from the middle.
+#[test]
+fn uneven_densities_weigh_parts() {
+    let image = halves();
+    let shown = Shown {
+        image: Some(&image),
+        mask: None,
+        wrap: [Wrap::Clamp; 2],
+    };
+    let blocks = BlockMeans::new(&shown);
+    let along_u = UvDensity::Length([Vec3::ZERO, Vec3::X, Vec3::ZERO]);
+    for [u, v] in [[0.0, 0.0], [0.25, 0.125], [0.5, 0.75]] {
+        let (low, side) = (DVec2::new(u, v), 0.125);
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|corner| Corner {
+            uv: low + corner * side,
+            place: corner,
+        });
+        let polygon = UvPolygon::new(&corners);
+        let weight = |density| Integral::new(&shown, &blocks, density).weight(&polygon);
+        let pi = core::f64::consts::PI;
+        let sine = ((pi * v).cos() - (pi * (v + side)).cos()) / pi * side;
+        for (density, expected) in [
+            (UvDensity::Even, side * side),
+            (UvDensity::Sine, sine),
+            (along_u, side * side * (u + 0.5 * side)),
+        ] {
+            let found = weight(density);
+            let near = (found - expected).abs() < 1e-6 * side * side;
+            assert!(near, "{u}, {v}, {density:?}: {found}, {expected}");
+        }
+    }
+}
