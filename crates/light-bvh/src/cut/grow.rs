@@ -84,15 +84,7 @@ impl Query for Grow<'_, '_> {
                 // Not a number counts as 0.
                 limit = detail.threshold.max(0.0) * total(lanes);
             }
-            let inner = usize::from(node.inner);
-            let mut open_weights = [0.0; WIDTH];
-            for k in 0..WIDTH {
-                open_weights[k] = if k < inner {
-                    lanes[k] * angular_size_sq[k]
-                } else {
-                    0.0
-                };
-            }
+            let open_weights = open_weights(&lanes, &angular_size_sq, node.inner);
             let mask = mask_above(&open_weights, limit);
             // A node whose children do not all fit opens none.
             let opened = append_set_bits(&mut cut.nodes, count, mask, node.child_base);
@@ -117,6 +109,22 @@ impl Query for Grow<'_, '_> {
         cut.ends[index..].fill(f64::INFINITY);
         cut.about[index..].fill(f32::INFINITY);
     }
+}
+
+/// How rough the estimate of each child is: its weight times the square of its angular size; 0 for
+/// the lights behind the first `inner` children, which cannot be opened.
+#[inline(always)]
+fn open_weights(weights: &[f32; WIDTH], angular_size_sq: &[f32; WIDTH], inner: u8) -> [f32; WIDTH] {
+    let inner = usize::from(inner);
+    let mut open_weights = [0.0; WIDTH];
+    for k in 0..WIDTH {
+        open_weights[k] = if k < inner {
+            weights[k] * angular_size_sq[k]
+        } else {
+            0.0
+        };
+    }
+    open_weights
 }
 
 /// The sum of all lanes in double precision, in pairs.
@@ -147,7 +155,7 @@ fn mask_above(numbers: &[f32; WIDTH], limit: f32) -> usize {
 /// Writes `first + k` for every bit `k` of `mask` from `at` on, and anything in the rest of the
 /// next [`WIDTH`] places; returns how many.
 ///
-/// By tables instead of branches, which could not be foretold.
+/// By tables instead of branches, which would be mispredicted.
 #[inline(always)]
 fn append_set_bits(
     nodes: &mut [u32; MAX_NODES + WIDTH],
@@ -208,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bits_are_noted_in_their_order() {
+    fn bits_are_appended_in_their_order() {
         for mask in (0..1 << WIDTH).step_by(97) {
             let mut nodes = [0; MAX_NODES + WIDTH];
             let appended = append_set_bits(&mut nodes, MAX_NODES, mask, 1000);

@@ -5,7 +5,23 @@ const LEAF_BIT: u32 = 1 << 31;
 
 /// One node of the tree, 32 bytes and aligned to them, so that it never crosses a cache line.
 ///
-/// Nodes are in depth-first order: the first child follows its parent.
+/// Nodes are in depth-first order: the first child follows its parent, [`Link`] names the second.
+///
+/// ```
+/// # use light_bvh::light_bounds::LightId;
+/// # use light_bvh::reference::{Link, ReferenceNode};
+/// /// The light that is reached from the root by taking the second child where `second` says so.
+/// fn reach(nodes: &[ReferenceNode], second: impl Fn(usize) -> bool) -> LightId {
+///     let mut index = 0;
+///     loop {
+///         match nodes[index].link() {
+///             Link::Leaf(light) => return light,
+///             Link::Interior { second_child } if second(index) => index = second_child as usize,
+///             Link::Interior { .. } => index += 1,
+///         }
+///     }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]
@@ -13,6 +29,7 @@ pub struct ReferenceNode {
     bounds: CompactLightBounds,
     /// The light of a leaf with [`LEAF_BIT`], else the index of the second child.
     link: u32,
+    /// Zero: fills the node to 32 bytes.
     spare: u32,
 }
 
