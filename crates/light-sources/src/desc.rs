@@ -11,7 +11,7 @@ use crate::point::{PointLightDesc, PointLightError};
 use crate::portal_infinite::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::projection::{ProjectionLightDesc, ProjectionLightError};
 use crate::scaled_emission::EmissionError;
-use crate::spot::{SpotLightDesc, SpotLightError};
+use crate::spot_desc::{SpotLightDesc, SpotLightError};
 use crate::sun::SunLightError;
 use crate::sun_desc::SunLightDesc;
 use crate::uniform_infinite::UniformInfiniteLightDesc;

@@ -100,6 +100,7 @@ mod spectral_emission;
 #[cfg(feature = "alloc")]
 mod sphere_table;
 mod spot;
+mod spot_desc;
 mod sun;
 mod sun_desc;
 mod surface_point;
@@ -183,7 +184,8 @@ pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;
 pub use spectral::Spectral;
 pub use spectral_emission::SpectralEmission;
-pub use spot::{SpotLight, SpotLightDesc, SpotLightError};
+pub use spot::SpotLight;
+pub use spot_desc::{SpotLightDesc, SpotLightError};
 pub use sun::{SunLight, SunLightError};
 pub use sun_desc::{SunAmount, SunLightDesc};
 pub use surface_point::SurfacePoint;

@@ -1,40 +1,16 @@
-use core::error::Error;
 use core::f32::consts::{PI, TAU};
-use core::fmt;
 
-use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
-use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::glam::{Vec2, Vec3};
 use crate::media::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
-use crate::rigid_transform::{RigidTransform, RigidTransformError};
-use crate::scaled_emission::{EmissionError, ScaledEmission};
+use crate::rigid_transform::RigidTransform;
+use crate::scaled_emission::ScaledEmission;
+use crate::spot_desc::{SpotLightDesc, SpotLightError};
 use light_bounds::LightBounds;
 use light_math::Aabb;
 use light_math::float::{cos, safe_sqrt, sin, sin_cos};
 use light_math::warp::{smoothstep, uniform_cone};
-
-/// A [`SpotLight`] as a user describes it.
-#[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize),
-    serde(bound = "C::Emission: serde::Serialize")
-)]
-pub struct SpotLightDesc<C: ColorModel> {
-    /// From light space, where the light stands at the origin and shines along +z, to the scene.
-    pub transform: Affine3A,
-    /// Angle between the axis and the rim of the cone, in `(0, pi]`.
-    pub angle: f32,
-    /// Angle between the axis and where the light starts to fall off, in `[0, angle]`.
-    pub falloff_start: f32,
-    /// Colour of the light.
-    pub emission: C::Emission,
-    /// How bright it is inside of the falloff.
-    pub amount: IntensityAmount,
-    /// The medium around it, `outside`.
-    pub media: MediumInterface,
-}
 
 /// A light at a point that shines into a cone, with a smooth rim.
 ///
@@ -55,20 +31,6 @@ pub struct SpotLight<C: ColorModel> {
     cos_theta_e: f32,
     intensity: ScaledEmission<C>,
     media: MediumInterface,
-}
-
-/// Why a description is no spot light; each variant names a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SpotLightError {
-    /// `transform` is not rigid.
-    Transform(RigidTransformError),
-    /// `angle` does not lie in `(0, pi]`.
-    Angle,
-    /// `falloff_start` does not lie in `[0, angle]`.
-    FalloffStart,
-    /// `emission` or `amount` makes no sense.
-    Emission(EmissionError),
 }
 
 impl<C: ColorModel> SpotLight<C> {
@@ -212,36 +174,14 @@ fn cos_rounded_down(angle: f32) -> f32 {
     }
 }
 
-impl fmt::Display for SpotLightError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Transform(error) => error.fmt(f),
-            Self::Angle => f.write_str("angle: must lie in (0, pi]"),
-            Self::FalloffStart => f.write_str("falloff_start: must lie in [0, angle]"),
-            Self::Emission(error) => error.fmt(f),
-        }
-    }
-}
-
-impl Error for SpotLightError {}
-
-impl From<RigidTransformError> for SpotLightError {
-    fn from(error: RigidTransformError) -> Self {
-        Self::Transform(error)
-    }
-}
-
-impl From<EmissionError> for SpotLightError {
-    fn from(error: EmissionError) -> Self {
-        Self::Emission(error)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::amount::IntensityAmount;
+    use crate::glam::Affine3A;
     use crate::light::Light;
     use crate::rgb::Rgb;
+    use light_bounds::{LightExtent, LightSampleContext};
 
     fn spot(angle: f32, falloff_start: f32) -> Result<SpotLight<Rgb>, SpotLightError> {
         SpotLight::new(SpotLightDesc {
@@ -296,6 +236,37 @@ mod tests {
         // pi I theta^2 / 2 for the core alone of a cone of 1e-4 that falls off at once.
         let phi = spot(1e-4, 0.0)?.phi(&()).x;
         assert!((phi / (PI * 2.0 * 0.5e-8) - 1.0).abs() < 1e-6, "{phi}");
+        Ok(())
+    }
+
+    /// The bounds of spots as narrow as cosines cannot resolve hold every direction in which they
+    /// shine.
+    #[test]
+    fn the_bounds_of_narrow_cones_hold_them() -> Result<(), SpotLightError> {
+        let angle = |cos_theta: f32| (2.0 * (1.0 - f64::from(cos_theta))).sqrt();
+        for i in 0..400u16 {
+            let rim = 1e-7 * 1.03f32.powi(i32::from(i));
+            for start in [0.0, 0.3 * rim, rim] {
+                let spot = spot(rim, start)?;
+                let LightExtent::Bounded(bounds) = spot.extent() else {
+                    panic!("a spot has bounds");
+                };
+                let held = angle(bounds.cos_theta_o) + angle(bounds.cos_theta_e);
+                let is_narrow = rim < 1e-3;
+                assert!(
+                    !is_narrow || held >= f64::from(rim) * (1.0 - 1e-6),
+                    "{start} {rim}: {held}"
+                );
+                for u in (0..32u8).map(|i| Vec2::new(f32::from(i) / 32.0, f32::from(i % 8) / 8.0)) {
+                    let Some(ray) = spot.sample_le(u, Vec2::new(u.y, 0.0), &()) else {
+                        continue;
+                    };
+                    let ctx = LightSampleContext::medium(ray.ray.direction * 3.0);
+                    let importance = bounds.importance(&ctx);
+                    assert!(importance > 0.0, "{start} {rim}: {:?}", ray.ray);
+                }
+            }
+        }
         Ok(())
     }
 }

@@ -12,6 +12,7 @@ mod receiver_cosine;
 mod rectangle;
 mod sphere;
 mod triangle;
+mod triangle_error;
 mod uv_area;
 
 pub use any::{AnyShape, ShapeDesc, ShapeError};
@@ -21,7 +22,8 @@ pub use cylinder::{Cylinder, CylinderError};
 pub use disk::{Disk, DiskError};
 pub use rectangle::{Rectangle, RectangleError};
 pub use sphere::{Sphere, SphereError};
-pub use triangle::{Triangle, TriangleError};
+pub use triangle::Triangle;
+pub use triangle_error::TriangleError;
 pub use uv_area::{UvArea, UvDensity};
 
 use crate::glam::{Vec2, Vec3};

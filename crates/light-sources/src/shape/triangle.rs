@@ -1,10 +1,7 @@
-use core::error::Error;
-use core::fmt;
-
 use super::receiver_cosine::ReceiverCosine;
 use super::{
-    DirectionSample, SMALL, Shape, ShapeSample, UvArea, area_to_solid_angle, is_within_rounding,
-    normal_length, unit_normal,
+    DirectionSample, SMALL, Shape, ShapeSample, TriangleError, UvArea, area_to_solid_angle,
+    is_within_rounding, normal_length, unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -21,16 +18,6 @@ use light_math::{Aabb, DirectionCone};
 pub struct Triangle {
     p: [Vec3; 3],
     uv: [Vec2; 3],
-}
-
-/// Why three points are no triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum TriangleError {
-    /// A vertex is not finite.
-    Vertex,
-    /// The vertices lie on a line, or so close that one over the area is no finite number.
-    Area,
 }
 
 impl Triangle {
@@ -245,17 +232,6 @@ impl Shape for Triangle {
         self.intersect(origin, direction).map(|(_, at)| at)
     }
 }
-
-impl fmt::Display for TriangleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Vertex => "vertices: must be finite",
-            Self::Area => "vertices: must span an area above 0",
-        })
-    }
-}
-
-impl Error for TriangleError {}
 
 #[cfg(test)]
 mod tests {

@@ -12,6 +12,7 @@ mod edges;
 mod extremes;
 mod portals;
 mod powers;
+mod shape_geometry;
 mod shapes;
 mod spectral;
 

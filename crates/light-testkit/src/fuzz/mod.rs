@@ -19,6 +19,7 @@ mod partials;
 mod quantisation;
 mod readers;
 mod refits;
+mod sampler_kind;
 mod samplers;
 
 pub use command_lines::command_lines;

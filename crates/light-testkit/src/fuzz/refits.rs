@@ -4,7 +4,8 @@ use light_math::glam::Vec3;
 use light_samplers::{BvhLightSampler, LightSampler};
 
 use super::input::Input;
-use super::samplers::{Kind, check, options, power};
+use super::sampler_kind::{Kind, check, power};
+use super::samplers::options;
 
 /// Lights that one input may hold: enough for two levels of wide nodes.
 const MAX_LIGHTS: usize = 24;
