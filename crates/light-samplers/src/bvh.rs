@@ -4,8 +4,8 @@ use light_bounds::{InfiniteBounds, LightExtent, LightId, LightSampleContext, Sam
 use light_bvh::{CutDetail, LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::bvh_cut::{BvhLightCut, CutChoices};
-use crate::first_choice::FirstChoice;
-use crate::infinite_lights::{FirstPmf, InfiniteLights, irradiance};
+use crate::first_choice::{FirstChoice, FirstPmf};
+use crate::infinite_lights::{InfiniteLights, irradiance};
 use crate::light_sampler::stratum;
 use crate::prepared_choices::Preparation;
 use crate::{LightSampler, PreparedChoices};

@@ -1,8 +1,8 @@
 use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvh, LightCut};
 
-use crate::first_choice::FirstChoice;
-use crate::infinite_lights::{FirstPmf, InfiniteLights, irradiance};
+use crate::first_choice::{FirstChoice, FirstPmf};
+use crate::infinite_lights::{InfiniteLights, irradiance};
 use crate::light_sampler::stratum;
 
 /// The lights at one context, by a cut through the tree: several lights are chosen for little more

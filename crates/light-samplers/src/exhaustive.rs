@@ -7,7 +7,7 @@ use light_bvh::LightBvhError;
 use light_math::distribution::WeightedReservoir;
 
 use crate::LightSampler;
-use crate::first_choice::FirstChoice;
+use crate::first_choice::{FirstChoice, FirstPmf, share};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 
 /// Every light in proportion to its importance, without a hierarchy: exact, and linear in the
@@ -55,7 +55,7 @@ impl ExhaustiveLightSampler {
     fn choose(&self, u: f64, weight: impl Fn(&LightBounds) -> f32) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
             FirstChoice::Infinite(sample) => sample,
-            FirstChoice::Others { u, .. } => {
+            FirstChoice::Others { pmf, u } => {
                 let mut reservoir = WeightedReservoir::new(u);
                 for (id, bounds) in (0..).map(LightId).zip(&self.bounds) {
                     let weight = weight(bounds);
@@ -66,7 +66,7 @@ impl ExhaustiveLightSampler {
                 let (light, weight) = sample.value;
                 Some(SampledLight {
                     light,
-                    pmf: self.pmf_of(weight, total),
+                    pmf: pmf * share(f64::from(weight), total),
                     u: sample.u,
                 })
             }
@@ -74,25 +74,15 @@ impl ExhaustiveLightSampler {
     }
 
     fn probability(&self, light: LightId, weight: impl Fn(&LightBounds) -> f32) -> f32 {
-        if let Some(pmf) = self.infinite.pmf_infinite(light) {
-            return pmf;
-        }
+        let pmf = match self.infinite.first_pmf(light) {
+            FirstPmf::Infinite(pmf) => return pmf,
+            FirstPmf::Others(pmf) => pmf,
+        };
         let Some(bounds) = self.bounds.get(light.index()) else {
             return 0.0;
         };
         let total = self.bounds.iter().map(|b| f64::from(weight(b))).sum();
-        self.pmf_of(weight(bounds), total)
-    }
-
-    /// Probability of a light that is somewhere; 0 only for weight 0.
-    #[expect(clippy::cast_possible_truncation, reason = "rounds a probability")]
-    fn pmf_of(&self, weight: f32, total: f64) -> f32 {
-        if weight > 0.0 {
-            let pmf = (f64::from(weight) / total) as f32;
-            self.infinite.pmf_share() * pmf.max(f32::MIN_POSITIVE)
-        } else {
-            0.0
-        }
+        pmf * share(f64::from(weight(bounds)), total)
     }
 }
 

@@ -6,7 +6,7 @@ use light_bounds::{
 use light_math::glam::Vec3;
 use light_math::{direction, float};
 
-use crate::first_choice::FirstChoice;
+use crate::first_choice::{FirstChoice, FirstPmf, share};
 
 /// Cosine that is never taken for less while any light may arrive, and what a test for none of it
 /// leaves to round-off.
@@ -115,30 +115,9 @@ impl InfiniteLights {
     }
 }
 
-/// The probability of the first choice.
-pub(crate) enum FirstPmf {
-    /// The light is one of the others, if anywhere.
-    Others(f32),
-    /// The light is at infinity.
-    Infinite(f32),
-}
-
 /// About the irradiance at `ctx` by a light at infinity; 0 only if all of it is below the horizon.
 pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f64 {
     f64::from(bounds.fluence) * f64::from(mean_cosine(bounds, ctx))
-}
-
-/// `weight / total`: 0 only if the weight is.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounding is what is meant; the floor keeps it above 0"
-)]
-fn share(weight: f64, total: f64) -> f32 {
-    if weight > 0.0 {
-        ((weight / total) as f32).max(f32::MIN_POSITIVE)
-    } else {
-        0.0
-    }
 }
 
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {

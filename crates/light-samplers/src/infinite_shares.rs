@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use light_bounds::{LightExtent, LightId, SampledLight};
 
-use crate::first_choice::FirstChoice;
+use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::uniform::choose_uniformly;
 
 /// The choice before any other: each light at infinity has one share, all lights that are somewhere
@@ -60,17 +60,18 @@ impl InfiniteShares {
 
     /// The probability of each share.
     #[inline]
-    pub(crate) fn pmf_share(&self) -> f32 {
+    fn pmf_share(&self) -> f32 {
         1.0 / self.shares.max(1) as f32
     }
 
-    /// The probability of a light at infinity; `None` if it is none.
+    /// The probability of the first choice that leads to `light`.
     #[inline]
-    pub(crate) fn pmf_infinite(&self, light: LightId) -> Option<f32> {
-        self.lights
-            .binary_search(&light)
-            .is_ok()
-            .then(|| self.pmf_share())
+    pub(crate) fn first_pmf(&self, light: LightId) -> FirstPmf {
+        let pmf = self.pmf_share();
+        match self.lights.binary_search(&light) {
+            Ok(_) => FirstPmf::Infinite(pmf),
+            Err(_) => FirstPmf::Others(pmf),
+        }
     }
 }
 

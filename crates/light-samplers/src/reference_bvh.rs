@@ -3,7 +3,7 @@ use light_bvh::LightBvhError;
 use light_bvh::reference::ReferenceLightBvh;
 
 use crate::LightSampler;
-use crate::first_choice::FirstChoice;
+use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 
 /// The published way to use a light hierarchy: lights at infinity share one uniform choice with the
@@ -52,9 +52,9 @@ impl ReferenceBvhLightSampler {
     ) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
             FirstChoice::Infinite(sample) => sample,
-            FirstChoice::Others { u, .. } => {
+            FirstChoice::Others { pmf, u } => {
                 let sample = in_tree(&self.tree, u)?;
-                let pmf = self.infinite.pmf_share() * sample.pmf;
+                let pmf = pmf * sample.pmf;
                 Some(SampledLight { pmf, ..sample })
             }
         }
@@ -62,9 +62,10 @@ impl ReferenceBvhLightSampler {
 
     #[inline]
     fn probability(&self, light: LightId, in_tree: impl FnOnce(&ReferenceLightBvh) -> f32) -> f32 {
-        self.infinite
-            .pmf_infinite(light)
-            .unwrap_or_else(|| self.infinite.pmf_share() * in_tree(&self.tree))
+        match self.infinite.first_pmf(light) {
+            FirstPmf::Infinite(pmf) => pmf,
+            FirstPmf::Others(pmf) => pmf * in_tree(&self.tree),
+        }
     }
 }
 

@@ -2,31 +2,18 @@
 //! to ask.
 #![cfg(feature = "alloc")]
 
+#[path = "support/lamp_over_floor.rs"]
+mod lamp_over_floor;
+
+use lamp_over_floor::{floor, lamp};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
-use light_samplers::light_bounds::{
-    InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
-};
+use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId};
 use light_samplers::{BvhLightSampler, LightSampler, PreparedChoices};
-
-fn lamp(phi: f32) -> LightExtent {
-    LightExtent::Bounded(LightBounds {
-        bounds: Aabb::from_point(Vec3::Z * 2.0),
-        w: Vec3::NEG_Z,
-        phi,
-        cos_theta_o: 1.0,
-        cos_theta_e: 0.0,
-        two_sided: false,
-    })
-}
 
 fn lights(phi: f32, radiance: f32) -> [LightExtent; 2] {
     let sky = LightExtent::Infinite(InfiniteBounds::uniform(radiance));
     [lamp(phi), sky]
-}
-
-fn floor() -> LightSampleContext {
-    LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
 }
 
 /// All probabilities of a sampler of two lights, as bits.

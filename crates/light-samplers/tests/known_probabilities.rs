@@ -2,12 +2,13 @@
 //! place, and a sun.
 #![cfg(feature = "alloc")]
 
+#[path = "support/lamp_over_floor.rs"]
+mod lamp_over_floor;
+
+use lamp_over_floor::{floor, lamp};
 use light_bvh::{CutDetail, LightBvhOptions};
 use light_samplers::light_bounds::glam::Vec3;
-use light_samplers::light_bounds::light_math::Aabb;
-use light_samplers::light_bounds::{
-    InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
-};
+use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId, SampledLight};
 use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
@@ -20,22 +21,8 @@ const IDS: [LightId; 3] = [LAMP_1_W, SUN, LAMP_3_W];
 
 /// The lamps are 2 above the floor and face it; the sun is above as well.
 fn lights() -> [LightExtent; 3] {
-    let lamp = |phi| {
-        LightExtent::Bounded(LightBounds {
-            bounds: Aabb::from_point(Vec3::Z * 2.0),
-            w: Vec3::NEG_Z,
-            phi,
-            cos_theta_o: 1.0,
-            cos_theta_e: 0.0,
-            two_sided: false,
-        })
-    };
     let sun = LightExtent::Infinite(InfiniteBounds::distant(2.0, Vec3::Z));
     [lamp(1.0), sun, lamp(3.0)]
-}
-
-fn floor() -> LightSampleContext {
-    LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
 }
 
 /// Calls are made through a reference, which is a sampler as well.
