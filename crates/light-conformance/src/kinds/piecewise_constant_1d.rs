@@ -1,4 +1,4 @@
-use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, refuses_signs};
+use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, check_inverse, refuses_signs};
 use crate::comparison::Comparison;
 use crate::oracle::{Certainty, Jitter};
 use crate::{Case, Findings, Malformed, Tolerance};
@@ -87,17 +87,15 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     }
     for inverse in case.get("inverts")?.items()? {
         let x = inverse.at(0)?.float()?;
-        match (
-            findings.ours_if_any("inverse", table.invert(x)),
-            inverse.at(1)?,
-        ) {
-            (None, theirs) => findings.check(theirs.is_null(), || format!("invert({x}): none")),
-            (Some(ours), theirs) => {
-                let ours = findings.ours("inverse u", ours);
-                findings.near("invert", ours, theirs.float()?, RUNNING_SUM);
-            }
-        }
-        findings.settled(Certainty::Determined);
+        let theirs = inverse.at(1)?;
+        check_inverse(
+            x,
+            table.invert(x),
+            &theirs,
+            Case::float,
+            Findings::near,
+            findings,
+        )?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, refuses_signs};
+use super::tables::{ALL_ZERO, U_ROUNDING, check_inverse, refuses_signs};
 use crate::comparison::Comparison;
 use crate::oracle::Certainty;
 use crate::{Case, Findings, Malformed, Tolerance};
@@ -81,17 +81,15 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     }
     for inverse in case.get("inverts")?.items()? {
         let p = inverse.at(0)?.vec2()?;
-        match (
-            findings.ours_if_any("inverse", table.invert(p)),
-            inverse.at(1)?,
-        ) {
-            (None, theirs) => findings.check(theirs.is_null(), || format!("invert({p}): none")),
-            (Some(ours), theirs) => {
-                let ours = findings.ours("inverse u", ours);
-                findings.near2("invert", ours, theirs.vec2()?, RUNNING_SUM);
-            }
-        }
-        findings.settled(Certainty::Determined);
+        let theirs = inverse.at(1)?;
+        check_inverse(
+            p,
+            table.invert(p),
+            &theirs,
+            Case::vec2,
+            Findings::near2,
+            findings,
+        )?;
     }
     Ok(())
 }

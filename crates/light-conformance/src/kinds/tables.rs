@@ -1,8 +1,10 @@
 //! What the tables have in common.
 
 use crate::oracle::table::ExactTable;
-use crate::oracle::{ExactWindows, Jitter};
-use crate::{Findings, Rule, Tolerance};
+use crate::oracle::{Certainty, ExactWindows, Jitter};
+use crate::sabotage::Answer;
+use crate::{Case, Findings, Malformed, Rule, Tolerance};
+use core::fmt::Display;
 use glam::DVec2;
 use lights::math::distribution::{TableError, Window};
 
@@ -60,4 +62,25 @@ pub(super) fn table(func: &[f32], nx: usize, ny: usize) -> ExactTable {
 /// The corners of a window, moved by roundings.
 pub(super) fn moved_window(window: &Window, jitter: &mut Jitter) -> [DVec2; 2] {
     [window.min, window.max].map(|p| p.as_dvec2().map(|x| jitter.relative(x)))
+}
+
+/// Compares the random number that leads to `place` with the reference's, by `near`; a reference
+/// without one reads null.
+pub(super) fn check_inverse<'a, T: Answer>(
+    place: impl Display,
+    ours: Option<T>,
+    theirs: &Case<'a>,
+    read: impl Fn(&Case<'a>) -> Result<T, Malformed>,
+    near: impl Fn(&mut Findings, &str, T, T, Tolerance),
+    findings: &mut Findings,
+) -> Result<(), Malformed> {
+    match findings.ours_if_any("inverse", ours) {
+        None => findings.check(theirs.is_null(), || format!("invert({place}): none")),
+        Some(ours) => {
+            let ours = findings.ours("inverse u", ours);
+            near(findings, "invert", ours, read(theirs)?, RUNNING_SUM);
+        }
+    }
+    findings.settled(Certainty::Determined);
+    Ok(())
 }

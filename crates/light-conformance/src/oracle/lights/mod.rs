@@ -2,6 +2,7 @@
 
 mod area;
 mod at_point;
+mod by_solid_angle;
 mod disk;
 mod flat;
 mod goniometric;

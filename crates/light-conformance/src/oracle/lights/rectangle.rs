@@ -1,5 +1,6 @@
 use super::Receiver;
-use super::area::{At, Cosines, SMALL, Shape, per_solid_angle};
+use super::area::{At, Cosines, SMALL, Shape};
+use super::by_solid_angle::{self, BySolidAngle};
 use crate::oracle::{ExactRectangle, Jitter};
 use glam::{DVec2, DVec3};
 
@@ -27,6 +28,37 @@ impl Rectangle {
         let [x, y] = self.edges;
         [DVec3::ZERO, x, y, x + y].map(|d| self.corner + d)
     }
+}
+
+impl Shape for Rectangle {
+    fn area(&self) -> f64 {
+        self.edges[0].length() * self.edges[1].length()
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        let [a, b, c, d] = self.corners();
+        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
+    }
+
+    fn normals(&self) -> (DVec3, f64) {
+        (self.at(DVec2::ZERO).n, 1.0)
+    }
+
+    fn sample(&self, u: DVec2, _jitter: &mut Jitter) -> Option<At> {
+        Some(self.at(u))
+    }
+
+    fn toward(&self, from: &Receiver, u: DVec2, jitter: &mut Jitter) -> Option<(At, f64)> {
+        by_solid_angle::toward(self, from, u, jitter)
+    }
+
+    fn pdf_toward(&self, from: &Receiver, wi: DVec3, jitter: &mut Jitter) -> f64 {
+        by_solid_angle::pdf_toward(self, from, wi, jitter)
+    }
+}
+
+impl BySolidAngle for Rectangle {
+    type Seen = ExactRectangle;
 
     fn at(&self, uv: DVec2) -> At {
         let [x, y] = self.edges;
@@ -53,48 +85,5 @@ impl Rectangle {
         let uv = DVec2::new(p.dot(x) / x.length_squared(), p.dot(y) / y.length_squared());
         let is_inside = uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
         (t > 0.0 && is_inside).then_some(uv)
-    }
-}
-
-impl Shape for Rectangle {
-    fn area(&self) -> f64 {
-        self.edges[0].length() * self.edges[1].length()
-    }
-
-    fn bounds(&self) -> [DVec3; 2] {
-        let [a, b, c, d] = self.corners();
-        [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
-    }
-
-    fn normals(&self) -> (DVec3, f64) {
-        (self.at(DVec2::ZERO).n, 1.0)
-    }
-
-    fn sample(&self, u: DVec2, _jitter: &mut Jitter) -> Option<At> {
-        Some(self.at(u))
-    }
-
-    fn toward(&self, from: &Receiver, u: DVec2, jitter: &mut Jitter) -> Option<(At, f64)> {
-        match self.seen(from, jitter) {
-            Some((seen, cosines)) => {
-                let (u, pdf) = cosines.sample(jitter.numbers(u));
-                let at = self.at(seen.sample(jitter.numbers(u)));
-                Some((at, pdf / seen.solid_angle()))
-            }
-            None => {
-                let at = self.at(u);
-                Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?))
-            }
-        }
-    }
-
-    fn pdf_toward(&self, from: &Receiver, wi: DVec3, jitter: &mut Jitter) -> f64 {
-        let Some(uv) = self.hit(from.p, jitter.vector(wi, 1.0)) else {
-            return 0.0;
-        };
-        match self.seen(from, jitter) {
-            Some((seen, cosines)) => cosines.pdf(seen.invert(uv)) / seen.solid_angle(),
-            None => per_solid_angle(1.0 / self.area(), from, &self.at(uv), jitter).unwrap_or(0.0),
-        }
     }
 }

@@ -1,5 +1,6 @@
 use super::super::warp::uniform_triangle;
-use super::area::{At, Cosines, SMALL, Shape, per_solid_angle};
+use super::area::{At, Cosines, SMALL, Shape};
+use super::by_solid_angle::{self, BySolidAngle};
 use super::{Receiver, point};
 use crate::oracle::{ExactTriangle, Jitter};
 use crate::{Case, Malformed};
@@ -23,35 +24,6 @@ impl Triangle {
         let [a, b, c] = self.0;
         (b - a).cross(c - a)
     }
-
-    fn at(&self, b: DVec3) -> At {
-        let [p0, p1, p2] = self.0;
-        At {
-            p: p0 * b.x + p1 * b.y + p2 * b.z,
-            n: self.scaled_normal().normalize(),
-            uv: DVec2::X * b.y + DVec2::ONE * b.z,
-        }
-    }
-
-    /// How the receiver sees it, and the map of its random numbers; none where it is small.
-    fn seen(&self, from: &Receiver, jitter: &mut Jitter) -> Option<(ExactTriangle, Cosines)> {
-        let seen = ExactTriangle::new(self.0, from.p);
-        let omega = seen.solid_angle();
-        let [a, b, c] = self.0;
-        // The second corner is a whole side of the square.
-        let cosines = Cosines::new(from, [b, b, a, c]);
-        (jitter.by(omega, 1e-5 * omega) > SMALL).then_some((seen, cosines))
-    }
-
-    /// Barycentric coordinates of where a ray passes, if it hits.
-    fn hit(&self, o: DVec3, d: DVec3) -> Option<DVec3> {
-        let [a, b, c] = self.0.map(|v| v - o);
-        let sides = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
-        let is_hit = sides.cmpge(DVec3::ZERO).all() || sides.cmple(DVec3::ZERO).all();
-        let weights = sides / sides.element_sum();
-        let p = a * weights.x + b * weights.y + c * weights.z;
-        (is_hit && p.dot(d) > 0.0).then_some(weights)
-    }
 }
 
 impl Shape for Triangle {
@@ -73,26 +45,41 @@ impl Shape for Triangle {
     }
 
     fn toward(&self, from: &Receiver, u: DVec2, jitter: &mut Jitter) -> Option<(At, f64)> {
-        match self.seen(from, jitter) {
-            Some((seen, cosines)) => {
-                let (u, pdf) = cosines.sample(jitter.numbers(u));
-                let at = self.at(seen.sample(jitter.numbers(u)));
-                Some((at, pdf / seen.solid_angle()))
-            }
-            None => {
-                let at = self.sample(u, jitter)?;
-                Some((at, per_solid_angle(1.0 / self.area(), from, &at, jitter)?))
-            }
-        }
+        by_solid_angle::toward(self, from, u, jitter)
     }
 
     fn pdf_toward(&self, from: &Receiver, wi: DVec3, jitter: &mut Jitter) -> f64 {
-        let Some(b) = self.hit(from.p, jitter.vector(wi, 1.0)) else {
-            return 0.0;
-        };
-        match self.seen(from, jitter) {
-            Some((seen, cosines)) => cosines.pdf(seen.invert(b)) / seen.solid_angle(),
-            None => per_solid_angle(1.0 / self.area(), from, &self.at(b), jitter).unwrap_or(0.0),
+        by_solid_angle::pdf_toward(self, from, wi, jitter)
+    }
+}
+
+impl BySolidAngle for Triangle {
+    type Seen = ExactTriangle;
+
+    fn at(&self, b: DVec3) -> At {
+        let [p0, p1, p2] = self.0;
+        At {
+            p: p0 * b.x + p1 * b.y + p2 * b.z,
+            n: self.scaled_normal().normalize(),
+            uv: DVec2::X * b.y + DVec2::ONE * b.z,
         }
+    }
+
+    fn seen(&self, from: &Receiver, jitter: &mut Jitter) -> Option<(ExactTriangle, Cosines)> {
+        let seen = ExactTriangle::new(self.0, from.p);
+        let omega = seen.solid_angle();
+        let [a, b, c] = self.0;
+        // The second corner is a whole side of the square.
+        let cosines = Cosines::new(from, [b, b, a, c]);
+        (jitter.by(omega, 1e-5 * omega) > SMALL).then_some((seen, cosines))
+    }
+
+    fn hit(&self, o: DVec3, d: DVec3) -> Option<DVec3> {
+        let [a, b, c] = self.0.map(|v| v - o);
+        let sides = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
+        let is_hit = sides.cmpge(DVec3::ZERO).all() || sides.cmple(DVec3::ZERO).all();
+        let weights = sides / sides.element_sum();
+        let p = a * weights.x + b * weights.y + c * weights.z;
+        (is_hit && p.dot(d) > 0.0).then_some(weights)
     }
 }
