@@ -11,7 +11,7 @@ use lights::sources::{
     DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, MediumInterface,
     PointLightDesc, RadianceAmount, Rgb, UniformInfiniteLightDesc,
 };
-use support::{Shot, agree, plane, room};
+use support::{ALL, Shot, plane, room};
 
 const ALBEDO: f32 = 0.6;
 
@@ -30,17 +30,11 @@ fn assert_mean(scene: &Scene, radiance: f64, estimators: &[Estimator]) {
             estimator,
             ..Shot::default()
         };
-        let mean = shot.mean(scene);
-        let expected = (DVec3::splat(radiance), DVec3::ZERO);
-        assert!(
-            agree(mean, expected),
-            "{estimator:?}: {mean:?}, expected {radiance}"
-        );
+        shot.assert_mean(scene, DVec3::splat(radiance), &format!("{estimator:?}"));
     }
 }
 
 const LIGHT_AND_BOTH: &[Estimator] = &[Estimator::Light, Estimator::Mis];
-const ALL: &[Estimator] = &[Estimator::Light, Estimator::Bsdf, Estimator::Mis];
 
 #[test]
 fn a_point_light_falls_off_with_the_square_of_the_distance() {
@@ -76,7 +70,7 @@ fn a_constant_sky_gives_its_radiance_times_the_albedo() {
         amount: RadianceAmount::default(),
     });
     // Incomplete light samples leave a uniform sky to the material alone.
-    assert_plane(light, f64::from(ALBEDO) * 3.0, ALL);
+    assert_plane(light, f64::from(ALBEDO) * 3.0, &ALL);
 }
 
 #[test]
@@ -86,7 +80,7 @@ fn a_sky_image_of_one_color_is_a_constant_sky() {
     let image = Image::new(8, 4, texels).expect("8 x 4");
     let added = scene.add_sky(&image, Affine3A::from_rotation_x(0.3));
     added.expect("radiance");
-    assert_mean(&scene, f64::from(ALBEDO) * 3.0, ALL);
+    assert_mean(&scene, f64::from(ALBEDO) * 3.0, &ALL);
 }
 
 #[test]
@@ -97,19 +91,13 @@ fn a_sky_with_a_bright_spot_gives_the_same_by_all_estimators() {
     let image = Image::new(16, 8, texels).expect("16 x 8");
     let added = scene.add_sky(&image, Affine3A::IDENTITY);
     added.expect("radiance");
-    let of = |estimator| {
-        let shot = Shot {
-            size: 8,
-            spp: 64,
-            max_depth: 2,
-            estimator,
-            ..Shot::default()
-        };
-        shot.mean(&scene)
+    let shot = Shot {
+        size: 8,
+        spp: 64,
+        max_depth: 2,
+        ..Shot::default()
     };
-    let [light, bsdf, mis] = [Estimator::Light, Estimator::Bsdf, Estimator::Mis].map(of);
-    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
-    assert!(agree(bsdf, mis), "material {bsdf:?} and both {mis:?}");
+    shot.assert_estimators_agree(&scene, 64);
 }
 
 #[test]
@@ -137,7 +125,7 @@ fn a_closed_box_glows_with_emission_over_one_minus_albedo() {
         scene.meshes.push(Mesh::quad("wall", glowing, corners));
     }
     scene.camera = light_scene::Camera::look_at(Vec3::splat(0.5), Vec3::ZERO, Vec3::Y, 2.0).ok();
-    for &estimator in ALL {
+    for estimator in ALL {
         let shot = Shot {
             size: 8,
             spp: 32,
@@ -145,8 +133,6 @@ fn a_closed_box_glows_with_emission_over_one_minus_albedo() {
             estimator,
             ..Shot::default()
         };
-        let mean = shot.mean(&scene);
-        let expected = (DVec3::new(2.0, 4.0, 1.0), DVec3::ZERO);
-        assert!(agree(mean, expected), "{estimator:?}: {mean:?}");
+        shot.assert_mean(&scene, DVec3::new(2.0, 4.0, 1.0), &format!("{estimator:?}"));
     }
 }

@@ -8,7 +8,9 @@ use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::glam::Vec3;
 use light_scene::{Camera, Emission, Material, Mesh, Scene};
-use support::{Shot, agree, assert_estimators_agree, cornell, lamps};
+use support::{
+    Shot, agree, assert_estimators_agree, assert_threads_change_nothing, cornell, lamps,
+};
 
 #[test]
 fn light_and_material_samples_and_both_have_the_same_mean() {
@@ -96,18 +98,7 @@ fn many_choices_and_one_shadow_keep_the_mean_and_lose_noise() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let picture = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
-        let shot = Shot {
-            spp: 5,
-            ..Shot::default()
-        };
-        pool.install(|| shot.render(&cornell(), 3).film.develop())
-    };
-    assert_eq!(picture(1), picture(2), "one thread and two");
+    assert_threads_change_nothing(&cornell());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use lights::media::{Homogeneous, Phase, PhaseFunction, Region, StepSize};
 use lights::sources::{IntensityAmount, LightDesc, MediumInterface, PointLightDesc};
 
 use super::furnace::furnace_shot;
-use super::{assert_mean, sky, substance};
+use super::{sky, substance};
 use crate::support::{Shot, agree, room};
 
 /// A lamp in fog without bounds, and what a ray along z sees of it after one collision, by the
@@ -53,9 +53,7 @@ fn a_lamp_in_endless_fog_is_seen_as_by_quadrature() {
         max_depth: 2,
         ..Shot::default()
     };
-    let mean = shot.mean(&scene);
-    let expected = (DVec3::splat(expected), DVec3::ZERO);
-    assert!(agree(mean, expected), "{mean:?}, not {expected:?}");
+    shot.assert_mean(&scene, DVec3::splat(expected), "one collision");
 }
 
 #[test]
@@ -63,7 +61,7 @@ fn the_sky_is_not_seen_through_fog_without_end() {
     let (mut scene, _) = lamp_in_fog();
     scene.lights = vec![sky(1.0)];
     let shot = furnace_shot(Estimator::Light);
-    assert_mean(&scene, &shot, Vec3::ZERO, "infinitely thick");
+    shot.assert_mean(&scene, DVec3::ZERO, "infinitely thick");
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Media that only scatter vanish in a white furnace.
 
 use light_render::integrator::Estimator;
-use light_scene::glam::Vec3;
+use light_scene::glam::{DVec3, Vec3};
 use light_scene::{Camera, Surface};
 
-use super::{assert_mean, filled_cube, grid, homogeneous, sky};
-use crate::support::Shot;
+use super::{filled_cube, grid, homogeneous, sky};
+use crate::support::{ALL, Shot};
 
 /// Long paths in few pixels.
 pub(super) fn furnace_shot(estimator: Estimator) -> Shot {
@@ -27,9 +27,9 @@ fn what_only_scatters_vanishes_in_a_white_furnace() {
     ] {
         let mut scene = filled_cube(medium, Surface::Interface);
         scene.lights.push(sky(1.0));
-        for estimator in [Estimator::Mis, Estimator::Light, Estimator::Bsdf] {
+        for estimator in ALL {
             let shot = furnace_shot(estimator);
-            assert_mean(&scene, &shot, Vec3::ONE, &format!("{name}, {estimator:?}"));
+            shot.assert_mean(&scene, DVec3::ONE, &format!("{name}, {estimator:?}"));
         }
     }
 }
@@ -45,7 +45,7 @@ fn the_furnace_is_white_from_inside_of_the_medium_too() {
     scene.camera = Camera::look_at(Vec3::splat(0.4), Vec3::ONE, Vec3::Y, 1.0).ok();
     scene.lights.push(sky(1.0));
     let shot = furnace_shot(Estimator::Light);
-    assert_mean(&scene, &shot, Vec3::ONE, "camera inside");
+    shot.assert_mean(&scene, DVec3::ONE, "camera inside");
 }
 
 #[test]
@@ -58,5 +58,5 @@ fn a_scattering_medium_in_glass_vanishes_in_a_white_furnace() {
     let mut scene = filled_cube(medium, glass);
     scene.lights.push(sky(1.0));
     let shot = furnace_shot(Estimator::Mis);
-    assert_mean(&scene, &shot, Vec3::ONE, "glass");
+    shot.assert_mean(&scene, DVec3::ONE, "glass");
 }

@@ -5,8 +5,8 @@ mod furnace;
 #[path = "../support/mod.rs"]
 mod support;
 
-use light_render::integrator::{Estimator, Integrator};
-use light_scene::glam::{Affine3A, DVec3, Vec3};
+use light_render::integrator::Integrator;
+use light_scene::glam::{Affine3A, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene, Surface};
 use lights::math::Aabb;
 use lights::media::phase::{HenyeyGreenstein, Isotropic};
@@ -14,7 +14,7 @@ use lights::media::{
     AnyMedium, DensityGrid, Glow, GridMedium, Homogeneous, Phase, Region, Substance,
 };
 use lights::sources::{LightDesc, MediumInterface, RadianceAmount, Rgb, UniformInfiniteLightDesc};
-use support::{Shot, agree, assert_estimators_agree, cornell, room};
+use support::{Shot, assert_estimators_agree, assert_threads_change_nothing, cornell, room};
 
 const ISOTROPIC: Phase = Phase::Isotropic(Isotropic);
 
@@ -76,12 +76,6 @@ fn sky(radiance: f32) -> LightDesc<Rgb> {
     })
 }
 
-fn assert_mean(scene: &Scene, shot: &Shot, expected: Vec3, what: &str) {
-    let mean = shot.mean(scene);
-    let expected = (expected.as_dvec3(), DVec3::ZERO);
-    assert!(agree(mean, expected), "{what}: {mean:?}, not {expected:?}");
-}
-
 #[test]
 fn light_dies_out_by_beer_and_lambert() {
     let sigma_a = Vec3::new(0.3, 1.0, 2.0);
@@ -97,7 +91,11 @@ fn light_dies_out_by_beer_and_lambert() {
         size: 4,
         ..Shot::default()
     };
-    assert_mean(&scene, &shot, 2.0 * (-sigma_a).exp(), "two boundaries");
+    shot.assert_mean(
+        &scene,
+        (2.0 * (-sigma_a).exp()).as_dvec3(),
+        "two boundaries",
+    );
 }
 
 #[test]
@@ -112,7 +110,7 @@ fn a_glowing_slab_emits_what_it_absorbs() {
         ..Shot::default()
     };
     let expected = le * (Vec3::ONE - (-sigma_a).exp());
-    assert_mean(&scene, &shot, expected, "(1 - exp(-sigma_a d)) Le");
+    shot.assert_mean(&scene, expected.as_dvec3(), "(1 - exp(-sigma_a d)) Le");
 }
 
 /// The room of the other tests, full of thin coloured smoke.
@@ -150,32 +148,12 @@ fn a_lamp_in_a_medium_that_surrounds_it_is_an_area_light_like_any_other() {
     });
     let corners = room()[0].map(|p| p * 0.4 + Vec3::new(0.3, 0.5, 0.3));
     scene.meshes.push(Mesh::quad("lamp", lamp, corners));
-    let of = |estimator| {
-        let shot = Shot {
-            estimator,
-            ..Shot::default()
-        };
-        shot.mean(&scene)
-    };
-    let [mis, light, bsdf] = [Estimator::Mis, Estimator::Light, Estimator::Bsdf].map(of);
-    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
-    assert!(agree(bsdf, mis), "scattered {bsdf:?} and both {mis:?}");
+    Shot::default().assert_estimators_agree(&scene, 16);
 }
 
 #[test]
 fn threads_do_not_change_a_bit_of_smoke() {
-    let picture = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
-        let shot = Shot {
-            spp: 5,
-            ..Shot::default()
-        };
-        pool.install(|| shot.render(&smoky_room(), 3).film.develop())
-    };
-    assert!(picture(1) == picture(2), "one thread and two");
+    assert_threads_change_nothing(&smoky_room());
 }
 
 #[test]

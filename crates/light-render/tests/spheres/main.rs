@@ -9,12 +9,9 @@ mod support;
 
 use std::path::Path;
 
-use light_render::integrator::Estimator;
 use light_render::{World, WorldError};
 use light_scene::glam::{Affine3A, Vec2, Vec3};
 use light_scene::{Emission, Files, Material, Scene, Sphere, Surface as Finish, parse_scene};
-
-const ALL: [Estimator; 3] = [Estimator::Light, Estimator::Bsdf, Estimator::Mis];
 
 fn similarity(center: Vec3, radius: f32) -> Affine3A {
     let turn = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, -2.0) / 3.0, 0.9);

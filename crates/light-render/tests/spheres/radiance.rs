@@ -5,8 +5,8 @@ use light_scene::glam::{DVec3, Vec3};
 use light_scene::{Camera, Emission, Material, Scene, SphereFront};
 use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
 
-use super::{ALL, add, glass, lamp, similarity};
-use crate::support::{Shot, agree, plane};
+use super::{add, glass, lamp, similarity};
+use crate::support::{ALL, Shot, agree, plane};
 
 /// Direct light on a plane at the origin, below or beside a sphere of radiance 1.
 #[test]

@@ -159,6 +159,32 @@ impl Shot {
             .sum::<DVec3>();
         (mean, (squares / (n * (n - 1.0))).map(f64::sqrt))
     }
+
+    /// The mean of the picture is `expected`.
+    pub(crate) fn assert_mean(&self, scene: &Scene, expected: DVec3, what: &str) {
+        let mean = self.mean(scene);
+        assert!(
+            agree(mean, (expected, DVec3::ZERO)),
+            "{what}: {mean:?}, expected {expected}"
+        );
+    }
+
+    /// Light samples, material samples with so many a pixel, and both weighted have one mean.
+    pub(crate) fn assert_estimators_agree(&self, scene: &Scene, material_spp: u32) {
+        let of = |estimator, spp| {
+            let shot = Self {
+                estimator,
+                spp,
+                ..*self
+            };
+            shot.mean(scene)
+        };
+        let mis = of(Estimator::Mis, self.spp);
+        let light = of(Estimator::Light, self.spp);
+        let bsdf = of(Estimator::Bsdf, material_spp);
+        assert!(agree(light, mis), "light {light:?} and both {mis:?}");
+        assert!(agree(bsdf, mis), "scattered {bsdf:?} and both {mis:?}");
+    }
 }
 
 /// Whether two means agree within four and a half of their common standard errors, in every
@@ -170,19 +196,26 @@ pub(crate) fn agree((a, a_error): (DVec3, DVec3), (b, b_error): (DVec3, DVec3)) 
     (a - b).abs().cmple(error * 4.5 + rounding).all()
 }
 
+/// All ways to find light.
+pub(crate) const ALL: [Estimator; 3] = [Estimator::Light, Estimator::Bsdf, Estimator::Mis];
+
 /// Light samples, material samples, and both weighted have one mean in `scene`.
 pub(crate) fn assert_estimators_agree(scene: &Scene) {
-    let of = |estimator, spp| {
+    Shot::default().assert_estimators_agree(scene, 64);
+}
+
+/// One thread and two make the same picture.
+pub(crate) fn assert_threads_change_nothing(scene: &Scene) {
+    let picture = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("threads");
         let shot = Shot {
-            estimator,
-            spp,
+            spp: 5,
             ..Shot::default()
         };
-        shot.mean(scene)
+        pool.install(|| shot.render(scene, 3).film.develop())
     };
-    let mis = of(Estimator::Mis, 16);
-    let light = of(Estimator::Light, 16);
-    let bsdf = of(Estimator::Bsdf, 64);
-    assert!(agree(light, mis), "light {light:?} and both {mis:?}");
-    assert!(agree(bsdf, mis), "scattered {bsdf:?} and both {mis:?}");
+    assert!(picture(1) == picture(2), "one thread and two");
 }
