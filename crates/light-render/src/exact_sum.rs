@@ -14,7 +14,7 @@ const STEPS: f64 = (1u64 << 48) as f64;
 const LARGEST_TERM: f32 = (1u64 << 46) as f32;
 
 impl ExactSum {
-    /// The sum that counts these steps, a channel each.
+    /// The sum that counts so many steps of 2^-48, a number for each channel.
     #[must_use]
     pub const fn from_steps(steps: [i128; 3]) -> Self {
         Self(steps)

@@ -38,17 +38,17 @@ impl Rng {
         low * (high / low).powf(self.f32())
     }
 
-    /// An index below `n`, which is positive.
+    /// An index below `n`, which is positive; each as likely, to 2^-53.
     pub fn below(&mut self, n: usize) -> usize {
         ((self.f64() * n as f64) as usize).min(n - 1)
     }
 
-    /// A point of the unit square.
+    /// A point of the unit square, each coordinate as [`f32`](Self::f32).
     pub fn vec2(&mut self) -> Vec2 {
         Vec2::new(self.f32(), self.f32())
     }
 
-    /// A point of the unit cube.
+    /// A point of the unit cube, each coordinate as [`f32`](Self::f32).
     pub fn vec3(&mut self) -> Vec3 {
         Vec3::new(self.f32(), self.f32(), self.f32())
     }

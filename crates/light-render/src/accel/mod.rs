@@ -78,7 +78,8 @@ impl Accel {
         Self { world, instances }
     }
 
-    /// The first hit of `ray`, leaving out the primitive `from` that the ray starts on.
+    /// The first hit of `ray`, leaving out the primitive `from` that the ray starts on; `None` if
+    /// it hits nothing.
     #[inline]
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Hit> {
@@ -112,7 +113,7 @@ impl Accel {
     }
 
     /// Whether anything but the primitive `from` lies between the start of `ray` and the distance
-    /// `t_max` along it.
+    /// `t_max` along it, in scene units.
     #[inline]
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32, from: Option<PrimitiveId>) -> bool {

@@ -24,8 +24,8 @@ pub struct CoatedDiffuse {
 }
 
 impl CoatedDiffuse {
-    /// A base of the given reflectance under a coat with index of refraction `eta` and roughness
-    /// `facets`.
+    /// A base of the given reflectance in `[0, 1]` under a coat with index of refraction `eta`,
+    /// relative to the outside, and roughness `facets`.
     #[must_use]
     pub fn new(reflectance: Vec3, eta: f32, facets: Microfacets) -> Self {
         let kept = fresnel::diffuse_internal_reflectance(eta);

@@ -15,7 +15,7 @@ pub struct Lambert {
 }
 
 impl Lambert {
-    /// An opaque surface that reflects on both sides.
+    /// An opaque surface that reflects on both sides; `reflectance` is in `[0, 1]`.
     #[must_use]
     pub const fn opaque(reflectance: Vec3) -> Self {
         Self {
@@ -24,14 +24,15 @@ impl Lambert {
         }
     }
 
-    /// The scattering function times `|cos theta_i|`.
+    /// The scattering function times `|cos theta_i|`, in sr^-1, for unit vectors in the frame of the
+    /// surface.
     #[inline]
     #[must_use]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
         self.share(wo.z * wi.z > 0.0) * (wi.z.abs() * FRAC_1_PI)
     }
 
-    /// The density of [`sample`](Self::sample).
+    /// The density of [`sample`](Self::sample), in sr^-1.
     #[inline]
     #[must_use]
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {

@@ -14,7 +14,8 @@ pub struct ThinDielectric {
 }
 
 impl ThinDielectric {
-    /// A reflection or the way straight on, as likely as it is bright.
+    /// A reflection or the way straight on, as likely as it is bright. `wo` is a unit vector in the
+    /// frame of the surface, `u_lobe` is in `[0, 1)`.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u_lobe: f32) -> BsdfSample {

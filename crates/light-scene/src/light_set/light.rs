@@ -53,7 +53,7 @@ impl SetLight {
         }
     }
 
-    /// The same light elsewhere.
+    /// The same light, displaced by a vector in scene units.
     #[must_use]
     pub fn moved(&self, by: Vec3) -> Self {
         let mut light = *self;
