@@ -80,40 +80,37 @@ pub enum LightDescError {
     TooMany,
 }
 
+impl LightDescError {
+    /// The kind of light in words, and what is wrong with its description; none of one light alone.
+    fn kind_and_rule(&self) -> Option<(&'static str, &(dyn Error + 'static))> {
+        Some(match self {
+            Self::Point(rule) => ("point", rule),
+            Self::Spot(rule) => ("spot", rule),
+            Self::Projection(rule) => ("projection", rule),
+            Self::Goniometric(rule) => ("goniometric", rule),
+            Self::Area(rule) => ("area", rule),
+            Self::Mesh(rule) => ("mesh", rule),
+            Self::Distant(rule) => ("distant", rule),
+            Self::Sun(rule) => ("sun", rule),
+            Self::UniformInfinite(rule) => ("uniform infinite", rule),
+            Self::ImageInfinite(rule) => ("image infinite", rule),
+            Self::PortalInfinite(rule) => ("portal infinite", rule),
+            Self::TooMany => return None,
+        })
+    }
+}
+
 impl fmt::Display for LightDescError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Point(error) => write!(f, "point light, {error}"),
-            Self::Spot(error) => write!(f, "spot light, {error}"),
-            Self::Projection(error) => write!(f, "projection light, {error}"),
-            Self::Goniometric(error) => write!(f, "goniometric light, {error}"),
-            Self::Area(error) => write!(f, "area light, {error}"),
-            Self::Mesh(error) => write!(f, "mesh light, {error}"),
-            Self::Distant(error) => write!(f, "distant light, {error}"),
-            Self::Sun(error) => write!(f, "sun light, {error}"),
-            Self::UniformInfinite(error) => write!(f, "uniform infinite light, {error}"),
-            Self::ImageInfinite(error) => write!(f, "image infinite light, {error}"),
-            Self::PortalInfinite(error) => write!(f, "portal infinite light, {error}"),
-            Self::TooMany => f.write_str("too many lights: ids have 32 bits"),
+        match self.kind_and_rule() {
+            Some((kind, rule)) => write!(f, "{kind} light, {rule}"),
+            None => f.write_str("too many lights: ids have 32 bits"),
         }
     }
 }
 
 impl Error for LightDescError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
-        Some(match self {
-            Self::Point(error) => error,
-            Self::Spot(error) => error,
-            Self::Projection(error) => error,
-            Self::Goniometric(error) => error,
-            Self::Area(error) => error,
-            Self::Mesh(error) => error,
-            Self::Distant(error) => error,
-            Self::Sun(error) => error,
-            Self::UniformInfinite(error) => error,
-            Self::ImageInfinite(error) => error,
-            Self::PortalInfinite(error) => error,
-            Self::TooMany => return None,
-        })
+        self.kind_and_rule().map(|(_, rule)| rule)
     }
 }

@@ -56,6 +56,8 @@ mod known_means;
 mod level_quadrature;
 mod light;
 #[cfg(feature = "alloc")]
+mod light_kinds;
+#[cfg(feature = "alloc")]
 mod light_ref;
 #[cfg(feature = "alloc")]
 mod light_set;

@@ -7,6 +7,7 @@ use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::kind::LightType;
 use crate::light::{AreaLight, InfiniteLight, Light};
+use crate::light_kinds::light_kinds;
 use crate::media::MediumInterface;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
@@ -48,22 +49,18 @@ pub enum LightRef<'a, C: ColorModel> {
     PortalInfinite(&'a PortalInfiniteLight<C>),
 }
 
+macro_rules! match_kinds {
+    (($light:expr, $it:ident => $answer:expr) $($kind:ident, $list:ident: $stored:ty;)*) => {
+        match $light {
+            $(LightRef::$kind($it) => $answer,)*
+        }
+    };
+}
+
 /// The same expression for whichever light it is.
 macro_rules! for_each_kind {
     ($light:expr, $it:ident => $answer:expr) => {
-        match $light {
-            LightRef::Point($it) => $answer,
-            LightRef::Spot($it) => $answer,
-            LightRef::Projection($it) => $answer,
-            LightRef::Goniometric($it) => $answer,
-            LightRef::Area($it) => $answer,
-            LightRef::Triangle($it) => $answer,
-            LightRef::Distant($it) => $answer,
-            LightRef::Sun($it) => $answer,
-            LightRef::UniformInfinite($it) => $answer,
-            LightRef::ImageInfinite($it) => $answer,
-            LightRef::PortalInfinite($it) => $answer,
-        }
+        light_kinds!(match_kinds! ($light, $it => $answer))
     };
 }
 

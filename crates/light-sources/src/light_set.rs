@@ -2,23 +2,17 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::area::DiffuseAreaLight;
-use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
-use crate::distant::DistantLight;
 use crate::glam::Vec3;
-use crate::goniometric::GoniometricLight;
-use crate::image_infinite::ImageInfiniteLight;
 use crate::light::Light;
+use crate::light_kinds::{LightKind, LightLists};
 use crate::light_ref::LightRef;
 use crate::mesh::MeshLight;
-use crate::point::PointLight;
-use crate::portal_infinite::PortalInfiniteLight;
-use crate::projection::ProjectionLight;
 use crate::shape::Triangle;
-use crate::spot::SpotLight;
-use crate::sun::SunLight;
-use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightId};
+
+/// The last kind that is not at infinity.
+const LAST_BOUNDED: LightKind = LightKind::Triangle;
 
 /// All lights of a scene, by kind. Made by a [`LightSetBuilder`](crate::LightSetBuilder).
 ///
@@ -27,65 +21,21 @@ use light_bounds::{LightExtent, LightId};
 /// triangle costs nothing here but its vertices.
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
-    pub(crate) points: Vec<PointLight<C>>,
-    pub(crate) spots: Vec<SpotLight<C>>,
-    pub(crate) projections: Vec<ProjectionLight<C>>,
-    pub(crate) goniometrics: Vec<GoniometricLight<C>>,
-    pub(crate) areas: Vec<AreaSource<C>>,
-    pub(crate) meshes: Vec<MeshLight<C>>,
-    pub(crate) distants: Vec<DistantLight<C>>,
-    pub(crate) suns: Vec<SunLight<C>>,
-    pub(crate) uniform_infinites: Vec<UniformInfiniteLight<C>>,
-    pub(crate) image_infinites: Vec<ImageInfiniteLight<C>>,
-    pub(crate) portal_infinites: Vec<PortalInfiniteLight<C>>,
+    pub(crate) lists: LightLists<C>,
     /// The first id behind each kind.
-    ends: [u32; Kind::COUNT],
+    ends: [u32; LightKind::COUNT],
     /// How many triangles there are up to and with each mesh.
     mesh_ends: Vec<u32>,
     /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle, between which those of the others
     /// lie.
     mesh_of: Vec<u32>,
     /// Where each description went: its kind, and how many lights of that kind came before.
-    sources: Vec<(Kind, u32)>,
+    sources: Vec<(LightKind, u32)>,
 }
 
 /// Which description of those that a set was built from, in the order of adding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(pub u32);
-
-/// The kinds of light, in the order of their ids; those at infinity come last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Point,
-    Spot,
-    Projection,
-    Goniometric,
-    Area,
-    Triangle,
-    Distant,
-    Sun,
-    UniformInfinite,
-    ImageInfinite,
-    PortalInfinite,
-}
-
-impl Kind {
-    const COUNT: usize = 11;
-    const ALL: [Self; Self::COUNT] = [
-        Self::Point,
-        Self::Spot,
-        Self::Projection,
-        Self::Goniometric,
-        Self::Area,
-        Self::Triangle,
-        Self::Distant,
-        Self::Sun,
-        Self::UniformInfinite,
-        Self::ImageInfinite,
-        Self::PortalInfinite,
-    ];
-    const LAST_BOUNDED: Self = Self::Triangle;
-}
 
 impl<C: ColorModel> LightSet<C> {
     /// Among so many triangles there are few meshes to search.
@@ -94,18 +44,8 @@ impl<C: ColorModel> LightSet<C> {
     /// The set without lights.
     pub(crate) const fn empty() -> Self {
         Self {
-            points: Vec::new(),
-            spots: Vec::new(),
-            projections: Vec::new(),
-            goniometrics: Vec::new(),
-            areas: Vec::new(),
-            meshes: Vec::new(),
-            distants: Vec::new(),
-            suns: Vec::new(),
-            uniform_infinites: Vec::new(),
-            image_infinites: Vec::new(),
-            portal_infinites: Vec::new(),
-            ends: [0; Kind::COUNT],
+            lists: LightLists::EMPTY,
+            ends: [0; LightKind::COUNT],
             mesh_ends: Vec::new(),
             mesh_of: Vec::new(),
             sources: Vec::new(),
@@ -114,16 +54,16 @@ impl<C: ColorModel> LightSet<C> {
 
     /// Counts the `lights` that the source last added has; `None` where 32 bits do not suffice for
     /// the ids.
-    pub(crate) fn count_in(&mut self, kind: Kind, lights: usize) -> Option<SourceId> {
+    pub(crate) fn count_in(&mut self, kind: LightKind, lights: usize) -> Option<SourceId> {
         let lights = u32::try_from(lights).ok()?;
         let source = u32::try_from(self.sources.len()).ok()?;
-        self.ends[Kind::COUNT - 1].checked_add(lights)?;
+        self.ends[LightKind::COUNT - 1].checked_add(lights)?;
         let before = self.ids(kind).len();
         for end in &mut self.ends[kind as usize..] {
             *end += lights;
         }
         self.sources.push((kind, u32::try_from(before).ok()?));
-        if kind == Kind::Triangle {
+        if kind == LightKind::Triangle {
             let end = self.ids(kind).len();
             let mesh = self.mesh_ends.len().try_into().ok()?;
             self.mesh_of.resize(end.div_ceil(Self::STRIDE), mesh);
@@ -135,7 +75,7 @@ impl<C: ColorModel> LightSet<C> {
     /// How many lights there are; their ids are the numbers below.
     #[must_use]
     pub const fn len(&self) -> usize {
-        self.ends[Kind::COUNT - 1] as usize
+        self.ends[LightKind::COUNT - 1] as usize
     }
 
     /// Whether there is no light at all.
@@ -157,20 +97,23 @@ impl<C: ColorModel> LightSet<C> {
 
     /// A light that is no triangle.
     fn get_other(&self, light: LightId) -> Option<LightRef<'_, C>> {
-        let kind = *Kind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
+        let kind = *LightKind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
         let index = (light.0 - self.ids(kind).start) as usize;
+        let lists = &self.lists;
         Some(match kind {
-            Kind::Point => LightRef::Point(&self.points[index]),
-            Kind::Spot => LightRef::Spot(&self.spots[index]),
-            Kind::Projection => LightRef::Projection(&self.projections[index]),
-            Kind::Goniometric => LightRef::Goniometric(&self.goniometrics[index]),
-            Kind::Area => LightRef::Area(self.areas[index].light()),
-            Kind::Triangle => LightRef::Triangle(self.triangle(index)?),
-            Kind::Distant => LightRef::Distant(&self.distants[index]),
-            Kind::Sun => LightRef::Sun(&self.suns[index]),
-            Kind::UniformInfinite => LightRef::UniformInfinite(&self.uniform_infinites[index]),
-            Kind::ImageInfinite => LightRef::ImageInfinite(&self.image_infinites[index]),
-            Kind::PortalInfinite => LightRef::PortalInfinite(&self.portal_infinites[index]),
+            LightKind::Point => LightRef::Point(&lists.points[index]),
+            LightKind::Spot => LightRef::Spot(&lists.spots[index]),
+            LightKind::Projection => LightRef::Projection(&lists.projections[index]),
+            LightKind::Goniometric => LightRef::Goniometric(&lists.goniometrics[index]),
+            LightKind::Area => LightRef::Area(lists.areas[index].light()),
+            LightKind::Triangle => LightRef::Triangle(self.triangle(index)?),
+            LightKind::Distant => LightRef::Distant(&lists.distants[index]),
+            LightKind::Sun => LightRef::Sun(&lists.suns[index]),
+            LightKind::UniformInfinite => {
+                LightRef::UniformInfinite(&lists.uniform_infinites[index])
+            }
+            LightKind::ImageInfinite => LightRef::ImageInfinite(&lists.image_infinites[index]),
+            LightKind::PortalInfinite => LightRef::PortalInfinite(&lists.portal_infinites[index]),
         })
     }
 
@@ -188,7 +131,7 @@ impl<C: ColorModel> LightSet<C> {
     /// The number of a light among all triangles; `None` if it is none.
     #[inline]
     fn triangle_number(&self, light: LightId) -> Option<usize> {
-        let triangles = self.ids(Kind::Triangle);
+        let triangles = self.ids(LightKind::Triangle);
         let is_one = triangles.contains(&light.0);
         is_one.then(|| (light.0 - triangles.start) as usize)
     }
@@ -210,7 +153,7 @@ impl<C: ColorModel> LightSet<C> {
         let between = &self.mesh_ends[low..high];
         let mesh = low + between.partition_point(|&end| end as usize <= index);
         let first = mesh.checked_sub(1).map_or(0, |m| self.mesh_ends[m]);
-        Some((&self.meshes[mesh], index - first as usize))
+        Some((&self.lists.meshes[mesh], index - first as usize))
     }
 
     /// The id of the first light that a description became: of its only one, or of the first
@@ -226,13 +169,13 @@ impl<C: ColorModel> LightSet<C> {
     /// The ids of the lights at infinity, those from one direction included.
     #[must_use]
     pub fn infinite_ids(&self) -> impl ExactSizeIterator<Item = LightId> + Clone + use<C> {
-        let first = self.ends[Kind::LAST_BOUNDED as usize];
-        (first..self.ends[Kind::COUNT - 1]).map(LightId)
+        let first = self.ends[LAST_BOUNDED as usize];
+        (first..self.ends[LightKind::COUNT - 1]).map(LightId)
     }
 
     /// All lights with their ids.
     pub fn iter(&self) -> impl Iterator<Item = (LightId, LightRef<'_, C>)> {
-        (0..self.ends[Kind::COUNT - 1])
+        (0..self.ends[LightKind::COUNT - 1])
             .map(LightId)
             .filter_map(|id| Some((id, self.get(id)?)))
     }
@@ -253,24 +196,14 @@ impl<C: ColorModel> LightSet<C> {
 
     /// Bytes of the lists themselves.
     pub(crate) fn own_bytes(&self) -> usize {
-        size_of_val(&*self.points)
-            + size_of_val(&*self.spots)
-            + size_of_val(&*self.projections)
-            + size_of_val(&*self.goniometrics)
-            + size_of_val(&*self.areas)
-            + size_of_val(&*self.meshes)
-            + size_of_val(&*self.distants)
-            + size_of_val(&*self.suns)
-            + size_of_val(&*self.uniform_infinites)
-            + size_of_val(&*self.image_infinites)
-            + size_of_val(&*self.portal_infinites)
+        self.lists.bytes()
             + size_of_val(&*self.mesh_ends)
             + size_of_val(&*self.mesh_of)
             + size_of_val(&*self.sources)
     }
 
     #[inline]
-    fn ids(&self, kind: Kind) -> Range<u32> {
+    fn ids(&self, kind: LightKind) -> Range<u32> {
         let kind = kind as usize;
         let start = if kind == 0 { 0 } else { self.ends[kind - 1] };
         start..self.ends[kind]

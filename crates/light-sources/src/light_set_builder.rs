@@ -6,7 +6,8 @@ use crate::desc::{LightDesc, LightDescError};
 use crate::distant::DistantLight;
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
-use crate::light_set::{Kind, LightSet, SourceId};
+use crate::light_kinds::{LightKind as Kind, LightLists};
+use crate::light_set::{LightSet, SourceId};
 use crate::mesh::MeshLight;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
@@ -45,53 +46,55 @@ impl<C: ColorModel> LightSetBuilder<C> {
         match desc {
             LightDesc::Point(desc) => {
                 let light = PointLight::new(desc).map_err(Error::Point)?;
-                self.keep(Kind::Point, 1, light, |set| &mut set.points)
+                self.keep(Kind::Point, 1, light, |lists| &mut lists.points)
             }
             LightDesc::Spot(desc) => {
                 let light = SpotLight::new(desc).map_err(Error::Spot)?;
-                self.keep(Kind::Spot, 1, light, |set| &mut set.spots)
+                self.keep(Kind::Spot, 1, light, |lists| &mut lists.spots)
             }
             LightDesc::Projection(desc) => {
                 let light = ProjectionLight::new(desc).map_err(Error::Projection)?;
-                self.keep(Kind::Projection, 1, light, |set| &mut set.projections)
+                self.keep(Kind::Projection, 1, light, |lists| &mut lists.projections)
             }
             LightDesc::Goniometric(desc) => {
                 let light = GoniometricLight::new(desc).map_err(Error::Goniometric)?;
-                self.keep(Kind::Goniometric, 1, light, |set| &mut set.goniometrics)
+                self.keep(Kind::Goniometric, 1, light, |lists| &mut lists.goniometrics)
             }
             LightDesc::Area(desc) => {
                 let light = AreaSource::new(desc).map_err(Error::Area)?;
-                self.keep(Kind::Area, 1, light, |set| &mut set.areas)
+                self.keep(Kind::Area, 1, light, |lists| &mut lists.areas)
             }
             LightDesc::Mesh(desc) => {
                 let light = MeshLight::new(desc).map_err(Error::Mesh)?;
-                self.keep(Kind::Triangle, light.len(), light, |set| &mut set.meshes)
+                self.keep(Kind::Triangle, light.len(), light, |lists| {
+                    &mut lists.meshes
+                })
             }
             LightDesc::Distant(desc) => {
                 let light = DistantLight::new(desc, scene).map_err(Error::Distant)?;
-                self.keep(Kind::Distant, 1, light, |set| &mut set.distants)
+                self.keep(Kind::Distant, 1, light, |lists| &mut lists.distants)
             }
             LightDesc::Sun(desc) => {
                 let light = SunLight::new(desc, scene).map_err(Error::Sun)?;
-                self.keep(Kind::Sun, 1, light, |set| &mut set.suns)
+                self.keep(Kind::Sun, 1, light, |lists| &mut lists.suns)
             }
             LightDesc::UniformInfinite(desc) => {
                 let light =
                     UniformInfiniteLight::new(desc, scene).map_err(Error::UniformInfinite)?;
-                self.keep(Kind::UniformInfinite, 1, light, |set| {
-                    &mut set.uniform_infinites
+                self.keep(Kind::UniformInfinite, 1, light, |lists| {
+                    &mut lists.uniform_infinites
                 })
             }
             LightDesc::ImageInfinite(desc) => {
                 let light = ImageInfiniteLight::new(desc, scene).map_err(Error::ImageInfinite)?;
-                self.keep(Kind::ImageInfinite, 1, light, |set| {
-                    &mut set.image_infinites
+                self.keep(Kind::ImageInfinite, 1, light, |lists| {
+                    &mut lists.image_infinites
                 })
             }
             LightDesc::PortalInfinite(desc) => {
                 let light = PortalInfiniteLight::new(desc, scene).map_err(Error::PortalInfinite)?;
-                self.keep(Kind::PortalInfinite, 1, light, |set| {
-                    &mut set.portal_infinites
+                self.keep(Kind::PortalInfinite, 1, light, |lists| {
+                    &mut lists.portal_infinites
                 })
             }
         }
@@ -109,11 +112,11 @@ impl<C: ColorModel> LightSetBuilder<C> {
         kind: Kind,
         lights: usize,
         source: T,
-        list: impl FnOnce(&mut LightSet<C>) -> &mut Vec<T>,
+        list: impl FnOnce(&mut LightLists<C>) -> &mut Vec<T>,
     ) -> Result<SourceId, LightDescError> {
         let id = self.set.count_in(kind, lights);
         let id = id.ok_or(LightDescError::TooMany)?;
-        list(&mut self.set).push(source);
+        list(&mut self.set.lists).push(source);
         Ok(id)
     }
 }

@@ -34,10 +34,10 @@ impl<C: ColorModel> LightSet<C> {
     pub fn bytes(&self) -> LightSetBytes {
         let mut count = Count::default();
         count.bytes.lights = self.own_bytes();
-        for source in &self.areas {
+        for source in &self.lists.areas {
             count.emission(source.light().emission());
         }
-        for mesh in &self.meshes {
+        for mesh in &self.lists.meshes {
             let (positions, indices, uvs) = mesh.vertices();
             count.vertices(positions);
             if let MeshIndices::List(list) = indices {
@@ -49,19 +49,19 @@ impl<C: ColorModel> LightSet<C> {
             }
             count.emission(mesh.emission());
         }
-        for light in &self.projections {
+        for light in &self.lists.projections {
             count.image(light.image());
             count.bytes.images += light.table_bytes();
         }
-        for light in &self.goniometrics {
+        for light in &self.lists.goniometrics {
             count.image(light.image());
             count.bytes.images += light.table_bytes();
         }
-        for light in &self.image_infinites {
+        for light in &self.lists.image_infinites {
             count.image(light.image());
             count.bytes.images += light.table_bytes();
         }
-        for light in &self.portal_infinites {
+        for light in &self.lists.portal_infinites {
             count.image(light.rectified());
             count.bytes.images += light.table_bytes();
         }

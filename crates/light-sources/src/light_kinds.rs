@@ -1,0 +1,75 @@
+//! The kinds of light, in one table: whatever exists once a kind is made from it.
+
+use alloc::vec::Vec;
+
+use crate::area_desc::AreaSource;
+use crate::color::ColorModel;
+use crate::distant::DistantLight;
+use crate::goniometric::GoniometricLight;
+use crate::image_infinite::ImageInfiniteLight;
+use crate::mesh::MeshLight;
+use crate::point::PointLight;
+use crate::portal_infinite::PortalInfiniteLight;
+use crate::projection::ProjectionLight;
+use crate::spot::SpotLight;
+use crate::sun::SunLight;
+use crate::uniform_infinite::UniformInfiniteLight;
+
+/// Calls the macro `$table` with the kinds in the order of their ids, those at infinity last: the
+/// name of a kind, the list of a set that holds it, and what is in that list. What follows `$table`
+/// goes before them.
+macro_rules! light_kinds {
+    ($table:ident! $($before:tt)*) => {
+        $table! {
+            $($before)*
+            Point, points: PointLight<C>;
+            Spot, spots: SpotLight<C>;
+            Projection, projections: ProjectionLight<C>;
+            Goniometric, goniometrics: GoniometricLight<C>;
+            Area, areas: AreaSource<C>;
+            Triangle, meshes: MeshLight<C>;
+            Distant, distants: DistantLight<C>;
+            Sun, suns: SunLight<C>;
+            UniformInfinite, uniform_infinites: UniformInfiniteLight<C>;
+            ImageInfinite, image_infinites: ImageInfiniteLight<C>;
+            PortalInfinite, portal_infinites: PortalInfiniteLight<C>;
+        }
+    };
+}
+pub(crate) use light_kinds;
+
+macro_rules! kinds_and_lists {
+    ($($kind:ident, $list:ident: $stored:ty;)*) => {
+        /// The kinds of light, in the order of their ids; those at infinity come last.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum LightKind {
+            $($kind,)*
+        }
+
+        impl LightKind {
+            /// All of them.
+            pub(crate) const ALL: [Self; Self::COUNT] = [$(Self::$kind,)*];
+
+            /// How many there are.
+            pub(crate) const COUNT: usize = [$(stringify!($kind),)*].len();
+        }
+
+        /// The sources of light of a set, by kind: one a light, but one for all triangles of a
+        /// mesh.
+        #[derive(Clone, Debug)]
+        pub(crate) struct LightLists<C: ColorModel> {
+            $(pub(crate) $list: Vec<$stored>,)*
+        }
+
+        impl<C: ColorModel> LightLists<C> {
+            pub(crate) const EMPTY: Self = Self { $($list: Vec::new(),)* };
+
+            /// Bytes of the lists themselves.
+            pub(crate) fn bytes(&self) -> usize {
+                [$(size_of_val(&*self.$list),)*].into_iter().sum()
+            }
+        }
+    };
+}
+
+light_kinds!(kinds_and_lists!);
