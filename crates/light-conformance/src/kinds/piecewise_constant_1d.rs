@@ -1,9 +1,9 @@
-use super::tables::{ALL_ZERO, RUNNING_SUM, U_ROUNDING, check_inverse, refuses_signs};
+use super::tables::{RUNNING_SUM, U_ROUNDING, check_inverse, refuses_signs, unless_zero};
 use crate::comparison::Comparison;
 use crate::oracle::{Certainty, Jitter};
 use crate::{Case, Findings, Malformed, Tolerance};
 use glam::{DVec2, DVec3};
-use lights::math::distribution::{PiecewiseConstant1D, TableError};
+use lights::math::distribution::PiecewiseConstant1D;
 
 /// Integral, running sum, samples and inverses, on the given domain.
 pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
@@ -11,13 +11,9 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     let (min, max) = (case.get("min")?.float()?, case.get("max")?.float()?);
     refuses_signs(&func, |w| PiecewiseConstant1D::new(w).map(|_| ()), findings);
     let weights: Vec<f32> = func.iter().map(|f| f.abs()).collect();
-    let table = match PiecewiseConstant1D::new(&weights).and_then(|t| t.over(min, max)) {
-        Ok(table) => table,
-        Err(TableError::AllZero) if weights.iter().all(|&w| w == 0.0) => {
-            findings.exempt(&ALL_ZERO);
-            return Ok(());
-        }
-        Err(error) => return Err(Malformed(error.to_string())),
+    let table = PiecewiseConstant1D::new(&weights).and_then(|t| t.over(min, max));
+    let Some(table) = unless_zero(table, &weights, findings)? else {
+        return Ok(());
     };
 
     let integral = findings.ours("integral", table.integral());

@@ -1,9 +1,9 @@
-use super::tables::{ALL_ZERO, U_ROUNDING, check_inverse, refuses_signs};
+use super::tables::{U_ROUNDING, check_inverse, refuses_signs, unless_zero};
 use crate::comparison::Comparison;
 use crate::oracle::Certainty;
 use crate::{Case, Findings, Malformed, Tolerance};
 use glam::{DVec2, DVec3};
-use lights::math::distribution::{PiecewiseConstant2D, TableError};
+use lights::math::distribution::PiecewiseConstant2D;
 use lights::math::glam::Vec2;
 
 /// Integral, samples, densities and inverses, on the given domain.
@@ -18,13 +18,9 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         findings,
     );
     let weights: Vec<f32> = func.iter().map(|f| f.abs()).collect();
-    let table = match PiecewiseConstant2D::new(&weights, nx, ny).and_then(|t| t.over(min, max)) {
-        Ok(table) => table,
-        Err(TableError::AllZero) if weights.iter().all(|&w| w == 0.0) => {
-            findings.exempt(&ALL_ZERO);
-            return Ok(());
-        }
-        Err(error) => return Err(Malformed(error.to_string())),
+    let table = PiecewiseConstant2D::new(&weights, nx, ny).and_then(|t| t.over(min, max));
+    let Some(table) = unless_zero(table, &weights, findings)? else {
+        return Ok(());
     };
 
     let integral = findings.ours("integral", table.integral());

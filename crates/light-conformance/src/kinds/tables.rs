@@ -9,7 +9,7 @@ use glam::DVec2;
 use lights::math::distribution::{TableError, Window};
 
 /// A table of zeros.
-pub(super) const ALL_ZERO: Rule = Rule {
+const ALL_ZERO: Rule = Rule {
     name: "all_zero",
     reason: "the reference samples a table of zeros evenly with density 0; ours is refused when built",
 };
@@ -35,6 +35,22 @@ pub(super) fn refuses_signs(
             build(func),
             Err(TableError::Negative { index }),
         );
+    }
+}
+
+/// The table that was built; none, with the reason noted, if all weights are 0.
+pub(super) fn unless_zero<T>(
+    built: Result<T, TableError>,
+    weights: &[f32],
+    findings: &mut Findings,
+) -> Result<Option<T>, Malformed> {
+    match built {
+        Ok(table) => Ok(Some(table)),
+        Err(TableError::AllZero) if weights.iter().all(|&w| w == 0.0) => {
+            findings.exempt(&ALL_ZERO);
+            Ok(None)
+        }
+        Err(error) => Err(Malformed(error.to_string())),
     }
 }
 
