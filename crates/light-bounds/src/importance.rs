@@ -159,6 +159,31 @@ mod tests {
         }
     }
 
+    /// From the sphere about a box, and as far beyond the edge of the emission as round-off may
+    /// reach, a light counts.
+    #[test]
+    fn a_light_counts_at_the_edges() {
+        let away = LightBounds {
+            w: Vec3::NEG_Z,
+            cos_theta_e: 0.9,
+            ..lamp(Aabb::new(Vec3::NEG_X, Vec3::X))
+        };
+        for (height, counts) in [(SIN_GROWTH, true), (SIN_GROWTH + 0.1, false)] {
+            let ctx = LightSampleContext::medium(Vec3::Z * height);
+            let importance = away.importance(&ctx);
+            assert_eq!(importance > 0.0, counts, "{height}: {importance}");
+        }
+        for (edge, counts) in [(EDGE_SLACK, true), (1.001 * EDGE_SLACK, false)] {
+            let aside = LightBounds {
+                cos_theta_e: edge,
+                ..lamp(Aabb::from_point(Vec3::ZERO))
+            };
+            let ctx = LightSampleContext::medium(Vec3::X);
+            let importance = aside.importance(&ctx);
+            assert_eq!(importance > 0.0, counts, "{edge}: {importance}");
+        }
+    }
+
     #[test]
     fn a_point_above_a_lamp() {
         let lamp = lamp(Aabb::from_point(Vec3::ZERO));

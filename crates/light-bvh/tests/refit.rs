@@ -9,7 +9,7 @@ use std::alloc::System;
 
 use light_bvh::light_bounds::light_math::glam::Vec3;
 use light_bvh::light_bounds::{
-    InfiniteBounds, LightBoundsError, LightExtent, LightId, LightSampleContext,
+    InfiniteBounds, LightBounds, LightBoundsError, LightExtent, LightId, LightSampleContext,
 };
 use light_bvh::{LightBvh, LightBvhError, LightBvhOptions};
 use light_testkit::Rng;
@@ -207,4 +207,29 @@ fn a_tree_gets_looser_as_its_lights_mix_and_not_by_scale() {
 fn moved(extent: &LightExtent, to: impl FnOnce(Vec3) -> Vec3) -> LightExtent {
     let bounds = extent.bounded().expect("a lamp");
     lamp(to(bounds.bounds.min), bounds.phi)
+}
+
+/// Nodes of lights that are all off keep the places of their lights.
+#[test]
+fn lights_that_all_start_dark_are_found_when_they_are_on() {
+    let lit = lamps(300, 5);
+    let dark: Vec<_> = lit.iter().map(|light| switched_off(*light)).collect();
+    let mut tree = LightBvh::build_with(&dark, &LightBvhOptions::DYNAMIC).expect("valid lights");
+    tree.refit(&lit).expect("as many");
+    let ctx = LightSampleContext::surface(Vec3::new(0.5, 0.5, -2.0), Vec3::Z, Vec3::Z);
+    let sum = pmf_sum(&tree, lit.len(), &ctx);
+    assert!((sum - 1.0).abs() < 1e-4, "{sum}");
+    for i in 0..512u16 {
+        let u = (f64::from(i) + 0.5) / 512.0;
+        let sample = tree.sample(&ctx, u).expect("lit");
+        let pmf = tree.pmf(&ctx, sample.light);
+        assert_eq!(sample.pmf, pmf, "{u}: {:?}", sample.light);
+    }
+}
+
+fn switched_off(light: LightExtent) -> LightExtent {
+    match light {
+        LightExtent::Bounded(bounds) => LightExtent::Bounded(LightBounds { phi: 0.0, ..bounds }),
+        other => other,
+    }
 }

@@ -207,3 +207,24 @@ fn partition(clusters: &mut [Cluster], left: impl Fn(&Cluster) -> bool) -> (usiz
     }
     (middle, bounds)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_in_the_order_of_the_centres() {
+        let key = |x: f32, first| {
+            let cluster = Cluster {
+                center: Vec3::Y * x,
+                first,
+                ..Cluster::NOTHING
+            };
+            key_along(&cluster, 1)
+        };
+        let centres = [-1e30f32, -2.0, -1.5, -1e-40, 0.0, 1e-40, 0.5, 3.0, 1e30];
+        let keys = centres.map(|x| key(x, 7));
+        assert!(keys.is_sorted_by(|a, b| a < b), "{keys:x?}");
+        assert!(key(1.0, 1) < key(1.0, 2), "the order of the curve");
+    }
+}

@@ -19,3 +19,6 @@ pub(crate) mod scan;
 pub(crate) mod split_group;
 pub(crate) mod subtree;
 pub(crate) mod topology;
+
+#[cfg(test)]
+mod tests;

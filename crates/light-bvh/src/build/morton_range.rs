@@ -132,3 +132,23 @@ impl ParallelGroup for MortonRange<'_> {
         output.build_serial(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four at a time and what is left over.
+    #[test]
+    fn power_is_the_sum() {
+        let entry = |i: u16| MortonEntry {
+            key: 0,
+            light: 0,
+            power: f32::from(i),
+        };
+        for count in [0, 3, 4, 11] {
+            let entries: alloc::vec::Vec<_> = (1..=count).map(entry).collect();
+            let sum = f32::from(count * (count + 1) / 2);
+            assert_eq!(power(&entries), sum, "{count} entries");
+        }
+    }
+}

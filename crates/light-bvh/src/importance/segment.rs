@@ -138,6 +138,8 @@ mod tests {
         for scale in [1e-30, 1.0, 1e30] {
             let s = SegmentReceiver::new(Vec3::ZERO, Vec3::new(3.0, 4.0, 0.0) * scale);
             assert!((s.length / (5.0 * scale) - 1.0).abs() < 1e-5, "{scale}");
+            let reach = s.reach() / (7.0 * scale);
+            assert!((reach - 1.0).abs() < 1e-5, "{scale}: {reach} of both axes");
         }
     }
 }

@@ -175,3 +175,16 @@ fn a_mean_below_the_horizon_or_on_it_gives_nothing_up() {
         }
     }
 }
+
+/// As far below the horizon as round-off may have put it, a light still counts.
+#[test]
+fn a_light_at_the_edge_of_the_slack_counts() {
+    let at = |height: f32| {
+        let up = Vec3::new(1.0, 0.0, height);
+        let mut bounds = InfiniteBounds::distant(10.0, Vec3::X);
+        (bounds.mean, bounds.cone.w) = (up, up);
+        mean_cosine(&bounds, &floor())
+    };
+    assert!(at(-SLACK) > 0.0, "at the edge");
+    assert_eq!(at(-1.001 * SLACK), 0.0, "beyond it");
+}
