@@ -25,6 +25,9 @@ const MEMBERS: [&str; 6] = [
     "variant",
 ];
 
+/// In the title of a page that only leads to another one.
+const REDIRECTION: &str = "<title>Redirection</title>";
+
 /// Where what an item implements begins on its page: members before it are its own.
 const IMPLEMENTATIONS: [&str; 4] = [
     "id=\"trait-implementations\"",
@@ -111,6 +114,10 @@ fn add_items(folder: &Path, module: &str, items: &mut Vec<String>) -> Result<(),
         };
         let item = format!("{module}::{item}");
         let page = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        // The page of an item in a private module leads to where the item is re-exported.
+        if page.contains(REDIRECTION) {
+            continue;
+        }
         let own = members(&page);
         items.extend(own.map(|(kind, member)| format!("{item}::{member} ({kind})")));
         items.push(format!("{item} ({kind})"));
@@ -132,7 +139,8 @@ fn members(page: &str) -> impl Iterator<Item = (&str, &str)> {
     anchors.filter_map(|anchor| {
         let (id, _) = anchor.split_once('"')?;
         let (kind, name) = id.split_once('.')?;
-        let is_member = MEMBERS.contains(&kind) && !name.contains('.');
+        // A name with a number is that of the same member in another implementation.
+        let is_member = MEMBERS.contains(&kind) && !name.contains(['.', '-']);
         is_member.then_some((kind, name))
     })
 }
@@ -151,7 +159,8 @@ mod tests {
     #[test]
     fn members_of_implemented_traits_do_not_count() {
         let page = "<section id=\"structfield.min\"><section id=\"method.new\">\
-                    <h2 id=\"trait-implementations\"><section id=\"method.clone\">";
+                    <section id=\"method.new-1\"><h2 id=\"trait-implementations\">\
+                    <section id=\"method.clone\">";
         let found: Vec<_> = members(page).collect();
         assert_eq!(found, [("structfield", "min"), ("method", "new")]);
     }
