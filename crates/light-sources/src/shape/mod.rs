@@ -8,6 +8,7 @@ mod cylinder_view;
 mod disk;
 mod flat_quad;
 mod patch_area;
+mod patch_ray;
 mod receiver_cosine;
 mod rectangle;
 mod sphere;
