@@ -58,7 +58,7 @@ struct Stage {
     tone_map: ToneMap,
 }
 
-/// Renders the shipped scenes into [`FOLDER`], and prints one table.
+/// Renders three of the shipped scenes into [`FOLDER`], and prints one table.
 ///
 /// # Errors
 /// When the pictures cannot be written.
