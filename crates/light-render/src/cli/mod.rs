@@ -37,7 +37,8 @@ const INTERRUPTED: i32 = 130;
 
 /// Lights and light sampling for physically based rendering.
 ///
-/// Without a command: renders three of the shipped scenes into out/ and compares light samplers on them.
+/// Without a command: renders three of the shipped scenes into out/ and compares light samplers on
+/// them.
 #[derive(Debug, Parser)]
 #[command(name = "lights", version, max_term_width = 100)]
 struct Program {
