@@ -1,0 +1,144 @@
+//! A light behind a `LightRef` answers as the light itself: surfaces alone have a radiance that
+//! leaves them, skies alone one that arrives.
+
+use light_sources::glam::{Affine3A, Vec2, Vec3};
+use light_sources::shape::ShapeDesc;
+use light_sources::*;
+
+fn image() -> Image {
+    Image::from_f32([2, 2], Channels::Gray, [1.0, 0.5, 0.25, 2.0]).expect("an image")
+}
+
+/// One light of each kind.
+fn lights() -> LightSet<Rgb> {
+    let transform = Affine3A::IDENTITY;
+    let media = MediumInterface::default();
+    let amount = IntensityAmount::Radiometric(3.0);
+    let radiance = RadianceAmount::Radiometric(2.0);
+    let emission = || DiffuseEmissionDesc::new(SurfaceColor::Uniform(Vec3::ONE), radiance);
+    let map = EnvironmentMap::EqualArea(image());
+    let descs: [LightDesc<Rgb>; 11] = [
+        LightDesc::Point(PointLightDesc {
+            position: Vec3::ZERO,
+            emission: Vec3::ONE,
+            amount,
+            media,
+        }),
+        LightDesc::Spot(SpotLightDesc {
+            transform,
+            emission: Vec3::ONE,
+            amount,
+            angle: 1.0,
+            falloff_start: 0.5,
+            media,
+        }),
+        LightDesc::Projection(ProjectionLightDesc {
+            transform,
+            image: image(),
+            fov: 1.0,
+            amount,
+            media,
+        }),
+        LightDesc::Goniometric(GoniometricLightDesc {
+            transform,
+            distribution: image(),
+            emission: Vec3::ONE,
+            amount,
+            media,
+        }),
+        LightDesc::Distant(DistantLightDesc {
+            direction: Vec3::Z,
+            emission: Vec3::ONE,
+            amount: IrradianceAmount::Radiometric(1.0),
+        }),
+        LightDesc::Sun(SunLightDesc {
+            direction: Vec3::NEG_Z,
+            angular_diameter: 0.02,
+            emission: Vec3::ONE,
+            amount: SunAmount::Radiance(radiance),
+        }),
+        LightDesc::UniformInfinite(UniformInfiniteLightDesc {
+            emission: Vec3::ONE,
+            amount: radiance,
+        }),
+        LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+            map: map.clone(),
+            transform,
+            amount: radiance,
+        }),
+        LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+            map,
+            transform,
+            amount: radiance,
+            portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+        }),
+        LightDesc::Area(AreaLightDesc {
+            shape: ShapeDesc::Rectangle {
+                corner: Vec3::ZERO,
+                edges: [Vec3::X, Vec3::Y],
+            },
+            emission: emission(),
+        }),
+        LightDesc::Mesh(MeshLightDesc {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+            indices: [[0, 1, 2]].into(),
+            uvs: None,
+            emission: emission(),
+        }),
+    ];
+    let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
+    let mut builder = LightSetBuilder::new(scene);
+    for desc in descs {
+        builder.add(desc).expect("a light");
+    }
+    builder.build()
+}
+
+/// A place of the square and of the triangle, seen from the front.
+fn front() -> SurfacePoint {
+    SurfacePoint {
+        p: Vec3::new(0.25, 0.25, 0.0),
+        n: Vec3::Z,
+        uv: Vec2::splat(0.25),
+    }
+}
+
+#[test]
+fn surfaces_alone_have_a_radiance_that_leaves_them() {
+    let set = lights();
+    let mut surfaces = 0;
+    for (_, light) in set.iter() {
+        let is_surface = matches!(light, LightRef::Area(_) | LightRef::Triangle(_));
+        surfaces += u32::from(is_surface);
+        let expected = if is_surface {
+            Vec3::splat(2.0)
+        } else {
+            Vec3::ZERO
+        };
+        assert_eq!(light.l(&front(), Vec3::Z, &()), expected, "{light:?}");
+        assert_eq!(light.l(&front(), Vec3::NEG_Z, &()), Vec3::ZERO, "{light:?}");
+    }
+    assert_eq!(surfaces, 2, "a square and a triangle");
+}
+
+#[test]
+fn skies_alone_have_a_radiance_that_arrives() {
+    let set = lights();
+    let mut skies = 0;
+    for (_, light) in set.iter() {
+        let is_sky = matches!(
+            light,
+            LightRef::Sun(_)
+                | LightRef::UniformInfinite(_)
+                | LightRef::ImageInfinite(_)
+                | LightRef::PortalInfinite(_)
+        );
+        skies += u32::from(is_sky);
+        // From above through the portal to the sun.
+        let le = light.le(Vec3::new(0.5, 0.5, 1.0), Vec3::NEG_Z, &());
+        assert_eq!(le != Vec3::ZERO, is_sky, "{light:?}: {le}");
+        let is_infinite = light.light_type() == LightType::Infinite;
+        assert_eq!(is_infinite, is_sky, "{light:?}");
+    }
+    assert_eq!(skies, 4, "of each kind");
+}
