@@ -10,13 +10,13 @@ const COS_BITS: u32 = 15;
 /// One code of a cosine.
 const COS_MASK: u32 = (1 << COS_BITS) - 1;
 
-/// Where the two-sided bit is.
+/// Position of the two-sided bit.
 const TWO_SIDED_BIT: u32 = 2 * COS_BITS;
 
 /// [`LightBounds`] in 24 bytes, relative to a box around all lights.
 ///
-/// What it decodes to contains the original: the box, the cone of normals, the angle of emission.
-/// So whatever matters to a point for the original matters for the compact form.
+/// Decoding is conservative: the decoded box, cone of normals and angle of emission contain the
+/// original's. Where the original has a positive importance, so has the compact form.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3. The codes are the same, but there the rounded axis can turn normals
@@ -48,7 +48,7 @@ impl CompactLightBounds {
         }
     }
 
-    /// The bounds that this stands for, given the same box `all` as in [`encode`](Self::encode).
+    /// The decoded bounds, given the same box `all` as in [`encode`](Self::encode).
     #[inline(always)]
     #[must_use]
     pub fn decode(&self, all: &Aabb) -> LightBounds {
@@ -69,14 +69,14 @@ impl CompactLightBounds {
         self.decode(all).importance(ctx)
     }
 
-    /// [`importance`](Self::importance), to the bit, for a context that is prepared.
+    /// [`importance`](Self::importance), with the same bits, for a prepared context.
     #[inline(always)]
     #[must_use]
     pub fn importance_for(&self, all: &Aabb, query: &ImportanceQuery) -> f32 {
         self.decode(all).importance_for(query)
     }
 
-    /// Emitted power in W, or any common multiple of it.
+    /// Emitted power in W, or in another unit common to all lights.
     #[inline]
     #[must_use]
     pub const fn phi(&self) -> f32 {
@@ -170,8 +170,8 @@ mod tests {
         assert!(importance > 0.0 && importance != 1.0, "{importance}");
     }
 
-    /// Wide enough for any code of the axis, and not by more than what an arc cosine near 1 loses
-    /// anyway.
+    /// The margin covers any code of the axis, and is at most what an arc cosine near 1 loses by
+    /// rounding.
     #[test]
     fn every_cosine_is_widened_a_little() {
         for code in 0..=light_math::quantize::MAX_COS {

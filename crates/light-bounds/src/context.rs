@@ -1,15 +1,15 @@
 use crate::glam::Vec3;
 use light_math::direction;
 
-/// Who asks for light: a point on a surface, or a point in a medium.
+/// The receiver of light: a point on a surface, a point in a medium, or a ray segment in a medium.
 ///
 /// Lengths are in scene units. Both normals are unit vectors, or both zero in a medium. Samplers
 /// read [`ns`](Self::ns) and no other normal; lights read both, to move the point off the surface
 /// along [`n`](Self::n).
 ///
-/// Samplers keep their laws for any numbers in here. A normal of another length counts by its
-/// direction, and one without a direction as none: see [`unit_ns`](Self::unit_ns). A position or a
-/// segment that is not finite is somewhere, and always in the same place.
+/// Samplers obey their laws for any values of these fields. Only the direction of a normal is used;
+/// a normal without a direction counts as none: see [`unit_ns`](Self::unit_ns). A position or a
+/// segment that is not finite is replaced by a finite one, always the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
     /// The point.
@@ -25,22 +25,23 @@ pub struct LightSampleContext {
     pub sides: ReceiverSides,
     /// From `p` to the other end of a ray segment in a medium; zero for a point.
     pub segment: Vec3,
-    /// How the surface mirrors, if it is known and worth a closer look; samplers may ignore it.
+    /// The gloss of the surface, if known; samplers may ignore it.
     pub gloss: Option<Gloss>,
 }
 
-/// How a surface reflects more than a matt one: about
+/// Glossy reflection of a surface: its BSDF is about
 /// `diffuse / pi + (1 - diffuse) D G / (4 cos cos)`, GGX microfacets.
 ///
-/// Only a hint for choosing lights: it may be rough, and no light is lost by it. Numbers outside of
-/// their domain are moved into it; without a direction to the viewer the surface counts as matt.
+/// Only a hint for choosing lights: it may be approximate, because no light loses its probability
+/// by it. Values outside of their domain are clamped; without a direction to the viewer the surface
+/// counts as diffuse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gloss {
     /// Unit vector to the viewer.
     pub wo: Vec3,
     /// Width of the distribution of facets, in (0, 1].
     pub alpha: f32,
-    /// The share of all reflected light that is reflected as by a matt surface, in [0, 1].
+    /// The diffuse share of all reflected light, in [0, 1].
     pub diffuse: f32,
 }
 
@@ -78,11 +79,11 @@ impl LightSampleContext {
         }
     }
 
-    /// A ray segment in a medium, from `p` to `p + segment`: lights count by what they give along
-    /// all of it.
+    /// A ray segment in a medium, from `p` to `p + segment`: lights are weighted by their
+    /// contribution along all of it.
     ///
-    /// The default hierarchy chooses for the segment as a whole; other samplers, and lights, take
-    /// it for the point `p`.
+    /// The default hierarchy chooses for the whole segment; other samplers, and lights, use the
+    /// point `p`.
     #[must_use]
     pub const fn segment(p: Vec3, segment: Vec3) -> Self {
         Self {
@@ -91,7 +92,7 @@ impl LightSampleContext {
         }
     }
 
-    /// A point in a medium: light counts from all sides alike.
+    /// A point in a medium: light counts equally from all directions.
     #[must_use]
     pub const fn medium(p: Vec3) -> Self {
         Self::surface(p, Vec3::ZERO, Vec3::ZERO)
@@ -103,7 +104,7 @@ impl LightSampleContext {
         Self { p_error, ..self }
     }
 
-    /// The same context on a surface that mirrors.
+    /// The same context on a glossy surface.
     #[must_use]
     pub const fn with_gloss(self, gloss: Gloss) -> Self {
         Self {
@@ -115,14 +116,14 @@ impl LightSampleContext {
     /// The direction of the shading normal; `None` in a medium, and for a normal that has no
     /// direction: zero, infinite, or not a number.
     ///
-    /// A unit vector to rounding comes back to the bit: see [`direction`].
+    /// A vector of unit length up to rounding is returned with its bits: see [`direction`].
     #[inline]
     #[must_use]
     pub fn unit_ns(&self) -> Option<Vec3> {
         direction(self.ns)
     }
 
-    /// Whether the point has no surface, so no normal; or one without a direction.
+    /// Whether the context has no surface: the shading normal is zero or has no direction.
     #[inline]
     #[must_use]
     pub fn is_medium(&self) -> bool {

@@ -2,25 +2,25 @@ use core::f32::consts::PI;
 
 use crate::glam::Vec3;
 
-/// How a light emits that stands in one point, by moments of its intensity over all directions.
+/// The emission of a point light, by moments of its intensity over all directions.
 ///
-/// A cone says where light may go; these say where it does: a projected picture that is bright in
-/// one corner, the beam of a measured luminaire.
+/// A cone bounds the directions of emission; the moments describe how power is distributed over
+/// them: a projected picture that is bright in one corner, the beam of a measured luminaire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EmissionLobe {
     /// Emitted power: the integral of the intensity, in W or the same multiple of it as the powers
     /// of the other lights.
     pub power: f32,
-    /// Mean of the unit vectors away from the light, weighted by intensity: zero if it shines alike
-    /// to all sides, a unit vector for a ray.
+    /// Mean of the unit vectors away from the light, weighted by intensity: zero for an isotropic
+    /// light, a unit vector for a ray.
     pub mean: Vec3,
-    /// Root mean square, weighted by intensity, of how far the intensity is from that of the
-    /// [`line`](Self::line), over its peak.
+    /// Root mean square, weighted by intensity, of the difference between the intensity and that
+    /// of the [`line`](Self::line), divided by the peak of the line.
     pub spread: f32,
 }
 
-/// An intensity that falls in a line with the cosine to an axis.
+/// An intensity that is a linear function of the cosine to an axis.
 ///
 /// Toward a unit vector `w` it is `peak * max(0, dot(axis, w) - offset)`, and `peak` along the
 /// axis.
@@ -28,20 +28,20 @@ pub struct EmissionLobe {
 pub struct EmissionLine {
     /// The largest intensity, in W·sr⁻¹.
     pub peak: f32,
-    /// Where it shines, the longer the narrower.
+    /// Direction of the peak; a longer axis means a narrower lobe.
     pub axis: Vec3,
-    /// How much of that is not emitted; below 0 if it shines beyond a right angle.
+    /// Subtracted from the cosine; below 0 if the lobe is wider than a right angle.
     pub offset: f32,
 }
 
 impl EmissionLobe {
-    /// How much longer than one a mean of unit vectors may be by round-off.
+    /// Excess over 1 that rounding may give the length of a mean of unit vectors.
     const LENGTH_TOLERANCE: f32 = 1e-3;
 
     /// Least width of a beam, as one minus a cosine.
     const MIN_WIDTH: f32 = 1e-4;
 
-    /// Whether the moments can be those of a light.
+    /// Whether the moments are valid.
     #[must_use]
     pub fn is_valid(&self) -> bool {
         let amount = |x: f32| x >= 0.0 && x.is_finite();
@@ -53,7 +53,7 @@ impl EmissionLobe {
     /// The line that has the same power and the same mean direction.
     ///
     /// With `l` the length of the mean, a line that ends at the cosine `c` has `l = (2 + c) / 3`
-    /// and the power `pi (1 - c) peak`. Below `l = 1 / 3` it does not end:
+    /// and the power `pi (1 - c) peak`. Below `l = 1 / 3` it covers all directions:
     /// `power / (4 pi) (1 + 3 l cos)`, as in the first band of spherical harmonics.
     #[must_use]
     pub fn line(&self) -> EmissionLine {
@@ -76,7 +76,7 @@ impl EmissionLobe {
 }
 
 impl EmissionLine {
-    /// The intensity toward the unit vector `w`, over the peak.
+    /// The intensity toward the unit vector `w`, divided by the peak.
     #[must_use]
     pub fn relative_intensity(&self, w: Vec3) -> f32 {
         (self.axis.dot(w) - self.offset).max(0.0)

@@ -1,19 +1,19 @@
 use core::fmt;
 
-/// Why [`LightBounds`](crate::LightBounds) bound no light.
+/// Why [`LightBounds`](crate::LightBounds) are invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LightBoundsError {
     /// The box is empty, or a corner is not a finite number.
     Box,
-    /// The axis is no unit vector.
+    /// The axis is not a unit vector.
     Axis,
     /// The power is negative, infinite or not a number.
     Power,
     /// A cosine lies outside of `[-1, 1]`.
     Cosine,
     /// A moment of the [lobe](crate::EmissionLobe) is negative or not finite, or the mean direction
-    /// longer than one.
+    /// is longer than 1.
     Lobe,
 }
 
@@ -31,13 +31,13 @@ impl fmt::Display for LightBoundsError {
 
 impl core::error::Error for LightBoundsError {}
 
-/// Why [`InfiniteBounds`](crate::InfiniteBounds) bound no light.
+/// Why [`InfiniteBounds`](crate::InfiniteBounds) are invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InfiniteBoundsError {
     /// The fluence is negative, infinite or not a number.
     Fluence,
-    /// The mean direction is longer than one, or not a number.
+    /// The mean direction is longer than 1, or not a number.
     Mean,
     /// The cone has no unit axis, or its cosine is neither in `[-1, 1]` nor that of the empty cone.
     Cone,

@@ -3,24 +3,24 @@ use light_math::DirectionCone;
 
 use crate::{EmissionLobe, InfiniteBoundsError, LightBounds};
 
-/// What a sampler knows of a light: bounds at a place, or a part of the sky.
+/// What a sampler knows of a light: bounds in space, or bounds at infinity.
 ///
 /// Samplers are built from `&[LightExtent]`, in which the index of an entry is the light's
 /// [`LightId`](crate::LightId).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LightExtent {
-    /// The light is somewhere.
+    /// The light has a position.
     Bounded(LightBounds),
-    /// The light is in one point, and the moments of its emission are known, of which bounds say
-    /// too little. Samplers that do not know lobes look at the bounds alone.
+    /// The light is a point light whose moments of emission are known. Samplers that do not use
+    /// lobes use the bounds alone.
     Lobe(LightBounds, EmissionLobe),
     /// The light is infinitely far away: an environment, or a distant light.
     Infinite(InfiniteBounds),
 }
 
 impl LightExtent {
-    /// The bounds of a light that is somewhere.
+    /// The bounds of a light with a position.
     #[inline]
     #[must_use]
     pub const fn bounded(&self) -> Option<&LightBounds> {
@@ -30,7 +30,7 @@ impl LightExtent {
         }
     }
 
-    /// The bounds of a light that is infinitely far away.
+    /// The bounds of a light at infinity.
     #[inline]
     #[must_use]
     pub const fn infinite(&self) -> Option<&InfiniteBounds> {
@@ -53,7 +53,7 @@ impl From<InfiniteBounds> for LightExtent {
     }
 }
 
-/// How much light arrives from infinity, and from where.
+/// The fluence and the directions of light that arrives from infinity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InfiniteBounds {
@@ -68,7 +68,7 @@ pub struct InfiniteBounds {
 }
 
 impl InfiniteBounds {
-    /// How much longer than one a mean of unit vectors may be by round-off.
+    /// Excess over 1 that rounding may give the length of a mean of unit vectors.
     const LENGTH_TOLERANCE: f32 = 1e-3;
 
     /// The bounds of the same radiance from everywhere, in W·m⁻²·sr⁻¹.
@@ -92,10 +92,10 @@ impl InfiniteBounds {
         }
     }
 
-    /// Whether the bounds can be those of a light.
+    /// Checks the bounds.
     ///
     /// # Errors
-    /// The first rule that a field breaks.
+    /// The first rule that is broken.
     pub fn validate(&self) -> Result<(), InfiniteBoundsError> {
         if !(self.fluence >= 0.0 && self.fluence.is_finite()) {
             return Err(InfiniteBoundsError::Fluence);
@@ -159,7 +159,7 @@ mod tests {
         }
     }
 
-    /// As the README says.
+    /// The example of the README.
     #[test]
     fn sizes() {
         assert_eq!(size_of::<LightBounds>(), 52, "bounds");

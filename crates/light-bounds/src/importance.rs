@@ -5,32 +5,32 @@ use crate::glam::Vec3;
 use crate::light_bounds::AXIS_TOLERANCE;
 use crate::{ImportanceQuery, LightBounds, LightSampleContext};
 
-/// Importance is never below this where light may arrive: contributions too small for a float still
-/// count.
+/// Least importance where light may arrive, so that contributions too small for a float keep a
+/// positive probability.
 const MIN_IMPORTANCE: f32 = f32::MIN_POSITIVE;
 
-/// Nor above this, so that a sum of two stays finite.
+/// Largest importance: a sum of two stays finite.
 const MAX_IMPORTANCE: f32 = f32::MAX / 4.0;
 
-/// Cosines closer than this to where they would become zero count as this: more than the round-off
-/// of the cosines below, and of a light that evaluates its own emission in single precision.
+/// Least value of a cosine factor where light may arrive: more than the rounding of the cosines
+/// below, and of a light that evaluates its own emission in single precision.
 const COS_SLACK: f32 = 2e-6;
 
-/// How far beyond the edge of its emission a light still counts, as a cosine: round-off, and three
-/// times what an axis may be too short. It lowers the cosine, and may make each of two angles seem
-/// not to reach the other one by as much.
+/// Margin, as a cosine, beyond the edge of emission within which a light still counts: rounding,
+/// plus three times the allowed error of the length of an axis, which lowers the cosine and may
+/// understate each of two angles.
 const EDGE_SLACK: f32 = COS_SLACK + 1.5 * AXIS_TOLERANCE;
 
-/// Enlargement of the sine of the angle that a box subtends, against its round-off.
+/// Factor on the sine of the angle that a box subtends, more than its rounding.
 const SIN_GROWTH: f32 = 1.0 + 3.0 * f32::EPSILON;
 
 impl LightBounds {
-    /// How much the bounded lights matter at `ctx`, relative to other bounds; no absolute scale.
+    /// The importance of the bounded lights at `ctx`, relative to other bounds; no absolute scale.
     ///
     /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite
     /// bounds and any context: also at a box centre, on a point light, and at coordinates whose
-    /// squares are no floats. Reads `ctx.p` and `ctx.unit_ns()`. At a surface light counts from
-    /// both sides.
+    /// squares overflow or underflow. Reads `ctx.p` and `ctx.unit_ns()`. At a surface light counts
+    /// from both sides.
     ///
     /// Costs six square roots, seven at a surface, and no trigonometric function.
     ///
@@ -38,7 +38,7 @@ impl LightBounds {
     /// `[PBRT4]`, section 12.6.3: `phi cos theta' cos theta_i' / d^2` with
     /// `theta' = max(0, theta_w - theta_o - theta_b)`. The clamp `d^2 >= |diagonal| / 2` compares a
     /// squared length with a length; it is kept, because this is the baseline. The differences:
-    /// sines come from cross products, round-off is always on the side of a larger importance, and
+    /// sines come from cross products, rounding always errs toward a larger importance, and
     /// the light at the edge of its emission (`theta' = theta_e`) counts, so that a spot without
     /// falloff is found.
     #[inline(always)]
@@ -47,7 +47,7 @@ impl LightBounds {
         self.importance_for(&ImportanceQuery::new(ctx))
     }
 
-    /// [`importance`](Self::importance), to the bit, for a context that is prepared.
+    /// [`importance`](Self::importance), with the same bits, for a prepared context.
     #[inline(always)]
     #[must_use]
     pub fn importance_for(&self, query: &ImportanceQuery) -> f32 {
@@ -55,8 +55,8 @@ impl LightBounds {
             return 0.0;
         }
 
-        // Vector from the centre, and a half box that reaches both corners from there wherever
-        // rounding has put it; scaled by a power of two so that squares stay in range.
+        // Vector from the centre, and a half box that contains both corners although the centre is
+        // rounded; scaled by a power of two so that squares stay in range.
         let center = self.bounds.center();
         let to_p = query.p - center;
         let half = (self.bounds.max - center).max(center - self.bounds.min);
@@ -141,8 +141,8 @@ mod tests {
         product(0) + product(1) + product(2)
     }
 
-    /// A box subtends its own angle and hardly more: it can be seen to lie beyond the edge of its
-    /// emission.
+    /// The computed angle of a box is hardly larger than the exact one: a box just beyond the edge
+    /// of its emission has no importance.
     #[test]
     fn a_box_that_shines_away_does_not_matter() {
         for size in [1e-3, 0.1, 1.0, 3.0] {
@@ -269,8 +269,8 @@ mod tests {
         }
     }
 
-    /// Between the scales at which the result is no float, importance is the same function
-    /// everywhere.
+    /// Importance is scale invariant between the scales at which the result overflows or
+    /// underflows.
     #[test]
     fn a_point_light_scales_with_the_squared_distance() {
         let lamp = lamp(Aabb::from_point(Vec3::ZERO));
@@ -281,7 +281,7 @@ mod tests {
     }
 
     proptest! {
-        /// An emitter within the bounds that lights the point makes the bounds matter there.
+        /// Bounds have a positive importance at every point that an emitter within them lights.
         #[test]
         fn contribution_implies_importance(
             a in prop::array::uniform3(-1.0f32..1.0), b in prop::array::uniform3(-1.0f32..1.0),

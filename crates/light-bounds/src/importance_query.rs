@@ -1,15 +1,15 @@
 use crate::LightSampleContext;
 use crate::glam::Vec3;
 
-/// What [importance](crate::LightBounds::importance) reads of a context, prepared once for many
-/// bounds.
+/// The data of a context that [importance](crate::LightBounds::importance) reads, prepared once for
+/// many bounds.
 ///
-/// A walk through a hierarchy asks for the importance of many bounds at one context: the direction
-/// of its normal is found once here.
+/// A traversal of a hierarchy evaluates the importance of many bounds at one context; the normal is
+/// normalised once here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImportanceQuery {
     pub(crate) p: Vec3,
-    /// None in a medium.
+    /// `None` in a medium.
     pub(crate) unit_ns: Option<Vec3>,
 }
 

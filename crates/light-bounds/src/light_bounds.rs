@@ -3,15 +3,16 @@ use light_math::{Aabb, DirectionCone};
 
 use crate::LightBoundsError;
 
-/// How much the cosine of a joined cone is lowered: twice the round-off of joining two cones, which
-/// would otherwise make a parent a little narrower than its children.
+/// Subtracted from the cosine of a joined cone: twice the rounding error of joining two cones,
+/// which could otherwise make a parent a little narrower than its children.
 const JOIN_ERROR: f32 = 4.0 * f32::EPSILON;
 
-/// How far the squared length of an axis may be from one: what a few rotations in single precision
-/// leave.
+/// Allowed deviation of the squared length of an axis from 1: the error of a few rotations in
+/// single precision.
 pub(crate) const AXIS_TOLERANCE: f32 = 1e-5;
 
-/// Bounds of where a light (or a group of lights) is, where it emits, and how much.
+/// Bounds of the position, the directions of emission and the power of a light or a group of
+/// lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LightBounds {
@@ -19,8 +20,8 @@ pub struct LightBounds {
     pub bounds: Aabb,
     /// Unit axis of the cone that holds the emitters' normals.
     pub w: Vec3,
-    /// Emitted power in W, or any common multiple of it; for spot lights as if they shone in all
-    /// directions.
+    /// Emitted power in W, or in another unit common to all lights; for spot lights as if they
+    /// emitted in all directions.
     pub phi: f32,
     /// Cosine of the half angle of the cone of normals.
     pub cos_theta_o: f32,
@@ -41,10 +42,10 @@ impl LightBounds {
         two_sided: false,
     };
 
-    /// Whether the bounds can be those of a light.
+    /// Checks the bounds.
     ///
     /// # Errors
-    /// The first rule that a field breaks.
+    /// The first rule that is broken.
     pub fn validate(&self) -> Result<(), LightBoundsError> {
         if self.bounds.is_empty() || !self.bounds.is_finite() {
             return Err(LightBoundsError::Box);
@@ -76,12 +77,12 @@ impl LightBounds {
         DirectionCone::new(self.w, self.cos_theta_o)
     }
 
-    /// Bounds of both groups of lights together; a group without power does not count.
+    /// Bounds of both groups of lights together; a group without power is ignored.
     ///
     /// The powers add, up to the largest float.
     ///
     /// # Source
-    /// `[PBRT4]`, section 12.6.3. A cone that is really joined is widened by the round-off of
+    /// `[PBRT4]`, section 12.6.3. A joined cone is widened by the rounding error of
     /// joining.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {

@@ -1,7 +1,7 @@
-/// Which light of a set: a position, not a pointer.
+/// Identifies a light of a set by its position.
 ///
 /// A set of `n` lights has the ids `0..n`. An emissive mesh is one source whose triangles have
-/// consecutive ids, so that the way from a hit (mesh, triangle) to the id is an addition.
+/// consecutive ids, so that the id of a hit (mesh, triangle) is the sum of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]

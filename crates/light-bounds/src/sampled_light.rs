@@ -1,6 +1,7 @@
 use crate::LightId;
 
-/// A light chosen at random, the probability of that choice, and what is left of the random number.
+/// A light chosen at random, the probability of that choice, and the unused part of the random
+/// number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledLight {
     /// The light.
@@ -17,7 +18,7 @@ impl SampledLight {
     /// The largest `f64` below one: the upper end of `u`, which lies in `[0, 1)`.
     pub const MAX_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
-    /// `u` moved into `[0, 1)`; 0 if it is not a number.
+    /// `u` clamped to `[0, 1)`; 0 for NaN.
     #[inline]
     #[must_use]
     pub const fn clamp_u(u: f64) -> f64 {

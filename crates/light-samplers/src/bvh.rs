@@ -10,14 +10,14 @@ use crate::light_sampler::stratum;
 use crate::prepared_choices::Preparation;
 use crate::{LightSampler, PreparedChoices};
 
-/// From so many choices of one call on, a cut pays.
+/// The least number of choices per call for which a cut is faster than single choices.
 const FEWEST_OF_CUT: u32 = 2;
 
 /// The default: chooses about in proportion to the irradiance that each light would give without
 /// occlusion.
 ///
 /// Reads `ctx.ns`. Lights at infinity are weighed by their own estimated irradiance against that of
-/// the tree, by day and by night. 26 to 28 bytes a light; a query evaluates a node of sixteen
+/// the tree. 26 to 28 bytes a light; a query evaluates a node of sixteen
 /// children a level, and every light at infinity.
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {
@@ -34,7 +34,7 @@ impl BvhLightSampler {
         Self::with(lights, &LightBvhOptions::default())
     }
 
-    /// A sampler whose tree is built as `options` say.
+    /// A sampler whose tree is built with `options`.
     ///
     /// # Errors
     /// As for [`LightBvh::build`].
@@ -56,20 +56,20 @@ impl BvhLightSampler {
         Ok(())
     }
 
-    /// The tree of the lights that are somewhere.
+    /// The tree of the lights with a position.
     #[must_use]
     pub const fn tree(&self) -> &LightBvh {
         &self.tree
     }
 
-    /// A cut through the tree for `ctx`, which pays when several lights are chosen there.
+    /// A cut through the tree for `ctx`, for several choices there.
     #[must_use]
     pub fn cut(&self, ctx: &LightSampleContext, detail: CutDetail) -> BvhLightCut<'_> {
         BvhLightCut::new(&self.tree, &self.infinite, ctx, detail)
     }
 
-    /// About the irradiance at `ctx` by the lights of the tree, if there are others to compare them
-    /// with.
+    /// Estimated irradiance at `ctx` from the lights of the tree; only needed if there are lights
+    /// at infinity.
     #[inline]
     fn tree_irradiance(&self, ctx: &LightSampleContext) -> f64 {
         if self.infinite.is_empty() {
@@ -79,7 +79,7 @@ impl BvhLightSampler {
         }
     }
 
-    /// One light, and in `prepared` the irradiance by the tree.
+    /// Chooses one light, and stores in `prepared` the irradiance from the tree.
     #[inline]
     fn sample_prepared(
         &self,
@@ -102,7 +102,7 @@ impl BvhLightSampler {
         })
     }
 
-    /// The probability of `light`, where `in_tree` is the irradiance by the tree at `ctx`.
+    /// The probability of `light`, where `in_tree` is the irradiance from the tree at `ctx`.
     #[inline]
     fn pmf_with_infinite(&self, ctx: &LightSampleContext, in_tree: f64, light: LightId) -> f32 {
         if self.infinite.is_empty() {

@@ -5,12 +5,12 @@ use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLights, irradiance};
 use crate::light_sampler::stratum;
 
-/// The lights at one context, by a cut through the tree: several lights are chosen for little more
-/// than one.
+/// A cut through the tree for one context: it makes several choices for little more than the cost
+/// of one.
 ///
 /// Made by [`BvhLightSampler::cut`](crate::BvhLightSampler::cut). Its probabilities are its own:
-/// they are closer to the lights' contributions than those of the sampler, so a light's pmf has to
-/// be asked of the cut that chose it, or of an equal one.
+/// they are closer to the lights' contributions than those of the sampler. The pmf of a choice is
+/// that of the same cut, or of an equal one.
 #[derive(Clone, Debug)]
 pub struct BvhLightCut<'a> {
     tree: &'a LightBvh,
@@ -19,14 +19,14 @@ pub struct BvhLightCut<'a> {
     cut: LightCut,
 }
 
-/// The lights of a sampler by a cut that is kept elsewhere.
+/// The sampler of a borrowed cut.
 #[derive(Clone, Copy)]
 pub(crate) struct CutChoices<'a> {
     tree: &'a LightBvh,
     infinite: &'a InfiniteLights,
     ctx: &'a LightSampleContext,
     cut: &'a LightCut,
-    /// About the irradiance by the tree's lights.
+    /// Estimated irradiance from the lights of the tree.
     in_tree: f64,
 }
 
@@ -55,7 +55,7 @@ impl<'a> BvhLightCut<'a> {
         self.choices().sample(u)
     }
 
-    /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
+    /// Probability that [`sample`](Self::sample) returns `light`, with the same bits.
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
         self.choices().pmf(light)
@@ -69,7 +69,7 @@ impl<'a> BvhLightCut<'a> {
 }
 
 impl<'a> CutChoices<'a> {
-    /// The lights of `tree` and `sky` by the cut that was made for `ctx`.
+    /// The sampler of `tree` and `sky` for the cut made at `ctx`.
     pub(crate) fn new(
         tree: &'a LightBvh,
         infinite: &'a InfiniteLights,

@@ -10,12 +10,12 @@ use crate::LightSampler;
 use crate::first_choice::{FirstChoice, FirstPmf, share};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 
-/// Every light in proportion to its importance, without a hierarchy: exact, and linear in the
+/// Chooses each light in proportion to its importance, without a hierarchy, in time linear in the
 /// number of lights.
 ///
-/// What a tree approximates; for tests, comparisons and a handful of lights. Reads `ctx.ns`.
-/// Without a context lights are chosen in proportion to power. Lights at infinity share one uniform
-/// choice with all others.
+/// A tree approximates its probabilities. For tests, comparisons and a handful of lights. Reads
+/// `ctx.ns`. Without a context lights are chosen in proportion to power. Lights at infinity share
+/// one uniform choice with all others.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.2, as its exhaustive sampler.

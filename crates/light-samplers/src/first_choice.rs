@@ -5,7 +5,7 @@ use light_bounds::SampledLight;
 pub(crate) enum FirstChoice {
     /// A light at infinity, or none.
     Infinite(Option<SampledLight>),
-    /// One of the others: the probability of that, and the unused part of `u`.
+    /// One of the other lights: the probability of this branch, and the unused part of `u`.
     Others { pmf: f32, u: f64 },
 }
 

@@ -8,14 +8,13 @@ use light_math::{direction, float};
 
 use crate::first_choice::{FirstChoice, FirstPmf, share};
 
-/// Cosine that is never taken for less while any light may arrive, and what a test for none of it
-/// leaves to round-off.
+/// Least cosine while any light may arrive, and the rounding margin of the test that none arrives.
 const SLACK: f32 = 1e-5;
 
 /// The lights at infinity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InfiniteLights {
-    /// In ascending order of ids; those without fluence stay out.
+    /// In ascending order of ids, without lights of zero fluence.
     lights: Vec<(LightId, InfiniteBounds)>,
 }
 
@@ -42,7 +41,7 @@ impl InfiniteLights {
         self.lights.is_empty()
     }
 
-    /// The bounds of `light`, if it is one of these.
+    /// The bounds of `light`, if it is at infinity.
     fn get(&self, light: LightId) -> Option<&InfiniteBounds> {
         let at = self.lights.binary_search_by_key(&light, |(id, _)| *id);
         at.ok().map(|index| &self.lights[index].1)
@@ -86,8 +85,8 @@ impl InfiniteLights {
         self.lights.iter().map(|(_, bounds)| weight(bounds)).sum()
     }
 
-    /// The light that `target` falls on, between 0 and the total, with a probability as it is given
-    /// by `pmf`.
+    /// The light whose interval of `[0, total)` contains `target`, with the same probability as
+    /// `pmf`.
     fn choose(
         &self,
         target: f64,
@@ -115,7 +114,8 @@ impl InfiniteLights {
     }
 }
 
-/// About the irradiance at `ctx` by a light at infinity; 0 only if all of it is below the horizon.
+/// Estimated irradiance at `ctx` from a light at infinity; 0 only if all of it is below the
+/// horizon.
 pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f64 {
     f64::from(bounds.fluence) * f64::from(mean_cosine(bounds, ctx))
 }

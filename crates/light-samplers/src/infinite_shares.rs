@@ -5,11 +5,10 @@ use light_bounds::{LightExtent, LightId, SampledLight};
 use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::uniform::choose_uniformly;
 
-/// The choice before any other: each light at infinity has one share, all lights that are somewhere
-/// have one together.
+/// The first choice: each light at infinity has one share, all lights with a position share one.
 ///
 /// `p_infinite = n / (n + 1)` for `n` lights at infinity, or `n / n` when there are no others.
-/// Lights without fluence stay out.
+/// Lights of zero fluence have no share.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3.
@@ -22,7 +21,8 @@ pub(crate) struct InfiniteShares {
 }
 
 impl InfiniteShares {
-    /// The infinite ones of `lights` beside others, if `has_others`; fewer than 2^32.
+    /// The infinite ones of `lights`, fewer than 2^32, and one share for the others if
+    /// `has_others`.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "ids are 32 bits, so there are no more lights"
@@ -75,7 +75,7 @@ impl InfiniteShares {
     }
 }
 
-/// Whether there are lights beside those at infinity.
+/// Whether there are lights with a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HasOthers {
     Yes,

@@ -2,7 +2,7 @@ use crate::PreparedChoices;
 use crate::prepared_choices::Preparation;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 
-/// A way to choose one light of a set at random, with a probability that can be asked for.
+/// Chooses lights of a set at random, with probabilities that can be queried.
 ///
 /// Every `u` is in `[0, 1)`: an `f64`, because the 24 bits of an `f32` cannot address a million
 /// lights. Samplers are immutable and deterministic in their arguments. For any input, and in every
@@ -26,10 +26,10 @@ pub trait LightSampler {
     fn pmf_emitter(&self, light: LightId) -> f32;
 
     /// Calls `each` with `count` lights that may light `ctx`, or fewer: one for each of the equal
-    /// parts of `[0, 1)`, at the place that `u` has within its part.
+    /// parts of `[0, 1)`, at the relative position `u` in each part.
     ///
-    /// A sampler may refine its estimates for several choices. Their probabilities are those of
-    /// [`pmf_many`](Self::pmf_many) for the same `count` then.
+    /// A sampler may refine its estimates for several choices; their probabilities are then those
+    /// of [`pmf_many`](Self::pmf_many) for the same `count`.
     fn sample_many(
         &self,
         ctx: &LightSampleContext,
@@ -51,8 +51,8 @@ pub trait LightSampler {
         self.pmf(ctx, light)
     }
 
-    /// [`sample_many`](Self::sample_many), which keeps in `prepared` what
-    /// [`pmf_many_prepared`](Self::pmf_many_prepared) may need.
+    /// [`sample_many`](Self::sample_many), which also fills `prepared` for
+    /// [`pmf_many_prepared`](Self::pmf_many_prepared).
     fn sample_many_prepared(
         &self,
         ctx: &LightSampleContext,
@@ -65,7 +65,7 @@ pub trait LightSampler {
         self.sample_many(ctx, u, count, each);
     }
 
-    /// [`pmf_many`](Self::pmf_many), to the bit, where `prepared` is that of
+    /// [`pmf_many`](Self::pmf_many), with the same bits, where `prepared` is that of
     /// [`sample_many_prepared`](Self::sample_many_prepared) by the same sampler at the same `ctx`
     /// with the same `count`, or an empty one.
     fn pmf_many_prepared(
@@ -80,8 +80,7 @@ pub trait LightSampler {
     }
 }
 
-/// The number in the `i`th of `count` equal parts of `[0, 1)` at the place that `u` has in the
-/// whole.
+/// The number at the relative position `u` in the `i`th of `count` equal parts of `[0, 1)`.
 pub(crate) fn stratum(i: u32, count: u32, u: f64) -> f64 {
     ((f64::from(i) + u) / f64::from(count)).min(SampledLight::MAX_U)
 }

@@ -6,14 +6,14 @@ use light_math::distribution::{AliasBin, AliasTable, TableError};
 
 use crate::{LightSampler, UniformLightSampler};
 
-/// The least share of the total power with which a light is chosen: its probability must not vanish
-/// by rounding.
+/// Least weight of a light with power, as a share of the total: its probability must not round to
+/// zero.
 const LEAST_SHARE: f64 = 2.0 * f32::MIN_POSITIVE as f64;
 
-/// Strong lights more often, wherever they are.
+/// Chooses each light in proportion to its power.
 ///
 /// 12 bytes a light; a query takes constant time. The baseline for scenes in which every light
-/// reaches every point; lights without power are never chosen, unless all are without.
+/// reaches every point. Lights without power are never chosen, unless no light has power.
 #[derive(Clone, Debug)]
 pub struct PowerLightSampler {
     choice: Choice,
@@ -27,8 +27,8 @@ enum Choice {
 }
 
 impl PowerLightSampler {
-    /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or any
-    /// other common unit, of a spectrum its mean over wavelengths.
+    /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or in
+    /// another common unit; for a spectrum the mean over wavelengths.
     ///
     /// # Errors
     /// A power is negative or not finite, or there are more than 2^32 - 1 lights.
@@ -51,7 +51,7 @@ impl PowerLightSampler {
     }
 }
 
-/// The powers, those above zero but far below the total lifted to [`LEAST_SHARE`] of it.
+/// The powers; positive ones are raised to at least [`LEAST_SHARE`] of the total.
 #[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
 fn lifted(powers: &[f32]) -> Vec<f32> {
     let total: f64 = powers.iter().map(|&power| f64::from(power)).sum();

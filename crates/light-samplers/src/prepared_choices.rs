@@ -1,10 +1,8 @@
 use light_bvh::LightCut;
 
-/// What a sampler prepared for its choices at one context, kept for the probabilities that are
-/// asked there later.
+/// Results of a sampler's choices at one context, kept for probability queries at the same context.
 ///
-/// Filled by [`sample_many_prepared`](crate::LightSampler::sample_many_prepared), whatever it held
-/// before. About 2 KB.
+/// Overwritten by [`sample_many_prepared`](crate::LightSampler::sample_many_prepared). About 2 KB.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(
     not(feature = "alloc"),
@@ -19,7 +17,7 @@ pub struct PreparedChoices {
     pub(crate) cut: LightCut,
 }
 
-/// What is prepared.
+/// Which results are kept.
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(
     not(feature = "alloc"),
@@ -32,7 +30,7 @@ pub(crate) enum Preparation {
     /// Nothing.
     #[default]
     Nothing,
-    /// The irradiance by the tree.
+    /// The irradiance from the tree.
     Tree { in_tree: f64 },
     /// A cut.
     Cut,

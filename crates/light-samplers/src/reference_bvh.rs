@@ -6,8 +6,8 @@ use crate::LightSampler;
 use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 
-/// The published way to use a light hierarchy: lights at infinity share one uniform choice with the
-/// reference tree.
+/// The light hierarchy as published: lights at infinity and the reference tree share one uniform
+/// choice.
 ///
 /// Reads `ctx.ns`. Without a context, lights of the tree are chosen in proportion to power. 68
 /// bytes a light; a query takes two importances a level.
@@ -38,7 +38,7 @@ impl ReferenceBvhLightSampler {
         })
     }
 
-    /// The tree of the lights that are somewhere.
+    /// The tree of the lights with a position.
     #[must_use]
     pub const fn tree(&self) -> &ReferenceLightBvh {
         &self.tree

@@ -2,17 +2,17 @@ use light_bounds::{LightId, LightSampleContext, SampledLight};
 
 use crate::LightSampler;
 
-/// Every light alike, wherever and however strong it is.
+/// Chooses all lights with equal probability.
 ///
 /// Needs no memory; a query takes constant time. The baseline: noise grows with the number of
-/// lights that do not matter.
+/// lights that do not contribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformLightSampler {
     count: u32,
 }
 
 impl UniformLightSampler {
-    /// A sampler of the lights `0..count`; one that only returns `None` if `count` is 0.
+    /// A sampler of the lights `0..count`; always returns `None` if `count` is 0.
     #[must_use]
     pub const fn new(count: u32) -> Self {
         Self { count }
@@ -51,8 +51,8 @@ impl LightSampler for UniformLightSampler {
     }
 }
 
-/// One of the numbers `0..count`, each as likely, and the unused part of `u`; `None` if `count` is
-/// 0.
+/// One of the numbers `0..count`, with equal probability, and the unused part of `u`; `None` if
+/// `count` is 0.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,

@@ -1,5 +1,5 @@
-//! The choice between the tree and the sky follows lights that change, and is the same in every way
-//! to ask.
+//! The choice between the tree and the lights at infinity follows a refit, and every method gives
+//! the same probabilities.
 #![cfg(feature = "alloc")]
 
 #[path = "support/lamp_over_floor.rs"]
@@ -104,7 +104,7 @@ fn many_lamps() -> Vec<LightExtent> {
     lamps.collect()
 }
 
-/// A cut looks closer than a single choice does, so that the two have different probabilities.
+/// A cut is more precise than a single choice, so that the two have different probabilities.
 #[test]
 fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
     let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
@@ -121,7 +121,7 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
     assert!(differ > 100, "a cut of 16 differs for {differ} lights");
 }
 
-/// Whatever was looked at gives the probabilities of the choices that were made with it.
+/// Prepared choices give the probabilities of the choices that filled them.
 #[test]
 fn many_lamps_have_the_pmf_of_their_choices() {
     let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");

@@ -1,4 +1,4 @@
-//! Every sampler of this crate keeps the laws of light samplers.
+//! Every sampler of this crate obeys the laws of light samplers.
 
 use light_bvh::{CutDetail, LightBvhOptions};
 use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
@@ -39,12 +39,12 @@ light_testkit::sampler_laws! {
         |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::FAST).expect("valid bounds")
     }
 
-    /// The default hierarchy with places for lights that are off.
+    /// The default hierarchy, built with lights that are off.
     mod bvh_dynamic {
         |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::DYNAMIC).expect("valid bounds")
     }
 
-    /// The default hierarchy, after all lights changed places.
+    /// The default hierarchy, refitted after lights have swapped positions.
     mod bvh_refitted {
         |set| {
             let mut sampler = BvhLightSampler::with(&exchanged(set), &LightBvhOptions::DYNAMIC)
@@ -54,7 +54,7 @@ light_testkit::sampler_laws! {
         }
     }
 
-    /// The default hierarchy, asked for surfaces that transmit light.
+    /// The default hierarchy at surfaces that transmit light.
     mod bvh_two_sided {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
@@ -62,7 +62,7 @@ light_testkit::sampler_laws! {
         )
     }
 
-    /// The default hierarchy, asked for surfaces that mirror.
+    /// The default hierarchy at glossy surfaces.
     mod bvh_glossy {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
@@ -73,7 +73,7 @@ light_testkit::sampler_laws! {
         )
     }
 
-    /// The default hierarchy, asked for ray segments.
+    /// The default hierarchy for ray segments.
     mod bvh_segment {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
@@ -98,8 +98,7 @@ fn exchanged(set: &LightSet) -> Vec<LightExtent> {
     extents.iter().map(other).collect()
 }
 
-/// Choices from a closer prepared, with the probabilities that several choices of one call have by
-/// it.
+/// Several choices of one call, with the probabilities of the prepared choices.
 struct OfCut(BvhLightSampler);
 
 impl LightSampler for OfCut {
@@ -125,7 +124,7 @@ impl LightSampler for OfCut {
     }
 }
 
-/// Another question wherever a context is given.
+/// A sampler that changes every context before it uses it.
 struct Asked<S>(S, fn(&LightSampleContext) -> LightSampleContext);
 
 impl<S: LightSampler> LightSampler for Asked<S> {
