@@ -3,12 +3,12 @@ use crate::ray::{Ray, Span};
 use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_sources::{ColorModel, Radiance};
 
-/// What became of light that was followed through a medium.
+/// The result of following a path through a medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight<R> {
-    /// Where it scatters; `None` when it reaches the end of the span.
+    /// Distance at which it scatters; `None` when it reaches the end of the span.
     pub scattered_at: Option<f32>,
-    /// What the path's throughput is to be multiplied by.
+    /// Factor for the throughput of the path.
     pub weight: R,
     /// Radiance emitted by the medium along the way, seen from the start.
     pub emitted: R,
@@ -16,10 +16,10 @@ pub struct Flight<R> {
 
 /// Follows a path of throughput `beta` along `ray` to the point where it scatters, or through
 /// `span`. Unbiased in every channel, also where the extinction differs from channel to channel.
-/// Absorption is in the weight; it ends no path.
+/// Absorption lowers the weight; it ends no path.
 ///
-/// A collision is real or null in proportion to what either leaves of the throughput, so that
-/// weights stay near 1. `next_u` gives independent numbers in `[0, 1)`.
+/// A collision is real or null with probabilities in proportion to the throughput after either, so
+/// that weights stay near 1. `next_u` gives independent numbers in `[0, 1)`.
 ///
 /// # Source
 /// Weighted tracking after `[Novak2014]`; the choice by throughput follows `[Kutz2017]`, section
@@ -54,7 +54,7 @@ pub fn delta_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
             flight.weight = C::Radiance::BLACK;
             return flight;
         }
-        // An event so improbable that its weight overflows never happens.
+        // An event whose weight overflows has a negligible probability and is skipped.
         let is_possible = (total / p_real).is_finite();
         if next_u() * total < p_real && is_possible {
             flight.weight = real * (total / p_real);

@@ -4,18 +4,18 @@ use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
 use light_sources::{ColorModel, Radiance};
 
-/// What a medium does to a ray through it. A surface at the end that sends `lo` is seen as
-/// `lo * transmittance + l`.
+/// Radiance and transmittance along a ray through a medium: with the radiance `lo` at the end of
+/// the ray, `lo * transmittance + l` arrives at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeLight<R> {
-    /// Radiance that the medium adds, in W m^-2 sr^-1.
+    /// Radiance added by the medium, in W m^-2 sr^-1.
     pub l: R,
-    /// Share of the light from beyond that is left.
+    /// Transmittance of the whole span.
     pub transmittance: R,
 }
 
 impl<R: Radiance> VolumeLight<R> {
-    /// A ray that meets no medium.
+    /// The values of a ray through vacuum.
     #[must_use]
     pub fn vacuum() -> Self {
         Self {
@@ -26,10 +26,10 @@ impl<R: Radiance> VolumeLight<R> {
 }
 
 /// The radiance that a medium emits along `span` toward the start of `ray`, in W m^-2 sr^-1, and
-/// the transmittance of the span; what the medium scatters is left out.
+/// the transmittance of the span; without in-scattering.
 ///
-/// Marches in equal steps from one random offset, in the manner of the first two editions of the
-/// pbrt book. `next_u` gives independent numbers in `[0, 1)`.
+/// Marches in equal steps from one random offset, as the first two editions of the pbrt book
+/// do. `next_u` gives independent numbers in `[0, 1)`.
 ///
 /// # Source
 /// `[PBRT4]`, equation 14.1 without its in-scattering term.

@@ -7,35 +7,34 @@ use light_math::glam::{Vec2, Vec3};
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Light, LightSet, LightType, PdfCoverage, Radiance};
 
-/// What the integrators must know of the geometry.
+/// The visibility queries of the integrators.
 pub trait Visibility {
-    /// Whether nothing opaque lies between two points; a surface that one of them lies on does not
-    /// count.
+    /// Whether nothing opaque lies between two points. Surfaces through either point are ignored.
     fn unoccluded(&self, from: Vec3, to: Vec3) -> bool;
 }
 
-/// Everything that light scattered in a medium depends on but the ray: the medium, the lights, a
-/// way to choose one of them, and what stands in their way.
+/// The inputs of single scattering other than the ray: the medium, the lights, a sampler of them,
+/// and the visibility of the scene.
 #[derive(Debug)]
 pub struct VolumeIntegrator<'a, C: ColorModel, M: ?Sized, S: ?Sized, V: ?Sized> {
     /// The medium that scatters.
     pub medium: &'a M,
     /// The lights.
     pub lights: &'a LightSet<C>,
-    /// Chooses among them, by their ids.
+    /// Chooses lights by their ids.
     pub sampler: &'a S,
-    /// Hides them.
+    /// Visibility between points.
     pub scene: &'a V,
-    /// What colours are asked for.
+    /// The wavelengths of the query.
     pub wavelengths: &'a C::Wavelengths,
-    /// Steps of marches along a ray.
+    /// Step length of marches along the ray.
     pub step: StepSize,
-    /// Steps of marches between ray and light, which may be coarser; only media without closed
-    /// forms need them.
+    /// Step length of marches between ray and light, which may be larger; used only for media
+    /// without a closed form.
     pub shadow_step: StepSize,
 }
 
-/// A point in a medium at which light is scattered toward the eye.
+/// A point in a medium that scatters light toward the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringPoint {
     /// The point.
@@ -51,13 +50,12 @@ where
     S: LightSampler + ?Sized,
     V: Visibility + ?Sized,
 {
-    /// One-sample estimate of the light that arrives at a point straight from the lights and is
-    /// scattered toward the eye, per unit of the scattering coefficient: the integral of phase
-    /// function times radiance, in W m^-2 sr^-1.
+    /// One-sample estimate of the direct light at a point that is scattered toward the eye, per
+    /// unit of the scattering coefficient: the integral of phase function times radiance, in W m^-2
+    /// sr^-1.
     ///
-    /// `u_light` chooses a light, by whose probability the estimate is divided, `u` in `[0, 1)^2`
-    /// the point on it. Occlusion and the attenuation between light and point are taken into
-    /// account.
+    /// `u_light` in `[0, 1)` chooses a light, `u` in `[0, 1)^2` the point on it. The estimate is
+    /// divided by the probability of the light, and includes occlusion and attenuation.
     pub fn in_scattered(
         &self,
         at: ScatteringPoint,
@@ -74,7 +72,7 @@ where
         }
     }
 
-    /// The same from one given light, without its probability.
+    /// The same for one given light, not divided by its probability.
     pub fn scattered_from(
         &self,
         light: LightId,
@@ -85,8 +83,8 @@ where
         self.weighted_from(light, at, u, |_, _| 1.0, next_u)
     }
 
-    /// The same, times a weight of the densities of the direction by the light and by the phase
-    /// function, in sr^-1; Dirac lights, which no other strategy finds, have the weight 1.
+    /// The same, times an MIS weight of the densities of the direction by the light and by the
+    /// phase function, in sr^-1. Dirac lights, which only light sampling finds, have weight 1.
     pub(crate) fn weighted_from(
         &self,
         light: LightId,
@@ -116,7 +114,7 @@ where
         let ray = Ray { o: at.p, d: li.wi };
         let distance = match light.light_type() {
             LightType::DeltaPosition | LightType::Area => at.p.distance(li.p_light),
-            // Fog without end lets nothing through from infinity.
+            // An unbounded medium lets nothing through from infinity.
             LightType::DeltaDirection | LightType::Infinite => f32::INFINITY,
         };
         let left = match Span::new(0.0, distance) {

@@ -1,10 +1,10 @@
 use crate::ray::Span;
 
-/// The length of the steps in which a march through a medium goes, in scene units.
+/// The step length of a march through a medium, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepSize(f32);
 
-/// Why a step size is refused.
+/// Why a step size is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StepSizeError {
@@ -13,8 +13,7 @@ pub enum StepSizeError {
 }
 
 impl StepSize {
-    /// More steps than this are never taken: what lies beyond them, on a ray without end, is left
-    /// out.
+    /// The most steps of a march; the part of an unbounded ray beyond them is ignored.
     pub const MAX_STEPS: u32 = 1 << 16;
 
     /// Steps of the given length.

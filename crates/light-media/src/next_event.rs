@@ -13,7 +13,7 @@ use light_math::warp::Equiangular;
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Light, Radiance};
 
-/// The optical thickness beyond which nothing is looked for: what lies there is below 1e-8.
+/// Optical thickness beyond which the ray is cut off: the transmittance there is below 1e-8.
 const OPAQUE: f32 = 20.0;
 
 impl<C, M, S, V> VolumeIntegrator<'_, C, M, S, V>
@@ -26,14 +26,14 @@ where
     /// The radiance that the medium emits and scatters once toward the start of a ray, from
     /// `samples` points.
     ///
-    /// Where [`single_scattering`](Self::single_scattering) marches, this asks for light. The
-    /// sampler chooses all lights in one call, for the ray as a whole. Each then gets a point of
-    /// the ray: half of them even in the angle under which the light sees the ray, half in
-    /// proportion to the transmittance, weighted by the balance heuristic. Unbiased where the
+    /// Unlike [`single_scattering`](Self::single_scattering), which marches, this samples lights.
+    /// The sampler chooses all lights in one call, for the whole ray. Each light then gets a point
+    /// of the ray: half of the points are equiangular about the light, half in proportion to the
+    /// transmittance, weighted by the balance heuristic. Unbiased where the
     /// transmittance has a closed form. `next_u` gives independent numbers in `[0, 1)`.
     ///
     /// # Source
-    /// `[Kulla2012]`, sections 4 and 5. Choosing the lights for the ray as a whole is ours.
+    /// `[Kulla2012]`, sections 4 and 5. Choosing the lights for the whole ray is not in the paper.
     pub fn next_event(
         &self,
         ray: &Ray,
@@ -60,7 +60,7 @@ where
         let numbers = LatinHypercube::new(samples, seed);
         let mut sum = C::Radiance::BLACK;
 
-        // Emission, where the medium is seen.
+        // Emission, at points in proportion to the transmittance.
         for i in 0..numbers.len() {
             let [_, _, _, u] = numbers.point_f32(i);
             let x = dying.sample(u);
@@ -72,7 +72,7 @@ where
             }
         }
 
-        // Scattering, where the lights are.
+        // Scattering, at points for each light.
         let context = LightSampleContext::segment(ray.at(part.t0), ray.d * part.length());
         let (mut i, u) = (0, f64::from(next_u()));
         self.sampler
@@ -117,8 +117,7 @@ where
         }
     }
 
-    /// The part of a ray's way through the medium that is worth a look, and how light dies out
-    /// along it.
+    /// The part of a ray in the medium before the cut-off, and the transmittance along it.
     fn reach(&self, ray: &Ray, whole: Span, through: C::Radiance) -> (Span, TruncatedExponential) {
         let (part, rate) = if whole.t1.is_finite() {
             let thickness = -float::ln(through.average().max(f32::MIN_POSITIVE));
@@ -141,8 +140,7 @@ where
         (part, TruncatedExponential::new(rate, part.length()))
     }
 
-    /// The part of a ray, evenly in the angle under which a light sees it; `None` for lights at
-    /// infinity.
+    /// The equiangular distribution along the ray about a light; `None` for lights at infinity.
     fn seen_from(&self, light: LightId, ray: &Ray, part: Span) -> Option<Equiangular> {
         let to_light: Vec3 = self.lights.get(light)?.bounds()?.centroid() - ray.o;
         Equiangular::new(to_light, ray.d, part.t0, part.t1)

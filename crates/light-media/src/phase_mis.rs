@@ -8,18 +8,18 @@ use light_math::mis;
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Light, PdfCoverage, Radiance, SurfacePoint};
 
-/// What the integrators must know of the geometry to find lights by the way the medium scatters.
+/// The ray query with which phase function samples find lights.
 pub trait Intersection: Visibility {
-    /// What a ray from a point of the medium in the unit direction `wi` meets first.
+    /// The first hit of a ray from a point of the medium in the unit direction `wi`.
     fn first(&self, from: Vec3, wi: Vec3) -> FirstHit;
 }
 
-/// What a ray meets first.
+/// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FirstHit {
     /// A point of a light with a surface.
     Light(LightId, SurfacePoint),
-    /// Something that does not shine.
+    /// A surface without emission.
     Dark,
     /// Nothing: the ray leaves the scene.
     Nothing,
@@ -28,11 +28,11 @@ pub enum FirstHit {
 /// The random numbers of [`VolumeIntegrator::in_scattered_mis`], each in `[0, 1)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringNumbers {
-    /// Which light.
+    /// Chooses the light.
     pub light: f64,
-    /// Where on it.
+    /// Chooses the point on it.
     pub point: Vec2,
-    /// Which direction of the phase function.
+    /// Chooses the direction of the phase function.
     pub direction: Vec2,
 }
 
@@ -44,8 +44,8 @@ where
     V: Intersection + ?Sized,
 {
     /// The same as [`in_scattered`](Self::in_scattered), from two samples: one of a light, one of
-    /// the phase function, each weighted by the power heuristic. It pays for large lights and phase
-    /// functions with a peak.
+    /// the phase function, each weighted by the power heuristic. Reduces noise for large lights and
+    /// peaked phase functions.
     ///
     /// # Source
     /// `[Veach1997]`, section 9.2.

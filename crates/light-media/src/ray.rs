@@ -1,7 +1,7 @@
 use light_math::glam::{Affine3A, Vec3};
 
-/// A ray through media: the points `o + t d`. The direction need not have unit length where a
-/// transform has touched it; `t` then still counts lengths of the scene.
+/// A ray through media: the points `o + t d`. In a transformed space the direction
+/// may have another length than 1; `t` is still a distance in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin, the point at `t = 0`.
@@ -39,21 +39,21 @@ pub struct Span {
 }
 
 impl Span {
-    /// The span from `t0` to `t1`; `None` when it holds no length or an end is NaN.
+    /// The span from `t0` to `t1`; `None` when it is empty or an end is NaN.
     #[must_use]
     pub fn new(t0: f32, t1: f32) -> Option<Self> {
         (t0 < t1).then_some(Self { t0, t1 })
     }
 
-    /// Its length; the largest finite number for a span without end, so that no light is lost over
-    /// it where nothing is absorbed.
+    /// Its length; the largest finite number for an unbounded span, so that its transmittance in
+    /// vacuum is 1.
     #[inline]
     #[must_use]
     pub fn length(&self) -> f32 {
         (self.t1 - self.t0).min(f32::MAX)
     }
 
-    /// The part that both have in common; `None` when that holds no length.
+    /// The intersection of both; `None` when it is empty.
     #[must_use]
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         Self::new(self.t0.max(other.t0), self.t1.min(other.t1))

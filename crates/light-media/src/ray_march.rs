@@ -4,7 +4,7 @@ use crate::ray::{Ray, Span};
 use crate::transmittance;
 use light_sources::{ColorModel, Radiance};
 
-/// Below this transmittance a march goes on with probability one half.
+/// Below this transmittance a march continues with probability 1/2.
 const ROULETTE_BELOW: f32 = 1e-3;
 
 /// A march along a ray through a medium: equal steps, one random offset for all of them, the
@@ -53,7 +53,7 @@ impl<'a, C: ColorModel, M: Medium<C> + ?Sized> RayMarch<'a, C, M> {
     }
 
     /// The distance of the next point and the transmittance up to it; `None` at the end, or when
-    /// the march gave up.
+    /// roulette ended the march.
     pub(crate) fn next_point(
         &mut self,
         next_u: &mut impl FnMut() -> f32,
@@ -65,7 +65,7 @@ impl<'a, C: ColorModel, M: Medium<C> + ?Sized> RayMarch<'a, C, M> {
         self.next += 1;
         self.advance(t, next_u);
         if self.transmittance.maximum() < ROULETTE_BELOW {
-            // Light that hardly arrives is dropped half of the time, and counts twice otherwise.
+            // Roulette: half of the marches end, the others count twice.
             let survives = next_u() < 0.5;
             self.transmittance = self.transmittance * if survives { 2.0 } else { 0.0 };
         }

@@ -2,8 +2,8 @@ use crate::ray::{Ray, Span};
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Quat, Vec3};
 
-/// Where a medium is: in a box of its own space, or wherever the scene says (inside of a shape,
-/// everywhere).
+/// The region of a medium: a box in its own space, or unbounded, where the scene encloses it by
+/// shapes or not at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Region {
@@ -11,7 +11,7 @@ pub struct Region {
     bounds: Option<Aabb>,
 }
 
-/// Why a region is refused.
+/// Why a region is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RegionError {
@@ -22,14 +22,14 @@ pub enum RegionError {
 }
 
 impl Region {
-    /// No bounds of its own: the scene's shapes, or nothing, enclose the medium.
+    /// The unbounded region.
     pub const UNBOUNDED: Self = Self {
         from_scene: Affine3A::IDENTITY,
         bounds: None,
     };
 
-    /// The box `bounds` of a space that `to_scene` takes to the scene. Any transform with an
-    /// inverse will do.
+    /// The box `bounds` of a space that `to_scene` takes to the scene. The transform must be
+    /// invertible.
     ///
     /// # Errors
     /// The box is empty or not finite, or the transform is not finite or has no inverse.
@@ -48,7 +48,7 @@ impl Region {
     }
 
     /// The box `bounds` of a space that `to_scene` takes to the scene, with the unit cube as its
-    /// own space: grids are then looked up without another change of space.
+    /// own space, so that grid lookups need no other transform.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform is not finite or has no inverse.

@@ -15,16 +15,16 @@ where
     S: LightSampler + ?Sized,
     V: Visibility + ?Sized,
 {
-    /// The radiance that the medium emits and scatters once toward the start of a ray: the classic
-    /// march.
+    /// The radiance that the medium emits and scatters once toward the start of a ray, by ray
+    /// marching.
     ///
     /// Equal steps from one random offset; at each point one light, chosen by the sampler, whose
     /// estimate is divided by its probability. The choices of lights and of points on them come
-    /// from a Latin hypercube that is drawn anew for the ray, by `seed`. `next_u` gives independent
+    /// from a Latin hypercube for the ray, drawn with `seed`. `next_u` gives independent
     /// numbers in `[0, 1)`.
     ///
     /// # Source
-    /// `[PBRT4]`, equation 14.1 with light that was scattered once; `[PBRT2]`, section 16.3.
+    /// `[PBRT4]`, equation 14.1 with single scattering; `[PBRT2]`, section 16.3.
     pub fn single_scattering(
         &self,
         ray: &Ray,

@@ -4,7 +4,7 @@
 /// A point is computed from its number, so nothing is stored. The same seed gives the same points.
 ///
 /// # Source
-/// The permutation by hashing is that of `[Kensler2013]`, section 3, with its turn at the end.
+/// The permutation by hashing is that of `[Kensler2013]`, section 3, with its final rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatinHypercube {
     n: u32,
@@ -18,13 +18,13 @@ impl LatinHypercube {
         Self { n: n.max(1), seed }
     }
 
-    /// How many points it has.
+    /// The number of points.
     #[must_use]
     pub const fn len(&self) -> u32 {
         self.n
     }
 
-    /// Never true: there is always a point.
+    /// Always false: there is at least one point.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         false
@@ -82,8 +82,8 @@ fn permute(i: u32, n: u32, key: u32) -> u32 {
             break;
         }
     }
-    // Few rounds on few bits favour some places; turned by a random number of them, every place is
-    // as likely.
+    // A few rounds on few bits favour some positions; a random rotation makes all of them equally
+    // likely.
     let turn = (u64::from(hash(!key)) * u64::from(n)) >> 32;
     ((u64::from(x) + turn) % u64::from(n)) as u32
 }
@@ -143,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Hashes of different numbers differ: no two points stand at the same place of their slabs.
+    /// Hashes of different numbers differ: no two points have the same offset in their slabs.
     #[test]
     fn each_point_has_a_place_of_its_own_in_its_slab() {
         for seed in 0..16 {
@@ -175,8 +175,8 @@ mod tests {
         assert!(!cube.is_empty(), "never");
     }
 
-    /// Over many seeds each point alone is anywhere in `[0, 1)^3`, whatever its number: choices
-    /// that go with the number would be biased otherwise.
+    /// Over many seeds each point is uniform in `[0, 1)^3`, whatever its number: choices that
+    /// depend on the number would be biased otherwise.
     #[test]
     fn every_point_is_uniform_over_seeds() {
         use light_testkit::{Rng, chi_squared, kolmogorov_smirnov_uniform};

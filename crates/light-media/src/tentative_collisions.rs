@@ -2,16 +2,15 @@ use crate::medium::{MajorantSegment, Majorants};
 use light_math::float;
 use light_sources::Radiance;
 
-/// The places along a ray at which light may collide with a medium that is as dense as its bounds
-/// say: a Poisson process with the majorant for its rate. Trackers decide at each of them whether
-/// the collision is real.
+/// The tentative collisions along a ray: a Poisson process with the majorant as its rate. Trackers
+/// decide at each of them whether the collision is real.
 #[derive(Clone, Debug)]
 pub(crate) struct TentativeCollisions<'a> {
     segments: Majorants<'a>,
     here: Option<MajorantSegment>,
 }
 
-/// One of them.
+/// A tentative collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Collision {
     /// Distance along the ray.
@@ -28,15 +27,15 @@ impl<'a> TentativeCollisions<'a> {
 
     /// The next collision; `None` when the ray leaves the last segment first.
     ///
-    /// One number in `[0, 1)` decides, however many segments the flight crosses: it stands for the
-    /// optical thickness that the flight may use up.
+    /// One random number is enough for any number of segments: it gives the optical thickness at
+    /// which the collision happens.
     pub(crate) fn next(&mut self, next_u: &mut impl FnMut() -> f32) -> Option<Collision> {
         self.here?;
         let mut thickness = -float::ln(1.0 - next_u());
         while let Some(MajorantSegment { span, sigma_maj }) = &mut self.here {
             let crossed = *sigma_maj * span.length();
-            // Weights are over the bound, which has no reciprocal where it is subnormal: nothing
-            // happens there.
+            // Weights are divided by the bound; the reciprocal of a subnormal one overflows:
+            // nothing happens there.
             if thickness < crossed && *sigma_maj >= f32::MIN_POSITIVE {
                 // The quotient is at most the length, also when rounded.
                 let t = span.t0 + thickness / *sigma_maj;
@@ -53,8 +52,7 @@ impl<'a> TentativeCollisions<'a> {
     }
 }
 
-/// The share of a majorant that an extinction leaves: the probability that a tentative collision is
-/// none.
+/// One minus extinction over majorant: the probability of a null collision.
 #[inline]
 pub(crate) fn null_share<R: Radiance>(sigma_t: R, sigma_maj: f32) -> R {
     (sigma_t * (-1.0 / sigma_maj)).map(|x| (1.0 + x).max(0.0))
@@ -86,7 +84,7 @@ mod tests {
         assert_eq!(collisions.next(&mut || 0.999_999_9), None, "nothing there");
     }
 
-    /// Numbers that use up all of a segment but for a rounding.
+    /// Numbers that reach the end of a segment up to rounding.
     #[test]
     fn collisions_stay_in_their_segment() {
         let mut rng = light_testkit::Rng::new(71);

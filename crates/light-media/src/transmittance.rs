@@ -1,4 +1,4 @@
-//! The share of light that is left at the end of a span: exact, marched, or tracked.
+//! Transmittance of a span: in closed form, by marching, or by ratio tracking.
 
 use crate::march::StepSize;
 use crate::medium::Medium;
@@ -7,7 +7,7 @@ use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_math::float;
 use light_sources::{ColorModel, Radiance};
 
-/// The transmittance where the medium knows it in closed form.
+/// The transmittance in closed form, if the medium has one.
 pub fn closed_form<C: ColorModel, M: Medium<C> + ?Sized>(
     medium: &M,
     ray: &Ray,
@@ -22,8 +22,8 @@ pub fn closed_form<C: ColorModel, M: Medium<C> + ?Sized>(
         .map(attenuation)
 }
 
-/// The transmittance by the extinction at one point of each step, at the same `jitter` in `[0, 1)`
-/// in all of them. Consistent, but biased: the exponential of an estimate.
+/// The transmittance by the extinction at one point of each step, at the same offset `jitter` in
+/// `[0, 1)` in all of them. Consistent, but biased: the exponential of an estimate.
 pub fn march<C: ColorModel, M: Medium<C> + ?Sized>(
     medium: &M,
     ray: &Ray,
@@ -75,7 +75,7 @@ pub fn ratio_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
     while let Some(Collision { t, sigma_maj }) = collisions.next(next_u) {
         let here = medium.coefficients(ray.at(t), wavelengths);
         left = left * null_share(here.sigma_t(), sigma_maj);
-        // Light that is nearly all gone lives on with probability 1/2.
+        // Roulette: a small transmittance survives with probability 1/2.
         if left.maximum() < 1e-3 {
             if next_u() < 0.5 {
                 return C::Radiance::BLACK;

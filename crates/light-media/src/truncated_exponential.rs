@@ -1,7 +1,7 @@
 use light_math::float::{exp, ln};
 
-/// Distances from 0 to `length` with density in proportion to `exp(-rate x)`: how light dies out
-/// along a ray.
+/// Distances from 0 to `length` with density in proportion to `exp(-rate x)`, as the transmittance
+/// of a homogeneous medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TruncatedExponential {
     rate: f32,
@@ -11,8 +11,8 @@ pub(crate) struct TruncatedExponential {
 }
 
 impl TruncatedExponential {
-    /// Below this optical thickness the density is as good as constant, and the formulas would
-    /// cancel.
+    /// Below this optical thickness the density is nearly constant, and the formulas would lose
+    /// digits by cancellation.
     const THIN: f32 = 1e-3;
 
     /// The distribution with `rate >= 0` over a finite `length > 0`.

@@ -1,4 +1,4 @@
-//! Marches and trackers against what can be said in closed form or by quadrature.
+//! Marches and trackers against closed forms and quadrature.
 
 #![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 

@@ -1,4 +1,5 @@
-//! Outside of a medium, at the ends of a span, in the dark: the cases that no mean shows.
+//! Points outside of a medium, ends of a span, zero emission: cases that tests of means do not
+//! cover.
 
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Quat, Vec3};
@@ -50,7 +51,7 @@ fn nothing_is_lost_outside_of_a_medium() {
     assert_eq!(seen.l, Vec3::ZERO, "black");
 }
 
-/// Where a medium only absorbs, a collision leaves nothing of a flight.
+/// In a purely absorbing medium, a collision has weight 0.
 #[test]
 fn an_absorber_leaves_all_or_nothing() {
     let medium = medium(Vec3::splat(0.8), Vec3::ZERO, Region::UNBOUNDED);

@@ -1,5 +1,5 @@
-//! Light that is asked for along a ray: unequal lights, glow, opaque media, and what stratification
-//! is worth.
+//! Next-event scattering along a ray: unequal lights, emission, opaque media, and the gain by
+//! stratification.
 
 #![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 

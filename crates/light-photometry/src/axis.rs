@@ -3,12 +3,12 @@ use alloc::vec::Vec;
 
 use light_math::float;
 
-/// Ascending angles in degrees at which something was measured, with straight lines in between.
+/// Ascending angles in degrees of measured values, with linear interpolation between them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis(Vec<f32>);
 
-/// A place between two angles: `1 - t` of the value at index `below`, `t` of the one at index
-/// `above`.
+/// Weights of linear interpolation: `1 - t` for the value at index `below`, `t` for the one at
+/// index `above`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Between {
     pub(super) below: usize,
@@ -16,7 +16,7 @@ pub(super) struct Between {
     pub(super) t: f32,
 }
 
-/// How much solid angle an axis adds to a step.
+/// The factor of an axis in the solid angle of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     /// The step itself: around a pole.
@@ -28,7 +28,7 @@ pub(super) enum Measure {
 }
 
 impl Axis {
-    /// An axis of at least one angle; none if they do not ascend.
+    /// An axis of at least one angle; `None` if they do not ascend.
     pub(super) fn new(angles: Vec<f32>) -> Option<Self> {
         let ascend = angles.windows(2).all(|pair| pair[0] < pair[1]);
         (ascend && !angles.is_empty()).then_some(Self(angles))
@@ -46,7 +46,7 @@ impl Axis {
         self.0[self.0.len() - 1]
     }
 
-    /// Where `degrees` lies; none beyond the ends, but for what rounding may do.
+    /// The interpolation at `degrees`; `None` beyond the ends, with a margin for rounding.
     pub(super) fn place(&self, degrees: f32) -> Option<Between> {
         const ROUNDING: f32 = 1e-3;
         if !(degrees >= self.first() - ROUNDING && degrees <= self.last() + ROUNDING) {
@@ -67,8 +67,8 @@ impl Axis {
         Some(Between { below, above, t })
     }
 
-    /// What the value at each angle counts in the integral over the axis, of the straight lines and
-    /// exactly.
+    /// The weight of the value at each angle in the exact integral of the linear interpolation over
+    /// the axis.
     pub(super) fn weights(&self, measure: Measure) -> Vec<f64> {
         let mut weights = vec![0.0; self.0.len()];
         for (i, pair) in self.0.windows(2).enumerate() {
@@ -93,16 +93,16 @@ pub(super) fn full_turn(degrees: f32) -> f32 {
     if rest < 0.0 { rest + 360.0 } else { rest }
 }
 
-/// The integrals of the sine times the lines that fall, and rise, between 0 and 1 over the angles
-/// from `half` before to `half` after the angle with this `sin` and `cos`; `half` is at most a
-/// right angle.
+/// The integrals of the sine times the linear functions that fall and rise between 0 and 1, over
+/// the angles from `half` before to `half` after the angle with this `sin` and `cos`; `half` is at
+/// most a right angle.
 ///
 /// The integral of the sine is `2 sin sin(half)`, its first moment about the middle
 /// `2 cos (sin(half) - half cos(half))`.
 fn sine_weights(sin: f32, cos: f32, half: f32) -> (f32, f32) {
     let (sin_half, cos_half) = float::sin_cos(half);
     let tilt = if half < 0.5 {
-        // The difference of the two terms would lose its digits: the first terms of its series, by
+        // The difference of the two terms would lose digits: the first terms of its series, by
         // Horner's rule.
         let x = half * half;
         x * (1.0 / 3.0 - x * (1.0 / 30.0 - x * (1.0 / 840.0 - x * (1.0 / 45_360.0))))

@@ -1,7 +1,7 @@
 use alloc::string::String;
 use core::fmt::{self, Write};
 
-/// What is wrong with a photometric text, or was ignored in it, and where.
+/// An error or a warning about a photometric text, with its line.
 ///
 /// Its display is one line: `line 7: expected ...`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -9,9 +9,9 @@ pub struct Diagnostic {
     /// The file that `TILT=` names, if the message is about that file; otherwise it is about the
     /// text itself.
     pub tilt_file: Option<String>,
-    /// The line, the first is 1; none for a message about the whole text.
+    /// The line, counted from 1; `None` for a message about the whole text.
     pub line: Option<usize>,
-    /// What is wrong there, and what was expected.
+    /// What was expected, and what was found.
     pub message: String,
 }
 
@@ -56,7 +56,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Names that files give may hold anything: control characters would break the line.
+/// Names from files may contain control characters, which would break the line.
 fn print(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     let printable = |c: char| if c.is_control() { '?' } else { c };
     text.chars()
@@ -66,7 +66,7 @@ fn print(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
 
 impl core::error::Error for Diagnostic {}
 
-/// A word as a message shows it: not longer than a line has room for.
+/// A word for a message, shortened if it is long.
 pub(crate) fn shown(word: &str) -> String {
     const LONGEST: usize = 40;
     let mut short: String = word.chars().take(LONGEST).collect();

@@ -9,7 +9,7 @@ use super::{Luminaire, LuminaireFormat, PhotometricWeb, PhotometricWebError, Web
 
 /// The luminaire in the text of a EULUMDAT file.
 ///
-/// Its planes are those of a [`WebType::C`]. Intensities are stated for 1000 lm of lamps and are
+/// Its planes are of type [`WebType::C`]. Intensities are stated for 1000 lm of lamps and are
 /// scaled by those of the first set of lamps; further sets are ignored with a warning.
 ///
 /// # Errors
@@ -84,7 +84,7 @@ pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
             }
             values.push(value);
         }
-        // Planes from C270 over C0 to C90 are those from 90 to 270 with the mirror the other way
+        // Planes from C270 over C0 to C90 are those from 90 to 270, mirrored the other way
         // round.
         let angle = match symmetry {
             1 => 0.0,
@@ -128,8 +128,8 @@ pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
     Ok(luminaire)
 }
 
-/// The planes whose intensities a file holds, by index of their angles; none where their number
-/// does not suit the symmetry. Symmetry 3, to the plane of C90 and C270, holds those from C270 over
+/// The planes whose intensities a file holds, by index of their angles; `None` where their number
+/// does not fit the symmetry. Symmetry 3, to the plane of C90 and C270, holds those from C270 over
 /// C0 to C90.
 fn used_planes(symmetry: usize, planes: usize) -> Option<Vec<usize>> {
     Some(match symmetry {
@@ -148,7 +148,7 @@ fn used_planes(symmetry: usize, planes: usize) -> Option<Vec<usize>> {
     })
 }
 
-/// A file that holds one thing a line.
+/// Reads a file with one value per line.
 struct Lines<'a> {
     lines: core::str::Lines<'a>,
     number: usize,
@@ -163,7 +163,7 @@ impl Lines<'_> {
         Ok(line.trim().to_owned())
     }
 
-    /// A finite number; some write a decimal comma.
+    /// A finite number, with a decimal point or a decimal comma.
     fn number(&mut self, what: &str) -> Result<f32, Diagnostic> {
         let words = self.words(what)?;
         let parsed = words.replace(',', ".").parse().ok();
@@ -184,7 +184,7 @@ impl Lines<'_> {
         (0..n).map(|_| self.number(what)).collect()
     }
 
-    /// A message about the line that was read last.
+    /// A message about the line read last.
     fn wrong(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::at(self.number.max(1), message)
     }

@@ -7,21 +7,20 @@ use super::diagnostic::{Diagnostic, shown};
 use super::numbers::Numbers;
 use super::{LampTilt, Luminaire, LuminaireFormat, PhotometricWeb, PhotometricWebError, WebType};
 
-/// The most angles on an axis, and pairs of a tilt, that are believed.
+/// The largest accepted number of angles on an axis, and of pairs of a tilt.
 const MOST_ANGLES: u16 = 7_201;
 
 /// The luminaire in the text of an LM-63 file, of any edition from 1986 to 2019.
 ///
-/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or why
-/// there is none: this crate reads no files.
+/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or an
+/// error message: this crate reads no files.
 ///
 /// # Errors
-/// When the text is malformed, or there is no file that it names: the line and what was expected
-/// there.
+/// When the text is malformed, or `tilt_file` fails: the line and what was expected there.
 ///
 /// # Source
-/// `[LM63]`. The ballast-lamp photometric factor is one of the editions of 1986 and 1991; later
-/// ones have another use for its place.
+/// `[LM63]`. The ballast-lamp photometric factor exists in the editions of 1986 and 1991; later
+/// editions use the field otherwise.
 pub fn parse_lm63(
     text: &str,
     tilt_file: impl FnOnce(&str) -> Result<String, String>,
@@ -116,7 +115,7 @@ pub fn parse_lm63(
     let mut luminaire = Luminaire {
         format: LuminaireFormat::Lm63(year),
         keywords: words.keywords,
-        // A negative number says that the luminaire was measured as a whole.
+        // A negative number means absolute photometry: the luminaire was measured as a whole.
         lamp_lumens: (lumens_per_lamp > 0.0).then_some(lamps * lumens_per_lamp),
         web,
         input_watts,
@@ -138,7 +137,7 @@ pub fn parse_lm63(
     Ok(luminaire)
 }
 
-/// The year of the edition that a first line names; none if the line is something else, as it is in
+/// The year of the edition that a first line names; `None` if the line is something else, as in
 /// files of 1986.
 fn edition(line: &str) -> Option<u16> {
     if line == "IESNA91" {
@@ -153,12 +152,12 @@ fn edition(line: &str) -> Option<u16> {
         "95" | "1995" => Some(1995),
         "02" | "2002" => Some(2002),
         "19" | "2019" => Some(2019),
-        // An edition to come is read as the last one.
+        // A later edition is read as the last known one.
         _ => Some(2019),
     }
 }
 
-/// The lamp's factors, as they stand after `TILT=INCLUDE` or in a file of their own.
+/// The factors of a tilted lamp, after `TILT=INCLUDE` or in a separate file.
 fn read_tilt(numbers: &mut Numbers<'_>) -> Result<LampTilt, Diagnostic> {
     numbers.count("the lamp-to-luminaire geometry", 3)?;
     let n = numbers.count("the number of tilt angles", MOST_ANGLES)?;

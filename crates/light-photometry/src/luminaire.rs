@@ -9,19 +9,17 @@ use super::{Diagnostic, LampTilt, PhotometricWeb};
 pub struct Luminaire {
     /// The format of its file.
     pub format: LuminaireFormat,
-    /// What the file says in words, in its order: names of LM-63's keywords, or of EULUMDAT's
-    /// lines, and the words.
+    /// The texts of the file in their order, by LM-63 keyword or by name of the EULUMDAT line.
     pub keywords: Vec<(String, String)>,
     /// The intensity by direction, in candela, with all factors of the file.
     pub web: PhotometricWeb,
-    /// What its bare lamps give off, in lm; none where the file was measured without asking for
-    /// them.
+    /// Luminous flux of its bare lamps, in lm; `None` for absolute photometry.
     pub lamp_lumens: Option<f32>,
-    /// What it draws, in W.
+    /// Electric power, in W.
     pub input_watts: f32,
-    /// How its lamps mind being tilted; none if they do not.
+    /// The change of output with tilt; `None` if there is none.
     pub tilt: Option<LampTilt>,
-    /// What is odd in the file.
+    /// Warnings about the file.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -36,8 +34,7 @@ pub enum LuminaireFormat {
 }
 
 impl Luminaire {
-    /// What the luminaire gives off, in lm, of what its bare lamps do; none where the file does not
-    /// say.
+    /// Luminous flux of the luminaire over that of its bare lamps; `None` if the latter is unknown.
     #[must_use]
     pub fn efficiency(&self) -> Option<f32> {
         let lamps = self.lamp_lumens.filter(|&lumens| lumens > 0.0)?;

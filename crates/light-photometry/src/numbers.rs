@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::diagnostic::{Diagnostic, shown};
 
-/// The numbers of a text, wherever its lines break; each error names the line.
+/// Reads the numbers of a text across line breaks; each error names the line.
 #[derive(Debug)]
 pub(super) struct Numbers<'a> {
     words: Vec<(usize, &'a str)>,
@@ -60,12 +60,12 @@ impl<'a> Numbers<'a> {
         (0..n).map(|_| self.number(what)).collect()
     }
 
-    /// Whether nothing is left.
+    /// Whether the text has ended.
     pub(super) fn is_at_end(&self) -> bool {
         self.next >= self.words.len()
     }
 
-    /// A message about the line of the last number that was read.
+    /// A message about the line of the number read last.
     pub(super) fn wrong(&self, message: impl Into<String>) -> Diagnostic {
         let last = self.words.get(self.next.saturating_sub(1));
         let line = last.map_or(self.last_line, |&(line, _)| line);

@@ -11,7 +11,7 @@ use super::unfolded_axis::UnfoldedAxis;
 use super::web_type::WebType;
 
 /// The intensity of a luminaire by direction: candelas at vertical and horizontal angles, bilinear
-/// in between, 0 beyond.
+/// in between, 0 outside.
 ///
 /// Light space is right-handed with y up, whatever the [`WebType`]: the nadir is -y, and the
 /// direction that the standard calls photometric horizontal is +x.
@@ -20,11 +20,11 @@ pub struct PhotometricWeb {
     web_type: WebType,
     vertical: Axis,
     horizontal: Axis,
-    /// One after the other, the values of each horizontal angle.
+    /// The values of all vertical angles for each horizontal angle.
     candelas: Vec<f32>,
 }
 
-/// Why angles and candelas are no web.
+/// Why angles and candelas are invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PhotometricWebError {
@@ -43,10 +43,10 @@ impl PhotometricWeb {
     /// The web of the given angles in degrees; `candelas` holds the values of one horizontal angle
     /// after the other.
     ///
-    /// What symmetry leaves out is filled in. Type C: horizontal angles that end at 0 are those of
-    /// a rotationally symmetric web, at 90 of one with four equal quadrants, at 180 (or from 90 to
-    /// 270) of one with two equal halves; any end above 180 is taken for a full turn. Types A and
-    /// B: angles from 0 are mirrored to below 0.
+    /// Angles omitted because of symmetry are added. Type C: horizontal angles that end at 0 are
+    /// those of a rotationally symmetric web, at 90 of one with four equal quadrants, at 180 (or
+    /// from 90 to 270) of one with two equal halves; any end above 180 is taken for a full turn.
+    /// Types A and B: angles from 0 are mirrored to below 0.
     ///
     /// # Errors
     /// When the angles do not fit the type, or the candelas the angles.
@@ -77,7 +77,7 @@ impl PhotometricWeb {
         })
     }
 
-    /// How angles say a direction.
+    /// The convention of the angles.
     #[must_use]
     pub const fn web_type(&self) -> WebType {
         self.web_type
@@ -118,7 +118,7 @@ impl PhotometricWeb {
     #[must_use]
     pub fn toward(&self, w: Vec3) -> f32 {
         let (vertical, horizontal) = match self.web_type {
-            // At the poles of these types a zero must not be negative, which would mean behind.
+            // At the poles of these types a negative zero would mean the direction behind.
             WebType::A => (float::safe_asin(w.y), float::atan2(w.z, w.x + 0.0)),
             WebType::B => (float::atan2(w.x, 0.0 - w.y), float::safe_asin(w.z)),
             WebType::C => (float::safe_acos(-w.y), float::atan2(-w.z, w.x)),
@@ -136,8 +136,8 @@ impl PhotometricWeb {
         self.candelas.iter().copied().fold(0.0, f32::max)
     }
 
-    /// The luminous power in all directions, in lm: the integral of what is bilinear between the
-    /// angles, exactly.
+    /// The luminous flux in lm: the exact integral of the bilinear interpolation over all
+    /// directions.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
     pub fn total_lumens(&self) -> f32 {
@@ -159,14 +159,14 @@ impl PhotometricWeb {
     }
 
     /// The distribution over directions as an equal-area square of `size` texels a side, row by row
-    /// from row 0, `size * size` in all: each the mean intensity over what it covers, in `[0, 1]` of
-    /// the peak.
+    /// from row 0, `size * size` in all: each the mean intensity over the texel divided by the
+    /// peak, in `[0, 1]`.
     ///
     /// # Source
     /// The map of the square is that of [`light_math::equal_area`].
     #[must_use]
     pub fn distribution(&self, size: u32) -> Vec<f32> {
-        /// Places a side in each texel.
+        /// Samples per side of a texel.
         const PLACES: u32 = 4;
         let peak = self.peak_candelas();
         let part = if peak > 0.0 { 1.0 / peak } else { 0.0 };

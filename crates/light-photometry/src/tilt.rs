@@ -8,19 +8,17 @@ pub struct LampTilt {
 }
 
 impl LampTilt {
-    /// The factors at ascending angles in degrees from the position that was measured; none if they
-    /// are not, or not as many.
+    /// The factors at ascending angles in degrees from the measured position; `None` if the angles
+    /// do not ascend or the counts differ.
     pub(super) fn new(angles: Vec<f32>, factors: Vec<f32>) -> Option<Self> {
         let ascend = angles.windows(2).all(|pair| pair[0] < pair[1]);
         let fit = ascend && !angles.is_empty() && angles.len() == factors.len();
         fit.then_some(Self { angles, factors })
     }
 
-    /// The part of the output that is left at a tilt of `degrees`; beyond the measured angles that
-    /// of the nearest.
+    /// The relative output at a tilt of `degrees`; beyond the measured angles that of the nearest.
     ///
-    /// A [`PhotometricWeb`](super::PhotometricWeb) is that of the luminaire as it was measured,
-    /// without this factor.
+    /// A [`PhotometricWeb`](super::PhotometricWeb) does not include this factor.
     #[must_use]
     pub fn factor(&self, degrees: f32) -> f32 {
         let above = self.angles.partition_point(|&angle| angle <= degrees);

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use super::axis::{Axis, full_turn};
 use super::web_type::WebType;
 
-/// An axis that symmetry has completed, and for each of its angles which of the measured ones has
+/// An axis completed by symmetry, and for each of its angles the index of the measured angle with
 /// its values.
 #[derive(Clone, Debug)]
 pub(super) struct UnfoldedAxis {
@@ -13,7 +13,7 @@ pub(super) struct UnfoldedAxis {
 }
 
 impl UnfoldedAxis {
-    /// None where the angles are not those of the type.
+    /// `None` where the angles do not fit the type.
     pub(super) fn vertical(web_type: WebType, angles: &[f32]) -> Option<Self> {
         let axis = Axis::new(angles.to_vec()).filter(|_| angles.len() > 1)?;
         match web_type {
@@ -24,7 +24,7 @@ impl UnfoldedAxis {
         }
     }
 
-    /// None where the angles are not those of the type.
+    /// `None` where the angles do not fit the type.
     pub(super) fn horizontal(web_type: WebType, angles: &[f32]) -> Option<Self> {
         let axis = Axis::new(angles.to_vec())?;
         if web_type != WebType::C {
@@ -49,7 +49,7 @@ impl UnfoldedAxis {
         }
     }
 
-    /// Angles within a right angle of 0, on both sides or on one.
+    /// Angles in `[-90, 90]`, on one or both sides of 0.
     fn mirrored(axis: &Axis) -> Option<Self> {
         if axis.last() > 90.0 {
             None
@@ -60,7 +60,7 @@ impl UnfoldedAxis {
         }
     }
 
-    /// All `images` of each angle in `[-360, 360]`, in order, each once.
+    /// All `images` of each angle in `[-360, 360]`, sorted, without duplicates.
     fn of(axis: &Axis, images: impl Fn(f32) -> Vec<f32>) -> Self {
         let angles = axis.angles().iter().enumerate();
         let mut all: Vec<(f32, usize)> = angles

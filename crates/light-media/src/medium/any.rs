@@ -17,17 +17,17 @@ use light_sources::ColorModel;
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub enum AnyMedium<C: ColorModel> {
-    /// The same everywhere.
+    /// Constant coefficients.
     Homogeneous(Homogeneous<C>),
-    /// Thins out with height.
+    /// Exponential falloff of density with height.
     ExponentialHeight(ExponentialHeight<C>),
-    /// Of varying density.
+    /// A density grid.
     Grid(Box<GridMedium<C, Vec<f32>>>),
-    /// Of varying density and colour.
+    /// Grids of coloured coefficients.
     ColorGrid(Box<ColorGridMedium<C, Vec<f32>>>),
 }
 
-/// The same question for whichever medium it is.
+/// Calls a method of the medium inside.
 macro_rules! for_each_kind {
     ($medium:expr, $it:ident => $answer:expr) => {
         match $medium {

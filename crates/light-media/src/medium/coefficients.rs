@@ -1,13 +1,13 @@
 use light_sources::{ColorModel, Radiance};
 
-/// What a medium does to light at one point, per unit length.
+/// The coefficients of a medium at one point, per unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients<R> {
-    /// Share of the radiance that is absorbed, per unit length.
+    /// Absorption coefficient, per unit length.
     pub sigma_a: R,
-    /// Share of the radiance that is scattered, per unit length.
+    /// Scattering coefficient, per unit length.
     pub sigma_s: R,
-    /// Radiance that is added per unit length, in W m^-2 sr^-1 per unit length.
+    /// Emitted radiance per unit length, in W m^-2 sr^-1 per unit length.
     pub emission: R,
 }
 
@@ -27,7 +27,7 @@ impl<R: Radiance> Coefficients<R> {
     }
 }
 
-/// What a medium is made of, at density 1.
+/// The coefficients of a medium at density 1.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -41,7 +41,7 @@ pub struct Substance<C: ColorModel> {
     max_sigma_t: f32,
 }
 
-/// Why a substance is refused.
+/// Why a substance is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CoefficientsError {
@@ -54,9 +54,8 @@ pub enum CoefficientsError {
 }
 
 impl<C: ColorModel> Substance<C> {
-    /// A substance with absorption `sigma_a` and scattering `sigma_s` per unit length that glows
-    /// like a body of radiance `le`: an optically thick layer of it that only absorbs emits `le`,
-    /// so it adds `sigma_a le` per unit length.
+    /// A substance with absorption `sigma_a` and scattering `sigma_s` per unit length that emits
+    /// `sigma_a le` per unit length: an optically thick layer without scattering has radiance `le`.
     ///
     /// # Errors
     /// A value is negative or not finite.

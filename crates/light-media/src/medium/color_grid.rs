@@ -9,7 +9,7 @@ use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
 use light_sources::{ColorModel, Radiance};
 
-/// A coloured quantity over the unit cube: three channels, and what each of them stands for in the
+/// A coloured quantity over the unit cube: three channels, and the basis colour of each in the
 /// colour model.
 ///
 /// For RGB the basis is red, green and blue; for spectra any three of them.
@@ -24,7 +24,7 @@ pub struct ColorGrid<C: ColorModel, S> {
     grid: Grid<S, 3>,
 }
 
-/// Why a coloured grid is refused.
+/// Why a coloured grid is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ColorGridError {
@@ -53,7 +53,7 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGrid<C, S> {
         })
     }
 
-    /// The value that the channels 1, 1, 1 give at most: times the largest channel it bounds the
+    /// Upper bound of the sum for the channels 1, 1, 1; times the largest channel it bounds any
     /// sum.
     fn of_ones(&self, wavelengths: &C::Wavelengths) -> f32 {
         let basis = self.basis.iter().map(|b| C::emit(b, wavelengths));
@@ -76,7 +76,7 @@ pub struct ColorGridMedium<C: ColorModel, S> {
     sigma_a: ColorGrid<C, S>,
     sigma_s: ColorGrid<C, S>,
     le: Option<ColorGrid<C, S>>,
-    // They follow from the samples.
+    // Derived from the samples.
     #[cfg_attr(feature = "serde", serde(skip))]
     majorants: [MajorantGrid; 2],
     phase: Phase,
@@ -85,8 +85,8 @@ pub struct ColorGridMedium<C: ColorModel, S> {
 
 impl<C: ColorModel, S: AsRef<[f32]>> ColorGridMedium<C, S> {
     /// The medium in `bounds` of a space that `to_scene` takes to the scene: absorption `sigma_a`
-    /// and scattering `sigma_s` per unit length; `le` is the radiance of a thick body of it, so
-    /// that it adds `sigma_a le` per unit length.
+    /// and scattering `sigma_s` per unit length; it emits `sigma_a le` per
+    /// unit length.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform has no inverse.

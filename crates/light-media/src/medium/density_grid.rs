@@ -2,15 +2,14 @@ use super::majorant_grid::MajorantGrid;
 use super::samples::{Grid, GridError};
 use light_math::glam::Vec3;
 
-/// A density over the unit cube: a [`Grid`] of one channel that knows how dense each part of it can
-/// be.
+/// A density over the unit cube: a [`Grid`] of one channel with upper bounds for coarse cells.
 ///
 /// Costs 4 bytes a sample and 16 KiB for the maxima of coarse cells.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DensityGrid<S> {
     grid: Grid<S>,
-    // They follow from the samples.
+    // Derived from the samples.
     #[cfg_attr(feature = "serde", serde(skip))]
     majorants: MajorantGrid,
 }
@@ -57,7 +56,7 @@ mod tests {
         for size in [[1, 1, 1], [2, 5, 3], [40, 16, 33]] {
             let grid = ramp(size);
             for i in 0..20_000u32 {
-                // A low-discrepancy walk through the cube.
+                // A low-discrepancy sequence in the cube.
                 let p = (Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5) * i as f32).fract();
                 let cell = (p * MajorantGrid::CELLS as f32)
                     .to_array()

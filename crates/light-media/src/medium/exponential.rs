@@ -7,7 +7,8 @@ use light_math::float;
 use light_math::glam::Vec3;
 use light_sources::ColorModel;
 
-/// A medium that thins out with height: density 1 up to a base, above it `exp(-falloff * height)`.
+/// A medium with exponential falloff: density 1 up to a base height, above it
+/// `exp(-falloff * height)`.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -23,7 +24,7 @@ pub struct ExponentialHeight<C: ColorModel> {
     falloff: f32,
 }
 
-/// Why an exponential medium is refused.
+/// Why an exponential medium is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ExponentialHeightError {
@@ -36,8 +37,8 @@ pub enum ExponentialHeightError {
 }
 
 impl<C: ColorModel> ExponentialHeight<C> {
-    /// The medium whose density begins to fall at the point `base` of the scene in the direction
-    /// `up` (any length), by the factor `e` each `1 / falloff` units of length.
+    /// The medium whose density falls above the point `base` of the scene in the direction `up`
+    /// (any length), by the factor `e` each `1 / falloff` scene units.
     ///
     /// # Errors
     /// An argument is not finite, `up` is zero or `falloff` negative.
@@ -74,7 +75,7 @@ impl<C: ColorModel> ExponentialHeight<C> {
         float::exp(-self.falloff * height.max(0.0))
     }
 
-    /// The integral of the density over `span`: a flat part below the base, a closed form above.
+    /// The integral of the density over `span`: linear below the base, an exponential above.
     fn column(&self, ray: &Ray, span: Span) -> f32 {
         let (h0, dh) = (self.height(ray.o), self.up.dot(ray.d));
         if dh == 0.0 {
@@ -97,7 +98,7 @@ impl<C: ColorModel> ExponentialHeight<C> {
 fn falling_mass(rate: f32, length: f32) -> f32 {
     let x = rate * length;
     if x < 1e-3 {
-        // The quotient below would cancel.
+        // The quotient below would lose digits by cancellation.
         length * (1.0 - 0.5 * x)
     } else {
         (1.0 - float::exp(-x)) / rate

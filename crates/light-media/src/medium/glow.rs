@@ -4,8 +4,7 @@ use super::temperature::TemperatureGrid;
 use light_math::glam::Vec3;
 use light_sources::{ColorModel, Radiance};
 
-/// How the emission of a grid medium varies over the unit cube: a factor of its substance's
-/// emission.
+/// The emission of a grid medium over the unit cube, as a factor of the emission of its substance.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -13,9 +12,9 @@ use light_sources::{ColorModel, Radiance};
     serde(bound = "C::Emission: serde::Serialize, S: serde::Serialize")
 )]
 pub struct Glow<C: ColorModel, S> {
-    /// A plain factor; the same everywhere where it is absent.
+    /// A factor without colour; 1 if absent.
     pub scale: Option<Grid<S>>,
-    /// The colour and strength of a glowing body of this temperature, as a further factor.
+    /// The colour and strength of black bodies of these temperatures, as a further factor.
     #[cfg(feature = "alloc")]
     pub temperature: Option<TemperatureGrid<C, S>>,
     #[cfg(not(feature = "alloc"))]
@@ -23,7 +22,7 @@ pub struct Glow<C: ColorModel, S> {
 }
 
 impl<C: ColorModel, S> Glow<C, S> {
-    /// The same everywhere.
+    /// The factor 1 everywhere.
     #[must_use]
     pub fn uniform() -> Self {
         Self {
@@ -35,7 +34,7 @@ impl<C: ColorModel, S> Glow<C, S> {
         }
     }
 
-    /// Scaled by a grid.
+    /// The factors of a grid.
     #[must_use]
     pub fn scaled(scale: Grid<S>) -> Self {
         Self {
@@ -47,7 +46,7 @@ impl<C: ColorModel, S> Glow<C, S> {
         }
     }
 
-    /// A glowing body of the temperatures of a grid.
+    /// Black bodies of the temperatures of a grid.
     #[cfg(feature = "alloc")]
     #[must_use]
     pub fn of_temperature(temperature: TemperatureGrid<C, S>) -> Self {

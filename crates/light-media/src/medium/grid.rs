@@ -6,7 +6,7 @@ use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
 use light_sources::{ColorModel, Radiance};
 
-/// A medium whose density, and whose glow if it has one, varies over a grid that fills a box.
+/// A medium whose density and emission are given by grids that fill a box.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -23,7 +23,7 @@ pub struct GridMedium<C: ColorModel, S> {
 
 impl<C: ColorModel, S> GridMedium<C, S> {
     /// The medium in `bounds` of a space that `to_scene` takes to the scene. `density` multiplies
-    /// the coefficients of `substance`; `glow` its emission once more.
+    /// the coefficients of `substance`, and `glow` its emission in addition.
     ///
     /// # Errors
     /// The box is empty, flat or not finite, or the transform has no inverse.

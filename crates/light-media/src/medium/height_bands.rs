@@ -15,7 +15,7 @@ pub(super) struct HeightBands {
 }
 
 impl HeightBands {
-    /// Above this band the density is below any that matters: one segment covers the rest.
+    /// The last band: above it the density is negligible, and one segment covers the rest.
     const TOP: i32 = 24;
 
     /// The bands along `span` of a ray that starts at height `h0` above the base and rises by `dh`
@@ -34,8 +34,8 @@ impl HeightBands {
         }
     }
 
-    /// The bound of the density in the band where the walk stands, and the distance at which the
-    /// ray leaves the band.
+    /// The bound of the density in the current band, and the distance at which the ray leaves the
+    /// band.
     pub(super) fn step(&mut self) -> (f32, f32) {
         // The margin covers the rounding of heights and exponentials.
         let density = float::powf(0.5, self.band as f32) * (1.0 + 1e-4);

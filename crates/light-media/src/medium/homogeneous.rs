@@ -5,7 +5,7 @@ use crate::region::Region;
 use light_math::glam::Vec3;
 use light_sources::{ColorModel, Radiance};
 
-/// A medium that is the same everywhere in its region.
+/// A medium of constant coefficients in its region.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -13,11 +13,11 @@ use light_sources::{ColorModel, Radiance};
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub struct Homogeneous<C: ColorModel> {
-    /// What it is made of.
+    /// The coefficients.
     pub substance: Substance<C>,
-    /// How it scatters.
+    /// The phase function.
     pub phase: Phase,
-    /// Where it is.
+    /// The region that it fills.
     pub region: Region,
 }
 
@@ -48,7 +48,7 @@ impl<C: ColorModel> Medium<C> for Homogeneous<C> {
     }
 
     fn majorants(&self, _ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_> {
-        // Exact where all channels are alike: a tentative collision is then never null.
+        // The largest channel; with equal channels no tentative collision is null.
         Majorants::constant(span, self.substance.sigma_t(wavelengths).maximum())
     }
 }

@@ -68,7 +68,7 @@ impl Iterator for Majorants<'_> {
             Walk::Bands(bands) => bands.step(),
             Walk::Cells(cells) => cells.step(),
         };
-        // An end that rounding puts before the start makes a segment without length; the walk
+        // Rounding may put the end before the start, which makes an empty segment; the walk
         // itself still goes on.
         let t = end.clamp(rest.t0, rest.t1);
         self.rest = Span::new(t, rest.t1);
@@ -79,10 +79,10 @@ impl Iterator for Majorants<'_> {
     }
 }
 
-/// A grid of maxima and what they are multiplied with.
+/// A grid of maxima and its factor.
 pub(super) type Layer<'a> = Option<(&'a MajorantGrid, f32)>;
 
-/// A walk through the cells that a ray crosses.
+/// A traversal of the cells along a ray.
 ///
 /// # Source
 /// `[Amanatides1987]`.
@@ -121,7 +121,7 @@ impl<'a> CellWalk<'a> {
         walk
     }
 
-    /// The maximum in the cell where the walk stands, and the distance at which the ray leaves it.
+    /// The maximum in the current cell, and the distance at which the ray leaves it.
     fn step(&mut self) -> (f32, f32) {
         let layers = self.layers.iter().flatten();
         let density = layers
@@ -131,7 +131,7 @@ impl<'a> CellWalk<'a> {
         let end = self.next_t[axis];
         self.cell[axis] += self.step[axis];
         self.next_t[axis] += self.delta_t[axis];
-        // Past the last cell only rounding is left of the ray.
+        // Past the last cell, only rounding error remains of the ray.
         let inside = usize::try_from(self.cell[axis]).is_ok_and(|cell| cell < MajorantGrid::CELLS);
         (density, if inside { end } else { f32::INFINITY })
     }

@@ -40,8 +40,8 @@ impl MajorantGrid {
     }
 }
 
-/// The cells in which sample `i` of `n` has a say: it reaches one sample's spacing to both sides of
-/// its place `i + 1/2`.
+/// The cells that sample `i` of `n` influences: interpolation extends it by one sample spacing to
+/// both sides of its position `i + 1/2`.
 fn cells_reached(i: usize, n: usize) -> core::ops::RangeInclusive<usize> {
     // In halves of a sample: from 2 i - 1 to 2 i + 3, of 2 n in all.
     let cell =

@@ -1,4 +1,4 @@
-//! Media: where light is absorbed, scattered and emitted, and how much of it.
+//! Media: coefficients of absorption, scattering and emission in space.
 
 #[cfg(feature = "alloc")]
 mod any;
@@ -35,20 +35,20 @@ use crate::ray::{Ray, Span};
 use light_math::glam::Vec3;
 use light_sources::ColorModel;
 
-/// A participating medium. Points, rays and distances are the scene's; coefficients are per unit of
-/// its length.
+/// A participating medium. Points, rays and distances are in scene space; coefficients are per
+/// scene unit.
 pub trait Medium<C: ColorModel> {
-    /// How it redistributes what it scatters.
+    /// The phase function.
     fn phase(&self) -> &Phase;
 
     /// The coefficients at `p`; all zero outside of the medium.
     fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance>;
 
-    /// The part of `span` in which the medium may be other than vacuum.
+    /// The part of `span` outside of which the medium is vacuum.
     fn clip(&self, ray: &Ray, span: Span) -> Option<Span>;
 
-    /// The optical thickness, the integral of the extinction over `span`, where it has a closed
-    /// form; `None`, unless told otherwise. `span` lies in the medium.
+    /// The optical thickness, the integral of the extinction over `span`, if it has a closed form.
+    /// `span` lies in the medium. The default is `None`.
     fn optical_thickness(
         &self,
         _ray: &Ray,

@@ -3,8 +3,8 @@ use light_math::glam::Vec3;
 /// Samples of `K` channels on a regular grid over the unit cube, interpolated linearly, zero
 /// outside.
 ///
-/// Sample `(x, y, z)` stands at `((x, y, z) + 1/2) / size`; x runs fastest, the channels of a
-/// sample stand together. The values may live anywhere: in a vector, a borrowed slice, in flash.
+/// Sample `(x, y, z)` is at `((x, y, z) + 1/2) / size`; x runs fastest, and the channels of a
+/// sample are adjacent. The storage is a type parameter: a vector, a borrowed slice, flash.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grid<S, const K: usize = 1> {
@@ -12,7 +12,7 @@ pub struct Grid<S, const K: usize = 1> {
     values: S,
 }
 
-/// Why a grid is refused.
+/// Why a grid is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GridError {
@@ -22,7 +22,7 @@ pub enum GridError {
     Length,
     /// A value is negative or not finite.
     Value {
-        /// Where it stands.
+        /// Index of the value.
         index: usize,
     },
 }

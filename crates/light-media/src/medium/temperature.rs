@@ -4,10 +4,10 @@ use light_math::glam::Vec3;
 use light_math::spectrum::{Blackbody, RgbColorSpace, cie};
 use light_sources::{ColorModel, Radiance, Rgb, Spectral, SpectralEmission};
 
-/// Below this temperature, in kelvin, nothing glows that an eye or a camera could see.
+/// Temperature, in kelvin, below which visible emission is negligible.
 const COLDEST: f32 = 100.0;
 
-/// A colour model that knows what a glowing body looks like.
+/// A colour model with the emission of black bodies.
 pub trait Incandescence: ColorModel {
     /// The emission of a black body at `kelvin` above zero, 1 at the wavelength where it is
     /// brightest.
@@ -15,8 +15,8 @@ pub trait Incandescence: ColorModel {
 }
 
 impl Incandescence for Rgb {
-    /// In linear sRGB, where the constant spectrum 1 has luminance 1; colours outside of the gamut
-    /// are cut to it.
+    /// In linear sRGB, where the constant spectrum 1 has luminance 1; colours are clamped to
+    /// the gamut.
     fn blackbody(kelvin: f32) -> Option<Vec3> {
         let xyz = cie::xyz(&Blackbody::new(kelvin).ok()?);
         Some((RgbColorSpace::srgb().rgb_from_xyz() * xyz).max(Vec3::ZERO))
@@ -29,7 +29,7 @@ impl<const N: usize> Incandescence for Spectral<N> {
     }
 }
 
-/// Temperatures over the unit cube and the colours of their glow.
+/// Temperatures over the unit cube, with a table of their colours.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -43,11 +43,11 @@ pub struct TemperatureGrid<C: ColorModel, S> {
 }
 
 impl<C: Incandescence, S: AsRef<[f32]>> TemperatureGrid<C, S> {
-    /// Steps of the table of colours: interpolated, it is exact to 1 % for every glow above 1e-6 of
-    /// the brightest.
+    /// Entries of the table of colours: interpolation has a relative error below 1 % for every
+    /// emission above 1e-6 of the brightest.
     const STEPS: u16 = 1024;
 
-    /// The glow of temperatures in kelvin. Colours are tabulated up to the hottest sample.
+    /// The emission of temperatures in kelvin. Colours are tabulated up to the hottest sample.
     #[must_use]
     pub fn new(kelvin: Grid<S>) -> Self {
         let step = kelvin.max_value().max(COLDEST) / f32::from(Self::STEPS);
@@ -61,7 +61,7 @@ impl<C: Incandescence, S: AsRef<[f32]>> TemperatureGrid<C, S> {
 }
 
 impl<C: ColorModel, S: AsRef<[f32]>> TemperatureGrid<C, S> {
-    /// The glow at `p` of the unit cube.
+    /// The emission at `p` of the unit cube.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -69,7 +69,7 @@ impl<C: ColorModel, S: AsRef<[f32]>> TemperatureGrid<C, S> {
     )]
     pub(super) fn at(&self, p: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         let [kelvin] = self.kelvin.lookup(p);
-        // Entry i of the table stands for the temperature i + 1 steps.
+        // Entry i of the table is for the temperature of i + 1 steps.
         let place = kelvin * self.inv_step - 1.0;
         if kelvin < COLDEST || !(place >= 0.0) {
             return C::Radiance::BLACK;

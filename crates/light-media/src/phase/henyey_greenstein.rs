@@ -2,7 +2,8 @@ use super::{AsymmetryError, PhaseFunction, check_asymmetry};
 use core::f32::consts::PI;
 use light_math::float;
 
-/// The phase function with mean cosine `g`, in widest use for clouds, smoke, skin and milk.
+/// The Henyey-Greenstein phase function of mean cosine `g`, the usual one for clouds, smoke, skin
+/// and milk.
 ///
 /// # Source
 /// `[HenyeyGreenstein1941]`; sampling as in `[PBRT4]`, section 11.3.1.
@@ -13,12 +14,12 @@ pub struct HenyeyGreenstein {
 }
 
 impl HenyeyGreenstein {
-    /// Below this `g` the inversion divides by a number that is mostly round-off; the linear term
-    /// is then exact enough.
+    /// Below this `g` the inversion divides by a number that is mostly rounding error, and the
+    /// linear term is accurate enough.
     const NEARLY_ISOTROPIC: f32 = 1e-3;
 
-    /// The phase function with mean cosine `g`: above zero light mostly goes on, below zero it
-    /// mostly turns back.
+    /// The phase function with mean cosine `g`: positive for forward scattering, negative for
+    /// backward scattering.
     ///
     /// # Errors
     /// `g` does not lie strictly between -1 and 1.

@@ -1,7 +1,7 @@
 use super::PhaseFunction;
 use core::f32::consts::PI;
 
-/// Light leaves in all directions alike.
+/// Scatters equally in all directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Isotropic;

@@ -1,4 +1,4 @@
-//! Phase functions: how a medium redistributes the light that it scatters.
+//! Phase functions: the distribution of scattered directions.
 
 mod henyey_greenstein;
 mod isotropic;
@@ -18,8 +18,8 @@ use light_math::{Frame, float};
 
 /// A phase function that depends on the angle of deflection alone.
 ///
-/// `cos_theta` is the cosine between the direction in which light travelled before the event and
-/// the one in which it travels after: 1 is straight on, -1 straight back. For directions `wo` and
+/// `cos_theta` is the cosine between the directions of travel before and after the event: 1 is
+/// straight on, -1 straight back. For directions `wo` and
 /// `wi` that both point away from the event it is `-dot(wo, wi)`. Every phase function here is
 /// sampled exactly, so its density is its value.
 pub trait PhaseFunction {
@@ -39,18 +39,18 @@ pub struct PhaseSample {
     pub pdf: f32,
 }
 
-/// The phase functions of this crate as one plain value.
+/// The phase functions of this crate as one enum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Phase {
     /// The same in all directions.
     Isotropic(Isotropic),
-    /// Molecules.
+    /// Scattering by molecules.
     Rayleigh(Rayleigh),
-    /// One asymmetry parameter.
+    /// The usual choice, with one asymmetry parameter.
     HenyeyGreenstein(HenyeyGreenstein),
-    /// A rational stand-in for Henyey-Greenstein.
+    /// A rational approximation of Henyey-Greenstein.
     Schlick(Schlick),
     /// Small droplets, thin haze.
     MieHazy(MieHazy),
@@ -59,8 +59,8 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// A direction for light that is followed against its flow: `wo` points back along the path
-    /// that arrived, the answer points onward. `u` in `[0, 1)^2`.
+    /// Samples a direction: `wo` points back along the path that arrived, the result points onward.
+    /// `u` in `[0, 1)^2`.
     #[must_use]
     pub fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
         let cos_theta = self.sample_cos(u.x);
@@ -104,7 +104,7 @@ impl PhaseFunction for Phase {
     }
 }
 
-/// Why an asymmetry parameter is refused.
+/// Why an asymmetry parameter is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AsymmetryError {

@@ -1,7 +1,8 @@
 use super::{AsymmetryError, PhaseFunction, check_asymmetry};
 use core::f32::consts::PI;
 
-/// A rational stand-in for Henyey-Greenstein: no square root, and an inversion in one division.
+/// A rational approximation of Henyey-Greenstein: no square root, and an inversion with one
+/// division.
 ///
 /// # Source
 /// `[Blasi1993]`, section 3.
@@ -20,7 +21,7 @@ impl Schlick {
         check_asymmetry(k).map(|k| Self { k })
     }
 
-    /// The one that comes close to Henyey-Greenstein of mean cosine `g`: `k = 1.55 g - 0.55 g^3`.
+    /// The approximation of Henyey-Greenstein of mean cosine `g`: `k = 1.55 g - 0.55 g^3`.
     ///
     /// # Errors
     /// `g` does not lie strictly between -1 and 1.

@@ -18,7 +18,7 @@ fn cell(p: Vec3) -> (Vec3, [i32; 3]) {
 }
 
 /// Random rays through two layers: the segments follow each other from end to end of the span, and
-/// the bound at each point is the sum of what the layers say of its cell.
+/// the bound at each point is the sum of the maxima of its cell in both layers.
 #[test]
 fn a_walk_has_the_bound_of_the_cell_that_it_is_in() {
     let mut rng = Rng::new(81);
@@ -53,7 +53,7 @@ fn a_walk_has_the_bound_of_the_cell_that_it_is_in() {
     assert!(compared > 2000, "{compared} segments");
 }
 
-/// What is left of a ray beyond the grid belongs to the last cell, on both sides.
+/// The rest of a ray beyond the grid belongs to the last cell, on both sides.
 #[test]
 fn a_walk_ends_with_the_last_cell_of_the_grid() {
     let grid = grid(&mut Rng::new(82));
