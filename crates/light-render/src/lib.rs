@@ -12,6 +12,7 @@ mod choice_variance;
 pub mod cli;
 mod compare;
 mod content_digest;
+mod emitter_ids;
 mod exact_sum;
 mod false_color;
 mod file_checksum;

@@ -10,6 +10,7 @@ use lights::sources::{
     Rgb, SceneSphere, SceneSphereError,
 };
 
+use crate::emitter_ids::EmitterIds;
 use crate::surface_emission::{AlphaMaskedLights, Textures};
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
@@ -18,7 +19,9 @@ use crate::world_sphere::WorldSphere;
 #[derive(Debug)]
 pub(crate) struct SceneLights {
     pub(crate) lights: LightSet<Rgb>,
-    /// Those that rays find by leaving the scene.
+    /// The ids of emissive meshes and spheres.
+    pub(crate) emitters: EmitterIds,
+    /// Those at infinity that rays can find when they leave the scene.
     pub(crate) infinite: Vec<LightId>,
     /// Those with an alpha mask, in the order of their ids.
     pub(crate) masked: Vec<AlphaMaskedLights>,
@@ -30,14 +33,14 @@ pub(crate) struct SceneLights {
 pub enum SceneLightsError {
     /// The scene's box is not finite.
     Bounds(SceneSphereError),
-    /// A light makes no sense; the name is that of its material, or its kind and number.
+    /// A light is invalid; the name is that of its material, or its number.
     Light {
         /// Which light.
         name: String,
         /// What is wrong with it.
         error: LightDescError,
     },
-    /// An image has texels that are no light.
+    /// An image has texels that are negative or not finite.
     Image {
         /// Which image.
         name: String,
@@ -47,10 +50,10 @@ pub enum SceneLightsError {
 }
 
 impl SceneLights {
-    /// Builds all lights, and sets the ids of the lights of meshes and spheres.
+    /// Builds all lights.
     pub(crate) fn new(
-        meshes: &mut [WorldMesh],
-        spheres: &mut [WorldSphere],
+        meshes: &[WorldMesh],
+        spheres: &[WorldSphere],
         materials: &[Material],
         images: &[Image],
         scene_lights: Vec<LightDesc<Rgb>>,
@@ -86,33 +89,36 @@ impl SceneLights {
             add(&mut builder, &name, light)?;
         }
         let lights = builder.build();
+        let mut emitters = EmitterIds::new(meshes.len(), spheres.len());
         let mut masked = Vec::new();
-        let mut note = |first: Option<LightId>, count, material, is_masked| {
+        let mut add_masked = |first: Option<LightId>, count, material, is_masked| {
             if let (Some(LightId(first)), true) = (first, is_masked) {
                 let ids = first..first + count;
                 masked.push(AlphaMaskedLights { ids, material });
             }
         };
         for (index, source, is_masked) in emissive_meshes {
-            let mesh = &mut meshes[index];
-            mesh.first_light = lights.first_id(source);
+            let mesh = &meshes[index];
+            let first = lights.first_id(source);
+            emitters.set_mesh(index, first);
             let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
-            note(mesh.first_light, count, mesh.material, is_masked);
+            add_masked(first, count, mesh.material, is_masked);
         }
         for (index, source, is_masked) in emissive_spheres {
-            let sphere = &mut spheres[index];
-            sphere.light = lights.first_id(source);
-            note(sphere.light, 1, sphere.material, is_masked);
+            let id = lights.first_id(source);
+            emitters.set_sphere(index, id);
+            add_masked(id, 1, spheres[index].material, is_masked);
         }
         masked.sort_by_key(|lights| lights.ids.start);
-        let found_by_rays = |id: &LightId| {
+        let is_hit_by_rays = |id: &LightId| {
             lights
                 .get(*id)
                 .is_some_and(|light| light.light_type() == LightType::Infinite)
         };
         Ok(Self {
-            infinite: lights.infinite_ids().filter(found_by_rays).collect(),
+            infinite: lights.infinite_ids().filter(is_hit_by_rays).collect(),
             lights,
+            emitters,
             masked,
         })
     }
@@ -129,17 +135,17 @@ fn add(
     })
 }
 
-/// The images of a scene, as lights and surfaces hold them.
-pub(crate) fn shown_images(
+/// The images of a scene, checked for use by lights and surfaces.
+pub(crate) fn checked_images(
     images: Vec<light_scene::Image>,
 ) -> Result<Vec<Image>, SceneLightsError> {
-    let shown = |(number, image): (usize, light_scene::Image)| {
+    let checked = |(number, image): (usize, light_scene::Image)| {
         image.to_light().map_err(|error| SceneLightsError::Image {
             name: format!("image {number}"),
             error,
         })
     };
-    images.into_iter().enumerate().map(shown).collect()
+    images.into_iter().enumerate().map(checked).collect()
 }
 
 impl fmt::Display for SceneLightsError {

@@ -1,7 +1,6 @@
 use alloc::sync::Arc;
 
 use light_scene::Mesh;
-use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::sources::MeshIndices;
 use lights::sources::shape::Triangle;
@@ -14,8 +13,6 @@ pub(crate) struct WorldMesh {
     pub(crate) uvs: Option<Arc<[Vec2]>>,
     pub(crate) indices: MeshIndices,
     pub(crate) material: usize,
-    /// The id of the first triangle as a light, if the mesh is emissive.
-    pub(crate) first_light: Option<LightId>,
 }
 
 impl WorldMesh {
@@ -75,7 +72,6 @@ impl From<Mesh> for WorldMesh {
                 uvs: mesh.uvs.map(|uvs| of_triangles(&uvs, &list)),
                 indices: MeshIndices::Consecutive(count),
                 material,
-                first_light: None,
             },
             None => Self {
                 positions: mesh.positions.into(),
@@ -83,7 +79,6 @@ impl From<Mesh> for WorldMesh {
                 uvs: mesh.uvs.map(Arc::from),
                 indices: list.into(),
                 material,
-                first_light: None,
             },
         }
     }

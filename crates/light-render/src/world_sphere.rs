@@ -1,5 +1,4 @@
 use light_scene::SphereFront;
-use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::math::octahedral;
 use lights::sources::SurfacePoint;
@@ -13,8 +12,6 @@ pub(crate) struct WorldSphere {
     pub(crate) shape: Sphere,
     pub(crate) front: SphereFront,
     pub(crate) material: usize,
-    /// Its id as a light, if it is emissive.
-    pub(crate) light: Option<LightId>,
 }
 
 impl WorldSphere {
@@ -43,7 +40,6 @@ impl TryFrom<light_scene::Sphere> for WorldSphere {
                 shape,
                 front: sphere.front,
                 material: sphere.material.0 as usize,
-                light: None,
             }),
             _ => Err(WorldError::Sphere { name: sphere.name }),
         }

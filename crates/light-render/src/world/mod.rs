@@ -14,7 +14,8 @@ use lights::math::Aabb;
 use lights::sources::shape::Sphere;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
-use crate::scene_lights::{SceneLights, shown_images};
+use crate::emitter_ids::EmitterIds;
+use crate::scene_lights::{SceneLights, checked_images};
 use crate::surface_emission::AlphaMaskedLights;
 use crate::world_media::WorldMedia;
 use crate::world_mesh::WorldMesh;
@@ -41,6 +42,7 @@ pub struct World {
     images: Vec<Image>,
     bounds: Aabb,
     lights: LightSet<Rgb>,
+    emitters: EmitterIds,
     infinite: Vec<LightId>,
     media: WorldMedia,
     /// Whether any material has an alpha mask.
@@ -74,22 +76,16 @@ impl World {
             camera_medium,
             ..
         } = scene;
-        let images = shown_images(images)?;
+        let images = checked_images(images)?;
         let media = WorldMedia::new(media, camera_medium, &materials);
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
         let mut spheres = world_spheres(spheres)?;
         let SceneLights {
             lights,
             infinite,
+            emitters,
             masked: masked_lights,
-        } = SceneLights::new(
-            &mut meshes,
-            &mut spheres,
-            &materials,
-            &images,
-            lights,
-            &bounds,
-        )?;
+        } = SceneLights::new(&meshes, &spheres, &materials, &images, lights, &bounds)?;
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_spheres = shapes(&spheres);
         let mut prototypes = Vec::with_capacity(instanced.len());
@@ -120,6 +116,7 @@ impl World {
             images,
             bounds,
             lights,
+            emitters,
             infinite,
             media,
         })

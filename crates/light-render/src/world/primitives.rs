@@ -98,13 +98,17 @@ impl World {
     #[inline]
     #[must_use]
     pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
-        let (id, n) = match self.stored(surface.primitive) {
-            Stored::Triangle { mesh, index } => {
-                let LightId(first) = mesh.first_light?;
-                (LightId(first + index), surface.n)
+        let number = surface.primitive.number() as usize;
+        let (id, n) = match self.triangles.get(number) {
+            Some(&MeshTriangle { mesh, index }) => {
+                (self.emitters.triangle(mesh, index)?, surface.n)
             }
-            // The light of a sphere has its front outside, whatever the front of the surface is.
-            Stored::Sphere(sphere) => (sphere.light?, sphere.front_normal(surface.n)),
+            None => {
+                let sphere = number - self.triangles.len();
+                let id = self.emitters.sphere(sphere)?;
+                // The light of a sphere has its front outside, whatever the front of the surface.
+                (id, self.spheres[sphere].front_normal(surface.n))
+            }
         };
         let at = SurfacePoint {
             p: surface.p,
