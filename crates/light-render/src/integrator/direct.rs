@@ -5,31 +5,41 @@ use lights::math::distribution::WeightedReservoir;
 use lights::samplers::{LightSampler, PreparedChoices};
 use lights::sources::{Light, LightType};
 
-use super::chosen::ChosenLights;
+use super::chosen_lights::ChosenLights;
 use super::{Estimator, Traced};
-use crate::bsdf::Scattering;
 use crate::{SampleStream, VertexNumbers, World};
 
-/// How a vertex of a path asks for light: kept until the next ray is known to miss or to find a
-/// light, because both strategies weigh their samples by the same densities.
-#[derive(Clone, Copy, Debug)]
+/// How lights were chosen at a vertex. It is kept while the path goes on: a light that the next ray
+/// finds is weighted by the density of these choices.
+#[derive(Clone, Debug)]
 pub(super) struct LightQuery {
-    pub(super) ctx: LightSampleContext,
-    /// How many lights are chosen at once; not 0.
-    pub(super) count: u32,
+    ctx: LightSampleContext,
+    /// How many lights were chosen at once; not 0.
+    count: u32,
+    /// Results of the sampler for `ctx` and `count`.
+    prepared: PreparedChoices,
 }
 
-/// What all vertices of a path share.
-#[derive(Debug)]
+impl Default for LightQuery {
+    /// The query of one light at the origin, without prepared results.
+    fn default() -> Self {
+        Self {
+            ctx: LightSampleContext::medium(Vec3::ZERO),
+            count: 1,
+            prepared: PreparedChoices::default(),
+        }
+    }
+}
+
+/// Next-event estimation: direct light by the lights that a sampler chooses.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct DirectLight<'a, S> {
     pub(super) world: &'a World,
     pub(super) sampler: &'a S,
     pub(super) estimator: Estimator,
-    /// What the sampler found out where it chose last.
-    prepared: PreparedChoices,
 }
 
-/// What scatters light at a point: a surface, or a surface or a medium.
+/// A scattering function at a point: the BSDF of a surface or the phase function of a medium.
 pub(super) trait Scatters {
     /// Scattering function times cosine, or phase function, in sr^-1.
     fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3;
@@ -38,19 +48,7 @@ pub(super) trait Scatters {
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32;
 }
 
-impl Scatters for Scattering {
-    #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
-        self.eval(wo, wi)
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.pdf(wo, wi)
-    }
-}
-
-/// Where light is asked for: what scatters it, and who looks.
+/// A vertex that is lit: its scattering function and the direction to the viewer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex<'a, V> {
     pub(super) scattering: &'a V,
@@ -59,7 +57,7 @@ pub(super) struct Vertex<'a, V> {
     pub(super) number: u32,
 }
 
-/// What a light sends over a vertex if nothing is in the way.
+/// The contribution of a light sample to a vertex, without occlusion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unshadowed {
     radiance: Vec3,
@@ -68,17 +66,17 @@ pub(super) struct Unshadowed {
     pub(super) kind: LightType,
 }
 
-/// What became of light on its way to a vertex.
+/// The transmittance between a light sample and a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arrived {
-    /// The share that is left.
+    /// The transmittance; 0 if the light is occluded.
     pub(super) left: Vec3,
-    /// Rays that it took to know.
+    /// How many rays were traced.
     pub(super) rays: u32,
 }
 
 impl Arrived {
-    /// Everything was lost, after so many rays.
+    /// Zero transmittance, found by so many rays.
     pub(super) const fn nothing(rays: u32) -> Self {
         let left = Vec3::ZERO;
         Self { left, rays }
@@ -86,20 +84,24 @@ impl Arrived {
 }
 
 impl<'a, S: LightSampler> DirectLight<'a, S> {
-    /// Light of `world` by the lights that `sampler` chooses.
+    /// Direct light in `world` by the lights that `sampler` chooses.
     pub(super) fn new(world: &'a World, sampler: &'a S, estimator: Estimator) -> Self {
         Self {
             world,
             sampler,
             estimator,
-            prepared: PreparedChoices::default(),
         }
     }
 
-    /// As many lights as `query` says, which memory brings nearer while something else is done.
+    /// Chooses `count` lights at `ctx`, prefetches their data, and overwrites `query` with the choice.
     #[inline]
-    pub(super) fn choose(&mut self, query: &LightQuery, numbers: &VertexNumbers) -> ChosenLights {
-        let LightQuery { ctx, count } = query;
+    pub(super) fn choose(
+        &self,
+        ctx: LightSampleContext,
+        count: u32,
+        numbers: &VertexNumbers,
+        query: &mut LightQuery,
+    ) -> ChosenLights {
         let lights = self.world.lights();
         let mut chosen = ChosenLights::default();
         let mut each = |choice: SampledLight| {
@@ -108,17 +110,18 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
             }
             chosen.push(choice);
         };
-        let prepared = &mut self.prepared;
+        (query.ctx, query.count) = (ctx, count);
+        let prepared = &mut query.prepared;
         self.sampler
-            .sample_many_prepared(ctx, numbers.light, *count, prepared, &mut each);
+            .sample_many_prepared(&ctx, numbers.light, count, prepared, &mut each);
         chosen
     }
 
-    /// The light that the `chosen` lights send over `vertex` toward its viewer, with one shadow ray
-    /// for all of them: an unbiased estimate that costs little more than that of a single light.
-    /// They are those of [`choose`](Self::choose) for the same query.
+    /// Direct light from the `chosen` lights that `vertex` scatters toward its viewer, with one
+    /// shadow ray for all of them: an unbiased estimate that costs little more than that of a single
+    /// light. `query` is that of [`choose`](Self::choose).
     ///
-    /// `arrived` says what is left of the light of the one whose shadow counts for all.
+    /// `arrived` returns the transmittance of the one light sample that is tested.
     #[inline]
     pub(super) fn sample<V: Scatters>(
         &self,
@@ -130,7 +133,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         arrived: impl FnOnce(&Unshadowed) -> Arrived,
     ) -> Traced {
         let (world, estimator) = (self.world, self.estimator);
-        // The more a candidate would give, the more likely it is the one whose shadow is looked at.
+        // Resampling: a candidate is tested with a probability in proportion to its contribution.
         let mut candidates = WeightedReservoir::new(numbers.shadow.into());
         for (number, choice) in (0..).zip(chosen.iter()) {
             let point = stream.light_point(vertex.number, number, query.count);
@@ -148,17 +151,19 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// The expected number of samples per sr that [`sample`](Self::sample) takes in the direction
-    /// `wi` toward `light`; `query` is the one that it was asked last.
+    /// The density of light samples, in sr^-1, that the choices of `query` have in the direction `wi`
+    /// toward `light`: the expected number of samples per solid angle.
     #[inline]
     pub(super) fn density(&self, query: &LightQuery, light: LightId, wi: Vec3) -> f32 {
-        let LightQuery { ctx, count } = query;
+        let LightQuery {
+            ctx,
+            count,
+            prepared,
+        } = query;
         let Some(source) = self.world.lights().get(light) else {
             return 0.0;
         };
-        let pmf = self
-            .sampler
-            .pmf_many_prepared(ctx, light, *count, &self.prepared);
+        let pmf = self.sampler.pmf_many_prepared(ctx, light, *count, prepared);
         let pmf = *count as f32 * pmf;
         if pmf > 0.0 {
             pmf * source.pdf_li(ctx, wi, self.estimator.coverage())
@@ -168,8 +173,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     }
 }
 
-/// The share that one chosen light has in [`DirectLight::sample`] if nothing is in the way; `None`
-/// if it has none.
+/// The contribution of one chosen light to [`DirectLight::sample`] without occlusion; `None` if it is
+/// zero.
 #[inline]
 fn unshadowed<V: Scatters>(
     world: &World,
@@ -205,9 +210,9 @@ fn unshadowed<V: Scatters>(
     })
 }
 
-/// Whether a point of a light is no farther from the surface that asks than rounding could have put
-/// it: a lamp does not light its own back. Rays leave from beyond that error, so the material's
-/// samples do not find such light either.
+/// Whether a point of a light is within the rounding error of the receiving surface: an emitter does
+/// not light its own back. Rays start beyond that error, so that BSDF samples do not find such light
+/// either.
 #[inline]
 fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
     (p_light - ctx.p).dot(ctx.n).abs() < ctx.n.abs().dot(ctx.p_error)

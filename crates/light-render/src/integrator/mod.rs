@@ -1,15 +1,16 @@
 //! How light reaches the camera: the estimators of the rendering equation.
 
-mod chosen;
+mod chosen_lights;
 mod direct;
 mod estimator;
 mod follow;
 mod path;
-mod ray_origin;
+mod path_state;
 mod settings;
 mod single_scattering;
-mod through;
+mod sky;
 mod traced;
+mod transmittance;
 mod volpath;
 mod volume_vertex;
 

@@ -6,17 +6,18 @@ use lights::samplers::LightSampler;
 use lights::sources::{LightType, Rgb};
 
 use super::direct::{DirectLight, LightQuery, Vertex};
-use super::ray_origin::{Origin, sky};
-use super::through::transmittance;
+use super::path_state::PathVertex;
+use super::sky::sky;
+use super::transmittance::transmittance;
 use super::volume_vertex::VolumeVertex;
 use super::{Estimator, PathSettings, SingleScattering, Traced};
 use crate::{Ray, SampleStream, World};
 
-/// The light along a camera ray that was scattered once at most, by the medium in which the camera
-/// stands or by the first surface. Mirrors and glass stay black.
+/// The light along a camera ray that was scattered at most once, by the medium around the camera or
+/// by the first surface. Specular surfaces stay black.
 ///
 /// # Source
-/// The marches and choices are those of [`VolumeIntegrator`].
+/// Marching and light sampling are those of [`VolumeIntegrator`].
 #[must_use]
 pub fn trace_single_scattering<S: LightSampler>(
     world: &World,
@@ -26,8 +27,8 @@ pub fn trace_single_scattering<S: LightSampler>(
     ray: Ray,
     stream: &SampleStream,
 ) -> Traced {
-    // No ray goes on from the surface, so light samples have to find everything.
-    let mut direct = DirectLight::new(world, sampler, Estimator::Light);
+    // No ray continues from the surface, so light samples have to find all light.
+    let direct = DirectLight::new(world, sampler, Estimator::Light);
     let mut flight = stream.flight(0);
     let medium = world.media().camera;
     let surface = world.closest(&ray, None);
@@ -35,7 +36,7 @@ pub fn trace_single_scattering<S: LightSampler>(
     let distance = surface.map_or(f32::INFINITY, |s| (s.p - ray.origin).length());
     let mut lo = Vec3::ZERO;
     match surface {
-        None => lo = sky(&direct, &ray, Origin::Dirac),
+        None => lo = sky(world, &ray, |_| 1.0),
         Some(surface) => {
             let wo = -ray.direction;
             if let Some((_, l)) = world.emitted(&surface, wo) {
@@ -43,17 +44,16 @@ pub fn trace_single_scattering<S: LightSampler>(
             }
             let vertex = VolumeVertex::on_surface(world, surface, medium);
             if !vertex.is_dirac() {
-                let query = LightQuery {
-                    ctx: vertex.light_context(world, wo),
-                    count: settings.first_choices(world),
-                };
+                let ctx = vertex.light_context(world, wo);
+                let count = settings.first_choices(world);
+                let mut query = LightQuery::default();
                 let at = Vertex {
                     scattering: &vertex,
                     wo,
                     number: 0,
                 };
                 let numbers = stream.vertex(0);
-                let chosen = direct.choose(&query, &numbers);
+                let chosen = direct.choose(ctx, count, &numbers, &mut query);
                 let lit = direct.sample(&query, &chosen, &at, &numbers, stream, |light| {
                     let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
                     let target = is_near.then_some(light.p_light);
@@ -107,7 +107,7 @@ pub fn trace_single_scattering<S: LightSampler>(
     }
 }
 
-/// What hides lights from points in a medium, and how often that was asked.
+/// Visibility of lights from points in a medium, with a count of the rays.
 #[derive(Debug)]
 struct Shadows<'a> {
     world: &'a World,
@@ -121,7 +121,7 @@ impl Visibility for Shadows<'_> {
     }
 }
 
-/// A hundredth of the scene: the steps of marches where nobody says how long they are.
+/// The default step length of marches: a hundredth of the diagonal of the scene.
 ///
 /// # Panics
 /// Never: a scene without size gets steps of 0.1.

@@ -4,7 +4,8 @@ use lights::media::{Medium, Phase};
 use lights::sources::MediumId;
 
 use super::direct::Scatters;
-use crate::bsdf::Scattering;
+use super::path_state::PathVertex;
+use crate::bsdf::{BsdfSample, Scattering};
 use crate::{PrimitiveId, Ray, Surface, World};
 
 /// A point at which a path through media scatters: on a surface or in a medium.
@@ -13,7 +14,7 @@ pub(super) enum VolumeVertex {
     Surface {
         surface: Surface,
         scattering: Scattering,
-        /// The medium that the path arrived through.
+        /// The medium of the segment that arrived.
         medium: Option<MediumId>,
     },
     Medium {
@@ -23,7 +24,7 @@ pub(super) enum VolumeVertex {
     },
 }
 
-/// A ray that leaves a vertex, with what it starts on and in.
+/// A ray that leaves a vertex, with the primitive and the medium of its origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VolumeRay {
     pub(super) ray: Ray,
@@ -31,18 +32,8 @@ pub(super) struct VolumeRay {
     pub(super) medium: Option<MediumId>,
 }
 
-/// A direction in which the path goes on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct VolumeSample {
-    pub(super) wi: Vec3,
-    /// What the throughput is multiplied with.
-    pub(super) weight: Vec3,
-    /// In sr^-1; `None` for a Dirac.
-    pub(super) pdf: Option<f32>,
-}
-
 impl VolumeVertex {
-    /// The vertex on a surface that was reached through `medium`.
+    /// The vertex on a surface that a segment in `medium` hit.
     pub(super) fn on_surface(world: &World, surface: Surface, medium: Option<MediumId>) -> Self {
         Self::Surface {
             surface,
@@ -55,47 +46,6 @@ impl VolumeVertex {
     pub(super) fn in_medium(world: &World, p: Vec3, medium: MediumId) -> Option<Self> {
         let phase = *world.media().get(Some(medium))?.phase();
         Some(Self::Medium { p, phase, medium })
-    }
-
-    /// Whether light samples can contribute.
-    pub(super) fn is_dirac(&self) -> bool {
-        match self {
-            Self::Surface { scattering, .. } => scattering.bsdf().is_dirac(),
-            Self::Medium { .. } => false,
-        }
-    }
-
-    /// The query that light samplers and lights answer.
-    pub(super) fn light_context(&self, world: &World, wo: Vec3) -> LightSampleContext {
-        match self {
-            Self::Surface {
-                surface,
-                scattering,
-                ..
-            } => world.light_context(surface, scattering, wo),
-            Self::Medium { p, .. } => LightSampleContext::medium(*p),
-        }
-    }
-
-    pub(super) fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<VolumeSample> {
-        match self {
-            Self::Surface { scattering, .. } => {
-                let sample = scattering.sample(wo, u_lobe, u)?;
-                Some(VolumeSample {
-                    wi: sample.wi,
-                    weight: sample.weight,
-                    pdf: sample.pdf,
-                })
-            }
-            Self::Medium { phase, .. } => {
-                let sample = phase.sample(wo, u);
-                Some(VolumeSample {
-                    wi: sample.wi,
-                    weight: Vec3::ONE,
-                    pdf: Some(sample.pdf),
-                })
-            }
-        }
     }
 
     /// The ray that leaves in the direction `wi`.
@@ -132,6 +82,41 @@ impl Scatters for VolumeVertex {
         match self {
             Self::Surface { scattering, .. } => scattering.pdf(wo, wi),
             Self::Medium { phase, .. } => phase.pdf(wo, wi),
+        }
+    }
+}
+
+impl PathVertex for VolumeVertex {
+    fn is_dirac(&self) -> bool {
+        match self {
+            Self::Surface { scattering, .. } => scattering.bsdf().is_dirac(),
+            Self::Medium { .. } => false,
+        }
+    }
+
+    fn light_context(&self, world: &World, wo: Vec3) -> LightSampleContext {
+        match self {
+            Self::Surface {
+                surface,
+                scattering,
+                ..
+            } => world.light_context(surface, scattering, wo),
+            Self::Medium { p, .. } => LightSampleContext::medium(*p),
+        }
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
+        match self {
+            Self::Surface { scattering, .. } => scattering.sample(wo, u_lobe, u),
+            Self::Medium { phase, .. } => {
+                let sample = phase.sample(wo, u);
+                Some(BsdfSample {
+                    wi: sample.wi,
+                    weight: Vec3::ONE,
+                    pdf: Some(sample.pdf),
+                    eta: 1.0,
+                })
+            }
         }
     }
 }

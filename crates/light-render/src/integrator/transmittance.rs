@@ -5,21 +5,22 @@ use super::direct::Arrived;
 use super::volume_vertex::VolumeRay;
 use crate::{Ray, Surface, World};
 
-/// A ray that crosses more boundaries than this is caught between coincident surfaces, and dropped.
-pub(super) const MOST_CROSSINGS: u32 = 1 << 10;
+/// The most boundaries that a ray crosses: one that crosses more is caught between coincident
+/// surfaces, and dropped.
+pub(super) const MAX_CROSSINGS: u32 = 1 << 10;
 
-/// An unbiased estimate of the share of light that arrives at the start of `from` from the point
-/// `target`, through media and their boundaries; `None` for a target at infinity.
+/// An unbiased estimate of the transmittance between the start of `from` and the point `target`
+/// through media and their boundaries; `None` for a target at infinity.
 pub(super) fn transmittance(
     world: &World,
     mut from: VolumeRay,
     target: Option<Vec3>,
     next_u: &mut impl FnMut() -> f32,
 ) -> Arrived {
-    /// How much of the way is looked at: the light itself must not be in the way.
+    /// The tested part of the way: it ends before the light itself.
     const PART: f32 = 1.0 - 1e-4;
     let mut left = Vec3::ONE;
-    for rays in 1..=MOST_CROSSINGS {
+    for rays in 1..=MAX_CROSSINGS {
         let distance = match target {
             Some(target) => {
                 let way = target - from.ray.origin;
@@ -55,7 +56,7 @@ pub(super) fn transmittance(
         }
         from = across(world, &surface, &ray, medium);
     }
-    Arrived::nothing(MOST_CROSSINGS)
+    Arrived::nothing(MAX_CROSSINGS)
 }
 
 /// The same ray on the other side of an interface.
