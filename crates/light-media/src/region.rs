@@ -75,14 +75,14 @@ impl Region {
     /// The scene's point `p` in the region's own space.
     #[inline]
     #[must_use]
-    pub fn local_point(&self, p: Vec3) -> Vec3 {
+    pub(crate) fn local_point(&self, p: Vec3) -> Vec3 {
         self.from_scene.transform_point3(p)
     }
 
     /// The scene's ray in the region's own space, with the same `t`.
     #[inline]
     #[must_use]
-    pub fn local_ray(&self, ray: &Ray) -> Ray {
+    pub(crate) fn local_ray(&self, ray: &Ray) -> Ray {
         ray.transformed(&self.from_scene)
     }
 

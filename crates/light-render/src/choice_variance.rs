@@ -10,7 +10,7 @@ use crate::World;
 /// by the light of its middle, with nothing in the way; 0 would be a choice in proportion to it.
 /// `None` where no point is lit.
 #[must_use]
-pub fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
+pub(crate) fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
     /// Lights are looked at this often in all, so that the answer takes about a second.
     const LOOKS: usize = 2_000_000;
     const POINTS: usize = 64;

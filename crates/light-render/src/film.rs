@@ -16,7 +16,7 @@ pub struct Film {
 impl Film {
     /// What a pixel takes in rows where a sum of a channel reaches 65536; 24 bytes in others.
     /// Beyond sums of 2^31, which no scene that makes sense has, 48.
-    pub const BYTES_PER_PIXEL: u64 = 30;
+    pub(crate) const BYTES_PER_PIXEL: u64 = 30;
 
     /// A black film of `width` by `height` pixels.
     #[must_use]
@@ -67,7 +67,7 @@ impl Film {
     }
 
     /// The rows from the top, for a pass that adds `samples` samples to each pixel.
-    pub fn expose(&mut self, samples: u32) -> &mut [FilmRow] {
+    pub(crate) fn expose(&mut self, samples: u32) -> &mut [FilmRow] {
         self.samples += samples;
         &mut self.rows
     }

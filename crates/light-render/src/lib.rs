@@ -44,7 +44,6 @@ mod world_mesh;
 mod world_sphere;
 
 pub use accel::{Accel, Hit, InstanceTransform, Prototype};
-pub use choice_variance::choice_variance;
 pub use compare::Comparison;
 pub use exact_sum::ExactSum;
 pub use false_color::difference;
@@ -52,7 +51,6 @@ pub use film::Film;
 pub use film_row::FilmRow;
 pub use flight_numbers::FlightNumbers;
 pub use inventory::{LightInventory, inventory};
-pub use light_sample_time::light_sample_time;
 pub use light_sampler::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 pub use partial::PartialPicture;
 pub use partial_error::PartialPictureError;

@@ -12,7 +12,7 @@ use crate::{SampleStream, View, World};
 /// The mean time of choosing a light and sampling a point of it, over points that the camera sees,
 /// on one thread; `None` where it sees nothing.
 #[must_use]
-pub fn light_sample_time<S: LightSampler>(
+pub(crate) fn light_sample_time<S: LightSampler>(
     world: &World,
     view: &View,
     sampler: &S,

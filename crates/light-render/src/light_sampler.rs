@@ -68,7 +68,8 @@ impl SamplerKind {
     ];
 
     /// Those that do not prepared at every light for each choice.
-    pub const SUBLINEAR: [Self; 4] = [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
+    pub(crate) const SUBLINEAR: [Self; 4] =
+        [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
 
     /// The kind's name on the command line.
     #[must_use]

@@ -30,7 +30,7 @@ const COLORS: [&str; 3] = ["R", "G", "B"];
 
 impl PartialPicture {
     /// Bytes a pixel that are taken to write or read a file, the film itself left out.
-    pub const FILE_BYTES_PER_PIXEL: u64 = 90;
+    pub(crate) const FILE_BYTES_PER_PIXEL: u64 = 90;
 
     /// Reads the part in a file.
     ///
@@ -143,7 +143,7 @@ impl PartialPicture {
     ///
     /// # Panics
     /// Panics if `film` has another size.
-    pub fn append(&mut self, film: &Film) {
+    pub(crate) fn append(&mut self, film: &Film) {
         self.samples.end += film.samples();
         self.film.add(film);
     }

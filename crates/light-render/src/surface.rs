@@ -33,7 +33,11 @@ impl Surface {
     /// ray which starts outside of it does not meet a neighbour in the same plane.
     #[inline]
     #[must_use]
-    pub fn on_triangle(triangle: PrimitiveId, corners: [Vec3; 3], barycentric: Vec2) -> Self {
+    pub(crate) fn on_triangle(
+        triangle: PrimitiveId,
+        corners: [Vec3; 3],
+        barycentric: Vec2,
+    ) -> Self {
         let [a, b, c] = corners;
         let weights = [
             1.0 - barycentric.x - barycentric.y,

@@ -217,7 +217,6 @@ mod tests {
                 uvs: Some(corners.map(|p| Vec2::new(p.x, p.y)).into()),
                 normals: None,
                 material: 0,
-                first_light: None,
             };
             let light = Textures::new(&images).mesh_light(&mesh, &material);
             let (desc, is_masked) = light.expect("a light");

@@ -43,7 +43,7 @@ impl ToneMap {
     /// The linear colour in `[0, 1]` that a screen should show for a pixel: exposed, with
     /// highlights rolled off channel by channel.
     #[must_use]
-    pub fn apply(&self, radiance: Vec3) -> Vec3 {
+    pub(crate) fn apply(&self, radiance: Vec3) -> Vec3 {
         (radiance * self.exposure).max(Vec3::ZERO).map(roll_off)
     }
 }

@@ -105,7 +105,7 @@ impl Camera {
     ///
     /// An empty box is seen as the unit box around the origin.
     #[must_use]
-    pub fn framing(bounds: &Aabb, forward: Vec3) -> Self {
+    pub(crate) fn framing(bounds: &Aabb, forward: Vec3) -> Self {
         let (center, radius) = bounds.bounding_sphere();
         let radius = if radius > 0.0 && radius.is_finite() {
             radius

@@ -48,10 +48,11 @@ pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
-    write_exr_half, write_hdr, write_image, write_png,
+    write_exr_half, write_image, write_png,
 };
 pub use instance::{Instance, Prototype};
-pub use luminaire::{goniometric_light, in_luminaire, parse_luminaire, read_luminaire};
+pub(crate) use luminaire::goniometric_light;
+pub use luminaire::{in_luminaire, parse_luminaire, read_luminaire};
 pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};
 pub use mesh::Mesh;
 pub use obj::{parse_obj, read_obj};

@@ -64,7 +64,7 @@ pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic
 /// # Panics
 /// When `size` is 0.
 #[must_use]
-pub fn goniometric_light<C: ColorModel>(
+pub(crate) fn goniometric_light<C: ColorModel>(
     web: &PhotometricWeb,
     transform: Affine3A,
     emission: C::Emission,

@@ -103,7 +103,7 @@ impl Mesh {
     }
 
     /// Turns fronts into backs.
-    pub fn turn_over(&mut self) {
+    pub(crate) fn turn_over(&mut self) {
         self.turn_triangles();
         for normal in self.normals.iter_mut().flatten() {
             *normal = -*normal;

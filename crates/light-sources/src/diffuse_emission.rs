@@ -127,7 +127,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
 
     /// Whether rays meet the surface.
     #[must_use]
-    pub const fn is_visible(&self) -> bool {
+    pub(crate) const fn is_visible(&self) -> bool {
         !matches!(self.mask, EmissionMask::Invisible)
     }
 

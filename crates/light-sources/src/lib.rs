@@ -181,7 +181,7 @@ pub use resample::equal_area_size;
 pub use rgb::Rgb;
 pub use rigid_transform::{RigidTransform, RigidTransformError};
 pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
-pub use scaled_emission::{EmissionError, ScaledEmission};
+pub use scaled_emission::EmissionError;
 pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;
 pub use spectral::Spectral;

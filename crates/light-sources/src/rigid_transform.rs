@@ -88,14 +88,14 @@ impl RigidTransform {
     /// A point of the scene in light space.
     #[inline]
     #[must_use]
-    pub fn inverse_point(&self, p: Vec3) -> Vec3 {
+    pub(crate) fn inverse_point(&self, p: Vec3) -> Vec3 {
         self.inverse_vector(p - self.translation)
     }
 
     /// A vector of the scene in light space.
     #[inline]
     #[must_use]
-    pub fn inverse_vector(&self, v: Vec3) -> Vec3 {
+    pub(crate) fn inverse_vector(&self, v: Vec3) -> Vec3 {
         let m = &self.linear;
         Vec3::new(m.x_axis.dot(v), m.y_axis.dot(v), m.z_axis.dot(v))
     }

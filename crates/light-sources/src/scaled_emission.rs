@@ -3,14 +3,14 @@ use core::fmt;
 
 use crate::color::ColorModel;
 
-/// An emission and how strong it is: what every light stores. Both are finite and not negative.
+/// An emission with a scale, as every light stores it. Both are finite and not negative.
 #[derive(Clone, Debug)]
-pub struct ScaledEmission<C: ColorModel> {
+pub(crate) struct ScaledEmission<C: ColorModel> {
     emission: C::Emission,
     scale: f32,
 }
 
-/// Why an emission is none.
+/// Why an emission is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum EmissionError {
@@ -18,8 +18,8 @@ pub enum EmissionError {
     Emission,
     /// `amount` is negative or not finite, or too large for this emission.
     Amount,
-    /// `amount` is a power or as the eye sees it, of a light that has none: it is black, invisible
-    /// or without an area.
+    /// `amount` is a power or a photometric quantity, but the light is black, invisible or without
+    /// an area.
     Dark,
 }
 
@@ -28,7 +28,7 @@ impl<C: ColorModel> ScaledEmission<C> {
     ///
     /// # Errors
     /// When one of them, or their product, is negative or not finite.
-    pub fn new(emission: C::Emission, scale: f32) -> Result<Self, EmissionError> {
+    pub(crate) fn new(emission: C::Emission, scale: f32) -> Result<Self, EmissionError> {
         if !C::is_valid(&emission) {
             return Err(EmissionError::Emission);
         }
@@ -41,13 +41,13 @@ impl<C: ColorModel> ScaledEmission<C> {
     /// The value at the wavelengths of a query.
     #[inline]
     #[must_use]
-    pub fn at(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
+    pub(crate) fn at(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         C::emit(&self.emission, wavelengths) * self.scale
     }
 
     /// The largest value over all channels or wavelengths.
     #[must_use]
-    pub fn maximum(&self) -> f32 {
+    pub(crate) fn maximum(&self) -> f32 {
         C::maximum(&self.emission) * self.scale
     }
 }

@@ -59,7 +59,7 @@ impl SceneSphere {
 
     /// Area of the disk that the sphere shows to any direction, in length^2.
     #[must_use]
-    pub fn disk_area(&self) -> f32 {
+    pub(crate) fn disk_area(&self) -> f32 {
         core::f32::consts::PI * self.radius * self.radius
     }
 

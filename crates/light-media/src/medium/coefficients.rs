@@ -85,7 +85,7 @@ impl<C: ColorModel> Substance<C> {
     /// The coefficients at the given density.
     #[inline]
     #[must_use]
-    pub fn at_density(
+    pub(crate) fn at_density(
         &self,
         density: f32,
         wavelengths: &C::Wavelengths,
@@ -108,7 +108,7 @@ impl<C: ColorModel> Substance<C> {
     /// An upper bound of the extinction at density 1 over all channels or wavelengths.
     #[inline]
     #[must_use]
-    pub fn max_sigma_t(&self) -> f32 {
+    pub(crate) fn max_sigma_t(&self) -> f32 {
         self.max_sigma_t
     }
 }

@@ -58,7 +58,7 @@ impl InstanceTransform {
     /// near the rounding unit as parallel to the box.
     #[inline]
     #[must_use]
-    pub fn to_object(&self, ray: &Ray) -> (Ray, f32) {
+    pub(crate) fn object_ray(&self, ray: &Ray) -> (Ray, f32) {
         let from_here = Vec3A::from(ray.origin) - self.to_world.translation;
         let direction = self.to_object * Vec3A::from(ray.direction);
         let stretch = direction.length();
@@ -70,7 +70,7 @@ impl InstanceTransform {
     }
 
     /// Bound, for each component, on the distance that rounding moves a ray with origin `p` in
-    /// [`to_object`](Self::to_object), in world space.
+    /// [`object_ray`](Self::object_ray), in world space.
     #[inline]
     #[must_use]
     pub fn error(&self, p: Vec3) -> Vec3 {
@@ -132,7 +132,7 @@ mod tests {
         let origin = Vec3::new(7.0, 1.0, 90.0);
         let way = transform.point(p) - origin;
         let direction = way.normalize();
-        let (ray, stretch) = transform.to_object(&Ray { origin, direction });
+        let (ray, stretch) = transform.object_ray(&Ray { origin, direction });
         assert!(
             (ray.direction.length() - 1.0).abs() < 1e-6,
             "of unit length"

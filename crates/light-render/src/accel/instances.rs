@@ -186,7 +186,7 @@ impl Instances {
         } = &self.instances[slot];
         let geometry = &self.prototypes[*prototype as usize];
         let instance = u32::try_from(slot).ok()?;
-        let (ray, stretch) = transform.to_object(ray);
+        let (ray, stretch) = transform.object_ray(ray);
         let from = from.filter(|from| from.instance() == Some(instance));
         ray.origin.is_finite().then(|| Visit {
             geometry,

@@ -62,7 +62,7 @@ impl Accel {
     /// # Panics
     /// Panics at 2^32 primitives.
     #[must_use]
-    pub fn with_spheres_and_prototypes(
+    pub(crate) fn with_spheres_and_prototypes(
         triangles: &[[Vec3; 3]],
         spheres: &[Sphere],
         prototypes: Vec<Prototype>,
@@ -90,7 +90,7 @@ impl Accel {
     /// and the coordinates on it, as [`Hit::coords`] defines them.
     #[inline]
     #[must_use]
-    pub fn closest_where(
+    pub(crate) fn closest_where(
         &self,
         ray: &Ray,
         from: Option<PrimitiveId>,
@@ -124,7 +124,7 @@ impl Accel {
     /// the coordinates on it, as [`Hit::coords`] defines them.
     #[inline]
     #[must_use]
-    pub fn occluded_where(
+    pub(crate) fn occluded_where(
         &self,
         ray: &Ray,
         t_max: f32,
@@ -142,7 +142,7 @@ impl Accel {
     /// Panics if there is no such instance.
     #[inline]
     #[must_use]
-    pub fn instance_transform(&self, instance: u32) -> &InstanceTransform {
+    pub(crate) fn instance_transform(&self, instance: u32) -> &InstanceTransform {
         self.instances.transform(instance)
     }
 

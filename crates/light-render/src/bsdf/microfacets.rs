@@ -23,7 +23,7 @@ impl Microfacets {
     /// Whether the surface is a plane mirror for all that floats can tell.
     #[inline]
     #[must_use]
-    pub fn is_smooth(&self) -> bool {
+    pub(crate) fn is_smooth(&self) -> bool {
         self.alpha.max_element() < 1e-3
     }
 
@@ -62,7 +62,7 @@ impl Microfacets {
     /// The share of facets that is seen from `w`.
     #[inline]
     #[must_use]
-    pub fn g1(&self, w: Vec3) -> f32 {
+    pub(crate) fn g1(&self, w: Vec3) -> f32 {
         1.0 / (1.0 + self.lambda(w))
     }
 

@@ -1,6 +1,7 @@
 use std::time::Instant;
 
-use crate::{AnyLightSampler, LightInventory, SamplerKind, World, choice_variance, inventory};
+use crate::choice_variance::choice_variance;
+use crate::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
 use clap::Args;
 use light_scene::Diagnostic;
 use serde_json::{Value, json};

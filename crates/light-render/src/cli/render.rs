@@ -6,9 +6,10 @@ use clap::Args;
 use light_scene::{Diagnostic, Image};
 use serde_json::json;
 
+use crate::light_sample_time::light_sample_time;
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, ToneMap, View, World, light_sample_time, render,
+    SceneDigest, ToneMap, View, World, render,
 };
 
 use super::arguments::threads;

@@ -34,7 +34,7 @@ impl Estimator {
     /// in sr^-1.
     #[inline]
     #[must_use]
-    pub fn light_weight(self, light: f32, bsdf: f32) -> f32 {
+    pub(crate) fn light_weight(self, light: f32, bsdf: f32) -> f32 {
         match self {
             Self::Mis => mis::power(light, bsdf),
             Self::Light => 1.0,
@@ -46,7 +46,7 @@ impl Estimator {
     /// have the density that `light` answers; both in sr^-1.
     #[inline]
     #[must_use]
-    pub fn bsdf_weight(self, bsdf: f32, light: impl FnOnce() -> f32) -> f32 {
+    pub(crate) fn bsdf_weight(self, bsdf: f32, light: impl FnOnce() -> f32) -> f32 {
         match self {
             Self::Mis => mis::power(bsdf, light()),
             Self::Light => 0.0,

@@ -16,8 +16,9 @@ mod volume_vertex;
 
 pub use estimator::Estimator;
 pub use follow::follow;
-pub use path::trace;
+use path::trace;
 pub use settings::{Integrator, PathSettings, SingleScattering};
-pub use single_scattering::{coarse_step, trace_single_scattering};
+pub(crate) use single_scattering::coarse_step;
+use single_scattering::trace_single_scattering;
 pub use traced::Traced;
-pub use volpath::trace_volume;
+use volpath::trace_volume;

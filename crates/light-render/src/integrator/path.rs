@@ -11,7 +11,7 @@ use crate::{Ray, SampleStream, Surface, World};
 /// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased
 /// estimate of the radiance along it, over paths of at most `settings.max_depth` segments.
 #[must_use]
-pub fn trace<S: LightSampler>(
+pub(crate) fn trace<S: LightSampler>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,

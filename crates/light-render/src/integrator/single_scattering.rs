@@ -19,7 +19,7 @@ use crate::{Ray, SampleStream, World};
 /// # Source
 /// Marching and light sampling are those of [`VolumeIntegrator`].
 #[must_use]
-pub fn trace_single_scattering<S: LightSampler>(
+pub(crate) fn trace_single_scattering<S: LightSampler>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,
@@ -126,7 +126,7 @@ impl Visibility for Shadows<'_> {
 /// # Panics
 /// Never: a scene without size gets steps of 0.1.
 #[must_use]
-pub fn coarse_step(world: &World) -> StepSize {
+pub(crate) fn coarse_step(world: &World) -> StepSize {
     let size = world.bounds().diagonal().length();
     let step = StepSize::new(0.01 * size).or(StepSize::new(0.1));
     step.expect("a positive length")

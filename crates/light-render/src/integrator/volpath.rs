@@ -22,7 +22,7 @@ use crate::{FlightNumbers, Ray, SampleStream, World};
 /// `[PBRT4]`, section 14.2; the tracking is that of
 /// [`delta_tracking`](lights::media::delta_tracking).
 #[must_use]
-pub fn trace_volume<S: LightSampler>(
+pub(crate) fn trace_volume<S: LightSampler>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,

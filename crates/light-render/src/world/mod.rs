@@ -136,7 +136,7 @@ impl World {
 
     /// Whether there are media between the surfaces.
     #[must_use]
-    pub fn has_media(&self) -> bool {
+    pub(crate) fn has_media(&self) -> bool {
         !self.media.is_empty()
     }
 
@@ -179,7 +179,7 @@ impl World {
     /// The radiance of an infinite light along a ray that leaves the scene.
     #[inline]
     #[must_use]
-    pub fn sky_radiance(&self, light: LightId, ray: &Ray) -> Vec3 {
+    pub(crate) fn sky_radiance(&self, light: LightId, ray: &Ray) -> Vec3 {
         self.lights
             .get(light)
             .map_or(Vec3::ZERO, |light| light.le(ray.origin, ray.direction, &()))

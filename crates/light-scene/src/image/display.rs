@@ -38,7 +38,7 @@ pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
 ///
 /// # Errors
 /// When the file cannot be written; nothing is left behind then.
-pub fn write_hdr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+pub(crate) fn write_hdr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     let texels: Vec<Rgb<f32>> = image.texels().iter().map(|t| Rgb(t.to_array())).collect();
     let mut bytes = Vec::new();
     let (width, height) = (image.width() as usize, image.height() as usize);

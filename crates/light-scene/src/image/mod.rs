@@ -19,7 +19,8 @@ use crate::glam::{DVec3, Vec3};
 
 pub use channels::ChannelFile;
 use checked::checked;
-pub use display::{write_hdr, write_png};
+pub(crate) use display::write_hdr;
+pub use display::write_png;
 pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
     IMAGE_ENDINGS, is_image_name, read_encoded_from, read_image_from, read_opacity_from,
