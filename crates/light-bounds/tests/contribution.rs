@@ -186,7 +186,7 @@ fn importance_is_no_less_than_what_a_point_sends() {
         };
         let at = p + across(n, &mut rng) * rng.log_range(1e-2, 1e2);
         let way: [f64; 3] = core::array::from_fn(|i| double(at)[i] - double(p)[i]);
-        // Half of the lights shine past the point.
+        // Half of the lights emit light past the point.
         let w = if rng.below(2) == 0 {
             across((at - p).normalize(), &mut rng)
         } else {

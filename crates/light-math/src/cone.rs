@@ -8,8 +8,8 @@ use crate::float::{cos, inverse_power_of_two, safe_acos, safe_asin, sin_cos, sqr
 /// Round-off of the dot product of two unit vectors, each known to half a unit in the last place.
 const DOT_ERROR: f32 = 4.0 * f32::EPSILON;
 
-/// Enlargement of the squared sine of the angle that a box subtends, against its round-off: 12 half
-/// units in the last place.
+/// Enlargement of the squared sine of the angle that a box subtends, against its rounding error: 12
+/// half units in the last place.
 ///
 /// A squared length of three rounded differences is known to 5 of them: 2 by the difference, 1 by
 /// the square, 2 by the sums. The squares of radius and distance make 10, and the product with this
@@ -81,15 +81,15 @@ impl DirectionCone {
 
     /// Whether the unit vector `w` lies in the closed cone.
     ///
-    /// Generous by the round-off of a dot product, so that no direction that lies in the cone is
-    /// denied: a cone holds its own axis, however narrow it is.
+    /// Generous by the rounding error of a dot product, so that no direction that lies in the cone
+    /// is denied: a cone holds its own axis, however narrow it is.
     #[inline]
     #[must_use]
     pub fn contains(&self, w: Vec3) -> bool {
         self.is_whole_sphere() || self.w.dot(w) >= self.cos_theta - DOT_ERROR
     }
 
-    /// A cone that holds both cones, the narrowest one unless round-off interferes.
+    /// A cone that holds both cones, the narrowest one unless rounding error interferes.
     ///
     /// # Source
     /// `[PBRT4]`, section 3.8.4. The cross product is taken with the difference (or sum) of the
@@ -195,7 +195,8 @@ fn angle_between(a: Vec3, b: Vec3) -> f32 {
     }
 }
 
-/// The unit vector perpendicular to `a` on the way to `b`; none when they are the same or opposite.
+/// The unit vector perpendicular to `a` on the way to `b`; `None` when they are the same or
+/// opposite.
 #[inline]
 fn tangent_toward(a: Vec3, b: Vec3) -> Option<Vec3> {
     let near = if a.dot(b) < 0.0 { b + a } else { b - a };

@@ -7,7 +7,7 @@ const UNIT_TOLERANCE: f32 = 1e-5;
 /// The unit vector along `v`, however short or long that is; `None` if it has no direction: zero,
 /// infinite, or not a number.
 ///
-/// A unit vector to rounding, with a squared length within 1e-5 of one, comes back to the bit.
+/// A unit vector to rounding, with a squared length within 1e-5 of one, comes back bit for bit.
 #[inline]
 #[must_use]
 pub fn direction(v: Vec3) -> Option<Vec3> {

@@ -23,7 +23,7 @@ pub(crate) fn unit(u: f64) -> f64 {
     if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
 }
 
-/// An index chosen in proportion to `weights`; none if no weight is positive.
+/// An index chosen in proportion to `weights`; `None` if no weight is positive.
 ///
 /// `u` is in `[0, 1)`; it is an `f64` because the 24 bits of an `f32` are soon used up where
 /// choices follow one another. A weight that is not a positive finite number counts as 0. Two walks

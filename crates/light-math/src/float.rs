@@ -84,7 +84,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     }
 }
 
-/// Square root of `max(x, 0)`: for radicands that are negative by round-off alone.
+/// Square root of `max(x, 0)`: for radicands that are negative by rounding error alone.
 #[inline]
 #[must_use]
 pub fn safe_sqrt(x: f32) -> f32 {

@@ -25,7 +25,7 @@ pub fn power(pdf: f32, other: f32) -> f32 {
     ratio(pdf, other).map_or(0.0, |r| 1.0 / (1.0 + r * r))
 }
 
-/// `other / pdf`, which may overflow to infinity but is never NaN; none if the weight is 0.
+/// `other / pdf`, which may overflow to infinity but is never NaN; `None` if the weight is 0.
 #[inline]
 fn ratio(pdf: f32, other: f32) -> Option<f32> {
     if !(pdf > 0.0) || other.is_nan() {

@@ -16,7 +16,7 @@ pub const MAX_COS: u16 = 32767;
 /// wider angle.
 ///
 /// At most `2 / 32767` is lost, a little more when plain rounding had to be corrected. Values
-/// outside are clamped; NaN gives 0, which stands for -1, all directions.
+/// outside are clamped; NaN gives 0, which represents -1, all directions.
 #[inline]
 #[must_use]
 #[allow(
@@ -31,7 +31,7 @@ pub fn encode_cos(cos_theta: f32) -> u16 {
     q - u16::from(decode_cos(q) > c)
 }
 
-/// The cosine that the 15-bit code `q` stands for, in `[-1, 1]`; larger codes count as [`MAX_COS`].
+/// The cosine that the 15-bit code `q` represents, in `[-1, 1]`; larger codes count as [`MAX_COS`].
 #[inline]
 #[must_use]
 pub fn decode_cos(q: u16) -> f32 {
@@ -66,7 +66,7 @@ impl QuantizedBox {
         }
     }
 
-    /// The box within `enclosing` that the code stands for.
+    /// The box within `enclosing` that the code represents.
     #[inline]
     #[must_use]
     pub fn decode(&self, enclosing: &Aabb) -> Aabb {

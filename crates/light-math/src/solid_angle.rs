@@ -38,7 +38,7 @@ pub fn quad(v: [Vec3; 4], p: Vec3) -> f32 {
     positive(sum.doubled())
 }
 
-/// Zero for NaN, which stands for corners that are not finite.
+/// Zero for NaN, which represents corners that are not finite.
 fn positive(omega: f32) -> f32 {
     if omega > 0.0 { omega } else { 0.0 }
 }

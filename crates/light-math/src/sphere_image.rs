@@ -120,7 +120,7 @@ impl<F> SphereImage<F> {
     }
 }
 
-/// Why there is no such image of the sphere.
+/// Why an image of the sphere is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SphereImageError {

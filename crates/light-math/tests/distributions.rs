@@ -1,5 +1,5 @@
 //! The laws of tables: samples follow the density, what is left of `u` is uniform again, weights
-//! that make no sense are refused, and nothing is ever returned that has no weight.
+//! that are invalid are refused, and nothing is ever returned that has no weight.
 
 #![allow(
     clippy::cast_possible_truncation,

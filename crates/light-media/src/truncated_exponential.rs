@@ -85,7 +85,7 @@ mod tests {
         }
     }
 
-    /// The last float below one stands for the end, or by rounding for a place beyond it.
+    /// The last float below one represents the end, or by rounding for a place beyond it.
     #[test]
     fn samples_stay_within_the_length() {
         let mut beyond = 0;

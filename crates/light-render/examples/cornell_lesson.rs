@@ -1,6 +1,6 @@
 //! The lesson of the Cornell box: ten samples toward the lamp show less noise than a thousand over
 //! the hemisphere, with the same mean; and a lamp that hangs below the ceiling lights it only when
-//! it shines on both sides.
+//! it emits light on both sides.
 //!
 //! `cargo run --release -p light-render --example cornell_lesson`
 

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 
 use crate::file_checksum::hex;
 
-/// A number of 128 bits that stands for all of a value: every field of every struct in it, every
+/// A number of 128 bits that represents all of a value: every field of every struct in it, every
 /// element, every bit of every number. Values that differ anywhere have different digests, on all
 /// platforms and for any number of threads.
 pub(crate) fn content_digest(value: &impl Serialize) -> String {

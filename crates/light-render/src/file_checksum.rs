@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 /// The note of a file that holds its checksum.
 pub(crate) const CHECKSUM: &str = "lights.checksum";
 
-/// What stands for the checksum while there is none.
+/// What represents the checksum while there is none.
 pub(crate) const NO_CHECKSUM: &str =
     "0000000000000000000000000000000000000000000000000000000000000000";
 

@@ -49,7 +49,7 @@ pub enum AnyLightSampler {
 pub enum AnyLightSamplerError {
     /// A power is no power.
     Power(PowerLightSamplerError),
-    /// Bounds make no sense.
+    /// Bounds are invalid.
     Bvh(LightBvhError),
 }
 
@@ -101,7 +101,7 @@ impl AnyLightSampler {
     /// are those of the bounds.
     ///
     /// # Errors
-    /// When the lights are more than ids, or bounds make no sense.
+    /// When the lights are more than ids, or bounds are invalid.
     pub fn over(kind: SamplerKind, extents: &[LightExtent]) -> Result<Self, AnyLightSamplerError> {
         Ok(match kind {
             SamplerKind::Uniform => {

@@ -106,7 +106,7 @@ impl View {
     }
 
     /// The ray through the place `film` of the picture, in pixels from its top left corner, and
-    /// through the place of the lens that `u_lens` in `[0, 1)^2` stands for.
+    /// through the place of the lens that `u_lens` in `[0, 1)^2` represents.
     #[inline]
     #[must_use]
     pub fn ray(&self, film: Vec2, u_lens: Vec2) -> Ray {

@@ -159,8 +159,8 @@ fn alpha_images_of_one_value() {
     }
 }
 
-/// A mask of which one half is there, of a lamp of which the left third shines: whatever is where,
-/// all three agree.
+/// A mask of which one half is there, of a lamp of which the left third emits light: whatever is
+/// where, all three agree.
 #[test]
 fn alpha_images_over_images_of_emission() {
     for (cutoff, turn) in [(None, 0.0), (None, 0.4), (Some(0.5), 0.0), (Some(0.5), 0.4)] {

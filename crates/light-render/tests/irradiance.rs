@@ -163,8 +163,8 @@ fn from_polygon(corners: &[Vec3]) -> f64 {
     -0.5 * corners.iter().zip(next).map(edge).sum::<f64>()
 }
 
-/// A plane under a lamp with these corners, which shines to where they run counter-clockwise, or to
-/// both sides.
+/// A plane under a lamp with these corners, which emits light to where they run counter-clockwise,
+/// or to both sides.
 fn under_lamp(corners: [Vec3; 4], emission: Emission) -> Scene {
     let mut scene = ground();
     let lamp = scene.add_material(Material {

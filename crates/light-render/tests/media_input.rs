@@ -1,5 +1,5 @@
 //! Media from outside: what the program makes of scenes with media, and how it refuses those that
-//! make no sense.
+//! are invalid.
 
 use std::fs;
 use std::path::PathBuf;

@@ -75,8 +75,8 @@ fn what_does_not_come_before_it_is_black() {
     assert_eq!(mean(&scene).0, DVec3::ZERO, "and nobody waits");
 }
 
-/// In a closed room that shines, E / (1 - albedo), with the albedo of the mean: each reflection
-/// chooses anew.
+/// In a closed room that emits light, E / (1 - albedo), with the albedo of the mean: each
+/// reflection chooses again.
 #[test]
 fn a_furnace_of_two_albedos() {
     let mut scene = Scene::default();

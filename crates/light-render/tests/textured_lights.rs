@@ -1,5 +1,5 @@
-//! Surfaces that shine with an image: their power is that of the texels they cover, and images are
-//! held once.
+//! Surfaces that emit light with an image: their power is that of the texels they cover, and images
+//! are held once.
 
 mod support;
 

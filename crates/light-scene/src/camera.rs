@@ -7,7 +7,7 @@ use crate::glam::Vec3;
 /// A perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it stands.
+    /// Its position.
     pub position: Vec3,
     /// Unit vector to the right of the image.
     pub right: Vec3,

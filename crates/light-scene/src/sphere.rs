@@ -11,7 +11,7 @@ use crate::{MaterialId, Mesh};
 /// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the
 /// axis +z of `transform`, v from the lower pole to the upper.
 ///
-/// One that shines is one light, which is found best where no light passes its surface: what a
+/// One that emits light is one light, which is found best where no light passes its surface: what a
 /// sphere with holes or of [`Surface::Interface`](crate::Surface::Interface) gives off at its
 /// inside is asked for at the nearer side alone.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -76,7 +76,7 @@ impl Sphere {
         }
     }
 
-    /// The shape of a light with this surface; it makes no sense where `transform` does not keep
+    /// The shape of a light with this surface; it is invalid where `transform` does not keep
     /// angles.
     #[must_use]
     pub fn shape(&self) -> ShapeDesc {

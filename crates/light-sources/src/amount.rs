@@ -1,32 +1,30 @@
-//! How bright a light is, in the unit in which the user knows it.
+//! The amount of light of an emitter, in the unit that the user knows.
 //!
-//! A radiometric amount is a factor of the emission. With any other the emission gives the colour
-//! alone, and the light gives off what the amount says, whatever the emission's own strength. Of an
-//! image, as of a projected picture, a textured surface or a sky, intensity and luminance are those
-//! of its white, `(1, 1, 1)`: an image that holds cd/m^2 has the luminance `Nit(1.0)`.
+//! A radiometric amount is a factor of the emission. With a photometric amount or a power, the
+//! emission gives the colour alone, and its scale cancels. For an image (a projected picture, a
+//! textured surface or a sky), intensity and luminance are those of its white, `(1, 1, 1)`: an
+//! image in cd/m^2 has the luminance `Nit(1.0)`.
 
 use crate::flux::Flux;
 use crate::scaled_emission::EmissionError;
 use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 
-/// How bright a light at a point is, as the user states it; the emission then gives the colour.
+/// The amount of a point light; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum IntensityAmount {
     /// The intensity is this times the emission, in W/sr.
     Radiometric(f32),
-    /// The intensity where the light is at its full: inside of a spot's falloff, where a
-    /// distribution or picture is 1.
+    /// The largest intensity: inside of a spot's falloff, where a distribution or picture is 1.
     LuminousIntensity(Candela),
-    /// What the light gives off in all directions together.
+    /// The power in all directions.
     LuminousPower(Lumen),
-    /// What the light gives off in all directions together.
+    /// The power in all directions.
     RadiantPower(Watt),
 }
 
-/// How bright a light from one direction is, as the user states it; the emission then gives the
-/// colour.
+/// The amount of a distant light; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -37,7 +35,7 @@ pub enum IrradianceAmount {
     Illuminance(Lux),
 }
 
-/// How bright a surface or a sky is, as the user states it; the emission then gives the colour.
+/// The amount of a surface or a sky; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -49,16 +47,16 @@ pub enum RadianceAmount {
     Luminance(Nit),
 }
 
-/// How bright a surface with an area is, as the user states it; the emission then gives the colour.
+/// The amount of a surface with an area; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SurfaceAmount {
-    /// How bright each place of it is.
+    /// The radiance or luminance at each point.
     Radiance(RadianceAmount),
-    /// What all of it gives off, on all sides that emit and over all triangles of a mesh.
+    /// The power of all emitting sides and all triangles of a mesh.
     LuminousPower(Lumen),
-    /// What all of it gives off, on all sides that emit and over all triangles of a mesh.
+    /// The power of all emitting sides and all triangles of a mesh.
     RadiantPower(Watt),
 }
 
@@ -111,7 +109,7 @@ impl SurfaceAmount {
     }
 }
 
-/// How many times `unit` makes `amount`. What is not a number is for the caller to refuse.
+/// `amount` divided by `unit`. The caller refuses NaN.
 fn quotient(amount: f32, unit: f32) -> Result<f32, EmissionError> {
     if unit != 0.0 {
         Ok(amount / unit)

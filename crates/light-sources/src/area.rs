@@ -15,10 +15,9 @@ use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 use light_math::warp::cosine_hemisphere;
 use light_math::{DirectionCone, Frame};
 
-/// A shape that shines with the same radiance in all directions: a shape and the emission that it
-/// shares with others.
+/// A diffuse area light: a shape, and an emission that several shapes may share.
 ///
-/// It is a view, made when it is asked for: a light set stores shapes and emissions apart.
+/// It is a view, made on demand: a light set stores shapes and emissions apart.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.4.
@@ -26,18 +25,18 @@ use light_math::{DirectionCone, Frame};
 pub struct DiffuseAreaLight<'a, C: ColorModel, S> {
     shape: S,
     emission: &'a DiffuseEmission<C>,
-    /// The mean over the shape of what varies, where it is kept.
+    /// The mean of the texture over the shape, if it is stored.
     mean: Option<&'a Vec3>,
 }
 
 impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
-    /// The light that shines from `shape` with `emission`.
+    /// The light of `shape` with `emission`.
     #[must_use]
     pub const fn new(shape: S, emission: &'a DiffuseEmission<C>) -> Self {
         Self::with_mean(shape, emission, None)
     }
 
-    /// As [`new`](Self::new), where the mean of what varies over the shape may be known.
+    /// As [`new`](Self::new), with the mean of the texture over the shape if it is known.
     #[inline]
     pub(crate) const fn with_mean(
         shape: S,
@@ -63,7 +62,7 @@ impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
         &self.shape
     }
 
-    /// How it shines.
+    /// The emission of the surface.
     #[must_use]
     pub const fn emission(&self) -> &'a DiffuseEmission<C> {
         self.emission
@@ -119,7 +118,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
         let direction = match self.emission.sides() {
             Sides::Front => Frame::from_z(at.n).from_local(cosine_hemisphere::sample(u2)),
             Sides::Back => Frame::from_z(-at.n).from_local(cosine_hemisphere::sample(u2)),
-            // The first number chooses the side and is stretched again to the full interval.
+            // The first number chooses the side and is rescaled to the full interval.
             Sides::Both => {
                 let (x, side) = if u2.x < 0.5 {
                     (u2.x, 1.0)
@@ -139,7 +138,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
             uv: at.uv,
         };
         let dir = self.pdf_direction(&ray);
-        // Of a surface too small for a density per area no ray leaves.
+        // A surface too small for a density per area emits no rays.
         (!l.is_black() && dir > 0.0 && pdf.is_finite()).then_some(LightLeSample {
             l,
             ray,

@@ -9,7 +9,7 @@ use crate::glam::Vec3;
 use crate::shape::{AnyShape, Shape, ShapeDesc, ShapeError};
 use crate::surface_texture::SurfaceTexture;
 
-/// A shape that shines, as a user describes it.
+/// The description of an area light.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -17,28 +17,28 @@ use crate::surface_texture::SurfaceTexture;
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub struct AreaLightDesc<C: ColorModel> {
-    /// What shines.
+    /// The surface.
     pub shape: ShapeDesc,
-    /// How it shines.
+    /// The emission of the surface.
     pub emission: DiffuseEmissionDesc<C>,
 }
 
-/// A shape that shines, as a set keeps it: it becomes a [`DiffuseAreaLight`] when it is looked at.
+/// An area light as a set stores it; accessors make a [`DiffuseAreaLight`] of it.
 #[derive(Clone, Debug)]
 pub(crate) struct AreaSource<C: ColorModel> {
     shape: AnyShape,
     emission: DiffuseEmission<C>,
-    /// Of what varies over the shape.
+    /// The mean of the texture over the shape, if there is one.
     mean: Vec3,
 }
 
-/// Why a description is no area light; each variant names a field.
+/// Why the description of an area light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AreaLightError {
-    /// `shape` makes no sense.
+    /// `shape` is invalid.
     Shape(ShapeError),
-    /// `emission` makes no sense.
+    /// `emission` is invalid.
     Emission(DiffuseEmissionError),
 }
 

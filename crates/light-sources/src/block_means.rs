@@ -5,22 +5,22 @@ use crate::texel_cells::{Shown, single};
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::Axis;
 
-/// The means of what a surface shows over blocks of the unit square: squares of a few texels, and
-/// of twice, four times... as many, up to all of it.
+/// Means of an image over blocks of the unit square: a pyramid from blocks of a few texels, doubled
+/// at each level, up to the whole.
 ///
-/// Less than a byte a texel, and exact: what covers a block as a whole need not look into it.
+/// Less than a byte per texel. The means are exact, so that integrals need not visit the texels of
+/// a block that is covered as a whole.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BlockMeans {
-    /// How many of the smallest blocks lie along each axis, as powers of two.
+    /// The number of smallest blocks along each axis, as powers of two.
     log2_blocks: [u32; 2],
-    /// What was beyond the edges when the means were taken: half of a texel at each edge depends on
-    /// it.
+    /// The wrap rule of the means: half of a texel at each edge depends on it.
     wrap: [Wrap; 2],
     /// Row by row, from the smallest blocks to the whole.
     means: Vec<Vec3>,
 }
 
-/// A block of a plane that is paved with unit squares: `2^level` of the smallest along each axis.
+/// A block of the plane tiled by unit squares: `2^level` smallest blocks along each axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub(crate) level: u32,
@@ -81,7 +81,7 @@ impl BlockMeans {
         (1u64 << self.log2_blocks[axis as usize]) as f64
     }
 
-    /// The mean of what `wrap` makes of the image over a block, where it is known.
+    /// The mean of the image with `wrap` over a block; `None` if it is not stored.
     pub(crate) fn mean(&self, block: Block, wrap: [Wrap; 2]) -> Option<DVec3> {
         let is_known = Axis::BOTH.into_iter().all(|axis| {
             let axis = axis as usize;
@@ -90,8 +90,7 @@ impl BlockMeans {
         is_known.then(|| self.stored(block, wrap))
     }
 
-    /// The mean over a block, where the edges of the unit square count as if they were not wrapped
-    /// otherwise.
+    /// The stored mean over a block, whatever the wrap rule of the query.
     pub(crate) fn stored(&self, block: Block, wrap: [Wrap; 2]) -> DVec3 {
         let level = block
             .level
@@ -101,7 +100,7 @@ impl BlockMeans {
         self.means[start + y * self.size(level)[0] + x].as_dvec3()
     }
 
-    /// The block of the unit square that a block of the paved plane shows.
+    /// The block of the unit square that a block of the tiled plane repeats.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -119,8 +118,8 @@ impl BlockMeans {
         folded as usize
     }
 
-    /// Whether the means along an axis are those of `wrap`: they are for all where no edge of the
-    /// unit square is near.
+    /// Whether the means along an axis are valid for `wrap`: always where no edge of the unit
+    /// square is near.
     #[expect(clippy::cast_possible_wrap, reason = "at most 2^32 blocks")]
     fn is_known(&self, axis: usize, level: u32, index: i64, wrap: Wrap) -> bool {
         let count = self.size(level)[axis] as i64;
@@ -129,7 +128,8 @@ impl BlockMeans {
         is_inside
             || match (self.wrap[axis], wrap) {
                 (Wrap::Clamp | Wrap::Mirror, Wrap::Clamp | Wrap::Mirror) => true,
-                // What one edge lends to the other it gets back there.
+                // Repetition moves the part beyond one edge to the other edge: the mean does not
+                // change.
                 (Wrap::Clamp, Wrap::Repeat) => count == 1,
                 (taken, asked) => taken == asked,
             }

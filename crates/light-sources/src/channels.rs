@@ -1,17 +1,17 @@
 use crate::glam::Vec3;
 
-/// What a texel holds.
+/// The channels of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Channels {
-    /// One number, for all colours alike.
+    /// One grey value.
     Gray,
     /// Red, green, blue.
     Rgb,
 }
 
 impl Channels {
-    /// How many numbers a texel has.
+    /// The number of values per texel.
     #[must_use]
     pub const fn count(self) -> usize {
         match self {

@@ -4,7 +4,7 @@ use core::ops::{Add, Mul};
 use crate::flux::Flux;
 use crate::glam::Vec3;
 
-/// What a light answers with: a radiance, or any other radiometric quantity, in one number per
+/// The result of a light query: a radiance, or another radiometric quantity, with one number per
 /// colour channel or sampled wavelength.
 pub trait Radiance:
     Copy
@@ -37,8 +37,7 @@ pub trait Radiance:
     fn maximum(self) -> f32;
 }
 
-/// How colour is represented, as a type: what a light stores, what a query carries and what an
-/// answer is.
+/// A colour model as a type: what a light stores, what a query carries and what it returns.
 ///
 /// Every light is written once, over this trait. A renderer that works in RGB compiles no spectral
 /// code.
@@ -49,7 +48,7 @@ pub trait ColorModel: Copy + Debug + Send + Sync + 'static {
     /// What a light stores. Spectra with tables share them, so a clone is cheap.
     type Emission: Clone + Debug + Send + Sync;
 
-    /// What a query answers.
+    /// The result of a query.
     type Radiance: Radiance;
 
     /// The value of a stored emission.
@@ -64,10 +63,10 @@ pub trait ColorModel: Copy + Debug + Send + Sync + 'static {
     /// Whether an emission is finite and nowhere negative.
     fn is_valid(emission: &Self::Emission) -> bool;
 
-    /// What an emission amounts to in lumens and in watts.
+    /// The luminous and the radiant flux of an emission.
     fn flux(emission: &Self::Emission) -> Flux;
 
-    /// What an image texel amounts to in lumens and in watts.
+    /// The luminous and the radiant flux of an image texel.
     fn flux_of_texel(rgb: Vec3) -> Flux;
 
     /// Fixed wavelengths at which lights are compared with one another.

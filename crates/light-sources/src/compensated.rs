@@ -2,8 +2,7 @@ use alloc::vec::Vec;
 
 use crate::rgb_sum::single;
 
-/// The distribution for samples that may leave out directions of little light: what is above the
-/// mean.
+/// The weights of MIS compensation: the part above the mean.
 ///
 /// # Source
 /// `[Karlik2019]`, with the constant for an image that is the same everywhere.

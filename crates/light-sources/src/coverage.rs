@@ -1,4 +1,4 @@
-/// Which directions a sample toward a light has to cover.
+/// The directions that light samples have to cover.
 ///
 /// The same value goes to [`sample_li`](crate::Light::sample_li) and to
 /// [`pdf_li`](crate::Light::pdf_li).

@@ -16,8 +16,7 @@ use crate::sun::SunLightError;
 use crate::sun_desc::SunLightDesc;
 use crate::uniform_infinite::UniformInfiniteLightDesc;
 
-/// A light as a user describes it, in the user's units; it may hold nonsense, which the built light
-/// cannot.
+/// The description of a light, in the user's units. It is not validated; a built light is.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -30,27 +29,27 @@ pub enum LightDesc<C: ColorModel> {
     Point(PointLightDesc<C>),
     /// A spot light.
     Spot(SpotLightDesc<C>),
-    /// A light that throws a picture.
+    /// A projector.
     Projection(ProjectionLightDesc),
-    /// A light with a measured distribution.
+    /// A goniometric light.
     Goniometric(GoniometricLightDesc<C>),
-    /// A shape that shines.
+    /// An area light.
     Area(AreaLightDesc<C>),
     /// An emissive mesh.
     Mesh(MeshLightDesc<C>),
-    /// A light from one direction.
+    /// A distant light.
     Distant(DistantLightDesc<C>),
-    /// A disk in the sky.
+    /// A sun.
     Sun(SunLightDesc<C>),
-    /// A uniform sky.
+    /// A uniform infinite light.
     UniformInfinite(UniformInfiniteLightDesc<C>),
     /// An environment map.
     ImageInfinite(ImageInfiniteLightDesc),
-    /// An environment map behind a window.
+    /// An environment map behind a portal.
     PortalInfinite(PortalInfiniteLightDesc),
 }
 
-/// Why a description is no light: the kind of light, then the field and its rule.
+/// Why a description is invalid: the kind of light, then the field and its rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LightDescError {
@@ -58,25 +57,25 @@ pub enum LightDescError {
     Point(PointLightError),
     /// Of a spot light.
     Spot(SpotLightError),
-    /// Of a light that throws a picture.
+    /// Of a projector.
     Projection(ProjectionLightError),
-    /// Of a light with a measured distribution.
+    /// Of a goniometric light.
     Goniometric(GoniometricLightError),
-    /// Of a shape that shines.
+    /// Of an area light.
     Area(AreaLightError),
     /// Of an emissive mesh.
     Mesh(MeshLightError),
-    /// Of a light from one direction.
+    /// Of a distant light.
     Distant(DistantLightError),
-    /// Of a disk in the sky.
+    /// Of a sun.
     Sun(SunLightError),
-    /// Of a uniform sky.
+    /// Of a uniform infinite light.
     UniformInfinite(EmissionError),
     /// Of an environment map.
     ImageInfinite(ImageInfiniteLightError),
-    /// Of an environment map behind a window.
+    /// Of an environment map behind a portal.
     PortalInfinite(PortalInfiniteLightError),
-    /// With this light the set would hold more lights than 32 bits can count.
+    /// With this light the set would have more lights than 32 bits can count.
     TooMany,
 }
 

@@ -15,14 +15,14 @@ use crate::surface_texture::SurfaceTexture;
 use crate::texture::Texture;
 use crate::texture_mapping::TextureMapping;
 
-/// How a surface shines, whatever its shape: stored once for all triangles of a mesh.
+/// The diffuse emission of a surface of any shape, stored once for all triangles of a mesh.
 #[derive(Clone, Debug)]
 pub struct DiffuseEmission<C: ColorModel> {
     color: Color<C>,
     sides: Sides,
     mask: EmissionMask,
     mapping: TextureMapping,
-    /// What varies over the surface: image times alpha. None where nothing does.
+    /// The texture, image times alpha; `None` without one.
     texture: Option<SurfaceTexture>,
     media: MediumInterface,
 }
@@ -37,11 +37,11 @@ enum Color<C: ColorModel> {
     },
 }
 
-/// Why a description is no emission; each variant names a field.
+/// Why the description of an emission is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DiffuseEmissionError {
-    /// `color` or `amount` makes no sense.
+    /// `color` or `amount` is invalid.
     Emission(EmissionError),
     /// `mask` has a scale that is negative or not finite, or a cutoff that is no number.
     Mask,
@@ -52,7 +52,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// that of all of them together.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(
         desc: DiffuseEmissionDesc<C>,
         shapes: impl IntoIterator<Item = impl Shape>,
@@ -125,7 +125,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
         self.sides
     }
 
-    /// Whether rays meet the surface.
+    /// Whether rays hit the surface.
     #[must_use]
     pub(crate) const fn is_visible(&self) -> bool {
         !matches!(self.mask, EmissionMask::Invisible)
@@ -165,14 +165,14 @@ impl<C: ColorModel> DiffuseEmission<C> {
         self.phi_of(shape.area(), self.mean(shape), wavelengths)
     }
 
-    /// Power that a shape emits on one side in one number, by which light samplers compare: above 0
-    /// unless all of it is black.
+    /// Power that a shape emits on one side as one number for light samplers; above 0 unless the shape
+    /// is black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
         self.strength_of(shape.area(), self.mean(shape))
     }
 
-    /// The mean over a shape of what varies over the surface.
+    /// The mean of the texture over a shape.
     pub(crate) fn mean(&self, shape: &impl Shape) -> Vec3 {
         let texture = self.texture.as_ref();
         texture.map_or(Vec3::ONE, |texture| texture.mean(shape))
@@ -198,11 +198,11 @@ impl<C: ColorModel> DiffuseEmission<C> {
             Color::Uniform(radiance) => radiance.maximum() * mean.x,
             Color::Image { tint, scale, .. } => (mean * *tint).average() * *scale,
         };
-        // In this order only a power that is no float overflows.
+        // In this order an intermediate result overflows only if the power does.
         radiance * (PI * area)
     }
 
-    /// What varies over the surface; `None` where nothing does.
+    /// The texture of the surface; `None` without one.
     pub(crate) const fn texture(&self) -> Option<&SurfaceTexture> {
         self.texture.as_ref()
     }

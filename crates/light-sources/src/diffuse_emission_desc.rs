@@ -7,7 +7,7 @@ use crate::sides::Sides;
 use crate::texture::Texture;
 use crate::texture_mapping::TextureMapping;
 
-/// How a surface shines, whatever its shape; as a user describes it.
+/// The description of the diffuse emission of a surface of any shape.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -17,20 +17,20 @@ use crate::texture_mapping::TextureMapping;
 pub struct DiffuseEmissionDesc<C: ColorModel> {
     /// Colour of the surface.
     pub color: SurfaceColor<C>,
-    /// How bright it is.
+    /// Amount of light.
     pub amount: SurfaceAmount,
     /// Which sides emit.
     pub sides: Sides,
-    /// Where it emits.
+    /// The emission mask.
     pub mask: EmissionMask,
-    /// How the image of the colour lies on the surface, and the mask that has no mapping of its own.
+    /// The mapping of the colour image, and of a mask without a mapping of its own.
     pub mapping: TextureMapping,
     /// The media behind and in front of the surface.
     pub media: MediumInterface,
 }
 
 impl<C: ColorModel> DiffuseEmissionDesc<C> {
-    /// The front shines everywhere, in a vacuum.
+    /// Emission of the front, without a mask, in vacuum.
     #[must_use]
     pub fn new(color: SurfaceColor<C>, amount: impl Into<SurfaceAmount>) -> Self {
         Self {
@@ -63,17 +63,17 @@ pub enum SurfaceColor<C: ColorModel> {
     },
 }
 
-/// Where an emitting surface emits.
+/// The mask of an emitting surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EmissionMask {
     /// Everywhere.
     #[default]
     Opaque,
-    /// By an image over the surface parameters. Emission already holds this factor: a ray that
-    /// meets the surface counts in full.
+    /// An image over the surface parameters. It multiplies the emission, so that no hit is
+    /// rejected.
     Alpha(AlphaMask),
-    /// Everywhere, but no ray meets the surface: the light stays, of type
-    /// [`DeltaPosition`](crate::LightType::DeltaPosition), and is found by sampling it alone.
+    /// Everywhere, but no ray hits the surface: the light has the type
+    /// [`DeltaPosition`](crate::LightType::DeltaPosition), and only light samples find it.
     Invisible,
 }

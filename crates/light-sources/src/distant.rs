@@ -26,16 +26,14 @@ pub struct DistantLightDesc<C: ColorModel> {
     pub direction: Vec3,
     /// Colour of the light.
     pub emission: C::Emission,
-    /// How bright it is.
+    /// Amount of light.
     pub amount: IrradianceAmount,
 }
 
 /// A light that arrives everywhere from one direction.
 ///
-/// Its radiance is a Dirac in direction, `E delta(w - d)`: with anything finite the integral of
-/// radiance over that one direction would be 0. So the light is given by `E`, the irradiance of a
-/// plane that faces it, and an estimator is `f |cos| E`. There is no distance, hence no inverse
-/// square.
+/// Its radiance is a Dirac in direction, `E delta(w - d)`, where `E` is the irradiance of a plane
+/// that faces the light. An estimator is `f |cos| E`, without an inverse square.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.3.
@@ -46,13 +44,13 @@ pub struct DistantLight<C: ColorModel> {
     scene: SceneSphere,
 }
 
-/// Why a description is no distant light; each variant names a field.
+/// Why the description of a distant light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DistantLightError {
     /// `direction` is zero or not finite.
     Direction,
-    /// `emission` or `amount` makes no sense.
+    /// `emission` or `amount` is invalid.
     Emission(EmissionError),
 }
 
@@ -60,7 +58,7 @@ impl<C: ColorModel> DistantLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: DistantLightDesc<C>, scene: SceneSphere) -> Result<Self, DistantLightError> {
         let scale = desc.amount.scale(C::flux(&desc.emission))?;
         let direction = direction(desc.direction).map(Vec3::normalize);
@@ -133,7 +131,7 @@ impl<C: ColorModel> Light<C> for DistantLight<C> {
 }
 
 /// The ray in `direction` that starts outside of the scene and passes through a disk of the scene's
-/// radius around its centre, at the place that `u` chooses uniformly.
+/// radius around its centre, at the point that `u` chooses uniformly.
 pub(crate) fn ray_through_scene(scene: &SceneSphere, direction: Vec3, u: Vec2) -> EmittedRay {
     let disk = concentric_disk::sample(u) * scene.radius();
     let on_disk = Frame::from_z(-direction).from_local(disk.extend(scene.radius()));

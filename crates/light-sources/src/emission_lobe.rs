@@ -2,7 +2,7 @@ use crate::glam::Vec3;
 use crate::rgb_sum::{RgbSum, single};
 use light_bounds::EmissionLobe;
 
-/// What a light emits into a small solid angle around a direction.
+/// The intensity in a small solid angle around a direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Emitted {
     /// Unit vector away from the light.
@@ -13,7 +13,7 @@ pub(crate) struct Emitted {
     pub(crate) solid_angle: f32,
 }
 
-/// The lobe of a light that emits all of `emitted` (asked for twice) and nothing else.
+/// The lobe of a light with the intensities `emitted`, which is iterated twice.
 pub(crate) fn emission_lobe<I: Iterator<Item = Emitted>>(emitted: impl Fn() -> I) -> EmissionLobe {
     let weight = |e: &Emitted| f64::from(e.intensity) * f64::from(e.solid_angle);
     let (mut power, mut directions) = (0.0, RgbSum::default());

@@ -3,8 +3,8 @@ use core::ops::Mul;
 use light_math::spectrum::Spectrum;
 use light_math::spectrum::photometric::{luminous, radiant};
 
-/// How much light something is, as the eye weighs it and in all; of a power, or of a power per area
-/// or solid angle.
+/// A photometric and a radiometric quantity of the same light: power, or power per area or solid
+/// angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flux {
     /// In lm, or cd, nit, lx.

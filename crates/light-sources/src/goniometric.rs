@@ -27,18 +27,18 @@ use light_math::equal_area::{sphere_to_square, square_to_sphere};
 pub struct GoniometricLightDesc<C: ColorModel> {
     /// From light space to the scene.
     pub transform: Affine3A,
-    /// The part of the full intensity by direction: a grey square, by
+    /// The relative intensity by direction: a grey square image, by
     /// [`equal_area`](light_math::equal_area).
     pub distribution: Image,
     /// Colour of the light.
     pub emission: C::Emission,
-    /// How bright it is where the distribution is 1.
+    /// Amount of light, where the distribution is 1.
     pub amount: IntensityAmount,
     /// The medium around it, `outside`.
     pub media: MediumInterface,
 }
 
-/// A light at a point whose intensity in each direction was measured.
+/// A point light with a measured distribution of intensity.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.2.3.
@@ -53,7 +53,7 @@ pub struct GoniometricLight<C: ColorModel> {
     media: MediumInterface,
 }
 
-/// Why a description is no goniometric light; each variant names a field.
+/// Why the description of a goniometric light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GoniometricLightError {
@@ -63,18 +63,18 @@ pub enum GoniometricLightError {
     NotSquare,
     /// `distribution` has colours.
     NotGray,
-    /// `emission` or `amount` makes no sense, or the amount is too large for the distribution.
+    /// `emission` or `amount` is invalid, or the amount is too large for the distribution.
     Emission(EmissionError),
 }
 
-/// Parts that a distribution has along each axis at least, for its mean direction.
+/// The least number of parts along each axis for the mean direction.
 const PARTS: u32 = 32;
 
 impl<C: ColorModel> GoniometricLight<C> {
     /// The light that `desc` describes.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: GoniometricLightDesc<C>) -> Result<Self, GoniometricLightError> {
         let transform = RigidTransform::new(desc.transform)?;
         let image = desc.distribution;
@@ -93,7 +93,7 @@ impl<C: ColorModel> GoniometricLight<C> {
         if !(brightest * intensity.maximum()).is_finite() {
             return Err(EmissionError::Amount.into());
         }
-        // Texels of a coarse image in parts: what lies in a part has nearly one direction.
+        // Texels of a coarse image are divided, so that a part has nearly one direction.
         let parts = PARTS.div_ceil(width);
         let rows = width * parts;
         let solid_angle = 4.0 * PI / (rows as f32 * rows as f32);

@@ -8,12 +8,12 @@ use crate::rgb_sum::RgbSum;
 use crate::texture_mapping::{TextureMapping, Wrap};
 use half::f16;
 
-/// A picture of light: linear RGB with sRGB's primaries, or one grey channel; finite and nowhere
-/// negative.
+/// An image of radiometric values: linear RGB with sRGB's primaries, or one grey channel; finite
+/// and not negative.
 ///
 /// Texels are listed row by row from row 0, channels interleaved; texel `(x, y)` covers
 /// `[x / width, (x + 1) / width) x [y / height, (y + 1) / height)` of the unit square. They are
-/// shared: a clone costs a counter.
+/// shared by clones.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Image {
@@ -72,7 +72,7 @@ impl Image {
         self.size
     }
 
-    /// What a texel holds.
+    /// The channels of a texel.
     #[must_use]
     pub const fn channels(&self) -> Channels {
         self.channels
@@ -124,8 +124,7 @@ impl Image {
         top.lerp(bottom, f.y)
     }
 
-    /// The colour at the surface parameters `uv` of a surface on which the image lies as `mapping`
-    /// says.
+    /// The colour at the surface parameters `uv` under `mapping`.
     #[must_use]
     pub fn on_surface(&self, uv: Vec2, mapping: &TextureMapping) -> Vec3 {
         self.bilinear_wrapped(mapping.place(uv), mapping.wrap)
@@ -158,14 +157,13 @@ impl Image {
         sum.over(f64::from(self.size[0]) * f64::from(self.size[1]))
     }
 
-    /// The mean over the channels of each texel, row by row: what light is sampled in proportion
-    /// to.
+    /// The mean over the channels of each texel, row by row: the weights for sampling.
     #[must_use]
     pub fn averages(&self) -> Vec<f32> {
         self.texels().map(|t| t.element_sum() / 3.0).collect()
     }
 
-    /// Where the texels are, the same for clones.
+    /// Address of the texels, the same for clones.
     pub(crate) fn address(&self) -> usize {
         match &self.texels {
             Texels::Single(texels) => texels.as_ptr().addr(),

@@ -2,7 +2,7 @@ use crate::channels::Channels;
 use core::error::Error;
 use core::fmt;
 
-/// Why numbers are no image.
+/// Why an image is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ImageError {
@@ -55,7 +55,7 @@ impl fmt::Display for ImageError {
 
 impl Error for ImageError {}
 
-/// Whether `len` numbers, of which `number` gives each, are an image of light.
+/// Checks `len` numbers, of which `number` returns each.
 pub(crate) fn check_texels(
     size: [u32; 2],
     channels: Channels,

@@ -30,11 +30,11 @@ pub struct ImageInfiniteLightDesc {
     pub transform: Affine3A,
     /// The picture of the sky.
     pub map: EnvironmentMap,
-    /// How bright it is, as a factor of the picture.
+    /// Amount of light, as a factor of the picture.
     pub amount: RadianceAmount,
 }
 
-/// A picture of all directions, and how it shows them.
+/// An image of all directions, with its map.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EnvironmentMap {
@@ -62,7 +62,7 @@ pub struct ImageInfiniteLight<C> {
     color: PhantomData<C>,
 }
 
-/// Why a description is no environment light; each variant names a field.
+/// Why the description of an environment light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ImageInfiniteLightError {
@@ -78,7 +78,7 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(
         desc: ImageInfiniteLightDesc,
         scene: SceneSphere,
@@ -125,7 +125,7 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// The place in the map of a direction toward the light.
+    /// The point of the map for a direction toward the light.
     fn uv(&self, wi: Vec3) -> Vec2 {
         sphere_to_square(self.transform.inverse_vector(wi))
     }
@@ -165,7 +165,7 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
             .pdf(self.transform.inverse_vector(wi))
     }
 
-    /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
+    /// The direction is chosen by `u1`, the point on a disk of the scene's radius by `u2`.
     fn sample_le(
         &self,
         u1: Vec2,
@@ -220,7 +220,7 @@ impl EnvironmentMap {
     }
 }
 
-/// What a light sampler knows of an image of `n` rows.
+/// The bounds of an image of `n` rows for light samplers.
 fn extent(averages: &[f32], n: u32, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
     let (mut sum, mut weighted) = (0.0, RgbSum::default());
     for (i, &average) in (0..).zip(averages) {

@@ -1,10 +1,9 @@
-/// How a light reaches a point, which decides how an integrator may combine estimates.
+/// The kind of a light by how its light arrives, which decides how MIS treats it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightType {
-    /// All light comes from one point, so no ray finds it by chance: no multiple importance
-    /// sampling.
+    /// All light comes from one point, which no ray hits: no multiple importance sampling.
     DeltaPosition,
-    /// All light comes from one direction: no ray finds it by chance either.
+    /// All light comes from one direction, which no ray has by chance.
     DeltaDirection,
     /// Light leaves a surface that rays can hit.
     Area,

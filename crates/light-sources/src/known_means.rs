@@ -4,13 +4,12 @@ use crate::glam::Vec3;
 use crate::shape::Triangle;
 use crate::surface_texture::{Footprint, SurfaceTexture};
 
-/// Means of triangles that were asked for lately: often many triangles show the same part of an
-/// image.
+/// A cache of means over triangles: often many triangles show the same part of an image.
 #[derive(Debug, Default)]
 pub(crate) struct KnownMeans(Vec<Option<(Footprint, Vec3)>>);
 
 impl KnownMeans {
-    /// How many are known at once.
+    /// Entries of the cache.
     const COUNT: usize = 1 << 10;
 
     /// The mean of `texture` over `triangle`.
@@ -28,7 +27,7 @@ impl KnownMeans {
         }
     }
 
-    /// Where the mean over a footprint is kept.
+    /// The entry for a footprint.
     fn place(footprint: &Footprint) -> usize {
         // The multiplier of Fibonacci hashing: two to the power of 64 over the golden ratio.
         let mix = |hash: u64, number: &i64| {
@@ -51,7 +50,7 @@ mod tests {
     use crate::rgb::Rgb;
     use crate::texture_mapping::{TextureMapping, Wrap};
 
-    /// A known mean is that of the triangle that is asked for, whatever was asked for before.
+    /// A cached mean is that of the queried triangle, whatever was queried before.
     #[test]
     fn what_is_known_is_right() {
         let texels: Vec<f32> = (0..64u16).map(|i| f32::from(i * 7 % 11)).collect();

@@ -7,22 +7,21 @@ use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::surface_point::SurfacePoint;
 use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 
-/// What every light answers. Random inputs `u` lie in `[0, 1)`; nothing here fails or panics.
+/// The interface of all lights. Random inputs `u` lie in `[0, 1)`; nothing here fails or panics.
 ///
 /// Vectors are in scene space, directions have unit length and `wi` points toward the light.
 pub trait Light<C: ColorModel> {
-    /// How the light reaches a point.
+    /// The kind of light.
     fn light_type(&self) -> LightType;
 
     /// Emitted power in W, for lights at infinity the power that enters the scene's sphere.
     ///
-    /// Infinite where it is more than a float holds, 3.4e38 W; the extent of such a light is
-    /// refused by light samplers.
+    /// Infinite above the float range, 3.4e38 W; light samplers refuse the extent of such a light.
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance;
 
-    /// A direction from which the light arrives at `ctx.p`, with its density; `None` when this
-    /// light does not reach the point in the direction that `u` stands for. Sides of the surface at
-    /// `ctx` are not looked at: a direction below the horizon is for the BSDF to refuse.
+    /// A direction from which the light arrives at `ctx.p`, with its density; `None` if no
+    /// light arrives in the direction of `u`. The side of the surface at `ctx` is not tested: a
+    /// direction below the horizon is left to the BSDF.
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -48,7 +47,7 @@ pub trait Light<C: ColorModel> {
     /// 0.
     fn pdf_le(&self, ray: &EmittedRay) -> LePdf;
 
-    /// What a light sampler has to know of the light.
+    /// The extent of the light for light samplers.
     fn extent(&self) -> LightExtent;
 
     /// Bounds of the light in space, direction and power; `None` for lights at infinity.
@@ -71,6 +70,6 @@ pub trait AreaLight<C: ColorModel>: Light<C> {
 /// A light that rays reach by leaving the scene.
 pub trait InfiniteLight<C: ColorModel>: Light<C> {
     /// Radiance that arrives along a ray that leaves the scene in `direction`, in W m^-2 sr^-1, at
-    /// `origin`: only a portal looks at where the ray comes from.
+    /// `origin`, which matters for portals only.
     fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance;
 }

@@ -20,8 +20,7 @@ use crate::surface_point::SurfacePoint;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightSampleContext};
 
-/// One light of a set, whatever its kind: the closed enum beside the trait, for callers who hold
-/// them all.
+/// One light of a set, of any kind: a closed enum next to the trait.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LightRef<'a, C: ColorModel> {
@@ -29,23 +28,23 @@ pub enum LightRef<'a, C: ColorModel> {
     Point(&'a PointLight<C>),
     /// A spot light.
     Spot(&'a SpotLight<C>),
-    /// A light that throws a picture.
+    /// A projector.
     Projection(&'a ProjectionLight<C>),
-    /// A light with a measured distribution.
+    /// A goniometric light.
     Goniometric(&'a GoniometricLight<C>),
-    /// A shape that shines.
+    /// An area light.
     Area(DiffuseAreaLight<'a, C, &'a AnyShape>),
     /// A triangle of an emissive mesh.
     Triangle(DiffuseAreaLight<'a, C, Triangle>),
-    /// A light from one direction.
+    /// A distant light.
     Distant(&'a DistantLight<C>),
-    /// A disk in the sky.
+    /// A sun.
     Sun(&'a SunLight<C>),
-    /// A uniform sky.
+    /// A uniform infinite light.
     UniformInfinite(&'a UniformInfiniteLight<C>),
     /// An environment map.
     ImageInfinite(&'a ImageInfiniteLight<C>),
-    /// An environment map behind a window.
+    /// An environment map behind a portal.
     PortalInfinite(&'a PortalInfiniteLight<C>),
 }
 

@@ -17,8 +17,8 @@ const LAST_BOUNDED: LightKind = LightKind::Triangle;
 /// All lights of a scene, by kind. Made by a [`LightSetBuilder`](crate::LightSetBuilder).
 ///
 /// Ids run through the kinds one after the other, through the triangles of each mesh in their
-/// order, and end with the lights at infinity; a [`SourceId`] tells where a description went. A
-/// triangle costs nothing here but its vertices.
+/// order, and end with the lights at infinity; a [`SourceId`] identifies a description. A
+/// triangle needs no memory here beyond its vertices.
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
     pub(crate) lists: LightLists<C>,
@@ -26,19 +26,18 @@ pub struct LightSet<C: ColorModel> {
     ends: [u32; LightKind::COUNT],
     /// How many triangles there are up to and with each mesh.
     mesh_ends: Vec<u32>,
-    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle, between which those of the others
-    /// lie.
+    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle: bounds for the search of the others.
     mesh_of: Vec<u32>,
     /// Where each description went: its kind, and how many lights of that kind came before.
     sources: Vec<(LightKind, u32)>,
 }
 
-/// Which description of those that a set was built from, in the order of adding.
+/// Identifies a description of a set by the order of adding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(pub u32);
 
 impl<C: ColorModel> LightSet<C> {
-    /// Among so many triangles there are few meshes to search.
+    /// Triangles per entry of the table that bounds the search for a mesh.
     const STRIDE: usize = 64;
 
     /// The set without lights.
@@ -72,7 +71,7 @@ impl<C: ColorModel> LightSet<C> {
         Some(SourceId(source))
     }
 
-    /// How many lights there are; their ids are the numbers below.
+    /// The number of lights; their ids are the smaller numbers.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.ends[LightKind::COUNT - 1] as usize
@@ -88,14 +87,14 @@ impl<C: ColorModel> LightSet<C> {
     #[inline]
     #[must_use]
     pub fn get(&self, light: LightId) -> Option<LightRef<'_, C>> {
-        // Where there are many lights they are triangles.
+        // Large sets consist mostly of triangles.
         match self.triangle_number(light) {
             Some(number) => Some(LightRef::Triangle(self.triangle(number)?)),
             None => self.get_other(light),
         }
     }
 
-    /// A light that is no triangle.
+    /// A light other than a triangle.
     fn get_other(&self, light: LightId) -> Option<LightRef<'_, C>> {
         let kind = *LightKind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
         let index = (light.0 - self.ids(kind).start) as usize;
@@ -117,10 +116,9 @@ impl<C: ColorModel> LightSet<C> {
         })
     }
 
-    /// What sampling the light reads last and waits for, where that is known without reading it:
+    /// The memory that sampling of the light waits for, if its address is known without a read:
     /// the corners of a triangle whose mesh has no list of vertices
-    /// ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may ask their memory for it
-    /// while they do other work.
+    /// ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may prefetch it.
     #[inline]
     #[must_use]
     pub fn corners(&self, light: LightId) -> Option<&[Vec3; 3]> {
@@ -180,7 +178,7 @@ impl<C: ColorModel> LightSet<C> {
             .filter_map(|id| Some((id, self.get(id)?)))
     }
 
-    /// What a light sampler is built from: the extents of all lights, by id.
+    /// The extents of all lights, by id, for light samplers.
     #[must_use]
     pub fn extents(&self) -> Vec<LightExtent> {
         self.iter().map(|(_, light)| light.extent()).collect()

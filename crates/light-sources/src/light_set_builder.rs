@@ -25,7 +25,7 @@ pub struct LightSetBuilder<C: ColorModel> {
 }
 
 impl<C: ColorModel> LightSetBuilder<C> {
-    /// Starts a set of lights for a scene inside the given sphere: what lights at infinity have to
+    /// Starts a set of lights for a scene inside the given sphere, which lights at infinity
     /// illuminate.
     #[must_use]
     pub const fn new(scene: SceneSphere) -> Self {
@@ -35,11 +35,10 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes; the answer is a name for it, by which its id is known
-    /// once the set is built.
+    /// Adds the light that `desc` describes; the returned source gives its id once the set is built.
     ///
     /// # Errors
-    /// When the description makes no sense; the set is unchanged then.
+    /// When the description is invalid; the set is unchanged then.
     pub fn add(&mut self, desc: LightDesc<C>) -> Result<SourceId, LightDescError> {
         use LightDescError as Error;
         let scene = self.scene;

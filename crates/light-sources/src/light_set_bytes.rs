@@ -9,13 +9,13 @@ use crate::mesh_indices::MeshIndices;
 use crate::surface_texture::SurfaceTexture;
 use crate::texture::Texture;
 
-/// What a [`LightSet`] holds in memory, in bytes; what several lights share counts once.
+/// Memory of a [`LightSet`], in bytes; shared data counts once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightSetBytes {
-    /// Vertices of meshes, which are shared with whoever else needs them: positions, indices,
+    /// Vertices of meshes, which may be shared with the caller: positions, indices,
     /// surface parameters.
     pub vertices: usize,
-    /// Images, the means of textures, and the tables by which the texels of a sky are chosen.
+    /// Images, the means of textures, and the sampling tables of environment maps.
     pub images: usize,
     /// The rest: lights, and where they are in the set.
     pub lights: usize,
@@ -29,7 +29,7 @@ struct Count {
 }
 
 impl<C: ColorModel> LightSet<C> {
-    /// What the set holds in memory.
+    /// The memory of the set.
     #[must_use]
     pub fn bytes(&self) -> LightSetBytes {
         let mut count = Count::default();

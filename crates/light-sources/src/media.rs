@@ -1,6 +1,6 @@
 use core::num::NonZeroU32;
 
-/// The index of a participating medium in the caller's own list.
+/// The index of a participating medium in a list of the caller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MediumId(NonZeroU32);

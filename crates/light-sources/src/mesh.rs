@@ -20,52 +20,52 @@ use crate::surface_texture::SurfaceTexture;
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub struct MeshLightDesc<C: ColorModel> {
-    /// Vertices in scene space, shared with whoever else needs them.
+    /// Vertices in scene space, which may be shared.
     pub positions: Arc<[Vec3]>,
     /// The vertices of each triangle, counter-clockwise on the front.
     pub indices: MeshIndices,
-    /// Surface parameters, one a vertex; without them those of [`Triangle::DEFAULT_UV`].
+    /// Surface parameters, one a vertex; by default those of [`Triangle::DEFAULT_UV`].
     pub uvs: Option<Arc<[Vec2]>>,
-    /// How all triangles shine.
+    /// The emission of all triangles.
     pub emission: DiffuseEmissionDesc<C>,
 }
 
 /// An emissive mesh: one source, whose triangles are area lights with consecutive ids.
 ///
-/// Vertices are shared and emission is stored once, so that a triangle costs nothing here, and 12
-/// bytes where an image or a mask lies on it. A triangle without area is a light without power.
+/// Vertices are shared and the emission is stored once, so that a triangle needs no memory here, or
+/// 12 bytes with an image or a mask. A triangle without area is a light without power.
 #[derive(Clone, Debug)]
 pub struct MeshLight<C: ColorModel> {
     positions: Arc<[Vec3]>,
     indices: MeshIndices,
     uvs: Option<Arc<[Vec2]>>,
     emission: DiffuseEmission<C>,
-    /// Of what varies over each triangle; none where nothing does.
+    /// The mean of the texture over each triangle; `None` without a texture.
     means: Option<Arc<[Vec3]>>,
 }
 
-/// Why a description is no mesh light; each variant names a field.
+/// Why the description of a mesh light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshLightError {
     /// A vertex of `positions` is not finite.
     Position {
-        /// Which.
+        /// Its index.
         vertex: usize,
     },
-    /// A triangle of `indices` names a vertex that is not there.
+    /// A triangle of `indices` names a vertex that does not exist.
     Index {
-        /// Which triangle.
+        /// Index of the triangle.
         triangle: usize,
     },
-    /// There are not as many `uvs` as vertices.
+    /// The length of `uvs` is not the number of vertices.
     UvCount,
     /// One of `uvs` is not finite.
     Uv {
-        /// Of which vertex.
+        /// Index of the vertex.
         vertex: usize,
     },
-    /// `emission` makes no sense.
+    /// `emission` is invalid.
     Emission(DiffuseEmissionError),
 }
 
@@ -73,7 +73,7 @@ impl<C: ColorModel> MeshLight<C> {
     /// The light that `desc` describes.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: MeshLightDesc<C>) -> Result<Self, MeshLightError> {
         let count = desc.positions.len();
         if let Some(vertex) = desc.positions.iter().position(|p| !p.is_finite()) {
@@ -119,7 +119,7 @@ impl<C: ColorModel> MeshLight<C> {
         })
     }
 
-    /// How many triangles, each a light.
+    /// The number of triangles, each a light.
     #[must_use]
     pub fn len(&self) -> usize {
         self.indices.len()
@@ -131,7 +131,7 @@ impl<C: ColorModel> MeshLight<C> {
         self.indices.is_empty()
     }
 
-    /// How all triangles shine.
+    /// The emission of all triangles.
     #[must_use]
     pub const fn emission(&self) -> &DiffuseEmission<C> {
         &self.emission
@@ -141,12 +141,12 @@ impl<C: ColorModel> MeshLight<C> {
         (&self.positions, &self.indices, self.uvs.as_deref())
     }
 
-    /// Means of what varies over each triangle.
+    /// Means of the texture over each triangle.
     pub(crate) fn means(&self) -> Option<&[Vec3]> {
         self.means.as_deref()
     }
 
-    /// The light that triangle number `index` is; `None` beyond the last.
+    /// The light of triangle `index`; `None` beyond the last.
     #[inline]
     #[must_use]
     pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
@@ -156,7 +156,7 @@ impl<C: ColorModel> MeshLight<C> {
         Some(DiffuseAreaLight::with_mean(triangle, &self.emission, mean))
     }
 
-    /// The corners of a triangle, where no list of vertices has to be read for them.
+    /// The corners of a triangle, if no index list has to be read for them.
     #[inline]
     pub(crate) fn corners(&self, index: usize) -> Option<&[Vec3; 3]> {
         match self.indices {

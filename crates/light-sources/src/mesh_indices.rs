@@ -1,22 +1,22 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// Which vertices the triangles of a mesh have, shared with whoever else needs them.
+/// The vertex indices of the triangles of a mesh, which may be shared.
 ///
-/// A list costs 12 bytes a triangle, and to look a triangle up means to wait for memory twice.
-/// Where triangles hardly share vertices none is needed: of such meshes with a million lamps, that
-/// wait is what a sample of a lamp costs most.
+/// A list takes 12 bytes per triangle, and adds a second dependent memory access to a lookup.
+/// Meshes whose triangles hardly share vertices need none; with a million triangles, that access
+/// dominates the cost of a light sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum MeshIndices {
     /// Triangle `k` has the vertices `3 k`, `3 k + 1` and `3 k + 2`, for `k` below this number.
     Consecutive(u32),
-    /// Three vertices a triangle.
+    /// Three vertices per triangle.
     List(Arc<[[u32; 3]]>),
 }
 
 impl MeshIndices {
-    /// How many triangles.
+    /// The number of triangles.
     #[inline]
     #[must_use]
     pub fn len(&self) -> usize {

@@ -19,7 +19,7 @@ pub(crate) struct PicturePart {
     pub(crate) solid_angle: f64,
 }
 
-/// Parts that a picture has along each axis at least.
+/// The least number of parts of a picture along each axis.
 const PARTS: u32 = 32;
 
 impl PictureGrid {
@@ -33,13 +33,12 @@ impl PictureGrid {
         self.cells([1, 1])
     }
 
-    /// The texels, those of a coarse picture in parts: what lies in a part has nearly one
-    /// direction.
+    /// The texels, divided if the picture is coarse, so that a part has nearly one direction.
     pub(crate) fn parts(&self) -> impl Iterator<Item = PicturePart> + use<> {
         self.cells(self.size.map(|n| PARTS.div_ceil(n)))
     }
 
-    /// So many parts of each texel along each axis.
+    /// The given number of parts of each texel along each axis.
     fn cells(&self, parts: [u32; 2]) -> impl Iterator<Item = PicturePart> + use<> {
         let grid = *self;
         let [width, height] = [0, 1].map(|i| self.size[i] * parts[i]);
@@ -58,7 +57,7 @@ impl PictureGrid {
         })
     }
 
-    /// A corner of the grid with so many parts a texel along each axis.
+    /// A corner of the grid with the given number of parts per texel along each axis.
     fn corner(&self, [x, y]: [u32; 2], parts: [u32; 2]) -> DVec2 {
         let along = |i: usize| f64::from(self.size[i]) * f64::from(parts[i]);
         let count = DVec2::new(along(0), along(1));
@@ -68,7 +67,8 @@ impl PictureGrid {
 
 /// The solid angle in sr of a rectangle on the plane z = 1.
 fn solid_angle(low: DVec2, high: DVec2) -> f64 {
-    /// The square of the angle below which the middle of a rectangle stands for all of it, to 1e-7.
+    /// The square of the angle below which the solid angle by the middle of a rectangle has an
+    /// error below 1e-7.
     const SMALL: f64 = 1e-7;
     let (size, middle) = (high - low, 0.5 * (low + high));
     let dist_sq = 1.0 + middle.length_squared();
@@ -103,7 +103,7 @@ mod tests {
         }
     }
 
-    /// Texels a little above and a little below the size at which the middle stands for all.
+    /// Texels a little above and a little below the size limit of the approximation by the middle.
     #[test]
     fn the_middle_of_a_texel_stands_for_little_ones() {
         for at in [DVec2::ZERO, DVec2::new(0.7, -0.2), DVec2::new(-3.0, 8.0)] {

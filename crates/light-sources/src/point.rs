@@ -20,17 +20,17 @@ use light_math::warp::uniform_sphere;
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub struct PointLightDesc<C: ColorModel> {
-    /// Where it is, in scene units.
+    /// Position, in scene units.
     pub position: Vec3,
     /// Colour of the light.
     pub emission: C::Emission,
-    /// How bright it is.
+    /// Amount of light.
     pub amount: IntensityAmount,
     /// The medium around it, `outside`.
     pub media: MediumInterface,
 }
 
-/// A light at a point that shines alike in all directions.
+/// An isotropic point light.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.2.
@@ -41,13 +41,13 @@ pub struct PointLight<C: ColorModel> {
     media: MediumInterface,
 }
 
-/// Why a description is no point light; each variant names a field.
+/// Why the description of a point light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PointLightError {
     /// `position` is not finite.
     Position,
-    /// `emission` or `amount` makes no sense.
+    /// `emission` or `amount` is invalid.
     Emission(EmissionError),
 }
 
@@ -55,7 +55,7 @@ impl<C: ColorModel> PointLight<C> {
     /// The light that `desc` describes.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: PointLightDesc<C>) -> Result<Self, PointLightError> {
         if !desc.position.is_finite() {
             return Err(PointLightError::Position);

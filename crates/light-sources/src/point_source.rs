@@ -7,15 +7,15 @@ use crate::media::MediumInterface;
 use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
-/// A light in one point: its kinds differ in nothing but the intensity by direction.
-/// Whatever is a `PointSource` is a [`Light`].
+/// A point light: kinds differ only in the intensity by direction. Every `PointSource` is a
+/// [`Light`].
 ///
 /// Directions are unit vectors in scene space, away from the light.
 pub trait PointSource {
-    /// In which terms it has a colour.
+    /// The colour model.
     type Color: ColorModel;
 
-    /// Where it is, in scene space.
+    /// Position, in scene space.
     fn position(&self) -> Vec3;
 
     /// Intensity in W/sr in the direction `w`.
@@ -25,7 +25,7 @@ pub trait PointSource {
     fn power(&self, wavelengths: &Wavelengths<Self>) -> Emitted<Self>;
 
     /// A direction with its intensity in W/sr and its density in sr^-1, about in proportion to the
-    /// intensity; both `u` lie in `[0, 1)`. `None` when no light goes there.
+    /// intensity; both `u` lie in `[0, 1)`. `None` when no light is emitted there.
     fn sample_direction(
         &self,
         u1: Vec2,
@@ -39,7 +39,7 @@ pub trait PointSource {
     /// Bounds in space, direction and power in W.
     fn point_bounds(&self) -> LightBounds;
 
-    /// The moments of the intensity, if they say more than the bounds do.
+    /// The moments of the intensity, if they are more precise than the bounds.
     fn lobe(&self) -> Option<EmissionLobe> {
         None
     }
@@ -119,10 +119,9 @@ impl<S: PointSource> Light<S::Color> for S {
     }
 }
 
-/// The sample toward a light that is a point: `intensity`, asked for the unit direction away from
-/// the light, over the squared distance. `None` in the dark, where the two points meet, and where
-/// they are so near or so far that the inverse square, or the sample's light, is no positive finite
-/// number.
+/// The sample toward a point light: `intensity` of the unit direction away from the light, over the
+/// squared distance. `None` if it is black, if the two points coincide, or if the inverse square or
+/// the radiance is not a positive finite number.
 fn toward<R: Radiance>(
     ctx: &LightSampleContext,
     position: Vec3,

@@ -6,8 +6,8 @@ use light_math::float::{atan2, tan};
 use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 use core::f64;
 
-/// A rectangle through which the sky is seen, and the map of directions that makes it a rectangle
-/// of the unit square from wherever it is seen.
+/// A rectangle through which the sky is visible, with a map of directions under which it is an
+/// axis-aligned rectangle of the unit square, seen from any point.
 ///
 /// In the portal's own frame, where light comes from +z, a direction has the angles `atan(x / z)`
 /// and `atan(y / z)`; the square holds them scaled from `[-pi/2, pi/2]`.
@@ -22,8 +22,7 @@ pub(crate) struct Portal {
     frame: Frame,
 }
 
-/// How far cosines of angles between the sides may lie from those of a rectangle: files write few
-/// digits.
+/// Tolerance of the cosines of the angles between the sides: files write few digits.
 const TOLERANCE: f32 = 1e-3;
 
 /// The largest angle below a right angle.
@@ -113,7 +112,7 @@ impl Portal {
         let w = self.frame.to_local(w);
         let t = to_corner.z / w.z;
         let at = w.truncate() * t - to_corner.truncate();
-        // What the point rounds off is added to the portal: the lower the line comes in, the more.
+        // The portal is enlarged by the rounding error of the point, which grows at grazing angles.
         let magnitude = t.abs() + to_corner.length() + p.length();
         let slack = 8.0 * f32::EPSILON * magnitude / w.z.abs();
         at.cmpge(Vec2::splat(-slack)).all() && at.cmple(self.size + slack).all()
@@ -125,7 +124,7 @@ fn square(w: Vec3) -> Vec2 {
     (Vec2::new(atan2(w.x, w.z), atan2(w.y, w.z)) + FRAC_PI_2) * FRAC_1_PI
 }
 
-/// With `y^2 + z^2` for `1 - x^2`, which loses its digits near the edge of the half space.
+/// Uses `y^2 + z^2` instead of `1 - x^2`, which loses digits near the edge of the half space.
 fn solid_angle_per_area(w: Vec3) -> f32 {
     let sq = w * w;
     PI * PI * (sq.y + sq.z) * (sq.x + sq.z) / w.z

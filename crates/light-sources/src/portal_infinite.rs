@@ -29,22 +29,22 @@ pub struct PortalInfiniteLightDesc {
     pub transform: Affine3A,
     /// The picture of the sky.
     pub map: EnvironmentMap,
-    /// How bright it is, as a factor of the picture.
+    /// Amount of light, as a factor of the picture.
     pub amount: RadianceAmount,
     /// Corners of the portal in the scene, one after the other; light comes from where they run
     /// clockwise.
     pub portal: [Vec3; 4],
 }
 
-/// An environment map that is seen through one rectangle only: a window.
+/// An environment map that is visible through one rectangle only, such as a window.
 ///
 /// The picture is resampled once into a square in which the portal, seen from anywhere, is a
-/// rectangle with sides along the axes; a point then samples the part of the sky that it sees, and
-/// nothing else.
+/// rectangle with sides along the axes; a point then samples only the part of the sky that it
+/// sees.
 ///
 /// # Source
 /// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not
-/// all around the scene, so that none is wasted, and the power has the cosine at the portal.
+/// all around the scene, so that none is wasted, and the power includes the cosine at the portal.
 #[derive(Clone, Debug)]
 pub struct PortalInfiniteLight<C> {
     portal: Portal,
@@ -54,30 +54,30 @@ pub struct PortalInfiniteLight<C> {
     irradiance: Vec3,
     scene: SceneSphere,
     extent: InfiniteBounds,
-    /// None when the picture is black.
+    /// `None` when the picture is black.
     table: Option<WindowedPiecewiseConstant2D<Vec<u64>>>,
     color: PhantomData<C>,
 }
 
-/// Why a description is no portal light; each variant names a field.
+/// Why the description of a portal light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PortalInfiniteLightError {
-    /// `transform`, `map` or `amount` makes no sense.
+    /// `transform`, `map` or `amount` is invalid.
     Sky(ImageInfiniteLightError),
     /// `portal` is not a planar rectangle with an area.
     Portal,
 }
 
-/// Cosines to the portal's normal below this are taken for none when rays are emitted: their
-/// density has no digits left.
+/// No rays are emitted at cosines to the portal's normal below this: their density has no digits
+/// left.
 const LEAST_COSINE: f32 = 1e-4;
 
 impl<C: ColorModel> PortalInfiniteLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(
         desc: PortalInfiniteLightDesc,
         scene: SceneSphere,
@@ -153,8 +153,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// A direction toward the sky in `window`, chosen by `u`, with its place in the map and its
-    /// density: those of the direction as it is rounded, which may lie on the texel beside.
+    /// A direction toward the sky in `window`, chosen by `u`, with its point in the map and its
+    /// density: those of the rounded direction, which may be on a neighbouring texel.
     fn sample_direction(&self, u: Vec2, window: &Window) -> Option<(Vec2, Vec3, f32)> {
         let Sample2D { p, .. } = self.table.as_ref()?.sample(u, window)?;
         let (wi, _) = self.portal.direction(p);
@@ -187,8 +187,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
     }
 }
 
-/// The point of a window next to `uv`; `None` if that lies farther outside than the rounding of a
-/// direction moves it.
+/// `uv` clamped to a window; `None` if it is farther outside than the rounding of a direction.
 fn nearest_inside(uv: Vec2, window: &Window) -> Option<Vec2> {
     let inside = uv.clamp(window.min, window.max);
     (uv.distance(inside) <= 8.0 * f32::EPSILON).then_some(inside)

@@ -24,19 +24,19 @@ use light_math::float::{sqrt, tan};
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ProjectionLightDesc {
-    /// From light space, where the light stands at the origin and shines along +z, to the scene.
+    /// From light space, where the light is at the origin and emits along +z, to scene space.
     pub transform: Affine3A,
-    /// The picture; its texel (0, 0) is thrown to the smallest x and y.
+    /// The picture; its texel (0, 0) is projected to the smallest x and y.
     pub image: Image,
     /// Angle that the shorter side of the picture spans, in `(0, pi)`.
     pub fov: f32,
-    /// How bright it is, as a factor of the picture.
+    /// Amount of light, as a factor of the picture.
     pub amount: IntensityAmount,
     /// The medium around it, `outside`.
     pub media: MediumInterface,
 }
 
-/// A light at a point that throws a picture: a slide projector.
+/// A point light that projects a picture: a slide projector.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.2.2. A direction `w` meets the plane z = 1 at `(w.x, w.y) / w.z`; the
@@ -52,24 +52,24 @@ pub struct ProjectionLight<C> {
     power: Vec3,
     extent: LightBounds,
     lobe: EmissionLobe,
-    /// Over the rectangle on the plane; none when the picture is black.
+    /// Over the rectangle on the plane; `None` when the picture is black.
     table: Option<PiecewiseConstant2D<Vec<f32>>>,
     media: MediumInterface,
     color: PhantomData<C>,
 }
 
-/// The most that rounding of directions may move a place of a picture, as a part of half its
-/// shorter side.
+/// The largest accepted rounding error of a point of the picture, relative to half its shorter
+/// side.
 const RESOLVED: f32 = 0.125;
 
-/// Why a description is no projection light; each variant names a field.
+/// Why the description of a projection light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ProjectionLightError {
     /// `transform` is not rigid.
     Transform(RigidTransformError),
-    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has no size or no
-    /// end.
+    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has a size of zero or
+    /// infinity.
     Fov,
     /// `amount` is negative, not finite, or too large for the picture.
     Emission(EmissionError),
@@ -79,14 +79,14 @@ impl<C: ColorModel> ProjectionLight<C> {
     /// The light that `desc` describes.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: ProjectionLightDesc) -> Result<Self, ProjectionLightError> {
         let transform = RigidTransform::new(desc.transform)?;
         let image = desc.image;
         let [width, height] = image.size().map(|n| n as f32);
         let half = Vec2::new(width, height) * (tan(0.5 * desc.fov) / width.min(height));
         let area = 4.0 * half.x * half.y;
-        // What directions cannot tell apart is no picture.
+        // Refuses a picture smaller than the rounding error of directions.
         let is_resolved = rounding_on_plane(half) <= RESOLVED * half.min_element();
         if !(desc.fov > 0.0 && desc.fov < PI && area.is_finite() && is_resolved) {
             return Err(ProjectionLightError::Fov);
@@ -98,7 +98,7 @@ impl<C: ColorModel> ProjectionLight<C> {
         let mut weights = image.averages();
         for ((texel, texel_part), weight) in image.texels().zip(picture.texels()).zip(&mut weights)
         {
-            // A texel's middle is enough for a density.
+            // A density only needs the middles of texels.
             *weight *= solid_angle_per_area(texel_part.center);
             power.add(texel, texel_part.solid_angle);
             maxima.add(Vec3::splat(texel.max_element()), 1.0);
@@ -135,7 +135,7 @@ impl<C: ColorModel> ProjectionLight<C> {
             scale,
             half,
             power,
-            // The one error that is left is that the picture is black.
+            // The only remaining error is a black picture.
             table: table.ok(),
             media: desc.media,
             color: PhantomData,
@@ -157,14 +157,14 @@ impl<C: ColorModel> ProjectionLight<C> {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
 
-    /// Where a direction away from the light meets the plane z = 1.
+    /// The intersection of a direction away from the light with the plane z = 1.
     fn on_plane(&self, w: Vec3) -> Option<Vec2> {
         let w = self.transform.inverse_vector(w);
         (w.z > 0.0).then(|| w.truncate() / w.z)
     }
 
-    /// The same, where that is on the picture, with the density of the direction. What a direction
-    /// rounds off is added to the picture.
+    /// The same, where that is on the picture, with the density of the direction. The picture is
+    /// enlarged by the rounding error of the direction.
     fn on_picture(&self, w: Vec3) -> Option<(Vec2, f32)> {
         let p = self.on_plane(w)?;
         let inside = p.clamp(-self.half, self.half);
@@ -192,8 +192,8 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
         C::emit_texel(self.power, wavelengths) * self.scale
     }
 
-    /// In proportion to the intensity, by `u1`. Intensity and density are those of the direction as
-    /// it is rounded, which may lie on the texel beside the chosen one.
+    /// In proportion to the intensity, by `u1`. Intensity and density are those of the rounded
+    /// direction, which may be on a neighbour of the chosen texel.
     fn sample_direction(
         &self,
         u1: Vec2,
@@ -227,7 +227,7 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     }
 }
 
-/// How far the rounding of a direction moves the place `p` where it meets the plane z = 1.
+/// Rounding error of the intersection `p` of a direction with the plane z = 1.
 fn rounding_on_plane(p: Vec2) -> f32 {
     8.0 * f32::EPSILON * (1.0 + p.length_squared())
 }

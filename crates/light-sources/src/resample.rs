@@ -8,9 +8,9 @@ use light_math::float::sin;
 use light_math::{Resampler, SphereImage, SphereImageError, SphereMap};
 
 impl Image {
-    /// This image of the sphere, laid around it as `from` says, in another map and size.
+    /// Resamples this image of the sphere from the map `from` to another map and size.
     ///
-    /// Each channel keeps the light of the whole sphere: small suns would gain or lose otherwise.
+    /// Each channel keeps its integral over the sphere, which matters for small suns.
     ///
     /// # Errors
     /// When a side is 0, or an equal-area image is not square.
@@ -38,7 +38,7 @@ impl Image {
         Self::from_f32(size, channels, numbers.collect::<Vec<_>>())
     }
 
-    /// The mean over the sphere of this image, which is laid around it as `map` says.
+    /// The mean of this image over the sphere, under `map`.
     #[must_use]
     pub fn sphere_mean(&self, map: SphereMap) -> Vec3 {
         sphere_mean(map, self.size(), self.texels())

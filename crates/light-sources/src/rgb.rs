@@ -66,9 +66,8 @@ impl ColorModel for Rgb {
         emission.is_finite() && emission.cmpge(Vec3::ZERO).all()
     }
 
-    /// White, `(1, 1, 1)`, is one watt, and to the eye as much light as one watt of 555 nm: 683 lm.
-    /// Other colours of the linear sRGB are as many lumens as their luminance says, and as many
-    /// watts as the mean of their channels.
+    /// White, `(1, 1, 1)`, is 1 W and 683 lm, as 1 W of 555 nm. The luminous flux of other colours
+    /// is in proportion to their luminance, the radiant flux is the mean of their channels.
     fn flux(emission: &Vec3) -> Flux {
         Self::flux_of_texel(*emission)
     }

@@ -1,6 +1,6 @@
 use crate::glam::Vec3;
 
-/// A sum of colours that loses no digits over the millions of texels of an image.
+/// A sum of colours in double precision, for the millions of texels of an image.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RgbSum([f64; 3]);
 
@@ -12,8 +12,8 @@ impl RgbSum {
         }
     }
 
-    /// The sum divided by `total`, rounded to single precision; zero where there is nothing to
-    /// divide by.
+    /// The sum divided by `total`, rounded to single precision; zero if `total` is
+    /// zero.
     pub(crate) fn over(&self, total: f64) -> Vec3 {
         if total > 0.0 {
             Vec3::from_array(self.0.map(|sum| single(sum / total)))

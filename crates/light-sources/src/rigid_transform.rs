@@ -22,17 +22,17 @@ pub enum RigidTransformError {
     NotRigid,
 }
 
-/// How far products of axes may lie from those of an exact rigid transform: files write six digits.
+/// Tolerance of the products of axes: files write six digits.
 const TOLERANCE: f32 = 1e-4;
 
 impl RigidTransform {
-    /// The transform that moves nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self {
         linear: Mat3::IDENTITY,
         translation: Vec3::ZERO,
     };
 
-    /// The rigid transform next to `transform`, whose axes may be off by round-off, 1e-4, and are
+    /// The rigid transform next to `transform`, whose axes may be off by rounding error, 1e-4, and are
     /// then made exact.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl RigidTransform {
         if scales || shears {
             return Err(RigidTransformError::NotRigid);
         }
-        // The axis z is kept: for most lights it is where they point to.
+        // The axis z is kept: it is the axis of most lights.
         let z = z.normalize();
         let x = (x - z * z.dot(x)).normalize();
         let y = z.cross(x) * z.cross(x).dot(y).signum();
@@ -59,7 +59,7 @@ impl RigidTransform {
         })
     }
 
-    /// The scene's place of the light's origin.
+    /// The origin of light space in the scene.
     #[must_use]
     pub const fn origin(&self) -> Vec3 {
         self.translation
@@ -71,28 +71,28 @@ impl RigidTransform {
         self.linear.z_axis
     }
 
-    /// A point of light space in the scene.
+    /// Takes a point from light space to scene space.
     #[inline]
     #[must_use]
     pub fn point(&self, p: Vec3) -> Vec3 {
         self.linear * p + self.translation
     }
 
-    /// A vector of light space in the scene.
+    /// Takes a vector from light space to scene space.
     #[inline]
     #[must_use]
     pub fn vector(&self, v: Vec3) -> Vec3 {
         self.linear * v
     }
 
-    /// A point of the scene in light space.
+    /// Takes a point from scene space to light space.
     #[inline]
     #[must_use]
     pub(crate) fn inverse_point(&self, p: Vec3) -> Vec3 {
         self.inverse_vector(p - self.translation)
     }
 
-    /// A vector of the scene in light space.
+    /// Takes a vector from scene space to light space.
     #[inline]
     #[must_use]
     pub(crate) fn inverse_vector(&self, v: Vec3) -> Vec3 {

@@ -4,17 +4,17 @@ use crate::image::Image;
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::UvPolygon;
 
-/// How many texels a polygon may reach over along each axis.
+/// The most texels of a polygon along each axis.
 const SIDE: usize = 32;
 
-/// The part of its bounds that a polygon fills at least: rounding is as large as the bounds are.
+/// The least area of a polygon relative to its bounds: rounding errors scale with the bounds.
 const FILLED: f64 = 1e-6;
 
 /// The mean of an image over a polygon, exact.
 ///
-/// By Green's theorem it is an integral along the edges: of the integrals of the image along its
-/// rows. So only what the edges cross is cut into pieces, and what lies between them is summed.
-/// `None` for what is larger than [`SIDE`] or hardly an area.
+/// By Green's theorem it is an integral along the edges of the integrals along the rows of the
+/// image, so that only texels on edges are clipped. `None` for polygons larger than [`SIDE`] or
+/// almost without area.
 pub(crate) fn mean_by_rows(image: &Image, wrap: [Wrap; 2], polygon: &UvPolygon) -> Option<DVec3> {
     // Texels have their centres at whole numbers.
     let size = DVec2::from_array(image.size().map(f64::from));
@@ -64,7 +64,7 @@ struct Row {
 }
 
 impl Row {
-    /// Of these texels of a row; `None` is black.
+    /// The integrals over these texels of a row; `None` is black.
     fn new(image: &Image, columns: &[Option<u32>], y: Option<u32>) -> Self {
         let mut row = Self {
             texels: [DVec3::ZERO; SIDE + 2],
@@ -85,7 +85,7 @@ impl Row {
         row
     }
 
-    /// The integral up to a place.
+    /// The integral up to a position.
     #[inline]
     fn integral(&self, x: f64) -> DVec3 {
         let i = column(x);
@@ -94,7 +94,7 @@ impl Row {
     }
 }
 
-/// What lies between two rows.
+/// The strip between two rows.
 struct Strip<'a> {
     y: f64,
     rows: [&'a Row; 2],
@@ -150,7 +150,7 @@ impl Strip<'_> {
     }
 }
 
-/// The texel at or before a place that is not far beyond the polygon.
+/// The texel at or before a position that is not far outside of the polygon.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,

@@ -1,11 +1,12 @@
 use crate::glam::{Vec2, Vec3};
 
-/// Light that arrives at a point: what [`Light::sample_li`](crate::Light::sample_li) chose.
+/// A sample of the light that arrives at a point: the result of
+/// [`Light::sample_li`](crate::Light::sample_li).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLiSample<R> {
     /// Arriving radiance in W m^-2 sr^-1; for a light at a point its intensity over the squared
-    /// distance, for one from a single direction its irradiance. Nothing in between is taken into
-    /// account: visibility is the caller's.
+    /// distance, for one from a single direction its irradiance. Without
+    /// visibility, which the caller tests.
     pub l: R,
     /// Unit direction toward the light.
     pub wi: Vec3,
@@ -16,11 +17,11 @@ pub struct LightLiSample<R> {
     pub p_light: Vec3,
     /// Unit geometric normal at `p_light`, of the front side; zero for lights without a surface.
     pub n_light: Vec3,
-    /// Surface parameters at `p_light`; of an environment map, the place in the map.
+    /// Surface parameters at `p_light`; for an environment map, the point of the map.
     pub uv: Vec2,
 }
 
-/// Where a ray leaves a light.
+/// The ray of an emission sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EmittedRay {
     /// Start, in scene units.
@@ -46,7 +47,8 @@ impl EmittedRay {
     }
 }
 
-/// Light that leaves a light: what [`Light::sample_le`](crate::Light::sample_le) chose.
+/// A sample of the emission of a light: the result of
+/// [`Light::sample_le`](crate::Light::sample_le).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLeSample<R> {
     /// Emitted radiance along the ray; for a light at a point its intensity, for one from a single

@@ -4,14 +4,14 @@ use core::fmt;
 use crate::glam::Vec3;
 use light_math::Aabb;
 
-/// The sphere around the scene: lights at infinity send their rays through it.
+/// The bounding sphere of the scene, through which lights at infinity send their rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneSphere {
     center: Vec3,
     radius: f32,
 }
 
-/// Why a scene has no sphere around it.
+/// Why a bounding sphere is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SceneSphereError {
@@ -57,7 +57,7 @@ impl SceneSphere {
         self.radius
     }
 
-    /// Area of the disk that the sphere shows to any direction, in length^2.
+    /// Area of the disk of the sphere's radius, in length^2.
     #[must_use]
     pub(crate) fn disk_area(&self) -> f32 {
         core::f32::consts::PI * self.radius * self.radius

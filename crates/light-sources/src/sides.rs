@@ -10,12 +10,12 @@ pub enum Sides {
     Front,
     /// The back alone.
     Back,
-    /// Front and back alike.
+    /// Front and back.
     Both,
 }
 
 impl Sides {
-    /// How many sides emit, 1 or 2.
+    /// The number of sides that emit, 1 or 2.
     #[must_use]
     pub const fn count(self) -> f32 {
         match self {

@@ -8,7 +8,7 @@ use crate::flux::Flux;
 use crate::glam::Vec3;
 use crate::spectral_emission::SpectralEmission;
 
-/// The colour model of spectra, seen at `N` sampled wavelengths.
+/// The spectral colour model, with `N` sampled wavelengths per query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spectral<const N: usize>;
 

@@ -8,16 +8,16 @@ use light_math::spectrum::{
 #[cfg(feature = "alloc")]
 use light_math::spectrum::{DenselySampled, PiecewiseLinear};
 
-/// What a light of the spectral colour model emits, by wavelength: any of the spectra of
+/// The emission spectrum of a light in the spectral colour model: one of the spectra of
 /// `light-math`.
 ///
-/// Tables are shared: a clone costs a counter.
+/// Tables are shared by clones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SpectralEmission {
-    /// The same at all wavelengths.
+    /// Constant over wavelength.
     Constant(Constant),
-    /// A glowing body, 1 where it is brightest.
+    /// A black body, 1 at its maximum.
     Blackbody(Blackbody),
     /// Daylight, with the luminance 1.
     Daylight(Daylight),
@@ -38,7 +38,7 @@ impl SpectralEmission {
     #[must_use]
     pub fn is_valid(&self) -> bool {
         let values_are_valid = match self {
-            // Their constructors saw to it.
+            // Their constructors ensure it.
             Self::Blackbody(_) | Self::Daylight(_) => true,
             Self::RgbIlluminant(_) | Self::RgbUnbounded(_) => true,
             Self::Constant(constant) => constant.0 >= 0.0,
@@ -81,7 +81,7 @@ impl Spectrum for SpectralEmission {
         }
     }
 
-    /// Asks once which spectrum it is, not once a wavelength.
+    /// Matches the kind of spectrum once, not once per wavelength.
     #[inline]
     fn sample<const N: usize>(&self, wavelengths: &SampledWavelengths<N>) -> SampledSpectrum<N> {
         match self {

@@ -5,7 +5,7 @@ use crate::glam::{Vec2, Vec3};
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
-/// Directions of the sphere in proportion to the texels of an equal-area image; none when it is
+/// Directions of the sphere in proportion to the texels of an equal-area image; `None` when it is
 /// black.
 #[derive(Clone, Debug)]
 pub(crate) struct SphereTable(Option<PiecewiseConstant2D<Vec<f32>>>);
@@ -13,7 +13,7 @@ pub(crate) struct SphereTable(Option<PiecewiseConstant2D<Vec<f32>>>);
 /// A direction that a [`SphereTable`] chose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SphereSample {
-    /// The place in the image.
+    /// The point of the image.
     pub(crate) uv: Vec2,
     /// The unit direction.
     pub(crate) w: Vec3,
@@ -27,7 +27,7 @@ const PER_STERADIAN: f32 = 0.25 * FRAC_1_PI;
 impl SphereTable {
     /// The table for `weights`, `n` rows of as many finite numbers, none negative.
     pub(crate) fn new(weights: &[f32], n: u32) -> Self {
-        // The one error that is left is that all weights are zero.
+        // The only remaining error is that all weights are zero.
         Self(PiecewiseConstant2D::new(weights, n as usize, n as usize).ok())
     }
 

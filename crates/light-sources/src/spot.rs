@@ -37,7 +37,7 @@ impl<C: ColorModel> SpotLight<C> {
     /// The light that `desc` describes.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: SpotLightDesc<C>) -> Result<Self, SpotLightError> {
         let transform = RigidTransform::new(desc.transform)?;
         let end = one_minus_cos(desc.angle);
@@ -62,7 +62,7 @@ impl<C: ColorModel> SpotLight<C> {
         })
     }
 
-    /// The part of the full intensity in the direction `w` away from the light, in `[0, 1]`.
+    /// The relative intensity in the direction `w` away from the light, in `[0, 1]`.
     fn falloff(&self, w: Vec3) -> f32 {
         let w = self.transform.inverse_vector(w);
         // 1 - z cancels near the axis.
@@ -81,7 +81,7 @@ impl<C: ColorModel> SpotLight<C> {
         }
     }
 
-    /// The solid angle that would hold all power at full intensity.
+    /// The solid angle that has the same power at full intensity.
     fn solid_angle(&self) -> f32 {
         solid_angle(self.start, self.end)
     }
@@ -133,8 +133,8 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
         self.falloff(w) / self.solid_angle()
     }
 
-    /// The power is that of a light that shines in all directions: of two spots that light a point
-    /// alike, the wide one must not be chosen more often.
+    /// The power is that of an isotropic light: of two spots that light a point equally, the wide one
+    /// must not be chosen more often.
     fn point_bounds(&self) -> LightBounds {
         LightBounds {
             bounds: Aabb::from_point(self.transform.origin()),
@@ -151,7 +151,7 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
     }
 }
 
-/// The solid angle that would hold all power of a spot at full intensity, from 1 minus the cosines.
+/// The solid angle that has the same power as a spot at full intensity, from 1 minus the cosines.
 fn solid_angle(start: f32, end: f32) -> f32 {
     PI * (start + end)
 }
@@ -161,8 +161,8 @@ fn one_minus_cos(angle: f32) -> f32 {
     2.0 * half * half
 }
 
-/// The cosine, and of a narrow angle no more than it: a float that rounds to above would leave out
-/// a part of the cone.
+/// The cosine, rounded down for narrow angles: a cosine rounded up would exclude a part of the
+/// cone.
 fn cos_rounded_down(angle: f32) -> f32 {
     const NARROW: f32 = 1e-3;
     let nearest = cos(angle);

@@ -17,8 +17,8 @@ use light_math::float::sin;
 use light_math::warp::uniform_cone;
 use light_math::{DirectionCone, Frame, direction};
 
-/// A disk in the sky, of the same radiance all over: a [`DistantLight`](crate::DistantLight) that
-/// casts soft shadows, is seen, and takes part in multiple importance sampling.
+/// A disk of constant radiance at infinity. Unlike a [`DistantLight`](crate::DistantLight), it
+/// casts soft shadows, is visible, and takes part in multiple importance sampling.
 #[derive(Clone, Debug)]
 pub struct SunLight<C: ColorModel> {
     frame: Frame,
@@ -28,7 +28,7 @@ pub struct SunLight<C: ColorModel> {
     scene: SceneSphere,
 }
 
-/// Why a description is no sun; each variant names a field.
+/// Why the description of a sun is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SunLightError {
@@ -37,19 +37,18 @@ pub enum SunLightError {
     /// `angular_diameter` does not lie in `(0, pi]`, or is so small that single precision has no
     /// number for its solid angle.
     AngularDiameter,
-    /// `emission` or `amount` makes no sense.
+    /// `emission` or `amount` is invalid.
     Emission(EmissionError),
 }
 
-/// How far a direction in single precision may lie from where it was meant to: the sine of that
-/// angle.
+/// The sine of the rounding error of a direction in single precision.
 const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
 
 impl<C: ColorModel> SunLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(desc: SunLightDesc<C>, scene: SceneSphere) -> Result<Self, SunLightError> {
         let direction = direction(desc.direction).map(Vec3::normalize);
         let direction = direction.ok_or(SunLightError::Direction)?;
@@ -131,7 +130,7 @@ impl<C: ColorModel> Light<C> for SunLight<C> {
         self.pdf(wi)
     }
 
-    /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
+    /// The direction is chosen by `u1`, the point on a disk of the scene's radius by `u2`.
     fn sample_le(
         &self,
         u1: Vec2,

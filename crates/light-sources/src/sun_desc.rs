@@ -16,11 +16,11 @@ pub struct SunLightDesc<C: ColorModel> {
     pub angular_diameter: f32,
     /// Colour of the light.
     pub emission: C::Emission,
-    /// How bright it is.
+    /// Amount of light.
     pub amount: SunAmount,
 }
 
-/// How bright a sun is, as the user states it; the emission then gives the colour.
+/// The amount of a sun; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

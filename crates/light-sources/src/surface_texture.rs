@@ -14,7 +14,7 @@ use crate::texture::Texture;
 use crate::texture_integral;
 use crate::texture_mapping::{TextureMapping, Wrap};
 
-/// What varies over a surface that shines: an image, a mask, or their product.
+/// The texture of an emissive surface: an image, a mask, or their product.
 #[derive(Clone, Debug)]
 pub(crate) struct SurfaceTexture {
     /// Also the mask of a uniform colour, where it counts as it is.
@@ -36,13 +36,13 @@ struct MaskLayer {
     own_mapping: Option<TextureMapping>,
 }
 
-/// Which part of an image a triangle shows, in steps as small as single precision makes them:
-/// triangles with the same footprint have the same mean.
+/// The part of an image on a triangle, quantised to single precision: triangles with the same
+/// footprint have the same mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Footprint(pub(crate) [i64; 7]);
 
 impl SurfaceTexture {
-    /// `None` where nothing varies.
+    /// `None` without a texture.
     pub(crate) fn new<C: ColorModel>(desc: &DiffuseEmissionDesc<C>) -> Option<Self> {
         let image = match &desc.color {
             SurfaceColor::Image { texture, .. } => Some(texture),
@@ -84,7 +84,7 @@ impl SurfaceTexture {
         })
     }
 
-    /// The mean over the area of `shape`; above 0 wherever the shape shows any light.
+    /// The mean over the area of `shape`; above 0 if any visible texel is.
     pub(crate) fn mean(&self, shape: &impl Shape) -> Vec3 {
         self.factor * self.mean_of(&shape.uv_area())
     }
@@ -119,8 +119,8 @@ impl SurfaceTexture {
         texture_integral::mean(&shown, &layer.blocks, own, Some(behind), area)
     }
 
-    /// The part of the image that a triangle with these surface parameters shows, moved to where
-    /// the image repeats itself.
+    /// The part of the image on a triangle with these surface parameters, shifted by whole periods
+    /// of a repeated image.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
@@ -149,7 +149,7 @@ impl SurfaceTexture {
         for (i, number) in numbers[1..].iter_mut().enumerate() {
             let axis = i % 2;
             let origin = match mapping.wrap[axis] {
-                // Numbers near a whole one go the same way.
+                // Numbers near a whole one are rounded the same way.
                 Wrap::Repeat => floor(low[axis] + 0.25),
                 Wrap::Mirror => 2.0 * floor(0.5 * low[axis] + 0.25),
                 Wrap::Clamp | Wrap::Black => 0.0,
@@ -159,7 +159,7 @@ impl SurfaceTexture {
         Footprint(numbers)
     }
 
-    /// The textures, and the means that belong to none of them.
+    /// The textures, and the means that none of them contains.
     pub(crate) fn parts(&self) -> (impl Iterator<Item = &Texture>, Option<&Arc<BlockMeans>>) {
         let mask = self.mask.as_ref();
         let textures = self.image.iter().chain(mask.map(|mask| &mask.texture));

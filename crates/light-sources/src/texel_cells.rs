@@ -6,8 +6,8 @@ use crate::mask_share::MaskShare;
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::{Axis, Corner, UvPolygon};
 
-/// One axis of an image between two centres of texels, where its colour is a line: two texels, and
-/// how far from the first to the second a place is.
+/// One axis of an image between two centres of texels, where its colour is linear: two texels, and
+/// the interpolation weight as a function of position.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     texels: [Option<u32>; 2],
@@ -17,7 +17,7 @@ struct Span {
     slope: f64,
 }
 
-/// An image where it is bilinear: between four centres of texels.
+/// A bilinear cell of an image: between four centres of texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cell {
     x: Span,
@@ -26,7 +26,7 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// The cell that holds the place `middle`, not on its edge.
+    /// The cell that contains the position `middle`, not on its edge.
     pub(crate) fn new(image: &Image, wrap: [Wrap; 2], middle: [f64; 2]) -> Self {
         let x = Span::new(wrap[0], image.size()[0], middle[0]);
         let y = Span::new(wrap[1], image.size()[1], middle[1]);
@@ -38,14 +38,14 @@ impl Cell {
         Self { x, y, colors }
     }
 
-    /// The colour at a place of the cell.
+    /// The colour at a position in the cell.
     #[inline]
     pub(crate) fn at(&self, x: f64, y: f64) -> DVec3 {
         let x = self.x.start + self.x.slope * x;
         let row = |[a, b]: [DVec3; 2]| a + (b - a) * x;
         let [top, bottom] = self.colors.map(row);
         let y = self.y.start + self.y.slope * y;
-        // Rounding must not make darkness of light, nor light of darkness.
+        // Rounding must neither turn light into black nor black into light.
         (top + (bottom - top) * y).max(DVec3::ZERO)
     }
 }
@@ -78,8 +78,8 @@ impl Span {
     }
 }
 
-/// The first place beyond `from` at which the colour of an image with `n` texels may bend: the
-/// centre of a texel.
+/// The first position after `from` where the colour of an image with `n` texels may have a kink:
+/// the centre of a texel.
 pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
     let count = f64::from(n);
     let (least, most) = match wrap {
@@ -98,8 +98,8 @@ pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
     f64::INFINITY
 }
 
-/// What a surface shows: an image, the share of a mask, or the product of both where they lie on it
-/// alike.
+/// The texture on a surface: an image, the opacity of a mask, or the product of both if they have the
+/// same mapping.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     /// White where there is none.
@@ -108,8 +108,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) wrap: [Wrap; 2],
 }
 
-/// [`Shown`] between neighbouring bends of all images: a polynomial, but where the share of the
-/// mask bends.
+/// [`Shown`] between neighbouring kinks of all images: a polynomial, unless the opacity of the mask
+/// has a kink.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShownCell {
     image: Option<Cell>,
@@ -144,7 +144,7 @@ impl<'a> Shown<'a> {
         self.image.into_iter().chain(mask)
     }
 
-    /// The integral over the rectangle between two places.
+    /// The integral over the rectangle between two positions.
     pub(crate) fn over_rectangle(&self, low: [f64; 2], high: [f64; 2]) -> DVec3 {
         let mut sum = DVec3::ZERO;
         self.each_span(Axis::Y, low[1], high[1], |y0, y1| {
@@ -156,7 +156,7 @@ impl<'a> Shown<'a> {
         sum
     }
 
-    /// The parts of an axis between bends.
+    /// The parts of an axis between kinks.
     pub(crate) fn each_span(&self, axis: Axis, from: f64, to: f64, mut each: impl FnMut(f64, f64)) {
         let mut start = from;
         while start < to {

@@ -6,11 +6,10 @@ use crate::image::Image;
 use crate::texel_cells::Shown;
 use crate::texture_mapping::Wrap;
 
-/// An image on a surface that shines, with the means of its parts: how bright each triangle is
-/// follows from the texels that it covers.
+/// An image of an emissive surface, with the means of its parts, from which the power of each
+/// triangle follows.
 ///
-/// It is a little larger than the image, and shared: a clone costs a counter, however many meshes
-/// it lies on.
+/// It is a little larger than the image, and shared by clones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture(Arc<Shared>);
 
@@ -23,7 +22,7 @@ struct Shared {
 }
 
 impl Texture {
-    /// The texture that shows `image`.
+    /// The texture of `image`.
     #[must_use]
     pub fn new(image: Image) -> Self {
         let blocks = BlockMeans::new(&Shown {
@@ -39,7 +38,7 @@ impl Texture {
         }))
     }
 
-    /// What it shows.
+    /// The image.
     #[must_use]
     pub fn image(&self) -> &Image {
         &self.0.image

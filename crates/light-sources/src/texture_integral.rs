@@ -10,13 +10,13 @@ use crate::texture_mapping::{TextureMapping, Wrap};
 use crate::triangle_rules::{DEGREE_2, DEGREE_5};
 use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};
 
-/// The mean of what a surface shows over its area.
+/// The mean of a texture over the area of a surface.
 ///
-/// Exact: the surface is cut where the colour bends, which is at the centres of texels, and between
-/// them it is a polynomial. Blocks of texels that the surface covers as a whole are known. Above 0
-/// wherever the surface shows any light.
+/// Exact: the surface is cut at the kinks of the colour, which are at the centres of texels;
+/// between them it is a polynomial. The means of blocks of texels that the surface covers as a
+/// whole are stored. Above 0 if any visible texel is.
 ///
-/// Only what covers more than [`FINEST`] blocks along an axis is cut more coarsely.
+/// Only a surface of more than [`FINEST`] blocks along an axis is cut more coarsely.
 ///
 /// `behind` is an image of which `shown` is the mask, where they have different mappings; it is
 /// exact up to [`FINEST_APART`] blocks.
@@ -32,7 +32,7 @@ pub(crate) fn mean(
         ..Integral::new(shown, blocks, UvDensity::Even)
     };
     match *area {
-        // The area is even whatever the surface parameters are, so that any others do as well.
+        // The area is uniform for any surface parameters, so that any others do as well.
         UvArea::Triangle(shown) => integral.add([Vec2::ZERO, Vec2::X, Vec2::Y], shown, mapping),
         UvArea::Square(density) => {
             integral.density = density;
@@ -64,22 +64,20 @@ fn pieces(density: &UvDensity) -> impl Iterator<Item = [Vec2; 2]> {
     })
 }
 
-/// How many blocks along an axis, as a power of two, a surface is cut into at most.
+/// The most blocks of a surface along an axis, as a power of two.
 const FINEST: u32 = 12;
 
-/// As [`FINEST`], of a mask with a mapping of its own: in blocks that are partly masked, and are
-/// smaller than one in so many along an axis, it counts by its mean, as if the image behind had
-/// nothing to do with it.
+/// As [`FINEST`], for a mask with a mapping of its own: in smaller blocks that are partly masked, it
+/// is replaced by its mean, independent of the image behind.
 const FINEST_APART: u32 = 5;
 
-/// How many times an image that is repeated counts at most: more do not change the mean.
+/// The most repetitions of an image that are integrated: more do not change the mean.
 const MOST_REPEATED: f64 = 1024.0;
 
-/// A part of the surface parameters on which a density counts as even within a block.
+/// The size in surface parameters below which a density counts as uniform within a block.
 const EVEN: f64 = 1.0 / 1024.0;
 
-/// What lies nearby and may show by rounding, as a part of it: far below what single precision
-/// tells apart.
+/// Weight of neighbouring texels that rounding may make visible: far below single precision.
 const NEARBY: f64 = 1.0 / (1u64 << 40) as f64;
 
 struct Integral<'a> {
@@ -108,7 +106,7 @@ impl<'a> Integral<'a> {
         }
     }
 
-    /// Adds the polygon with these surface parameters, which shows what lies at others.
+    /// Adds the polygon with these surface parameters and image coordinates.
     fn add<const N: usize>(
         &mut self,
         corners: [Vec2; N],
@@ -145,7 +143,7 @@ impl<'a> Integral<'a> {
             let (uv, at) = (corners[i].as_dvec2(), shown[i].as_dvec2());
             let place = x * at.x + y * at.y + offset;
             let place = DVec2::new(place.x, 1.0 - place.y);
-            // As a lookup takes what is no number.
+            // NaN is treated as a lookup treats it.
             let place = if place.is_finite() {
                 place
             } else {
@@ -163,7 +161,7 @@ impl<'a> Integral<'a> {
             return Vec3::ZERO;
         }
         let exact = self.sum / self.total;
-        // What is too dark for single precision is not quite black.
+        // A mean below the float range is not quite black.
         let darkest = self.nearby.map(|x| {
             if x > 0.0 {
                 f64::from(f32::MIN_POSITIVE)
@@ -174,13 +172,13 @@ impl<'a> Integral<'a> {
         exact.max(self.nearby * NEARBY).max(darkest).as_vec3()
     }
 
-    /// Moves the corners to where the image repeats itself, not far from the origin.
+    /// Shifts the corners by whole periods of the image, near to the origin.
     fn fold(&self, corners: &mut [Corner]) {
         let [min, max] = UvPolygon::new(corners).place_bounds();
         for corner in corners {
             for axis in Axis::BOTH {
                 if self.ends(axis) {
-                    // Beyond its edges there is nothing new.
+                    // Beyond its edges the colour does not change.
                     let place = &mut corner.place[axis as usize];
                     *place = place.clamp(-1e9, 1e9);
                     continue;
@@ -250,7 +248,7 @@ impl<'a> Integral<'a> {
         (level, [low, high])
     }
 
-    /// Adds what a block holds of the polygon; `part` lies in it.
+    /// Adds `part`, the intersection of the polygon with a block.
     fn block(&mut self, block: Block, finest: u32, part: &UvPolygon) {
         if part.is_empty() {
             return;
@@ -265,7 +263,7 @@ impl<'a> Integral<'a> {
         } else if let Some(mean) = mean {
             let side = |axis: Axis| {
                 let edge = |i| self.edge(axis, level, index[axis as usize] + i);
-                // Of the last block there may be no more than the image.
+                // The last block may extend beyond the image.
                 let [low, high] = [edge(0), edge(1)];
                 if self.ends(axis) {
                     high.min(1.0) - low
@@ -303,7 +301,7 @@ impl<'a> Integral<'a> {
         }
     }
 
-    /// Adds a share of what a polygon shows of the image behind.
+    /// Adds a polygon of the image behind, times `share`.
     fn add_behind(&mut self, share: f64, polygon: &UvPolygon) {
         let Some(behind) = self.behind else {
             return;
@@ -314,7 +312,7 @@ impl<'a> Integral<'a> {
         self.total += image.total;
     }
 
-    /// Adds a polygon that is small and evenly measured, and shows one image; says whether it does.
+    /// Adds a small polygon of uniform density on one image; returns whether it could.
     fn rows(&mut self, polygon: &UvPolygon) -> bool {
         let (Some(image), None) = (self.shown.image, self.shown.mask) else {
             return false;
@@ -331,7 +329,7 @@ impl<'a> Integral<'a> {
         mean.is_some()
     }
 
-    /// Adds a polygon that lies anywhere, piece by piece between the bends of the colour.
+    /// Adds any polygon, piece by piece between the kinks of the colour.
     fn cells(&mut self, polygon: &UvPolygon) {
         let shown = self.shown;
         each_strip(shown, Axis::X, polygon, |x, column| {
@@ -358,8 +356,7 @@ impl<'a> Integral<'a> {
         });
     }
 
-    /// Adds a polygon between the bends of what is shown, of which the colour is the product of
-    /// that with another.
+    /// Adds a polygon between the kinks of the texture, whose colour is multiplied with `color`.
     fn product(&mut self, cell: &ShownCell, piece: &UvPolygon, color: impl Fn(DVec2) -> DVec3) {
         let mut add = |Corner { uv, place }: Corner, area: f64| {
             let weight = area * self.density.at(uv);
@@ -411,8 +408,8 @@ impl<'a> Integral<'a> {
         self.density == UvDensity::Even || (max - min).max_element() <= EVEN
     }
 
-    /// What the texels nearby show together: above 0 if a lookup by single precision in the polygon
-    /// may find any light.
+    /// The sum of nearby texels: above 0 if a lookup in single precision in the polygon may find
+    /// any light.
     fn near(&self, polygon: &UvPolygon) -> DVec3 {
         let [min, max] = polygon.place_bounds();
         let size = Axis::BOTH.map(|axis| f64::from(self.shown.texels(axis)));
@@ -438,8 +435,8 @@ impl<'a> Integral<'a> {
     }
 }
 
-/// The parts of a polygon between the bends of the colour along an axis, each with a place between
-/// them.
+/// The parts of a polygon between the kinks of the colour along an axis, each with a position
+/// inside.
 fn each_strip(
     shown: &Shown<'_>,
     axis: Axis,
@@ -467,7 +464,7 @@ fn each_strip(
     }
 }
 
-/// The whole number at or below a place that is not far from the origin.
+/// The whole number at or below a position near to the origin.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "saturates where there is nothing any more"

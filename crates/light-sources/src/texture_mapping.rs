@@ -2,41 +2,41 @@ use crate::floor::floor as whole;
 use crate::glam::{Affine2, Vec2};
 use light_math::float::floor;
 
-/// How an image lies on a surface: where in the image each surface parameter is, and what is beyond
-/// its edges.
+/// The mapping of an image to a surface: from surface parameters to image coordinates, with the
+/// rule beyond its edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TextureMapping {
     /// From surface parameters (u, v) to those of the image, of which (0, 0) is the lower left
     /// corner.
     pub transform: Affine2,
-    /// What is beyond the left and right edges, and beyond the upper and lower.
+    /// The rule beyond the left and right edges, and beyond the upper and lower.
     pub wrap: [Wrap; 2],
 }
 
-/// What is beyond the edges of an image.
+/// The rule beyond the edges of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Wrap {
     /// The texel at the edge.
     #[default]
     Clamp,
-    /// The image again.
+    /// The image is repeated.
     Repeat,
-    /// The image again, every second time mirrored.
+    /// The image is repeated, every second time mirrored.
     Mirror,
-    /// Nothing.
+    /// Black.
     Black,
 }
 
 impl TextureMapping {
-    /// The image over and over, once over each unit square of surface parameters.
+    /// The image is repeated over each unit square of surface parameters.
     pub const REPEAT: Self = Self {
         transform: Affine2::IDENTITY,
         wrap: [Wrap::Repeat; 2],
     };
 
-    /// The place in the image, of which row 0 lies on top: (0, 0) is the upper left corner.
+    /// The image coordinates, with (0, 0) at the upper left corner, where row 0 is.
     #[inline]
     #[must_use]
     pub fn place(&self, uv: Vec2) -> Vec2 {
@@ -45,8 +45,7 @@ impl TextureMapping {
     }
 }
 
-/// The two texels of a line of them between whose centres a place lies, and how far it is from the
-/// first to the second.
+/// The two texels of a row around a position, and the weight of linear interpolation between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neighbours {
     /// `None` where there is no texel.
@@ -55,7 +54,7 @@ pub(crate) struct Neighbours {
 }
 
 impl Wrap {
-    /// The texels around the place `s` in a line of `n` texels that fills `[0, 1]`.
+    /// The texels around the position `s` in a row of `n` texels over `[0, 1]`.
     #[inline]
     pub(crate) fn around(self, s: f32, n: u32) -> Neighbours {
         let count = n as f32;
@@ -78,7 +77,7 @@ impl Wrap {
         }
     }
 
-    /// The texel with the whole number `i`, however far away from a line of `n`.
+    /// The texel for the whole number `i`, at any distance from a row of `n`.
     #[inline]
     pub(crate) fn texel_anywhere(self, i: f64, n: u32) -> Option<u32> {
         let count = f64::from(n);
@@ -93,7 +92,7 @@ impl Wrap {
         self.texel(folded, n)
     }
 
-    /// The texel with the whole number `i`, which is less than `n` away from a line of `n`.
+    /// The texel for the whole number `i`, which is less than `n` away from a row of `n`.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -23,7 +23,7 @@ use light_math::warp::uniform_sphere;
 pub struct UniformInfiniteLightDesc<C: ColorModel> {
     /// Colour of the sky.
     pub emission: C::Emission,
-    /// How bright it is.
+    /// Amount of light.
     pub amount: RadianceAmount,
 }
 
@@ -41,7 +41,7 @@ impl<C: ColorModel> UniformInfiniteLight<C> {
     /// The light that `desc` describes, over the given scene.
     ///
     /// # Errors
-    /// When a field of `desc` makes no sense.
+    /// When a field of `desc` is invalid.
     pub fn new(
         desc: UniformInfiniteLightDesc<C>,
         scene: SceneSphere,
@@ -92,7 +92,7 @@ impl<C: ColorModel> Light<C> for UniformInfiniteLight<C> {
         }
     }
 
-    /// The direction is chosen by `u1`, the place on a disk of the scene's radius by `u2`.
+    /// The direction is chosen by `u1`, the point on a disk of the scene's radius by `u2`.
     fn sample_le(
         &self,
         u1: Vec2,

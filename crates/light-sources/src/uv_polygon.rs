@@ -5,13 +5,14 @@ use crate::glam::DVec2;
 pub(crate) struct Corner {
     /// Surface parameters.
     pub(crate) uv: DVec2,
-    /// The place in the image.
+    /// Image coordinates.
     pub(crate) place: DVec2,
 }
 
-/// A convex part of a surface: measured by its surface parameters, cut by its place in an image.
+/// A convex part of a surface: its area is that of the surface parameters, its cuts are lines of
+/// the image.
 ///
-/// What the mapping shrinks to a line or to a point in the image keeps its area on the surface.
+/// A part that the mapping shrinks to a line or a point of the image keeps its area on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UvPolygon {
     corners: [Corner; Self::MOST],
@@ -73,7 +74,7 @@ impl UvPolygon {
         &self.corners[..self.count]
     }
 
-    /// The same surface with other places.
+    /// The same surface with other image coordinates.
     pub(crate) fn with_places(mut self, place: impl Fn(DVec2) -> DVec2) -> Self {
         for corner in &mut self.corners[..self.count] {
             corner.place = place(corner.uv);
@@ -81,7 +82,7 @@ impl UvPolygon {
         self
     }
 
-    /// Whether there is nothing to measure.
+    /// Whether it has no corners.
     pub(crate) const fn is_empty(&self) -> bool {
         self.count < 3
     }
@@ -95,7 +96,7 @@ impl UvPolygon {
             .map(|pair| [corners[0], pair[0], pair[1]])
     }
 
-    /// The least and the largest place in the image.
+    /// Lower and upper corner of its bounds in the image.
     pub(crate) fn place_bounds(&self) -> [DVec2; 2] {
         let places = self.corners().iter().map(|corner| corner.place);
         places.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[min, max], p| {
@@ -103,7 +104,7 @@ impl UvPolygon {
         })
     }
 
-    /// The area that it fills in the image.
+    /// Its area in the image.
     pub(crate) fn place_area(&self) -> f64 {
         let doubled = |[a, b, c]: [Corner; 3]| (b.place - a.place).perp_dot(c.place - a.place);
         0.5 * self.triangles().map(doubled).sum::<f64>().abs()
@@ -135,7 +136,7 @@ impl UvPolygon {
             }
             last = corner;
         }
-        // What lies on the line as a whole belongs to one side.
+        // A polygon on the line belongs to one side.
         if self.corners().iter().all(|corner| height(corner) == 0.0) {
             above = Self::empty();
         }

@@ -181,7 +181,7 @@ impl LightSet {
         Self::new("back to back", emitters, CONTEXTS, 12)
     }
 
-    /// Beams of all widths, and what little shines beside and behind them.
+    /// Beams of all widths, and what little emits light beside and behind them.
     #[must_use]
     pub fn lanterns(n: usize) -> Self {
         let mut rng = Rng::new(14);

@@ -29,7 +29,7 @@ pub enum Emitter {
     Spot {
         /// Where it is.
         position: Vec3,
-        /// Where it shines, a unit vector.
+        /// Where it emits light, a unit vector.
         axis: Vec3,
         /// Radiant intensity inside of the inner cone, in W·sr⁻¹.
         intensity: f32,

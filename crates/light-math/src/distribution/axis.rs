@@ -42,7 +42,7 @@ impl Axis {
         self.width
     }
 
-    /// The bin of `x` and the place in it, in `[0, 1]`; none outside the interval.
+    /// The bin of `x` and the place in it, in `[0, 1]`; `None` outside the interval.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,

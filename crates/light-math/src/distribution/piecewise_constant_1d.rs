@@ -140,7 +140,7 @@ impl<S: AsRef<[f32]>> PiecewiseConstant1D<S> {
         }
     }
 
-    /// The `u` in `[0, 1]` that [`sample`](Self::sample) takes to `x`; none outside the domain.
+    /// The `u` in `[0, 1]` that [`sample`](Self::sample) takes to `x`; `None` outside the domain.
     #[must_use]
     pub fn invert(&self, x: f32) -> Option<f32> {
         let (index, place) = self.axis.locate(x)?;

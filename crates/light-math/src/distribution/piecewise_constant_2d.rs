@@ -9,9 +9,10 @@ use glam::Vec2;
 
 /// A density on a rectangle, constant in each texel of a grid: the usual way to sample an image.
 ///
-/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the numbers:
-/// `Vec<f32>`, `&[f32]`, `[f32; M]`. They are the density of each texel over the unit square, the
-/// running sum of each row, and the running sum of the rows, [`table_len`](Self::table_len) in all.
+/// Weights are stored row by row from the lowest y, within a row by rising x. `S` lends the
+/// numbers: `Vec<f32>`, `&[f32]`, `[f32; M]`. They are the density of each texel over the unit
+/// square, the running sum of each row, and the running sum of the rows,
+/// [`table_len`](Self::table_len) in all.
 ///
 /// # Source
 /// `[PBRT4]` A.5.5: `u.y` picks the row, `u.x` the place in it.
@@ -156,7 +157,7 @@ impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
         }
     }
 
-    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to `p`; none outside the domain.
+    /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to `p`; `None` outside the domain.
     #[must_use]
     pub fn invert(&self, p: Vec2) -> Option<Vec2> {
         let (column, x) = self.x.locate(p.x)?;

@@ -69,7 +69,7 @@ impl<T> WeightedReservoir<T> {
         self.total
     }
 
-    /// The chosen value; none while no weight was positive, or if its probability is below the
+    /// The chosen value; `None` while no weight was positive, or if its probability is below the
     /// range of `f32`.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounds a probability")]

@@ -9,7 +9,7 @@ use super::window::Window;
 
 /// Sums of a grid of weights over any rectangle, in constant time.
 ///
-/// Weights stand row by row from the lowest y, within a row by rising x. `S` lends the sums:
+/// Weights are stored row by row from the lowest y, within a row by rising x. `S` lends the sums:
 /// `Vec<u64>`, `&[u64]`, `[u64; M]`, one for each weight; sum `y * nx + x` counts all texels up to
 /// column x and row y.
 ///
@@ -139,7 +139,7 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
         self.sums.as_ref()
     }
 
-    /// The weight that one unit of the sums stands for: a power of two, or 0 if all weights are 0.
+    /// The weight that one unit of the sums represents: a power of two, or 0 if all weights are 0.
     #[must_use]
     pub fn unit(&self) -> f64 {
         self.unit

@@ -26,7 +26,7 @@ impl Window {
         self.min.cmple(p).all() && p.cmple(self.max).all()
     }
 
-    /// The part in the unit square; none if that is empty or a corner is NaN.
+    /// The part in the unit square; `None` if that is empty or a corner is NaN.
     #[inline]
     pub(super) fn clip(&self) -> Option<Self> {
         let clipped = Self::new(self.min.max(Vec2::ZERO), self.max.min(Vec2::ONE));

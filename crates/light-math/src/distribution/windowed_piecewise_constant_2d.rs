@@ -28,7 +28,7 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
         Self { table }
     }
 
-    /// The point of `window` for `u` in `[0, 1)^2`; none if the window holds no weight.
+    /// The point of `window` for `u` in `[0, 1)^2`; `None` if the window holds no weight.
     #[inline]
     #[must_use]
     pub fn sample(&self, u: Vec2, window: &Window) -> Option<Sample2D> {
@@ -84,7 +84,7 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
 }
 
 /// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given
-/// the sum over whole texels; none if that is zero.
+/// the sum over whole texels; `None` if that is zero.
 #[inline]
 fn choose(span: &Span, u: f32, whole: impl Fn(usize, usize) -> f64) -> Option<(usize, f64, f64)> {
     let total = span.sum(&whole);

@@ -62,7 +62,7 @@ impl Spectrum for Blackbody {
     }
 }
 
-/// Why there is no such black body.
+/// Why a black body is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BlackbodyError {

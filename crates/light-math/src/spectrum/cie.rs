@@ -67,7 +67,7 @@ pub fn sampled_y<const N: usize>(
     sampled_xyz(spectrum, wavelengths).y
 }
 
-/// Which of the [`SAMPLES`] nanometres is nearest; none outside of the range, or for NaN.
+/// Which of the [`SAMPLES`] nanometres is nearest; `None` outside of the range, or for NaN.
 #[inline]
 #[allow(
     clippy::cast_possible_truncation,

@@ -117,7 +117,7 @@ impl RgbColorSpace {
     }
 }
 
-/// Why there is no such colour space.
+/// Why a colour space is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RgbColorSpaceError {

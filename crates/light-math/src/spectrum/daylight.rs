@@ -124,7 +124,7 @@ impl Spectrum for Daylight {
     }
 }
 
-/// Why there is no such daylight.
+/// Why a daylight is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DaylightError {

@@ -6,7 +6,7 @@
 //! quotient. What the light does with direction (`4 pi` sr of a point light, `pi` of a Lambertian
 //! surface) is for the light to know.
 //!
-//! In RGB, where white has `Y` = 1 and stands for one watt, a colour gives `K_M * Y` photometric
+//! In RGB, where white has `Y` = 1 and represents one watt, a colour gives `K_M * Y` photometric
 //! units. A spectral picture has the brightness of an RGB picture of the same lamps when its XYZ
 //! are integrals over the wavelengths, [`Y_INTEGRAL`](super::cie::Y_INTEGRAL) times the
 //! [means](super::cie::xyz).

@@ -125,7 +125,7 @@ const fn decode(bytes: &[u8; 4 * LEN]) -> [f32; LEN] {
     out
 }
 
-/// Why there is no such table.
+/// Why a table is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum UpliftTableError {

@@ -56,7 +56,7 @@ fn row(y: f32, w: [f32; 4]) -> (f32, f32) {
     (z * w[0] + y * w[2], z * w[1] + y * w[3])
 }
 
-/// The values in a unit in which the largest is near 1; none if that is no positive number.
+/// The values in a unit in which the largest is near 1; `None` if that is no positive number.
 #[inline]
 fn scaled(w: [f32; 4]) -> Option<[f32; 4]> {
     let largest = w[0].max(w[1]).max(w[2].max(w[3]));

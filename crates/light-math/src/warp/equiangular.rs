@@ -25,7 +25,7 @@ pub struct Equiangular {
 
 impl Equiangular {
     /// The ray from an origin along the unit vector `direction` between `t_min` and `t_max`, and
-    /// the point at `to_point` from that origin; `t_max` may be infinite. None if the part is
+    /// the point at `to_point` from that origin; `t_max` may be infinite. `None` if the part is
     /// empty.
     ///
     /// A point on the ray itself is moved off it by 1e-6 of the largest distance, at least by

@@ -52,7 +52,7 @@ pub fn invert(x: f32, a: f32, b: f32) -> f32 {
     }
 }
 
-/// The two values in a unit in which the larger is near 1; none if that is no positive number.
+/// The two values in a unit in which the larger is near 1; `None` if that is no positive number.
 #[inline]
 fn scaled(a: f32, b: f32) -> Option<(f32, f32)> {
     let largest = a.max(b);

@@ -34,7 +34,7 @@ pub struct SphericalTriangle {
 }
 
 impl SphericalTriangle {
-    /// The triangle `v` seen from `p`; none if it covers no solid angle there.
+    /// The triangle `v` seen from `p`; `None` if it covers no solid angle there.
     #[inline]
     #[must_use]
     pub fn new(v: [Vec3; 3], p: Vec3) -> Option<Self> {

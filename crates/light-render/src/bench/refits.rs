@@ -33,7 +33,7 @@ pub struct RefitRow {
     pub degradation: f64,
     /// Variance with the refitted hierarchy.
     pub refitted: Variance,
-    /// Variance with one that is built anew.
+    /// Variance with one that is built again.
     pub built_anew: Variance,
 }
 

@@ -63,7 +63,7 @@ impl Window {
     /// The pixels whose left upper corners lie in the window.
     ///
     /// # Source
-    /// `[PBRT4]`, section 5.4.2, with room for the rounding of a share that stands for a whole
+    /// `[PBRT4]`, section 5.4.2, with room for the rounding of a share that represents a whole
     /// number of pixels.
     pub(crate) fn pixels(&self, width: u32, height: u32) -> Crop {
         #[expect(

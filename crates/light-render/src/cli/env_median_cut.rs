@@ -19,7 +19,7 @@ use super::say::say;
 pub(crate) struct MedianCutArgs {
     /// The map: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
     image: PathBuf,
-    /// How many lights; there are fewer if fewer texels shine.
+    /// How many lights; there are fewer if fewer texels emit light.
     #[arg(short, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     n: u32,
     /// How a light's place in its region is weighted.

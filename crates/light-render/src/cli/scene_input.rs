@@ -17,7 +17,7 @@ pub(crate) struct SceneInput {
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
     pub(crate) env: Option<PathBuf>,
-    /// Let the front of a material shine with this radiance; may be repeated.
+    /// Let the front of a material emit light with this radiance; may be repeated.
     #[arg(long, value_name = "MATERIAL=r,g,b")]
     pub(crate) emit: Vec<Emit>,
 }
@@ -26,7 +26,7 @@ impl SceneInput {
     /// Reads the scene with all that belongs to it.
     ///
     /// # Errors
-    /// When a file cannot be read or makes no sense.
+    /// When a file cannot be read or is invalid.
     pub(crate) fn read(&self) -> Result<Scene, Failure> {
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = &self.env {
@@ -54,7 +54,7 @@ impl SceneInput {
     /// Makes a scene ready for rays.
     ///
     /// # Errors
-    /// When a light makes no sense.
+    /// When a light is invalid.
     pub(crate) fn build(&self, scene: Scene) -> Result<World, Failure> {
         World::new(scene)
             .map_err(|error| Failure::input(Diagnostic::file(&self.scene, error.to_string())))

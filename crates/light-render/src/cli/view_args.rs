@@ -34,7 +34,7 @@ impl ViewArgs {
     /// The scene's camera, with what the arguments change, in the picture's size.
     ///
     /// # Errors
-    /// When the camera or the part of the picture makes no sense.
+    /// When the camera or the part of the picture is invalid.
     pub(crate) fn view(&self, scene: &Scene) -> Result<View, Failure> {
         let mut camera = scene.camera_or_default();
         let fov = self.fov.map_or(camera.fov, f32::to_radians);

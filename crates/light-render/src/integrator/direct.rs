@@ -93,7 +93,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// Chooses `count` lights at `ctx`, prefetches their data, and overwrites `query` with the choice.
+    /// Chooses `count` lights at `ctx`, prefetches their data, and overwrites `query` with the
+    /// choice.
     #[inline]
     pub(super) fn choose(
         &self,
@@ -118,8 +119,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     }
 
     /// Direct light from the `chosen` lights that `vertex` scatters toward its viewer, with one
-    /// shadow ray for all of them: an unbiased estimate that costs little more than that of a single
-    /// light. `query` is that of [`choose`](Self::choose).
+    /// shadow ray for all of them: an unbiased estimate that costs little more than that of a
+    /// single light. `query` is that of [`choose`](Self::choose).
     ///
     /// `arrived` returns the transmittance of the one light sample that is tested.
     #[inline]
@@ -151,8 +152,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// The density of light samples, in sr^-1, that the choices of `query` have in the direction `wi`
-    /// toward `light`: the expected number of samples per solid angle.
+    /// The density of light samples, in sr^-1, that the choices of `query` have in the direction
+    /// `wi` toward `light`: the expected number of samples per solid angle.
     #[inline]
     pub(super) fn density(&self, query: &LightQuery, light: LightId, wi: Vec3) -> f32 {
         let LightQuery {
@@ -173,8 +174,8 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     }
 }
 
-/// The contribution of one chosen light to [`DirectLight::sample`] without occlusion; `None` if it is
-/// zero.
+/// The contribution of one chosen light to [`DirectLight::sample`] without occlusion; `None` if it
+/// is zero.
 #[inline]
 fn unshadowed<V: Scatters>(
     world: &World,
@@ -210,9 +211,9 @@ fn unshadowed<V: Scatters>(
     })
 }
 
-/// Whether a point of a light is within the rounding error of the receiving surface: an emitter does
-/// not light its own back. Rays start beyond that error, so that BSDF samples do not find such light
-/// either.
+/// Whether a point of a light is within the rounding error of the receiving surface: an emitter
+/// does not light its own back. Rays start beyond that error, so that BSDF samples do not find such
+/// light either.
 #[inline]
 fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
     (p_light - ctx.p).dot(ctx.n).abs() < ctx.n.abs().dot(ctx.p_error)

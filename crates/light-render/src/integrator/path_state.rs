@@ -21,8 +21,8 @@ pub(super) trait PathVertex: Scatters {
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample>;
 }
 
-/// The state of a path, with the rules that all path integrators share: multiple importance sampling
-/// and Russian roulette.
+/// The state of a path, with the rules that all path integrators share: multiple importance
+/// sampling and Russian roulette.
 #[derive(Debug)]
 pub(super) struct PathState<'a, S> {
     pub(super) traced: Traced,
@@ -72,8 +72,8 @@ impl<'a, S: LightSampler> PathState<'a, S> {
         }
     }
 
-    /// Scatters the path at `vertex`, which has the given number: adds direct light, and samples the
-    /// next direction. `None` where the path ends.
+    /// Scatters the path at `vertex`, which has the given number: adds direct light, and samples
+    /// the next direction. `None` where the path ends.
     ///
     /// `arrived` returns the transmittance of an unshadowed light sample.
     #[inline]

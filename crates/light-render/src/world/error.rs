@@ -7,7 +7,7 @@ use crate::SceneLightsError;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum WorldError {
-    /// A light makes no sense.
+    /// A light is invalid.
     Lights(SceneLightsError),
     /// A sphere has no radius, or its transform is not a similarity.
     Sphere {

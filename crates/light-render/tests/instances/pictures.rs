@@ -88,7 +88,7 @@ fn nodes_of_gltf_files_look_flattened() {
     let text = std::fs::read_to_string(&path).expect("it ships");
     let mut document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let primitive = |positions: u32, material: u32| json!({"attributes": {"POSITION": positions, "TEXCOORD_0": 0}, "indices": 1, "material": material});
-    // Matt and metal, and what shines.
+    // Matt and metal, and what emits light.
     let primitives = [(2, 0), (5, 3), (4, 2)].map(|(p, m)| primitive(p, m));
     let lists = |document: &mut serde_json::Value, list: &str, more: serde_json::Value| {
         document[list].as_array_mut().expect("a list").push(more);

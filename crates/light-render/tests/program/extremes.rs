@@ -30,7 +30,7 @@ const VALUES: [&str; 18] = [
 /// A command, what it needs to work, and pairs of flags and values that keep it short.
 struct Case {
     command: &'static [&'static str],
-    /// Files, or words that stand for themselves.
+    /// Files, or words that represent themselves.
     operands: Vec<String>,
     flags: Vec<(&'static str, String)>,
 }

@@ -24,7 +24,7 @@ impl Folder {
         self.0.join(name).to_str().expect("a plain path").into()
     }
 
-    /// Two triangles, one of which shines unless `mtl` says otherwise.
+    /// Two triangles, one of which emits light unless `mtl` says otherwise.
     pub(crate) fn scene(&self, mtl: &str) -> String {
         self.file("scene.mtl", mtl);
         let quad = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\n";

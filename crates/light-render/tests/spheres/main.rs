@@ -1,5 +1,5 @@
-//! Spheres are round: they are met, lit, and shine as closed forms say, and as very many triangles
-//! do.
+//! Spheres are round: they are met, lit, and emit light as closed forms say, and as very many
+//! triangles do.
 
 mod hits;
 mod pictures;

@@ -5,7 +5,8 @@ use crate::obj::parse_obj;
 use crate::{Camera, Scene};
 
 /// The Cornell box from its published measurements, in millimetres: two blocks in a white room with
-/// a red wall on the left and a green one on the right, under one lamp that shines downward only.
+/// a red wall on the left and a green one on the right, under one lamp that emits light downward
+/// only.
 ///
 /// Half a turn about the y axis brings its opening to +z.
 ///

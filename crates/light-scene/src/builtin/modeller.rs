@@ -21,7 +21,7 @@ impl Modeller {
         self.scene.add_material(material)
     }
 
-    /// The number of triangles so far whose material shines.
+    /// The number of triangles so far whose material emits light.
     pub(super) fn emissive_triangle_count(&self) -> usize {
         self.scene.emissive_triangle_count()
     }

@@ -240,7 +240,7 @@ impl Component {
         }
     }
 
-    /// The number in the first bytes; a normalised whole number stands for a part of the largest.
+    /// The number in the first bytes; a normalised whole number represents a part of the largest.
     fn number(self, bytes: &[u8], normalized: bool) -> f32 {
         let (number, largest) = match self {
             Self::I8 => (f32::from(i8::from_le_bytes([bytes[0]])), 127.0),

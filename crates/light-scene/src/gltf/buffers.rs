@@ -71,7 +71,7 @@ impl<'a> Buffers<'a> {
         self.files
     }
 
-    /// The bytes that a URI stands for.
+    /// The bytes that a URI represents.
     pub(super) fn load(&self, uri: &Item<'_>) -> Result<Vec<u8>, Diagnostic> {
         match resource(uri.text()?) {
             Some(Resource::Bytes(bytes)) => Ok(bytes),

@@ -1,6 +1,6 @@
-//! What a URI of glTF stands for: bytes in the document, or a file beside it.
+//! What a URI of glTF represents: bytes in the document, or a file beside it.
 
-/// What a URI stands for.
+/// What a URI represents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Resource {
     /// The bytes themselves.
@@ -9,10 +9,10 @@ pub(super) enum Resource {
     File(String),
 }
 
-/// Why a URI stands for nothing.
+/// Why a URI represents nothing.
 pub(super) const EXPECTED: &str = "a file's name, or data in base64";
 
-/// What a URI stands for; none if it is broken or of another scheme.
+/// What a URI represents; `None` if it is broken or of another scheme.
 pub(super) fn resource(uri: &str) -> Option<Resource> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, text) = data.split_once(";base64,")?;

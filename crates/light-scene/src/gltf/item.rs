@@ -87,7 +87,7 @@ impl<'a> Item<'a> {
         extensions.map_or(Ok(None), |extensions| extensions.get(name))
     }
 
-    /// The elements of a member that is a list; none if it is not there.
+    /// The elements of a member that is a list; `None` if it is not there.
     pub(super) fn list(&self, name: &str) -> Result<Vec<Self>, Diagnostic> {
         let Some(list) = self.get(name)? else {
             return Ok(Vec::new());

@@ -37,7 +37,7 @@ use crate::{Diagnostic, Files, Scene};
 /// a warning, by its path in the document. Lengths are metres; the camera looks along -z with y up.
 ///
 /// # Errors
-/// When a file cannot be read, is no glTF file, or a part of it makes no sense: with file, path in
+/// When a file cannot be read, is no glTF file, or a part of it is invalid: with file, path in
 /// the document or byte, and what was expected.
 ///
 /// # Source

@@ -7,7 +7,7 @@ use super::{Image, display::decode, srgb};
 use crate::Diagnostic;
 use crate::glam::Vec3;
 
-/// How numbers of a file stand for amounts of light.
+/// How numbers of a file represent amounts of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Encoding {
     /// By the curve of sRGB.
@@ -55,7 +55,7 @@ impl EncodedImage {
         self.of_texels(texels.collect())
     }
 
-    /// How opaque each texel is, alike in all channels; none if all are so.
+    /// How opaque each texel is, alike in all channels; `None` if all are so.
     pub(crate) fn alpha(&self) -> Option<Image> {
         if !self.0.color().has_alpha() {
             return None;

@@ -82,7 +82,7 @@ impl FromStr for SetKind {
 }
 
 impl LightSetFile {
-    /// The set of `n` lights and 4096 points that `kind`, `n` and `seed` stand for.
+    /// The set of `n` lights and 4096 points that `kind`, `n` and `seed` represent.
     #[must_use]
     pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
         let mut random = Random::new(seed ^ (kind as u64) << 56 ^ (n as u64) << 24);

@@ -18,14 +18,14 @@ pub enum SetLight {
         /// Whether the other side emits as well.
         two_sided: bool,
     },
-    /// A point that shines alike in all directions.
+    /// A point that emits equally in all directions.
     Point {
         /// Position.
         p: Vec3,
         /// Radiant intensity.
         intensity: f32,
     },
-    /// A point that shines into a cone with a soft edge.
+    /// A point that emits light into a cone with a soft edge.
     Spot {
         /// Position.
         p: Vec3,
@@ -197,13 +197,13 @@ impl SetLight {
     }
 }
 
-/// Where a spot at `p` shines. In doubles, so that squares of tiny lengths do not vanish; +z if the
-/// target is where the spot is.
+/// Where a spot at `p` emits light. In doubles, so that squares of tiny lengths do not vanish; +z
+/// if the target is where the spot is.
 fn spot_axis(p: Vec3, target: Vec3) -> DVec3 {
     (target.as_dvec3() - p.as_dvec3()).normalize_or(DVec3::Z)
 }
 
-/// The half angles up to which a spot shines fully, and at all, in radians.
+/// The half angles up to which a spot emits light fully, and at all, in radians.
 fn cone(cone_deg: f32, delta_deg: f32) -> [f64; 2] {
     let end = f64::from(cone_deg);
     [end - f64::from(delta_deg), end].map(f64::to_radians)

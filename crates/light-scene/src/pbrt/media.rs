@@ -55,7 +55,7 @@ impl Reader {
         Ok(())
     }
 
-    /// `MediumInterface "inside" "outside"`; one name stands for both, an empty one for vacuum.
+    /// `MediumInterface "inside" "outside"`; one name represents both, an empty one for vacuum.
     pub(super) fn medium_interface(
         &mut self,
         at: At<'_>,

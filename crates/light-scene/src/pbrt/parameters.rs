@@ -81,7 +81,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// Refuses the list if a parameter that was asked for makes no sense.
+    /// Refuses the list if a parameter that was asked for is invalid.
     pub(super) fn check(&self) -> Result<(), Diagnostic> {
         self.fault.borrow().clone().map_or(Ok(()), Err)
     }

@@ -34,7 +34,7 @@ impl Reader {
         Ok(sphere.map(|sphere| Sphere { front, ..sphere }))
     }
 
-    /// Whether a sphere, if it shines, does so evenly and as far as the nearer side shows.
+    /// Whether a sphere, if it emits light, does so evenly and as far as the nearer side shows.
     fn is_one_light(&mut self, typed: &Typed<'_>, front: SphereFront) -> bool {
         let Some(light) = self.state.area_light else {
             return true;

@@ -84,7 +84,7 @@ impl Reader {
         mesh
     }
 
-    /// A material of its own that shines, if an area light is in force.
+    /// A material of its own that emits light, if an area light is in force.
     fn with_light(&mut self, material: MaterialId, area: impl FnOnce() -> f32) -> MaterialId {
         let Some(light) = self.state.area_light else {
             return material;

@@ -1,7 +1,7 @@
 use crate::glam::Vec3;
 use crate::rgb_sum::RgbSum;
 
-/// Where in its region a light stands.
+/// The direction of a light in its region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Centroid {
     /// At the mean of the region's directions, weighted by luminance.
@@ -11,7 +11,7 @@ pub enum Centroid {
     SquaredLuminance,
 }
 
-/// The light of a region, and the sum from which its direction follows.
+/// The summed light of a region, and the weighted sum of its directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RegionSum {
     centroid: Centroid,
@@ -20,7 +20,7 @@ pub(super) struct RegionSum {
     weight: f64,
 }
 
-/// Means shorter than this point nowhere: the region surrounds the sphere evenly.
+/// Means shorter than this have no direction: the region surrounds the sphere evenly.
 const SHORTEST_MEAN: f32 = 1e-3;
 
 impl RegionSum {
@@ -33,8 +33,8 @@ impl RegionSum {
         }
     }
 
-    /// Adds a texel of the given radiance and solid angle; its direction is asked for only where it
-    /// shines.
+    /// Adds a texel of the given radiance and solid angle; its direction is only computed if it
+    /// is not black.
     pub(super) fn add(
         &mut self,
         radiance: Vec3,
@@ -67,7 +67,7 @@ impl RegionSum {
     }
 }
 
-/// The luminance of linear RGB by which regions are cut.
+/// The luminance of linear RGB that is the energy of a texel.
 ///
 /// # Source
 /// `[Debevec2005]`, section 2.

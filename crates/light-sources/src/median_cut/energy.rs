@@ -7,14 +7,14 @@ use crate::image::Image;
 use light_math::SphereMap;
 use light_math::distribution::SummedAreaTable;
 
-/// How the energy of a region is found.
+/// How the energy of a region is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RegionSums {
     /// Exactly, from a summed-area table: 8 bytes a texel.
     #[default]
     Table,
-    /// From ever coarser images, interpolated: rougher, at 16 bytes for every three texels, and
-    /// faster to prepare.
+    /// Approximately, from an image pyramid: 16 bytes for every three texels, and faster to
+    /// prepare.
     Pyramid,
 }
 
@@ -23,7 +23,7 @@ pub enum RegionSums {
 pub(super) enum EnergyIndex {
     Table(SummedAreaTable<Vec<u64>>),
     Pyramid(EnergyPyramid),
-    /// Nothing shines.
+    /// The map is black.
     Black,
 }
 
@@ -31,7 +31,7 @@ impl EnergyIndex {
     pub(super) fn new(image: &Image, map: SphereMap, sums: RegionSums) -> Self {
         let [width, height] = image.size();
         let mut weights: Vec<f32> = image.texels().map(luminance).collect();
-        // Relative to the brightest, so that no product leaves the range.
+        // Relative to the brightest, so that no product overflows.
         let most = weights.iter().copied().fold(0.0, f32::max);
         if !(most > 0.0) {
             return Self::Black;

@@ -31,8 +31,8 @@ use region::texel_solid_angle;
 ///
 /// A region is cut across its longer side, measured on the sphere, where its energy falls into the
 /// wanted shares; the energy of a texel is its luminance (red 0.2125, green 0.7154, blue 0.0721)
-/// times its solid angle. The lights hold all light of the map, yet what they give is biased: each
-/// stands for a region, which it concentrates in one direction.
+/// times its solid angle. The lights have the total energy of the map, but their illumination is
+/// biased: each concentrates a region in one direction.
 ///
 /// Building takes time and memory in proportion to the texels: 8 bytes each with
 /// [`RegionSums::Table`].
@@ -47,7 +47,7 @@ pub struct MedianCut {
     energy: EnergyIndex,
 }
 
-/// A distant light that stands for a region of an environment map.
+/// A distant light that replaces a region of an environment map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MedianCutLight {
     /// The unit direction toward the light.
@@ -55,17 +55,17 @@ pub struct MedianCutLight {
     /// Irradiance of a plane that faces the light, in W m^-2: the region's radiance times its solid
     /// angle.
     pub irradiance: Vec3,
-    /// What it stands for; the regions of all lights cover the map without overlap.
+    /// The region; the regions of all lights cover the map without overlap.
     pub region: TexelRegion,
 }
 
-/// Why an image is not cut into lights.
+/// Why an image cannot be cut into lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MedianCutError {
     /// An image that is to be an equal-area map is not square.
     NotSquare,
-    /// No lights are asked for.
+    /// The number of lights is 0.
     NoLights,
     /// A region has more light than single precision can hold.
     TooBright,
@@ -87,10 +87,10 @@ impl MedianCut {
 
     /// At most `n` lights, by the rows and columns at which their regions begin.
     ///
-    /// Energies differ by what the granularity of texels enforces: a texel is never cut. There are
-    /// fewer lights than `n` where fewer texels shine, none for a black map, and a few less where
-    /// [`RegionSums::Pyramid`] took a dark region for a lit one. Takes `O(n log(texels))` for the
-    /// cuts and one pass over the texels.
+    /// Energies differ, because a texel is never cut. There are fewer lights than `n` where fewer
+    /// texels emit light, none for a black map, and a few less where [`RegionSums::Pyramid`] took a
+    /// dark region for a lit one. Takes `O(n log(texels))` for the cuts and one pass over the
+    /// texels.
     ///
     /// # Errors
     /// When `n` is 0, or a light would not be finite.
@@ -132,7 +132,7 @@ impl MedianCut {
             return single;
         }
 
-        // Share the lights out, in proportion to what each cut really gave its sides.
+        // Distributes the lights in proportion to the energies of both sides of each cut.
         while let Some((piece, n)) = open.pop() {
             if n == 1 {
                 pieces.push(piece);
@@ -146,7 +146,7 @@ impl MedianCut {
             open.extend([(a, for_a), (b, n - for_a)]);
         }
 
-        // Give what a single bright texel could not use to the regions of most energy.
+        // Gives lights that a single bright texel cannot use to the regions of most energy.
         while pieces.len() + single.len() < n {
             let Some(piece) = pieces.pop() else { break };
             match self.cut(&piece, 0.5) {
@@ -159,7 +159,7 @@ impl MedianCut {
     }
 
     /// Both parts of a piece, cut so that the first has about `share` of the energy; `None` if only
-    /// one texel shines.
+    /// one texel emits light.
     fn cut(&self, piece: &Piece, share: f64) -> Option<[Piece; 2]> {
         let [width, height] = piece.region.sides(self.map, self.image.size());
         let axes = if width >= height { [0, 1] } else { [1, 0] };
@@ -222,7 +222,7 @@ impl MedianCut {
     }
 }
 
-/// A region on its way to become a light; ordered by energy.
+/// A region that is still to be cut; ordered by energy.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     energy: f64,

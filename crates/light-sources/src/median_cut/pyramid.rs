@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use super::region::TexelRegion;
 
-/// Ever coarser images of energy; a texel of level `l` holds the sum over `2^l x 2^l` texels.
+/// An image pyramid of energy; a texel of level `l` holds the sum over `2^l x 2^l` texels.
 #[derive(Clone, Debug)]
 pub(super) struct EnergyPyramid {
     levels: Vec<Level>,
@@ -14,8 +14,7 @@ struct Level {
     size: [u32; 2],
 }
 
-/// A region is looked at in at most this many blocks along a side, but for those cut off at its
-/// ends.
+/// The most blocks along a side of a region, without partial ones at its ends.
 const BLOCKS: u32 = 8;
 
 impl EnergyPyramid {
@@ -32,8 +31,7 @@ impl EnergyPyramid {
         Self { levels }
     }
 
-    /// The level at which a region and its parts are looked at: fine enough for small ones to be
-    /// exact.
+    /// The level for a region and its parts: level 0, which is exact, for small ones.
     pub(super) fn level_for(&self, region: &TexelRegion) -> usize {
         let side = |axis: usize| region.max[axis] - region.min[axis];
         let longest = side(0).max(side(1));
@@ -43,7 +41,7 @@ impl EnergyPyramid {
             .unwrap_or(self.levels.len() - 1)
     }
 
-    /// The energy of a region, as if it lay evenly in each block of the given level.
+    /// The energy of a region, taken as uniform in each block of the given level.
     pub(super) fn energy(&self, region: &TexelRegion, level: usize) -> f64 {
         let Level { sums, size } = &self.levels[level];
         let full = self.levels[0].size;

@@ -9,11 +9,11 @@ use light_math::float::sin;
 pub struct TexelRegion {
     /// The first column and row.
     pub min: [u32; 2],
-    /// The column and row behind the last.
+    /// The column and row after the last.
     pub max: [u32; 2],
 }
 
-/// Chords by which the length of a line across a region is measured.
+/// Chords in the measured length of a line across a region.
 const CHORDS: u8 = 8;
 
 impl TexelRegion {

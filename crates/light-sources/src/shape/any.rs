@@ -12,7 +12,7 @@ use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
 use light_math::{Aabb, DirectionCone};
 
-/// A shape as a user describes it; it may hold nonsense.
+/// The description of a shape. It is not validated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -56,7 +56,7 @@ pub enum ShapeDesc {
     },
 }
 
-/// One shape, whichever: the closed enum beside the trait.
+/// One shape of any kind: a closed enum next to the trait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum AnyShape {
@@ -74,7 +74,7 @@ pub enum AnyShape {
     Cylinder(Cylinder),
 }
 
-/// Why a description is no shape: which shape, and its rule.
+/// Why a description is invalid: the kind of shape, and its rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ShapeError {
@@ -95,10 +95,10 @@ pub enum ShapeError {
 }
 
 impl ShapeDesc {
-    /// The shape that this describes. A quadrilateral with right angles becomes a [`Rectangle`].
+    /// Builds the shape. A quadrilateral with right angles becomes a [`Rectangle`].
     ///
     /// # Errors
-    /// When it makes no sense.
+    /// When it is invalid.
     pub fn build(self) -> Result<AnyShape, ShapeError> {
         let rigid = |transform| RigidTransform::new(transform).map_err(ShapeError::Transform);
         Ok(match self {
@@ -155,7 +155,7 @@ fn rectangle([p00, p10, p01, p11]: [Vec3; 4]) -> Option<Rectangle> {
     }
 }
 
-/// The same expression for whichever shape it is.
+/// Evaluates an expression for the shape inside.
 macro_rules! for_each_shape {
     ($shape:expr, $it:ident => $answer:expr) => {
         match $shape {

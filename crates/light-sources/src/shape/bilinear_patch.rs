@@ -15,8 +15,8 @@ use light_math::{Aabb, DirectionCone};
 /// sides of any quadrilateral, planar or not. Its front is the side of the cross product of the
 /// derivatives along u and v.
 ///
-/// A flat convex one is chosen from like two triangles; of others points are chosen by area, nearly
-/// uniformly. Where a patch covers a direction twice, only what a ray meets first is sampled.
+/// A flat convex patch is sampled as two triangles; of others points are sampled by area, nearly
+/// uniformly. Where a patch covers a direction twice, only the first hit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearPatch {
     pub(super) p00: Vec3,
@@ -35,7 +35,7 @@ pub struct BilinearPatch {
 enum Bend {
     /// A flat convex quadrilateral.
     Flat,
-    /// Anything else.
+    /// Any other patch.
     Twisted,
 }
 
@@ -59,8 +59,8 @@ impl BilinearPatch {
         };
         patch.area = patch_area::integrate(|uv| patch.area_density(uv));
         patch.bend = patch.measure_bend();
-        // Normals are means of those at the corners, and no longer: what is more is rounding of a
-        // patch without area.
+        // Normals are means of those at the corners and not longer than them: any excess is the
+        // rounding error of a patch without area.
         let most = patch.weights().into_iter().fold(0.0, f32::max);
         let is_area = patch.area.is_finite() && (1.0 / patch.area).is_finite();
         if !(is_area && patch.area <= ROUNDED * most) {
@@ -112,8 +112,7 @@ impl BilinearPatch {
         area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
     }
 
-    /// Whether `uv` lies so near to a corner without area, where both sides have one direction,
-    /// that a rounding of `uv` turns the normal.
+    /// Whether `uv` is so near to a degenerate corner that its rounding error turns the normal.
     fn is_pinched(&self, uv: Vec2) -> bool {
         const PINCHED: f32 = 0.05;
         self.area_density(uv) < PINCHED * self.area
@@ -157,13 +156,13 @@ impl Shape for BilinearPatch {
         let normals = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv)));
         let normals = normals.into_iter().flatten();
         let sum = normals.clone().sum::<Vec3>();
-        // A sum of opposite normals is rounding, and no axis.
+        // A sum of opposite normals is rounding error, not an axis.
         if !(sum.length() > 1e-3) {
             return DirectionCone::WHOLE_SPHERE;
         }
         let axis = sum.normalize();
         let cos_theta = normals.map(|n| n.dot(axis)).fold(1.0, f32::min);
-        // A cone wider than a half space is not convex and promises nothing.
+        // A cone wider than a half space is not convex and gives no bound.
         if cos_theta > 0.0 {
             DirectionCone::new(axis, cos_theta)
         } else {
@@ -189,7 +188,7 @@ impl Shape for BilinearPatch {
     }
 
     /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or
-    /// it is seen so much from its edge that a ray toward it misses.
+    /// it is at such a grazing angle that a ray toward it misses.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;
@@ -201,7 +200,7 @@ impl Shape for BilinearPatch {
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
         if self.bend == Bend::Twisted {
-            // The same distance, but for what rounding takes off at a grazing angle.
+            // The same distance, up to rounding at a grazing angle.
             let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
             let (met, t) = self.intersect(ctx.p, wi)?;
             // A ray that meets the patch twice meets it from both sides. In a flat patch that folds

@@ -1,7 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
-/// Why four points are no patch.
+/// Why a patch is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BilinearPatchError {

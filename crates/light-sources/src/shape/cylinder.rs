@@ -13,8 +13,7 @@ use light_math::{Aabb, DirectionCone};
 
 /// An open cylinder, the wall of a tube without its ends; its front is outside.
 ///
-/// Directions toward it are chosen nearly uniformly in the solid angle that it fills, from inside
-/// too.
+/// Directions toward it are sampled nearly uniformly in solid angle, from inside too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     transform: RigidTransform,
@@ -22,7 +21,7 @@ pub struct Cylinder {
     length: f32,
 }
 
-/// Why there is no such cylinder.
+/// Why a cylinder is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CylinderError {

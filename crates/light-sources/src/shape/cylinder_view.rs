@@ -3,7 +3,7 @@ use core::f32::consts::{PI, TAU};
 use crate::glam::{Vec2, Vec3};
 use light_math::float::{asin, safe_sqrt, sin_cos, sqrt};
 
-/// What is seen of the wall of a tube around the axis z, from a point in the tube's own space.
+/// The visible part of the wall of a cylinder around the axis z, from a point in object space.
 ///
 /// A plane through the point and parallel to the axis cuts a strip out of the near wall and one out
 /// of the far wall; from outside of the tube the far one is hidden behind the near one, but for
@@ -45,7 +45,7 @@ struct Strip {
     high: f32,
 }
 
-/// The strips that a plane cuts out, as far as they are seen, with the outward normals there.
+/// The visible strips that a plane cuts out, with the outward normals there.
 #[derive(Clone, Copy, Debug)]
 struct Column {
     near: Option<(Strip, Vec2)>,
@@ -102,7 +102,7 @@ impl CylinderView {
             let horizontal = wi.truncate().length();
             let direction = wi.truncate().try_normalize()?;
             let (sin, cos) = (self.inward.perp_dot(direction), self.inward.dot(direction));
-            // What a direction rounds off is added to the wall.
+            // The wall is enlarged by the rounding error of the direction.
             let slack = 4.0 * f32::EPSILON;
             let is_outside = self.half_angle.is_some();
             if is_outside
@@ -135,7 +135,7 @@ impl CylinderView {
         self.inward * cos + self.inward.perp() * sin
     }
 
-    /// The wall that is seen in the plane at the given angle from inward.
+    /// The visible wall in the plane at the given angle from inward.
     fn column(&self, sin: f32, cos: f32) -> Column {
         let [low, high] = self.rims;
         // Half of the chord that the plane cuts out of the circle, and its middle.
@@ -210,7 +210,7 @@ impl Strip {
     /// The height above the lower end up to which the strip has the given measure.
     fn height_above_low(&self, measure: f32) -> f32 {
         let (sin_low, cos_low) = self.elevation(self.low);
-        // How much sin^2 grows on the way, and from it the sine of the angle between both ends.
+        // The growth of sin^2, and from it the sine of the angle between both ends.
         let grown = measure * (2.0 * sin_low + measure);
         let cos = safe_sqrt(cos_low * cos_low - grown);
         let sin_between = measure * cos_low + sin_low * grown / (cos + cos_low);

@@ -21,13 +21,14 @@ pub struct Disk {
     inner_radius: f32,
 }
 
-/// Why there is no such disk.
+/// Why a disk is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DiskError {
     /// The radius is not positive and finite.
     Radius,
-    /// The inner radius is negative, not below the radius, or so near to it that no area is left.
+    /// The inner radius is negative, not below the radius, or so near to it that the area rounds to
+    /// zero.
     InnerRadius,
 }
 
@@ -36,7 +37,7 @@ impl Disk {
     /// around the axis, v from the rim to the inner radius.
     ///
     /// # Errors
-    /// When a radius makes no sense, or no area is left.
+    /// When a radius is invalid, or no area is left.
     pub fn new(
         transform: RigidTransform,
         radius: f32,
@@ -74,7 +75,7 @@ impl Shape for Disk {
     }
 
     fn bounds(&self) -> Aabb {
-        // How far the rim reaches along each axis of the scene: what the normal leaves of it.
+        // Extent of the rim along each axis of the scene.
         let n = self.transform.axis();
         let reach = (Vec3::ONE - n * n).max(Vec3::ZERO).map(sqrt) * self.radius;
         Aabb {
@@ -88,14 +89,13 @@ impl Shape for Disk {
     }
 
     fn uv_area(&self) -> UvArea {
-        // The farther out, the longer the ring.
+        // The circumference of a ring grows with its radius.
         let width = self.radius - self.inner_radius;
         let radius = [self.radius, 0.0, -width].map(|r| Vec3::X * r);
         UvArea::Square(UvDensity::Length(radius))
     }
 
-    /// The rings of a disk are moved outward, each to where it keeps its area, so that none falls
-    /// into the hole.
+    /// The radii of a disk are mapped to those of the annulus with the same enclosed area.
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
         let on_disk = concentric_disk::sample(u);
         let share = on_disk.length_squared();

@@ -4,21 +4,20 @@ use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::solid_angle;
 
-/// A flat convex quadrilateral as it is seen from a point: the two triangles on both sides of a
-/// diagonal.
+/// A flat convex quadrilateral seen from a point, as the two triangles on both sides of a diagonal.
 ///
 /// The triangles are chosen in proportion to solid angle times mean cosine, so that the density has
 /// no step at the diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FlatQuad {
     triangles: [Triangle; 2],
-    /// The chance of the first.
+    /// The probability of the first.
     first: f32,
 }
 
 impl FlatQuad {
     /// The view from `ctx` of the quadrilateral with the corners at (u, v) = (0, 0), (1, 0), (0,
-    /// 1), (1, 1); `None` where it is so small that area does.
+    /// 1), (1, 1); `None` where it is so small that it is sampled by area.
     pub(super) fn new(ctx: &LightSampleContext, [p00, p10, p01, p11]: [Vec3; 4]) -> Option<Self> {
         let triangles = [[p00, p10, p11], [p00, p11, p01]];
         let angles = triangles.map(|t| solid_angle::triangle(t, ctx.p));
@@ -33,9 +32,9 @@ impl FlatQuad {
         })
     }
 
-    /// A direction toward the quadrilateral; the place on it has the parameters of a triangle. The
-    /// density is that of the direction as it is rounded, which may pass the other triangle: that of
-    /// a sliver, which is sampled by area, differs.
+    /// A direction toward the quadrilateral; the point on it has the parameters of a triangle. The
+    /// density is that of the direction as it is rounded, which may pass the other triangle: that
+    /// of a sliver, which is sampled by area, differs.
     pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let is_first = u.x < self.first;
         let (triangle, start, chance) = if is_first {
@@ -43,7 +42,7 @@ impl FlatQuad {
         } else {
             (&self.triangles[1], self.first, 1.0 - self.first)
         };
-        // What is left of the number is uniform again: by at least 2^-24 below `chance`, so below
+        // The rest of the number is uniform again: by at least 2^-24 below `chance`, so below
         // 1.
         let x = (u.x - start) / chance;
         let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;

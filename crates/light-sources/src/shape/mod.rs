@@ -1,4 +1,4 @@
-//! Surfaces that area lights shine from, one a file.
+//! Shapes of area lights, one per file.
 
 mod any;
 mod bilinear_patch;
@@ -34,7 +34,7 @@ use light_bounds::LightSampleContext;
 use light_math::float::{ONE_MINUS_EPSILON, atan2, sqrt};
 use light_math::{Aabb, DirectionCone};
 
-/// A surface that area lights can shine from.
+/// The shape of an area light.
 pub trait Shape {
     /// Area in length^2.
     fn area(&self) -> f32;
@@ -45,7 +45,7 @@ pub trait Shape {
     /// A cone around the normals of the front side.
     fn normal_cone(&self) -> DirectionCone;
 
-    /// How the area lies over the surface parameters.
+    /// The distribution of area over the surface parameters.
     fn uv_area(&self) -> UvArea {
         UvArea::Square(UvDensity::Even)
     }
@@ -108,7 +108,7 @@ impl<S: Shape> Shape for &S {
     }
 }
 
-/// A point of a surface, chosen by its area.
+/// A point of a surface, sampled by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeSample {
     /// The point.
@@ -117,7 +117,7 @@ pub struct ShapeSample {
     pub pdf: f32,
 }
 
-/// A point of a surface, chosen by the solid angle at which it is seen.
+/// A point of a surface, sampled by solid angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionSample {
     /// The point.
@@ -128,13 +128,13 @@ pub struct DirectionSample {
     pub pdf: f32,
 }
 
-/// The solid angle in sr below which shapes with straight edges are sampled by area: what is left
-/// of the variance is not worth the time.
+/// The solid angle in sr below which shapes with straight edges are sampled by area: the remaining
+/// variance costs less than sampling by solid angle.
 const SMALL: f32 = 3e-4;
 
 /// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with
-/// unit normal `n`, seen along `to_light` (not of unit length); `None` from its edge, where the
-/// density is infinite, and from within 1e-19.
+/// unit normal `n`, seen along `to_light` (not of unit length); `None` edge-on, where the density
+/// is infinite, and within 1e-19.
 #[inline]
 pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Option<(Vec3, f32)> {
     let dist_sq = to_light.length_squared();
@@ -155,9 +155,9 @@ fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
     to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
 }
 
-/// What a ray in a unit direction rounds off where it meets a surface at the given distance, as a
-/// length along the surface: the lower it comes in, the longer. Edges count that far out, so that a
-/// direction toward any point hits.
+/// Rounding error of the intersection of a ray with a surface at the given distance, as a length
+/// along the surface; it grows at grazing angles. Edges are extended by it, so that a direction
+/// toward any point hits.
 ///
 /// `magnitude` is the size of the coordinates that were subtracted.
 fn hit_slack(magnitude: f32, cos_theta: f32) -> f32 {
@@ -212,7 +212,7 @@ mod tests {
     fn azimuths_stay_below_a_full_turn() {
         let turns = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].map(azimuth);
         assert_eq!(turns, [0.0, 0.25, 0.5, 0.75], "quarters");
-        // Less below the axis x than a turn can tell from 1.
+        // An angle so little below the axis x that its part of a turn rounds to 1.
         for y in [1e-9, 1e-20, f32::MIN_POSITIVE] {
             assert_eq!(azimuth(Vec3::new(1.0, -y, 0.0)), ONE_MINUS_EPSILON, "{y}");
         }

@@ -2,15 +2,15 @@
 
 use crate::glam::Vec2;
 
-/// How far a piece may be from the sum of its quarters, as a part of the whole.
+/// Tolerance of the difference between a piece and the sum of its quarters, relative to the whole.
 const TOLERANCE: f32 = 1e-6;
 
-/// How often a piece is quartered at most: the length of a normal that passes zero has a kink.
+/// The largest depth of subdivision: the length of a normal that passes zero has a kink.
 const DEPTH: u32 = 6;
 
 /// The integral of `length`, of the normal, over the unit square.
 ///
-/// Gauss's rule, on quarters of pieces as long as these make a difference.
+/// Gauss's rule with adaptive subdivision into quarters.
 pub(super) fn integrate(length: impl Fn(Vec2) -> f32) -> f32 {
     let whole = piece(&length, Vec2::ZERO, 1.0);
     refine(&length, Vec2::ZERO, 1.0, whole, TOLERANCE * whole, DEPTH)

@@ -2,12 +2,12 @@ use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::warp::bilinear;
 
-/// Random numbers for a shape that is sampled by solid angle, moved to where the receiver's cosine
-/// is large.
+/// A warp of the random numbers for a shape that is sampled by solid angle, in proportion to the
+/// receiver's cosine.
 ///
 /// The cosine at the directions toward the corners of the unit square, interpolated between them:
-/// what comes out is nearly in proportion to solid angle times cosine. In a medium nothing is
-/// moved.
+/// the density is nearly in proportion to solid angle times cosine. In a medium the warp is the
+/// identity.
 ///
 /// # Source
 /// `[Hart2020]`, section 4. A corner below the horizon counts as one above it at the same angle, as
@@ -25,7 +25,7 @@ impl ReceiverCosine {
         Self::toward(ctx, points.map(|p| (p - ctx.p).normalize_or_zero()))
     }
 
-    /// The same, where they stand for points in these `directions`.
+    /// The same, where they represent points in these `directions`.
     #[inline]
     pub(super) fn toward(ctx: &LightSampleContext, directions: [Vec3; 4]) -> Self {
         let cosine = |ns: Vec3| directions.map(|w| w.dot(ns).abs().max(SMALLEST));
@@ -38,7 +38,7 @@ impl ReceiverCosine {
             .map_or(1.0, |weights| 0.25 * weights.iter().sum::<f32>())
     }
 
-    /// Where `u` goes, and the density there.
+    /// The image of `u`, and the density there.
     #[inline]
     pub(super) fn sample(&self, u: Vec2) -> (Vec2, f32) {
         match self.0 {
@@ -50,7 +50,7 @@ impl ReceiverCosine {
         }
     }
 
-    /// The density at the place that `place` answers, which is not asked where the density is
+    /// The density at the point that `place` returns, which is not called where the density is
     /// uniform.
     #[inline]
     pub(super) fn pdf(&self, place: impl FnOnce() -> Vec2) -> f32 {

@@ -23,7 +23,7 @@ pub struct Rectangle {
     normal: Vec3,
 }
 
-/// Why there is no such rectangle.
+/// Why a rectangle is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RectangleError {
@@ -35,7 +35,7 @@ pub enum RectangleError {
     NotPerpendicular,
 }
 
-/// How far the cosine between the edges may lie from 0: files write few digits.
+/// Tolerance of the cosine between the edges: files write few digits.
 const TOLERANCE: f32 = 1e-4;
 
 impl Rectangle {
@@ -56,7 +56,7 @@ impl Rectangle {
         }
         let rectangle = Self {
             corner,
-            // Exactly perpendicular, or what is seen of it would not be a spherical rectangle.
+            // Exactly perpendicular: the projection has to be a spherical rectangle.
             edges: [edges[0], edges[1] - x * x.dot(edges[1])],
             normal: x.cross(y).normalize(),
         };
@@ -72,8 +72,8 @@ impl Rectangle {
         [Vec3::ZERO, x, y, x + y].map(|d| self.corner + d)
     }
 
-    /// The rectangle on the sphere of directions around `p`; `None` where it is so small that area
-    /// does.
+    /// The rectangle on the sphere of directions around `p`; `None` where it is so small that it is
+    /// sampled by area.
     fn seen_from(&self, p: Vec3) -> Option<SphericalRectangle> {
         let [x, y] = self.edges;
         let seen = SphericalRectangle::new(self.corner, x, y, p);
@@ -128,7 +128,7 @@ impl Shape for Rectangle {
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
             if is_within_rounding(to_light, at.p) {
-                // What the direction meets.
+                // The point that the direction hits.
                 let at = self.hit(ctx.p, wi)?;
                 let (_, pdf) = self.by_area(ctx.p, at)?;
                 return Some(DirectionSample { at, wi, pdf });

@@ -21,7 +21,7 @@ pub struct Sphere {
     pub(super) radius: f32,
 }
 
-/// Why there is no such sphere.
+/// Why a sphere is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SphereError {
@@ -29,8 +29,7 @@ pub enum SphereError {
     Radius,
 }
 
-/// How far a direction in single precision may lie from where it was meant to: the sine of that
-/// angle.
+/// The sine of the rounding error of a direction in single precision.
 const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
 
 impl Sphere {
@@ -94,8 +93,8 @@ impl Sphere {
         })
     }
 
-    /// The point seen from the side of its normal or the other, moved to that side by more than it
-    /// is rounded: the sphere must not be in the way of its own light.
+    /// The point, moved by more than its rounding error to the side from which it is seen, so that the
+    /// sphere does not occlude its own light.
     fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
         let error = 4.0 * f32::EPSILON * (self.center().abs().max_element() + self.radius);
         let p = at.p + at.n * (side * error);

@@ -92,8 +92,8 @@ impl Triangle {
         }
     }
 
-    /// The triangle on the sphere of directions around `p`; `None` where it is so small that area
-    /// does.
+    /// The triangle on the sphere of directions around `p`; `None` where it is so small that it is
+    /// sampled by area.
     #[inline]
     fn seen_from(&self, p: Vec3) -> Option<SphericalTriangle> {
         if self.is_small_from(p) {
@@ -102,8 +102,8 @@ impl Triangle {
         SphericalTriangle::new(self.p, p).filter(|seen| seen.solid_angle() > SMALL)
     }
 
-    /// Whether the triangle cannot cover more than [`SMALL`], by little arithmetic: most lamps do
-    /// not, from most points.
+    /// A cheap bound: whether the triangle cannot cover more than [`SMALL`], which holds for most
+    /// triangles and points.
     ///
     /// At the height `h` over its plane and a distance of at least `r` from all of it, an area `A`
     /// covers at most `h A / r^3`.
@@ -146,12 +146,12 @@ impl Triangle {
         Some(DirectionSample { at, wi, pdf })
     }
 
-    /// Barycentric coordinates of the point that the ray passes, if it hits; a hair outside of the
-    /// edges counts.
+    /// Barycentric coordinates of the point that the ray passes, if it hits; hits slightly outside
+    /// of the edges count.
     ///
     /// Each edge and the origin span a plane, and the ray has to pass all three on the same side.
-    /// What the products round off is added to the triangle, so that a direction toward any point
-    /// of it always hits.
+    /// The triangle is enlarged by the rounding error of the products, so that a direction toward
+    /// any point of it always hits.
     fn barycentric(&self, origin: Vec3, direction: Vec3) -> Option<Vec3> {
         let v = self.p.map(|p| p - origin);
         let side = |i: usize, j: usize| {

@@ -1,18 +1,18 @@
 use crate::glam::{Vec2, Vec3};
 
-/// How the area of a shape lies over its surface parameters (u, v).
+/// The distribution of the area of a shape over its surface parameters (u, v).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum UvArea {
-    /// Evenly over a triangle, which may have shrunk to a line or to a point.
+    /// Uniform over a triangle, which may be degenerate.
     Triangle([Vec2; 3]),
     /// Over the unit square.
     Square(UvDensity),
 }
 
-/// The area of a shape per area of its surface parameters, but for a factor.
+/// The area of a shape per area of its surface parameters, up to a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum UvDensity {
-    /// The same everywhere.
+    /// Uniform.
     Even,
     /// `sin(pi v)`: of a sphere with the poles at `v = 0` and `v = 1`.
     Sine,
@@ -23,7 +23,7 @@ pub enum UvDensity {
 
 #[cfg(feature = "alloc")]
 impl UvDensity {
-    /// The density at a place of the unit square.
+    /// The density at a point of the unit square.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "single precision is enough for a weight"

@@ -250,7 +250,7 @@ fn check(
             shape,
             AnyShape::Triangle(_) | AnyShape::Rectangle(_) | AnyShape::Disk(_)
         );
-        // Which sides shine does not change the density.
+        // Which sides emit light does not change the density.
         if sides == Sides::Both {
             li_follows_its_density(&case, |p| cap_around(p, corners), radiance);
         }

@@ -211,6 +211,6 @@ fn skies<M: Model>(name: &str) {
         portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
         amount: NIT,
     }));
-    // Half of the sky shines through one square metre.
+    // Half of the sky emits light through one square metre.
     near(lumens(&set), 120.0 * PI, name);
 }

@@ -1,4 +1,5 @@
-//! A light that is given in lumens, candelas, nits or lux shines that much, in both colour models.
+//! A light that is given in lumens, candelas, nits or lux emits light that much, in both colour
+//! models.
 
 mod by_intensity;
 mod by_radiance;

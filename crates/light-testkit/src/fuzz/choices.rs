@@ -2,11 +2,11 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 
 use crate::may_contribute::may_contribute;
 
-/// How far pmfs may be from the widths of the intervals of `u` that they stand for, and their sum
-/// from one: `f32` round-off of all levels.
+/// How far pmfs may be from the widths of the intervals of `u` that they represent, and their sum
+/// from one: `f32` rounding error of all levels.
 const ROUNDING: f64 = 2e-5;
 
-/// Overlaps narrower than this are taken for round-off.
+/// Overlaps narrower than this are taken for rounding error.
 const GAP: f64 = 4.0 * ROUNDING;
 
 /// Places in `[0, 1)` at which choices are tried.

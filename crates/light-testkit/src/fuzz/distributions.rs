@@ -10,7 +10,7 @@ use super::input::Input;
 /// Cells that one input may hold.
 const MAX_CELLS: usize = 64;
 
-/// Tables refuse weights that make no sense, and never return a cell or a point without density.
+/// Tables refuse weights that are invalid, and never return a cell or a point without density.
 ///
 /// # Panics
 /// If a promise is broken.

@@ -226,7 +226,7 @@ fn check_coefficients(medium: &AnyMedium<Rgb>, ray: &Ray, span: Span) {
                 "{here:?} at {t} of {}",
                 at()
             );
-            // Where a segment ends within round-off of t, the next one bounds it.
+            // Where a segment ends within rounding error of t, the next one bounds it.
             if share == 0.3 && segment.span.length() > 1e-3 * segment.span.t1 {
                 let sigma_t = here.sigma_t().max_element();
                 assert!(

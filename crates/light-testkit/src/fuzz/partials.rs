@@ -8,7 +8,7 @@ use super::input::Input;
 /// Parts that one input may hold.
 const MAX_PARTS: usize = 4;
 
-/// Parts of a picture come back from their files to the bit, add up to the same picture in any
+/// Parts of a picture come back from their files bit for bit, add up to the same picture in any
 /// order or to none, and no changed byte goes unnoticed; other bytes are refused in one line.
 ///
 /// # Panics

@@ -2,7 +2,7 @@ use light_math::quantize::{QuantizedBox, decode_cos, encode_cos};
 
 use super::input::Input;
 
-/// A coded cosine stands for itself or for a wider angle, by two codes at most; order is kept.
+/// A coded cosine represents itself or for a wider angle, by two codes at most; order is kept.
 ///
 /// # Panics
 /// If a promise is broken.

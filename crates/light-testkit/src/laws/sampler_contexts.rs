@@ -1,4 +1,4 @@
-//! The laws of light samplers for contexts that make no sense.
+//! The laws of light samplers for contexts that are invalid.
 
 use light_bounds::{Gloss, LightSampleContext, ReceiverSides, SampledLight};
 use light_math::glam::Vec3;
@@ -96,7 +96,7 @@ pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
     all
 }
 
-/// At any context the pmfs are a distribution, sampling and asking agree to the bit, and what is
+/// At any context the pmfs are a distribution, sampling and asking agree bit for bit, and what is
 /// left of `u` is in `[0, 1)`.
 ///
 /// # Panics

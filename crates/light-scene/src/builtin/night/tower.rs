@@ -67,7 +67,7 @@ fn clock(modeller: &mut Modeller, palette: &Palette, face: &Affine3A, middle: Ve
     }
 }
 
-/// A floodlight that lies on a ledge and shines upward along the wall.
+/// A floodlight that lies on a ledge and emits light upward along the wall.
 fn flood(modeller: &mut Modeller, palette: &Palette, face: &Affine3A, at: Vec3) {
     let corner = |x: f32, y: f32, z: f32| face.transform_point3(at + Vec3::new(x, y, z));
     // Tilted toward the wall.

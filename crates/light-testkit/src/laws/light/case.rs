@@ -80,7 +80,7 @@ pub(super) struct Li {
 /// What the laws look at in a ray that leaves.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Le {
-    /// The power that the ray stands for.
+    /// The power that the ray represents.
     pub(super) power: f64,
     /// Whether `pdf_le` answers the densities that the sample carries.
     pub(super) pdf_agrees: bool,

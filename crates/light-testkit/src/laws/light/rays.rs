@@ -60,8 +60,8 @@ pub fn le_directions_are_diffuse<C: ColorModel, L: Light<C>>(case: &LightCase<'_
     }
 }
 
-/// Where rays start is even over the surface, for lights that shine alike from all of it. `place`
-/// takes a point of the surface to the unit square so that equal areas stay equal.
+/// Where rays start is even over the surface, for lights that emit equally in all directions.
+/// `place` takes a point of the surface to the unit square so that equal areas stay equal.
 ///
 /// # Panics
 /// If the law does not hold.
