@@ -1,7 +1,7 @@
-use crate::march::StepSize;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
+use crate::step_size::StepSize;
 use light_sources::{ColorModel, Radiance};
 
 /// Radiance and transmittance along a ray through a medium: with the radiance `lo` at the end of

@@ -1,6 +1,6 @@
-use crate::march::StepSize;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
+use crate::step_size::StepSize;
 use crate::transmittance;
 use light_bounds::{LightId, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};

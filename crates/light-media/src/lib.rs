@@ -23,7 +23,7 @@ mod delta_tracking;
 mod emission;
 #[cfg(feature = "alloc")]
 mod in_scattering;
-mod march;
+mod latin_hypercube;
 mod medium;
 #[cfg(feature = "alloc")]
 mod next_event;
@@ -35,7 +35,7 @@ mod ray_march;
 mod region;
 #[cfg(feature = "alloc")]
 mod single_scattering;
-mod stratify;
+mod step_size;
 mod tentative_collisions;
 pub mod transmittance;
 #[cfg(feature = "alloc")]
@@ -45,7 +45,7 @@ pub use delta_tracking::{Flight, delta_tracking};
 pub use emission::{VolumeLight, emission};
 #[cfg(feature = "alloc")]
 pub use in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
-pub use march::{March, StepSize, StepSizeError};
+pub use latin_hypercube::LatinHypercube;
 #[cfg(feature = "alloc")]
 pub use medium::{AnyMedium, Incandescence, TemperatureGrid};
 pub use medium::{
@@ -58,4 +58,4 @@ pub use phase::{Phase, PhaseFunction, PhaseSample};
 pub use phase_mis::{FirstHit, Intersection, ScatteringNumbers};
 pub use ray::{Ray, Span};
 pub use region::{Region, RegionError};
-pub use stratify::LatinHypercube;
+pub use step_size::{March, StepSize, StepSizeError};

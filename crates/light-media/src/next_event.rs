@@ -1,9 +1,9 @@
 use crate::emission::VolumeLight;
 use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
-use crate::march::StepSize;
+use crate::latin_hypercube::LatinHypercube;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
-use crate::stratify::LatinHypercube;
+use crate::step_size::StepSize;
 use crate::transmittance;
 use crate::truncated_exponential::TruncatedExponential;
 use light_bounds::{LightId, LightSampleContext};

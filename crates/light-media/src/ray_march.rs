@@ -1,6 +1,6 @@
-use crate::march::{March, StepSize};
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
+use crate::step_size::{March, StepSize};
 use crate::transmittance;
 use light_sources::{ColorModel, Radiance};
 

@@ -1,9 +1,9 @@
 use crate::emission::VolumeLight;
 use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
+use crate::latin_hypercube::{LatinHypercube, narrow};
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
-use crate::stratify::{LatinHypercube, narrow};
 use light_math::glam::Vec2;
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Radiance};

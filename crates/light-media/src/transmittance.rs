@@ -1,8 +1,8 @@
 //! Transmittance of a span: in closed form, by marching, or by ratio tracking.
 
-use crate::march::StepSize;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
+use crate::step_size::StepSize;
 use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_math::float;
 use light_sources::{ColorModel, Radiance};

@@ -1,12 +1,12 @@
 use core::ops::Range;
 use std::path::Path;
 
-use light_scene::{ChannelFile, Diagnostic, Files, write_whole};
+use light_scene::{ChannelFile, Diagnostic, Files, write_atomically};
 use lights::glam::Vec3;
 
+use crate::exact_sum_words::{LOW_WORDS, WORDS, from_words, words};
 use crate::file_checksum::{self, CHECKSUM, NO_CHECKSUM};
 use crate::partial_error::PartialPictureError;
-use crate::sum_words::{LOW_WORDS, WORDS, from_words, words};
 use crate::{ExactSum, Film, PictureIdentity};
 
 /// A picture of some of its samples, with exact sums: parts of one picture add up to the same bits
@@ -60,7 +60,7 @@ impl PartialPicture {
     /// # Errors
     /// When the file cannot be written; nothing is left behind then.
     pub fn write(&self, path: &Path) -> Result<(), Diagnostic> {
-        write_whole(path, &self.to_bytes(path)?)
+        write_atomically(path, &self.to_bytes(path)?)
     }
 
     /// What [`write`](Self::write) writes; `path` names the file in messages.

@@ -7,7 +7,7 @@ use light_scene::Crop;
 use lights::samplers::LightSampler;
 use rayon::prelude::*;
 
-use crate::integrator::{PathSettings, follow};
+use crate::integrator::{PathSettings, li};
 use crate::{Film, SampleStream, View, World};
 
 /// What to render.
@@ -83,7 +83,7 @@ pub fn render<S: LightSampler + Sync>(
                         let numbers = stream.camera();
                         let corner = lights::glam::Vec2::new(x as f32, y as f32);
                         let ray = view.ray(corner + numbers.film, numbers.lens);
-                        let traced = follow(world, sampler, &settings.path, ray, &stream);
+                        let traced = li(world, sampler, &settings.path, ray, &stream);
                         row_rays += u64::from(traced.rays);
                         if traced.radiance.is_finite() {
                             row.add(pixel, traced.radiance);

@@ -7,23 +7,28 @@ extern crate alloc;
 pub use lights;
 pub use lights::glam;
 
-#[cfg(test)]
-mod broken;
+mod atomic_file;
 mod builtin;
 mod camera;
+#[cfg(test)]
+mod corrupted_files;
 mod diagnostic;
 mod emissive_copies;
 mod files;
+#[cfg(test)]
+mod format_agreement;
 mod gltf;
-mod grid;
 mod gunzip;
 mod ids;
 mod image;
+#[cfg(test)]
+mod image_orientation;
 mod instance;
 pub mod light_set;
 mod luminaire;
 mod material;
 mod mesh;
+mod mesh_grid;
 mod obj;
 mod pbrt;
 mod polygon;
@@ -33,12 +38,8 @@ mod sphere;
 #[cfg(test)]
 mod test_folder;
 mod text;
-#[cfg(test)]
-mod three_formats;
-#[cfg(test)]
-mod upright;
-mod write_whole;
 
+pub use atomic_file::{exit_without_outputs, write_atomically};
 pub use builtin::{BuiltinScene, UnknownScene};
 pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Location};
@@ -60,4 +61,3 @@ pub use pbrt::{parse_ply, read_pbrt};
 pub use scene::{NamedMedium, Scene};
 pub use scene_file::{parse_scene, read_scene};
 pub use sphere::{Sphere, SphereFront};
-pub use write_whole::{exit_without_outputs, write_whole};

@@ -1,13 +1,13 @@
 use core::f32::consts::PI;
 
 use crate::color::{ColorModel, Radiance};
-use crate::coverage::PdfCoverage;
 use crate::diffuse_emission::DiffuseEmission;
 use crate::glam::{Vec2, Vec3};
-use crate::kind::LightType;
 use crate::light::{AreaLight, Light};
-use crate::media::MediumInterface;
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_type::LightType;
+use crate::medium_interface::MediumInterface;
+use crate::pdf_coverage::PdfCoverage;
 use crate::shape::{Shape, ShapeSample};
 use crate::sides::Sides;
 use crate::surface_point::SurfacePoint;

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
+use crate::bilinear_cells::{Shown, single};
 use crate::glam::{DVec3, Vec3};
-use crate::texel_cells::{Shown, single};
 use crate::texture_mapping::Wrap;
 use crate::uv_polygon::Axis;
 

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::color::{ColorModel, Radiance};
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
 use crate::glam::Vec3;
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::rgb_sum::RgbSum;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::shape::Shape;

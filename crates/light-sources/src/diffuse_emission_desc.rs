@@ -2,7 +2,7 @@ use crate::alpha_mask::AlphaMask;
 use crate::amount::SurfaceAmount;
 use crate::color::ColorModel;
 use crate::glam::Vec3;
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::sides::Sides;
 use crate::texture::Texture;
 use crate::texture_mapping::TextureMapping;

@@ -8,7 +8,7 @@ use crate::color::ColorModel;
 use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scaled_emission::{EmissionError, ScaledEmission};

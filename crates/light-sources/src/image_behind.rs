@@ -1,6 +1,6 @@
+use crate::bilinear_cells::Shown;
 use crate::block_means::BlockMeans;
 use crate::glam::DVec2;
-use crate::texel_cells::Shown;
 use crate::texture_mapping::TextureMapping;
 use crate::uv_polygon::{Corner, UvPolygon};
 

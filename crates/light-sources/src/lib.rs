@@ -20,15 +20,12 @@ mod area;
 #[cfg(feature = "alloc")]
 mod area_desc;
 #[cfg(feature = "alloc")]
+mod bilinear_cells;
+#[cfg(feature = "alloc")]
 mod block_means;
 #[cfg(feature = "alloc")]
 mod channels;
 mod color;
-#[cfg(feature = "alloc")]
-mod compensated;
-mod coverage;
-#[cfg(feature = "alloc")]
-mod desc;
 #[cfg(feature = "alloc")]
 mod diffuse_emission;
 #[cfg(feature = "alloc")]
@@ -49,31 +46,37 @@ mod image_behind;
 mod image_error;
 #[cfg(feature = "alloc")]
 mod image_infinite;
-mod kind;
-#[cfg(feature = "alloc")]
-mod known_means;
 #[cfg(feature = "alloc")]
 mod level_quadrature;
 mod light;
 #[cfg(feature = "alloc")]
+mod light_desc;
+#[cfg(feature = "alloc")]
 mod light_kinds;
 #[cfg(feature = "alloc")]
 mod light_ref;
+mod light_sample;
 #[cfg(feature = "alloc")]
 mod light_set;
 #[cfg(feature = "alloc")]
 mod light_set_builder;
 #[cfg(feature = "alloc")]
 mod light_set_bytes;
+mod light_type;
 #[cfg(feature = "alloc")]
 mod mask_share;
-mod media;
+#[cfg(feature = "alloc")]
+mod mean_cache;
 #[cfg(feature = "alloc")]
 mod median_cut;
+mod medium_interface;
 #[cfg(feature = "alloc")]
 mod mesh;
 #[cfg(feature = "alloc")]
 mod mesh_indices;
+#[cfg(feature = "alloc")]
+mod mis_compensation;
+mod pdf_coverage;
 #[cfg(feature = "alloc")]
 mod picture_grid;
 mod point;
@@ -92,7 +95,6 @@ mod rgb_sum;
 mod rigid_transform;
 #[cfg(feature = "alloc")]
 mod row_integral;
-mod sample;
 mod scaled_emission;
 mod scene_sphere;
 pub mod shape;
@@ -108,8 +110,6 @@ mod sun_desc;
 mod surface_point;
 #[cfg(feature = "alloc")]
 mod surface_texture;
-#[cfg(feature = "alloc")]
-mod texel_cells;
 #[cfg(feature = "alloc")]
 mod texture;
 #[cfg(feature = "alloc")]
@@ -132,9 +132,6 @@ pub use area_desc::{AreaLightDesc, AreaLightError};
 #[cfg(feature = "alloc")]
 pub use channels::Channels;
 pub use color::{ColorModel, Radiance};
-pub use coverage::PdfCoverage;
-#[cfg(feature = "alloc")]
-pub use desc::{LightDesc, LightDescError};
 #[cfg(feature = "alloc")]
 pub use diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
 #[cfg(feature = "alloc")]
@@ -151,25 +148,29 @@ pub use image_error::ImageError;
 pub use image_infinite::{
     EnvironmentMap, ImageInfiniteLight, ImageInfiniteLightDesc, ImageInfiniteLightError,
 };
-pub use kind::LightType;
 pub use light::{AreaLight, InfiniteLight, Light};
 #[cfg(feature = "alloc")]
+pub use light_desc::{LightDesc, LightDescError};
+#[cfg(feature = "alloc")]
 pub use light_ref::LightRef;
+pub use light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 #[cfg(feature = "alloc")]
 pub use light_set::{LightSet, SourceId};
 #[cfg(feature = "alloc")]
 pub use light_set_builder::LightSetBuilder;
 #[cfg(feature = "alloc")]
 pub use light_set_bytes::LightSetBytes;
-pub use media::{MediumId, MediumInterface};
+pub use light_type::LightType;
 #[cfg(feature = "alloc")]
 pub use median_cut::{
     Centroid, MedianCut, MedianCutError, MedianCutLight, RegionSums, TexelRegion,
 };
+pub use medium_interface::{MediumId, MediumInterface};
 #[cfg(feature = "alloc")]
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
 #[cfg(feature = "alloc")]
 pub use mesh_indices::MeshIndices;
+pub use pdf_coverage::PdfCoverage;
 pub use point::{PointLight, PointLightDesc, PointLightError};
 pub use point_source::{DirectionSample, PointSource};
 #[cfg(feature = "alloc")]
@@ -180,7 +181,6 @@ pub use projection::{ProjectionLight, ProjectionLightDesc, ProjectionLightError}
 pub use resample::equal_area_size;
 pub use rgb::Rgb;
 pub use rigid_transform::{RigidTransform, RigidTransformError};
-pub use sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 pub use scaled_emission::EmissionError;
 pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;

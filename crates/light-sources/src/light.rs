@@ -1,9 +1,9 @@
 use crate::color::ColorModel;
-use crate::coverage::PdfCoverage;
 use crate::glam::{Vec2, Vec3};
-use crate::kind::LightType;
-use crate::media::MediumInterface;
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_type::LightType;
+use crate::medium_interface::MediumInterface;
+use crate::pdf_coverage::PdfCoverage;
 use crate::surface_point::SurfacePoint;
 use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 

@@ -2,10 +2,10 @@ use alloc::vec::Vec;
 
 use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
-use crate::desc::{LightDesc, LightDescError};
 use crate::distant::DistantLight;
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
+use crate::light_desc::{LightDesc, LightDescError};
 use crate::light_kinds::{LightKind as Kind, LightLists};
 use crate::light_set::{LightSet, SourceId};
 use crate::mesh::MeshLight;

@@ -111,9 +111,9 @@ mod tests {
     use super::*;
     use crate::amount::RadianceAmount;
     use crate::channels::Channels;
-    use crate::desc::LightDesc;
     use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
     use crate::glam::{Vec2, Vec3};
+    use crate::light_desc::LightDesc;
     use crate::light_set_builder::LightSetBuilder;
     use crate::mesh::MeshLightDesc;
     use crate::rgb::Rgb;

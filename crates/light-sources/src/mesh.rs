@@ -7,7 +7,7 @@ use crate::color::ColorModel;
 use crate::diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
 use crate::diffuse_emission_desc::DiffuseEmissionDesc;
 use crate::glam::{Vec2, Vec3};
-use crate::known_means::KnownMeans;
+use crate::mean_cache::MeanCache;
 use crate::mesh_indices::MeshIndices;
 use crate::shape::{Shape, Triangle};
 use crate::surface_texture::SurfaceTexture;
@@ -99,7 +99,7 @@ impl<C: ColorModel> MeshLight<C> {
         };
         let texture = SurfaceTexture::new(&desc.emission);
         let means = texture.as_ref().map(|texture| {
-            let mut known = KnownMeans::default();
+            let mut known = MeanCache::default();
             let mean = |triangle: Triangle| known.mean(texture, &triangle);
             triangles().map(mean).collect::<Arc<[Vec3]>>()
         });

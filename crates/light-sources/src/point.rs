@@ -5,7 +5,7 @@ use core::fmt;
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
 use crate::glam::{Vec2, Vec3};
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use light_bounds::LightBounds;

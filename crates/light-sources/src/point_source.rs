@@ -1,10 +1,10 @@
 use crate::color::{ColorModel, Radiance};
-use crate::coverage::PdfCoverage;
 use crate::glam::{Vec2, Vec3};
-use crate::kind::LightType;
 use crate::light::Light;
-use crate::media::MediumInterface;
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_type::LightType;
+use crate::medium_interface::MediumInterface;
+use crate::pdf_coverage::PdfCoverage;
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
 /// A point light: kinds differ only in the intensity by direction. Every `PointSource` is a

@@ -9,7 +9,7 @@ use crate::color::{ColorModel, Radiance};
 use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::picture_grid::PictureGrid;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rgb_sum::{RgbSum, single};

@@ -2,7 +2,7 @@ use core::f32::consts::{PI, TAU};
 
 use crate::color::ColorModel;
 use crate::glam::{Vec2, Vec3};
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::RigidTransform;
 use crate::scaled_emission::ScaledEmission;
@@ -12,7 +12,7 @@ use light_math::Aabb;
 use light_math::float::{cos, safe_sqrt, sin, sin_cos};
 use light_math::warp::{smoothstep, uniform_cone};
 
-/// A light at a point that shines into a cone, with a smooth rim.
+/// A point light that emits into a cone with a smooth rim.
 ///
 /// The intensity is that of the description up to the angle of the falloff's start, 0 from the rim
 /// on, and in between a smooth step in the cosine of the angle.

@@ -4,7 +4,7 @@ use core::fmt;
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
 use crate::glam::Affine3A;
-use crate::media::MediumInterface;
+use crate::medium_interface::MediumInterface;
 use crate::rigid_transform::RigidTransformError;
 use crate::scaled_emission::EmissionError;
 
@@ -16,7 +16,7 @@ use crate::scaled_emission::EmissionError;
     serde(bound = "C::Emission: serde::Serialize")
 )]
 pub struct SpotLightDesc<C: ColorModel> {
-    /// From light space, where the light stands at the origin and shines along +z, to the scene.
+    /// From light space, where the light is at the origin and emits along +z, to scene space.
     pub transform: Affine3A,
     /// Angle between the axis and the rim of the cone, in `(0, pi]`.
     pub angle: f32,
@@ -24,13 +24,13 @@ pub struct SpotLightDesc<C: ColorModel> {
     pub falloff_start: f32,
     /// Colour of the light.
     pub emission: C::Emission,
-    /// How bright it is inside of the falloff.
+    /// Amount of light, inside of the falloff.
     pub amount: IntensityAmount,
     /// The medium around it, `outside`.
     pub media: MediumInterface,
 }
 
-/// Why a description is no spot light; each variant names a field.
+/// Why the description of a spot light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SpotLightError {
@@ -40,7 +40,7 @@ pub enum SpotLightError {
     Angle,
     /// `falloff_start` does not lie in `[0, angle]`.
     FalloffStart,
-    /// `emission` or `amount` makes no sense.
+    /// `emission` or `amount` is invalid.
     Emission(EmissionError),
 }
 

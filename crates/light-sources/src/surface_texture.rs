@@ -1,6 +1,7 @@
 use alloc::sync::Arc;
 
 use crate::alpha_mask::MaskRule;
+use crate::bilinear_cells::Shown;
 use crate::block_means::BlockMeans;
 use crate::color::ColorModel;
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
@@ -9,7 +10,6 @@ use crate::glam::{Vec2, Vec3};
 use crate::image_behind::ImageBehind;
 use crate::mask_share::MaskShare;
 use crate::shape::{Shape, UvArea};
-use crate::texel_cells::Shown;
 use crate::texture::Texture;
 use crate::texture_integral;
 use crate::texture_mapping::{TextureMapping, Wrap};

@@ -1,9 +1,9 @@
 use alloc::sync::Arc;
 
+use crate::bilinear_cells::Shown;
 use crate::block_means::BlockMeans;
 use crate::glam::Vec3;
 use crate::image::Image;
-use crate::texel_cells::Shown;
 use crate::texture_mapping::Wrap;
 
 /// An image of an emissive surface, with the means of its parts, from which the power of each

@@ -1,3 +1,4 @@
+use crate::bilinear_cells::{Shown, ShownCell};
 use crate::block_means::{Block, BlockMeans};
 use crate::floor::floor;
 use crate::glam::{DVec2, DVec3, Vec2, Vec3};
@@ -5,7 +6,6 @@ use crate::image_behind::{ImageBehind, Places};
 use crate::level_quadrature::each_node;
 use crate::row_integral::mean_by_rows;
 use crate::shape::{UvArea, UvDensity};
-use crate::texel_cells::{Shown, ShownCell};
 use crate::texture_mapping::{TextureMapping, Wrap};
 use crate::triangle_rules::{DEGREE_2, DEGREE_5};
 use crate::uv_polygon::{Axis, Corner, UvPolygon, doubled_area};

@@ -2,12 +2,12 @@ use core::f32::consts::PI;
 
 use crate::amount::RadianceAmount;
 use crate::color::ColorModel;
-use crate::coverage::PdfCoverage;
 use crate::distant::ray_through_scene;
 use crate::glam::{Vec2, Vec3};
-use crate::kind::LightType;
 use crate::light::{InfiniteLight, Light};
-use crate::sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
+use crate::light_type::LightType;
+use crate::pdf_coverage::PdfCoverage;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};

@@ -1,6 +1,6 @@
+use super::grid::Grid;
 use super::majorant::Layer;
 use super::majorant_grid::MajorantGrid;
-use super::samples::Grid;
 use super::{Coefficients, Majorants, Medium};
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};

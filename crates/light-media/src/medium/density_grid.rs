@@ -1,5 +1,5 @@
+use super::grid::{Grid, GridError};
 use super::majorant_grid::MajorantGrid;
-use super::samples::{Grid, GridError};
 use light_math::glam::Vec3;
 
 /// A density over the unit cube: a [`Grid`] of one channel with upper bounds for coarse cells.

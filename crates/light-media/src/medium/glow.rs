@@ -1,4 +1,4 @@
-use super::samples::Grid;
+use super::grid::Grid;
 #[cfg(feature = "alloc")]
 use super::temperature::TemperatureGrid;
 use light_math::glam::Vec3;

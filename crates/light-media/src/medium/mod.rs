@@ -1,32 +1,32 @@
 //! Media: coefficients of absorption, scattering and emission in space.
 
 #[cfg(feature = "alloc")]
-mod any;
+mod any_medium;
 mod coefficients;
 mod color_grid;
 mod density_grid;
 mod exponential;
 mod glow;
 mod grid;
+mod grid_medium;
 mod height_bands;
 mod homogeneous;
 mod majorant;
 mod majorant_grid;
-mod samples;
 #[cfg(feature = "alloc")]
 mod temperature;
 
 #[cfg(feature = "alloc")]
-pub use any::AnyMedium;
+pub use any_medium::AnyMedium;
 pub use coefficients::{Coefficients, CoefficientsError, Substance};
 pub use color_grid::{ColorGrid, ColorGridError, ColorGridMedium};
 pub use density_grid::DensityGrid;
 pub use exponential::{ExponentialHeight, ExponentialHeightError};
 pub use glow::Glow;
-pub use grid::GridMedium;
+pub use grid::{Grid, GridError};
+pub use grid_medium::GridMedium;
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantSegment, Majorants};
-pub use samples::{Grid, GridError};
 #[cfg(feature = "alloc")]
 pub use temperature::{Incandescence, TemperatureGrid};
 

@@ -1,4 +1,4 @@
-use super::samples::Grid;
+use super::grid::Grid;
 use alloc::vec::Vec;
 use light_math::glam::Vec3;
 use light_math::spectrum::{Blackbody, RgbColorSpace, cie};

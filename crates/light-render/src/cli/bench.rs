@@ -10,8 +10,8 @@ use serde_json::Value;
 
 use super::arguments::threads;
 use super::failure::Failure;
-use super::room::expect_room;
-use super::say::say;
+use super::memory_check::check_memory;
+use super::stdout::say;
 
 /// What a light takes while samplers are built over it one after another and measured side by side:
 /// itself, its bounds, and a node in each of them.
@@ -140,7 +140,7 @@ impl BenchArgs {
         let kind = self.generate.ok_or_else(|| {
             Failure::Input("expected --generate KIND, or --lights FILE --points FILE".into())
         })?;
-        expect_room(
+        check_memory(
             &format!("--n {}", self.n),
             u64::from(self.n) * BYTES_PER_LIGHT,
         )?;

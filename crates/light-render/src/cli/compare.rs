@@ -8,7 +8,7 @@ use serde_json::json;
 use super::arguments::not_negative;
 use super::failure::Failure;
 use super::output_file::expect_another;
-use super::say::say;
+use super::stdout::say;
 
 /// Compare an image with a reference.
 #[derive(Args, Debug)]

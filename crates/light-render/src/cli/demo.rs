@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::output_image::shown;
 use super::progress::{ProgressLine, Volume};
 use super::references::reference;
-use super::say::say;
+use super::stdout::say;
 
 /// Where the pictures go.
 const FOLDER: &str = "out";

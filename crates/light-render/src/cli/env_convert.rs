@@ -7,8 +7,8 @@ use lights::sources::equal_area_size;
 
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
+use super::memory_check::check_memory;
 use super::output_file::expect_writable;
-use super::room::expect_room;
 
 /// A texel while it is made, as light, as a picture, and in the file.
 const BYTES_PER_TEXEL: u64 = 48;
@@ -49,7 +49,7 @@ impl ConvertArgs {
         };
         expect_writable(&self.output)?;
         let what = format!("a map of {} x {} texels (--height)", size[0], size[1]);
-        expect_room(
+        check_memory(
             &what,
             u64::from(size[0]) * u64::from(size[1]) * BYTES_PER_TEXEL,
         )?;

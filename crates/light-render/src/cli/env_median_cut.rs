@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::env_regions::draw_regions;
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
-use super::say::say;
+use super::stdout::say;
 
 /// Turn an environment map into directional lights of equal energy, by median cut.
 ///

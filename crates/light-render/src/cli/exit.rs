@@ -1,7 +1,7 @@
 use std::process::ExitCode;
 
 use super::failure::Failure;
-use super::say::{complain, flush, line};
+use super::stdout::{complain, flush, line};
 
 impl Failure {
     /// Prints the one line to standard error and says how the process ends.

@@ -3,11 +3,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use light_scene::lights::photometry::{Luminaire, PhotometricWeb, WebType};
-use light_scene::{in_luminaire, read_luminaire, write_whole};
+use light_scene::{in_luminaire, read_luminaire, write_atomically};
 use serde_json::json;
 
 use super::failure::Failure;
-use super::say::say;
+use super::stdout::say;
 
 /// Show what a photometric file (.ies, .ldt) holds: lumens, type, peak, and a polar plot.
 #[derive(Args, Debug)]
@@ -31,7 +31,7 @@ impl IesArgs {
         let luminaire = read_luminaire(&self.file).map_err(Failure::input)?;
         if let Some(output) = &self.output {
             let plot = polar_plot(&luminaire.web);
-            write_whole(output, plot.as_bytes()).map_err(Failure::input)?;
+            write_atomically(output, plot.as_bytes()).map_err(Failure::input)?;
         }
         if self.json {
             say!("{}", self.report(&luminaire))?;

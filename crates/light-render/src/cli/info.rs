@@ -7,8 +7,8 @@ use light_scene::Diagnostic;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
-use super::say::say;
 use super::scene_input::SceneInput;
+use super::stdout::say;
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
 #[derive(Args, Debug)]

@@ -14,6 +14,7 @@ mod exit;
 mod failure;
 mod ies;
 mod info;
+mod memory_check;
 mod merge;
 mod output_file;
 mod output_image;
@@ -21,9 +22,8 @@ mod progress;
 mod references;
 mod render;
 mod render_settings;
-mod room;
-mod say;
 mod scene_input;
+mod stdout;
 mod view_args;
 
 use std::ffi::OsString;
@@ -76,7 +76,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(args)) => args.run(),
         None => demo::run(),
     };
-    match result.and_then(|()| say::flush()) {
+    match result.and_then(|()| stdout::flush()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

@@ -15,12 +15,12 @@ use crate::{
 use super::arguments::threads;
 use super::checkpoint::CheckpointArgs;
 use super::failure::Failure;
+use super::memory_check::check_memory;
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::render_settings::SettingsArgs;
-use super::room::expect_room;
-use super::say::{complain, say};
 use super::scene_input::{SceneInput, report_warnings};
+use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
 
 /// Render a scene into an image.
@@ -65,7 +65,7 @@ impl RenderArgs {
             report_warnings(&scene.warnings);
         }
         let view = self.view.view(&scene)?;
-        self.expect_room(&view)?;
+        self.check_memory(&view)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = self.keeps_sums().then(|| SceneDigest::new(&scene));
         let world = self.input.build(scene)?;
@@ -122,7 +122,7 @@ impl RenderArgs {
     }
 
     /// Makes sure that the picture fits into memory.
-    fn expect_room(&self, view: &View) -> Result<(), Failure> {
+    fn check_memory(&self, view: &View) -> Result<(), Failure> {
         /// The film, what it shows, what a screen shows of that, and the file.
         const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
         let sums = if self.checkpoint.is_wanted() {
@@ -135,7 +135,7 @@ impl RenderArgs {
         let (width, height) = view.crop().size();
         let pixels = u64::from(width) * u64::from(height);
         let what = format!("a picture of {width} x {height} pixels (--width, --height)");
-        expect_room(&what, pixels * PICTURE.max(sums))
+        check_memory(&what, pixels * PICTURE.max(sums))
     }
 
     /// The files to write, all of them tried.

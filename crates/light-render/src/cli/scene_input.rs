@@ -7,7 +7,7 @@ use lights::glam::Affine3A;
 
 use super::arguments::Emit;
 use super::failure::Failure;
-use super::say::complain;
+use super::stdout::complain;
 
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]

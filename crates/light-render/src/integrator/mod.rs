@@ -3,7 +3,7 @@
 mod chosen_lights;
 mod direct;
 mod estimator;
-mod follow;
+mod li;
 mod path;
 mod path_state;
 mod settings;
@@ -15,7 +15,7 @@ mod volpath;
 mod volume_vertex;
 
 pub use estimator::Estimator;
-pub use follow::follow;
+pub use li::li;
 use path::trace;
 pub use settings::{Integrator, PathSettings, SingleScattering};
 pub(crate) use single_scattering::coarse_step;

@@ -24,7 +24,7 @@ mod texture_images;
 mod textures;
 #[cfg(test)]
 mod textures_tests;
-mod unasked;
+mod unread_members;
 
 use std::path::Path;
 

@@ -8,7 +8,7 @@ use exr::prelude::{
 
 use super::openexr::message;
 use crate::text::read_bytes;
-use crate::{Diagnostic, write_whole};
+use crate::{Diagnostic, write_atomically};
 
 /// More numbers than this many times the bytes of a file are not in it: no method of compression
 /// reaches that.
@@ -104,7 +104,7 @@ impl ChannelFile {
     /// When the file cannot be written, or a channel does not fit the size; nothing is left behind
     /// then.
     pub fn write(self, path: &Path) -> Result<(), Diagnostic> {
-        write_whole(path, &self.into_bytes(path)?)
+        write_atomically(path, &self.into_bytes(path)?)
     }
 
     /// What [`write`](Self::write) writes; `path` names the file in messages.

@@ -9,7 +9,7 @@ use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageR
 
 use super::{Image, ImageFile, checked, srgb};
 use crate::glam::Vec3;
-use crate::{Diagnostic, write_whole};
+use crate::{Diagnostic, write_atomically};
 
 /// The image in the bytes of a Radiance HDR (RGBE) file; `path` names it in messages.
 pub(crate) fn parse_hdr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
@@ -31,7 +31,7 @@ pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     let (width, height) = (image.width(), image.height());
     let written = encoder.write_image(&encoded, width, height, ExtendedColorType::Rgb8);
     written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
-    write_whole(path, &bytes)
+    write_atomically(path, &bytes)
 }
 
 /// Writes a Radiance HDR (RGBE) file: 8 bits a channel under a common exponent.
@@ -44,7 +44,7 @@ pub(crate) fn write_hdr(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let written = HdrEncoder::new(&mut bytes).encode(&texels, width, height);
     written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
-    write_whole(path, &bytes)
+    write_atomically(path, &bytes)
 }
 
 /// Decodes an image, if it is not too large for the decoder's limits.

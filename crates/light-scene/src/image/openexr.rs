@@ -10,7 +10,7 @@ use exr::prelude::{
 
 use super::{Image, ImageFile, checked};
 use crate::glam::Vec3;
-use crate::{Diagnostic, write_whole};
+use crate::{Diagnostic, write_atomically};
 
 /// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
 const MAX_TEXELS: usize = 1 << 27;
@@ -149,7 +149,7 @@ fn write<T: IntoSample>(
         .non_parallel()
         .to_buffered(&mut bytes);
     written.map_err(|error| Diagnostic::file(path, message(&error)))?;
-    write_whole(path, bytes.get_ref())
+    write_atomically(path, bytes.get_ref())
 }
 
 pub(super) fn message(error: &Error) -> String {

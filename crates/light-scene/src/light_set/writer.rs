@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 
 use super::{LightSetError, LightSetFile, LightSetProblem, SetLight};
-use crate::write_whole::StagedFile;
+use crate::atomic_file::StagedFile;
 
 impl LightSetFile {
     /// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same

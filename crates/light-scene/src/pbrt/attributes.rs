@@ -1,8 +1,8 @@
 use alloc::rc::Rc;
 use std::path::Path;
 
-use super::at::{At, Typed};
 use super::attribute_target::Target;
+use super::file_loc::{FileLoc, Typed};
 use super::parameters::Parameters;
 use super::state::Reader;
 use super::tokens::Tokens;
@@ -21,7 +21,7 @@ impl Reader {
         directive: &str,
     ) -> Result<Typed<'a>, Diagnostic> {
         let kind = tokens.quoted("a type")?.into_owned();
-        let at = At {
+        let at = FileLoc {
             path,
             line: tokens.line(),
         };
@@ -62,7 +62,7 @@ impl Reader {
     /// Names the parameters of attributes that no directive asked for.
     pub(super) fn warn_unused_attributes(&mut self) {
         for (path, said) in core::mem::take(&mut self.attributes) {
-            let at = At {
+            let at = FileLoc {
                 path: &path,
                 line: 0,
             };

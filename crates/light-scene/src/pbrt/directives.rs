@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::at::{At, Typed};
+use super::file_loc::{FileLoc, Typed};
 use super::state::Reader;
 use super::tokens::{Token, Tokens};
 use crate::Diagnostic;
@@ -40,7 +40,7 @@ impl Reader {
         tokens: &mut Tokens<'_>,
         directive: &str,
     ) -> Result<(), Diagnostic> {
-        let at = At {
+        let at = FileLoc {
             path,
             line: tokens.line(),
         };
@@ -99,7 +99,7 @@ impl Reader {
     /// The directives that change the transform; whether it was one.
     fn transform_directive(
         &mut self,
-        at: At<'_>,
+        at: FileLoc<'_>,
         tokens: &mut Tokens<'_>,
         directive: &str,
     ) -> Result<bool, Diagnostic> {

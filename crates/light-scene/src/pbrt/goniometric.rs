@@ -5,7 +5,7 @@ use lights::math::spectrum::photometric::Lumen;
 use lights::math::spectrum::rec709_luminance;
 use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, LightDesc, Rgb};
 
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::lights::luminance;
 use super::state::Reader;
 use crate::glam::{Affine3A, Mat3A, Vec3};

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use lights::sources::{TextureMapping, Wrap};
 
-use super::at::{At, Typed};
+use super::file_loc::{FileLoc, Typed};
 use super::image_key::ImageKey;
 use super::state::Reader;
 use super::texture_kind::TextureKind;
@@ -46,7 +46,7 @@ impl Reader {
     }
 
     /// An image of a file beside the scene.
-    pub(super) fn image(&mut self, at: At<'_>, key: ImageKey) -> Result<ImageId, Diagnostic> {
+    pub(super) fn image(&mut self, at: FileLoc<'_>, key: ImageKey) -> Result<ImageId, Diagnostic> {
         if let Some(&known) = self.images.get(&key) {
             return Ok(known);
         }

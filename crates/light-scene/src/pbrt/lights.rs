@@ -10,7 +10,7 @@ use lights::sources::{
     UniformInfiniteLightDesc,
 };
 
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::image_key::ImageKey;
 use super::state::{AreaLight, Reader};
 use super::textures::scaled;

@@ -1,4 +1,4 @@
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::parameter::ParameterType;
 use super::state::Reader;
 use crate::glam::{Vec2, Vec3};

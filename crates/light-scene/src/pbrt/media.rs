@@ -3,7 +3,7 @@ use lights::media::phase::{HenyeyGreenstein, Isotropic};
 use lights::media::{AnyMedium, Homogeneous, Phase, Region, Substance};
 use lights::sources::{MediumId, MediumInterface, Rgb};
 
-use super::at::{At, Typed};
+use super::file_loc::{FileLoc, Typed};
 use super::medium_slot::MediumSlot;
 use super::state::Reader;
 use super::tokens::{Token, Tokens};
@@ -58,7 +58,7 @@ impl Reader {
     /// `MediumInterface "inside" "outside"`; one name represents both, an empty one for vacuum.
     pub(super) fn medium_interface(
         &mut self,
-        at: At<'_>,
+        at: FileLoc<'_>,
         tokens: &mut Tokens<'_>,
     ) -> Result<(), Diagnostic> {
         let inside = tokens.quoted("a medium's name")?.into_owned();
@@ -108,7 +108,7 @@ impl Reader {
         slots.collect()
     }
 
-    fn medium_id(&mut self, at: At<'_>, name: &str) -> MediumId {
+    fn medium_id(&mut self, at: FileLoc<'_>, name: &str) -> MediumId {
         let known = self.media_by_name.get(name).copied();
         let index = known.unwrap_or_else(|| {
             let index = self.media.len();

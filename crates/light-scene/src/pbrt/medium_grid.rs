@@ -6,8 +6,8 @@ use lights::media::{
 };
 use lights::sources::Rgb;
 
-use super::at::Typed;
 use super::cloud::Cloud;
+use super::file_loc::Typed;
 use super::media::{phase, refused, substance};
 use super::parameter::ParameterType::{self, Float, Rgb as Colors};
 use super::state::Reader;

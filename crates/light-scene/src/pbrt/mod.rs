@@ -1,11 +1,11 @@
 //! pbrt-v4 scene files.
 
-mod at;
 mod attribute_target;
 mod attributes;
 mod cloud;
 mod colors;
 mod directives;
+mod file_loc;
 #[cfg(test)]
 mod files_tests;
 #[cfg(test)]

@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use super::at::At;
+use super::file_loc::FileLoc;
 use super::state::Reader;
 use crate::glam::Vec3;
 use crate::text::shown;
@@ -8,7 +8,7 @@ use crate::{Diagnostic, Material, MaterialId, Surface};
 
 impl Reader {
     /// The material with this name, which may still be empty.
-    pub(super) fn named_material(&mut self, at: At<'_>, name: &str) -> MaterialId {
+    pub(super) fn named_material(&mut self, at: FileLoc<'_>, name: &str) -> MaterialId {
         let Self {
             materials, scene, ..
         } = self;

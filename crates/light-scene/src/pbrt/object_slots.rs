@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use super::at::At;
+use super::file_loc::FileLoc;
 use crate::emissive_copies::EmissiveCopies;
 use crate::text::shown;
 use crate::{Diagnostic, Prototype, PrototypeId};
@@ -38,7 +38,7 @@ pub(super) struct OpenObject {
 
 impl Objects {
     /// The id of the object with this name, defined or not.
-    pub(super) fn id(&mut self, at: At<'_>, name: &str) -> PrototypeId {
+    pub(super) fn id(&mut self, at: FileLoc<'_>, name: &str) -> PrototypeId {
         if let Some(&id) = self.by_name.get(name) {
             return id;
         }

@@ -1,4 +1,4 @@
-use super::at::At;
+use super::file_loc::FileLoc;
 use super::object_slots::{ObjectSlot, Objects, OpenObject};
 use super::state::{Reader, State};
 use crate::glam::Affine3A;
@@ -10,7 +10,7 @@ const MOST_TRIANGLES: usize = 1 << 27;
 
 impl Reader {
     /// `ObjectBegin "name"`: the shapes that follow belong to a prototype.
-    pub(super) fn object_begin(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
+    pub(super) fn object_begin(&mut self, at: FileLoc<'_>, name: &str) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before another `ObjectBegin`"));
         }
@@ -28,7 +28,7 @@ impl Reader {
         Ok(())
     }
 
-    pub(super) fn object_end(&mut self, at: At<'_>) -> Result<(), Diagnostic> {
+    pub(super) fn object_end(&mut self, at: FileLoc<'_>) -> Result<(), Diagnostic> {
         let open = self.objects.open.take();
         let open = open.ok_or_else(|| at.unmatched("ObjectBegin"))?;
         if self.saved.len() > open.depth {
@@ -47,7 +47,11 @@ impl Reader {
 
     /// `ObjectInstance "name"`: the current transform is applied after those of the object's
     /// definition.
-    pub(super) fn object_instance(&mut self, at: At<'_>, name: &str) -> Result<(), Diagnostic> {
+    pub(super) fn object_instance(
+        &mut self,
+        at: FileLoc<'_>,
+        name: &str,
+    ) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));
         }
@@ -74,7 +78,7 @@ impl Reader {
     }
 
     /// Adds a mesh to the object that is being defined, or to the world.
-    pub(super) fn add_mesh(&mut self, at: At<'_>, mesh: Mesh) -> Result<(), Diagnostic> {
+    pub(super) fn add_mesh(&mut self, at: FileLoc<'_>, mesh: Mesh) -> Result<(), Diagnostic> {
         self.triangles = self.triangles.saturating_add(mesh.indices.len());
         if self.triangles > MOST_TRIANGLES {
             let message = format!("expected at most {MOST_TRIANGLES} triangles in all");

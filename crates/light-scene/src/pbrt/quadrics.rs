@@ -1,6 +1,6 @@
 use core::f32::consts::{PI, TAU};
 
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::state::Reader;
 use crate::glam::{Affine3A, Vec3};
 use crate::{Color, Diagnostic, Mesh, Sphere, SphereFront, Surface};

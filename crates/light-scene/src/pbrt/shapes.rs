@@ -1,4 +1,4 @@
-use super::at::{At, Typed};
+use super::file_loc::{FileLoc, Typed};
 use super::lights::area_scale;
 use super::ply::read_ply;
 use super::quadrics::{cylinder, disk, sphere};
@@ -78,7 +78,7 @@ impl Reader {
         self.with_alpha(material, typed)
     }
 
-    fn rounded(&mut self, at: At<'_>, kind: &str, mesh: Mesh) -> Mesh {
+    fn rounded(&mut self, at: FileLoc<'_>, kind: &str, mesh: Mesh) -> Mesh {
         let what = format!("Shape \"{kind}\"");
         self.warn(at, &what, "was made of triangles");
         mesh
@@ -174,7 +174,7 @@ fn vertices(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
 }
 
 /// What the renderer relies on.
-fn check(at: At<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
+fn check(at: FileLoc<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
     let count = mesh.positions.len();
     let outside = mesh
         .indices

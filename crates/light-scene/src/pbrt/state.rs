@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use lights::sources::{Image as LightImage, MediumInterface};
 
-use super::at::At;
 use super::attribute_target::Attributes;
+use super::file_loc::FileLoc;
 use super::image_key::ImageKey;
 use super::included::Included;
 use super::material_names::NamedMaterials;
@@ -100,12 +100,12 @@ impl Reader {
     }
 
     /// Saves the state for a directive that ends the block, or what to say if there is none.
-    pub(super) fn save_state(&mut self, at: At<'_>, unclosed: &str) -> Result<(), Diagnostic> {
+    pub(super) fn save_state(&mut self, at: FileLoc<'_>, unclosed: &str) -> Result<(), Diagnostic> {
         let state = self.state.clone();
         save(&mut self.saved, at, state, unclosed)
     }
 
-    pub(super) fn save_transform(&mut self, at: At<'_>) -> Result<(), Diagnostic> {
+    pub(super) fn save_transform(&mut self, at: FileLoc<'_>) -> Result<(), Diagnostic> {
         let unclosed = "expected `TransformEnd` after `TransformBegin`";
         save(
             &mut self.saved_transforms,
@@ -121,7 +121,7 @@ impl Reader {
     }
 
     /// Says something about a place in the file, once for each `what`.
-    pub(super) fn warn(&mut self, at: At<'_>, what: &str, message: &str) {
+    pub(super) fn warn(&mut self, at: FileLoc<'_>, what: &str, message: &str) {
         if self.warned.insert(what.to_owned()) {
             let message = format!("{} {message}", shown(what));
             self.scene.warnings.push(at.diagnostic(message));
@@ -129,9 +129,14 @@ impl Reader {
     }
 
     /// Names the parameters of a directive that nobody asked for.
-    pub(super) fn warn_unused(&mut self, at: At<'_>, directive: &str, parameters: &Parameters) {
+    pub(super) fn warn_unused(
+        &mut self,
+        at: FileLoc<'_>,
+        directive: &str,
+        parameters: &Parameters,
+    ) {
         for (name, line) in parameters.unused() {
-            let at = At { line, ..at };
+            let at = FileLoc { line, ..at };
             let what = format!("{directive}: parameter `{name}`");
             self.warn(at, &what, "was ignored");
         }
@@ -167,7 +172,7 @@ impl Reader {
 
 fn save<T>(
     all: &mut Vec<Saved<T>>,
-    at: At<'_>,
+    at: FileLoc<'_>,
     state: T,
     unclosed: &str,
 ) -> Result<(), Diagnostic> {

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::state::Reader;
 use super::texture_kind::TextureKind;
 use super::tokens::Tokens;

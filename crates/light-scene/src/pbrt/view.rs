@@ -1,6 +1,6 @@
 //! Who looks, and at how many pixels.
 
-use super::at::Typed;
+use super::file_loc::Typed;
 use super::lights::fov;
 use super::parameter::ParameterType;
 use super::state::Reader;

@@ -1,12 +1,12 @@
 use super::*;
 use crate::amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
-use crate::desc::LightDesc;
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
 use crate::distant::DistantLightDesc;
 use crate::glam::Vec3;
-use crate::kind::LightType;
+use crate::light_desc::LightDesc;
 use crate::light_set_builder::LightSetBuilder;
-use crate::media::MediumInterface;
+use crate::light_type::LightType;
+use crate::medium_interface::MediumInterface;
 use crate::mesh::MeshLightDesc;
 use crate::point::PointLightDesc;
 use crate::rgb::Rgb;

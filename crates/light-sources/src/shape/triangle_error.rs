@@ -1,7 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
-/// Why three points are no triangle.
+/// Why a triangle is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TriangleError {

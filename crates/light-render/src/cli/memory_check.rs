@@ -7,7 +7,7 @@ use super::failure::Failure;
 ///
 /// # Errors
 /// When there is less, with both figures.
-pub(crate) fn expect_room(what: &str, bytes: u64) -> Result<(), Failure> {
+pub(crate) fn check_memory(what: &str, bytes: u64) -> Result<(), Failure> {
     fits(what, bytes, available_memory())
 }
 
@@ -33,7 +33,7 @@ mod tests {
         let expected = "--width 9: needs 43.2 GB of memory, 8.6 GB are available";
         let refused = fits("--width 9", 43_200_000_000, 1 << 33);
         assert_eq!(refused, Err(Failure::Input(expected.into())), "the line");
-        assert_eq!(expect_room("nothing", 0), Ok(()), "nothing is there");
-        assert!(expect_room("all", u64::MAX).is_err(), "but not everything");
+        assert_eq!(check_memory("nothing", 0), Ok(()), "nothing is there");
+        assert!(check_memory("all", u64::MAX).is_err(), "but not everything");
     }
 }

@@ -5,12 +5,12 @@ use crate::{Diagnostic, Location};
 
 /// Where a directive stands.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct At<'a> {
+pub(super) struct FileLoc<'a> {
     pub(super) path: &'a Path,
     pub(super) line: usize,
 }
 
-impl At<'_> {
+impl FileLoc<'_> {
     pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::at(self.path, Location::Line(self.line), message)
     }
@@ -24,7 +24,7 @@ impl At<'_> {
 /// The directive that a parameter list belongs to, its type in quotes read already.
 #[derive(Debug)]
 pub(super) struct Typed<'a> {
-    pub(super) at: At<'a>,
+    pub(super) at: FileLoc<'a>,
     pub(super) kind: String,
     pub(super) parameters: Parameters,
 }

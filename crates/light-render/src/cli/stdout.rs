@@ -7,7 +7,7 @@ use super::failure::Failure;
 /// fails.
 macro_rules! say {
     ($($words:tt)*) => {
-        $crate::cli::say::line(format_args!($($words)*))
+        $crate::cli::stdout::line(format_args!($($words)*))
     };
 }
 

@@ -6,7 +6,7 @@ use crate::{Ray, SampleStream, World};
 /// The light along a camera ray, by the integrator that `settings` name.
 #[inline]
 #[must_use]
-pub fn follow<S: LightSampler>(
+pub fn li<S: LightSampler>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,

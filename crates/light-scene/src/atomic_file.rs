@@ -14,7 +14,7 @@ use crate::Diagnostic;
 /// # Errors
 /// When the file cannot be written; nothing is left behind then, and a file that was there stays as
 /// it was.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     StagedFile::new(path, bytes)
         .and_then(StagedFile::publish)
         .map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))
@@ -117,10 +117,10 @@ mod tests {
 
     #[test]
     fn replaces_the_file_and_leaves_nothing_beside() {
-        let folder = TestFolder::new("write_whole");
+        let folder = TestFolder::new("write_atomically");
         let path = folder.path("a.txt");
         for text in ["one", "two"] {
-            write_whole(&path, text.as_bytes()).expect("written");
+            write_atomically(&path, text.as_bytes()).expect("written");
             assert_eq!(fs::read_to_string(&path).expect("a file"), text, "content");
         }
         assert_eq!(folder.names(), ["a.txt"], "nothing beside");
@@ -130,19 +130,19 @@ mod tests {
     fn leaves_nothing_when_it_fails() {
         let folder = TestFolder::new("write_whole_fails");
         let missing = folder.path("missing/a.txt");
-        let error = write_whole(&missing, b"x").expect_err("no folder");
+        let error = write_atomically(&missing, b"x").expect_err("no folder");
         assert!(error.message.starts_with("cannot be written: "), "{error}");
         fs::create_dir(folder.path("folder")).expect("a folder");
-        write_whole(&folder.path("folder"), b"x").expect_err("a folder is in the way");
+        write_atomically(&folder.path("folder"), b"x").expect_err("a folder is in the way");
         assert_eq!(folder.names(), ["folder"], "nothing beside");
-        write_whole(&folder.path(".."), b"x").expect_err("no name");
+        write_atomically(&folder.path(".."), b"x").expect_err("no name");
     }
 
     #[test]
     fn a_full_disk_leaves_what_was_there() {
         let folder = TestFolder::new("write_whole_full");
         let path = folder.path("a.txt");
-        write_whole(&path, b"old").expect("written");
+        write_atomically(&path, b"old").expect("written");
         let full = StagedFile::with(&path, |file| {
             file.write_all(b"half of the new te")?;
             Err(io::ErrorKind::StorageFull.into())
@@ -159,7 +159,7 @@ mod tests {
     fn long_names_have_room_beside_them() {
         let folder = TestFolder::new("write_whole_long");
         let name = "n".repeat(250);
-        write_whole(&folder.path(&name), b"x").expect("written");
+        write_atomically(&folder.path(&name), b"x").expect("written");
         assert_eq!(folder.names(), [name], "nothing beside");
     }
 
@@ -171,10 +171,10 @@ mod tests {
         let [file, link, device] = ["file", "link", "device"].map(|name| folder.path(name));
         fs::write(&file, "old").expect("a file");
         symlink(&file, &link).expect("a link");
-        write_whole(&link, b"new").expect("written");
+        write_atomically(&link, b"new").expect("written");
         assert_eq!(fs::read(&file).expect("a file"), b"new", "through the link");
         symlink("/dev/full", &device).expect("a link");
-        let error = write_whole(&device, b"new").expect_err("a device without room");
+        let error = write_atomically(&device, b"new").expect_err("a device without room");
         assert!(error.message.starts_with("cannot be written: "), "{error}");
         let full = fs::metadata("/dev/full").expect("a device");
         assert!(full.file_type().is_char_device(), "still a device");

@@ -6,9 +6,9 @@ use crate::surface_texture::{Footprint, SurfaceTexture};
 
 /// A cache of means over triangles: often many triangles show the same part of an image.
 #[derive(Debug, Default)]
-pub(crate) struct KnownMeans(Vec<Option<(Footprint, Vec3)>>);
+pub(crate) struct MeanCache(Vec<Option<(Footprint, Vec3)>>);
 
-impl KnownMeans {
+impl MeanCache {
     /// Entries of the cache.
     const COUNT: usize = 1 << 10;
 
@@ -68,7 +68,7 @@ mod tests {
                 ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
             };
             let texture = SurfaceTexture::new(&desc).expect("an image");
-            let mut known = KnownMeans::default();
+            let mut known = MeanCache::default();
             let corners = [[0.0, 0.0], [1.0, 0.0], [0.25, 1.5]].map(Vec2::from);
             for shift in (0..40u8).map(|i| Vec2::new(f32::from(i % 8) - 3.0, f32::from(i / 8))) {
                 for size in [1.0, 0.5] {
