@@ -266,8 +266,8 @@ fn lights_are_chosen_for_the_part_of_the_ray_in_the_medium() {
     }
 }
 
-/// A sun over a slab that starts far along the ray: what reaches the middle of the slab is weaker by
-/// the unit of medium over it.
+/// A sun over a slab that starts far along the ray: what reaches the middle of the slab is weaker
+/// by the unit of medium over it.
 #[test]
 fn a_sun_over_a_medium_that_starts_later() {
     let slab = Aabb::new(Vec3::new(2.0, -1.0, -1.0), Vec3::new(5.0, 1.0, 1.0));

@@ -161,8 +161,8 @@ mod tests {
     use lights::bounds::LightId;
     use lights::sources::{Channels, Light, LightSetBuilder, SceneSphere, Wrap};
 
-    /// The power is that of the part that emits, where the mask has a cutoff, a mapping that is not that
-    /// of the image of emission, or values above 1.
+    /// The power is that of the part that emits, where the mask has a cutoff, a mapping that is not
+    /// that of the image of emission, or values above 1.
     #[test]
     fn the_power_is_that_of_the_part_that_emits() {
         let halves = Image::from_f32([2, 1], Channels::Gray, vec![0.0, 1.0]).expect("an image");

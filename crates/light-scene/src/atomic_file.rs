@@ -6,7 +6,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::Diagnostic;
 
-/// Writes a file so that it appears whole or not at all: beside its place first, then renamed.
+/// Writes a file so that it appears whole or not at all: to a temporary file in the same folder,
+/// which is then renamed.
 ///
 /// A link is followed: the file that it leads to is replaced. What is no file, a device or a pipe,
 /// is written to directly.
@@ -20,7 +21,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
         .map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))
 }
 
-/// Ends the process with `status`, and removes what is being written: for a program that is told to
+/// Ends the process with `status`, and removes unfinished files: for a program that is asked to
 /// stop. Every file is whole then, or not there.
 pub fn exit_without_outputs(status: i32) -> ! {
     // Nobody begins or ends a file from here on.
@@ -31,13 +32,13 @@ pub fn exit_without_outputs(status: i32) -> ! {
     std::process::exit(status)
 }
 
-/// The files that are being written, not yet at their places.
+/// The temporary files that are not yet renamed.
 fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
     static ALL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
     ALL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is written completely, but not yet at its place. Unless it is published, it is
+/// A complete temporary file, not yet renamed. Unless it is published, it is
 /// removed.
 #[derive(Debug)]
 pub(crate) struct StagedFile {
@@ -79,7 +80,7 @@ impl StagedFile {
         Ok(staged)
     }
 
-    /// Puts the file at its place.
+    /// Renames the file to its target.
     pub(crate) fn publish(mut self) -> io::Result<()> {
         if let Some((beside, target)) = &self.places {
             let mut all = staged_files();

@@ -17,14 +17,13 @@ pub struct Camera {
     pub forward: Vec3,
     /// Field of view along the shorter side of the image, in radians, in (0, pi).
     pub fov: f32,
-    /// A lens that blurs what is out of focus; absent for a pinhole.
+    /// Thin lens for depth of field; `None` for a pinhole.
     pub lens: Option<Lens>,
     /// Width and height of the image that the file asks for, in pixels.
     pub resolution: Option<[u32; 2]>,
     /// The part of that image that the file asks for; absent: all of it.
     pub crop: Option<Crop>,
-    /// What radiance is multiplied with to be shown on a screen; absent where whoever shows it
-    /// decides.
+    /// Factor of radiance for display; `None` leaves it to the viewer.
     pub exposure: Option<f32>,
 }
 
@@ -56,7 +55,7 @@ impl Crop {
     }
 }
 
-/// Why numbers are no camera.
+/// Why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CameraError {

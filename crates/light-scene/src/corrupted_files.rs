@@ -1,5 +1,5 @@
-//! Broken variants of good files: every reader answers each with a scene or with one line, and asks
-//! for no more memory than the file makes likely.
+//! Corrupted variants of good files: every reader returns a scene or a message of one line, and
+//! allocates no more memory than the size of the file justifies.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::{
 /// Variants of each good file.
 const VARIANTS: usize = 600;
 
-/// Files with one place of `good` cut off, left out, or replaced.
+/// Files with one part of `good` cut off, left out, or replaced.
 fn variants(good: &[u8]) -> impl Iterator<Item = Vec<u8>> {
     const OTHERS: [&[u8]; 11] = [
         b"[",
@@ -31,7 +31,7 @@ fn variants(good: &[u8]) -> impl Iterator<Item = Vec<u8>> {
         b"\x80",
     ];
     (0..VARIANTS).map(move |k| {
-        // A prime stride visits all places.
+        // A prime stride visits all positions.
         let at = (k * 7919) % good.len();
         let (before, after) = (&good[..at], &good[at + 1..]);
         match k % 4 {

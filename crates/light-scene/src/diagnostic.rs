@@ -1,17 +1,16 @@
 use core::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What is wrong with a file, or was ignored in it, and where: the error of every reader, and its
-/// warnings.
+/// An error or a warning of a reader, with its location in a file.
 ///
 /// Its display is one line: `path:line: message` or `path: byte N: message`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The file.
     pub path: PathBuf,
-    /// Where in the file.
+    /// Location in the file.
     pub location: Location,
-    /// What is wrong there, and what was expected.
+    /// What was expected, and what was found.
     pub message: String,
 }
 
@@ -52,7 +51,7 @@ impl fmt::Display for Diagnostic {
             Location::Line(line) => write!(f, "{path}:{line}: ")?,
             Location::Byte(byte) => write!(f, "{path}: byte {byte}: ")?,
         }
-        // Names that files give, and messages of decoders, may hold anything.
+        // Names from files, and messages of decoders, may contain control characters.
         let printable = |c: char| if c.is_control() { '?' } else { c };
         self.message
             .chars()

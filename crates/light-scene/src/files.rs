@@ -4,7 +4,7 @@ use std::path::Path;
 use crate::Diagnostic;
 use crate::text::read_bytes;
 
-/// Where readers get the files from that a scene names.
+/// The source of files that a scene refers to.
 #[derive(Clone, Copy)]
 pub struct Files<'a>(&'a dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic>);
 
@@ -12,12 +12,12 @@ impl Files<'static> {
     /// The files of the machine.
     pub const DISK: Self = Self(&read_bytes);
 
-    /// No file at all: for scenes that must not look around.
+    /// No files: for scenes that must not access the file system.
     pub const NONE: Self = Self(&|path| Err(Diagnostic::file(path, "cannot be read: not allowed")));
 }
 
 impl<'a> Files<'a> {
-    /// What `read` gives for a path.
+    /// The bytes that a function returns for a path.
     #[must_use]
     pub const fn new(read: &'a dyn Fn(&Path) -> Result<Vec<u8>, Diagnostic>) -> Self {
         Self(read)

@@ -6,10 +6,10 @@ use flate2::read::MultiGzDecoder;
 
 use crate::Diagnostic;
 
-/// Compressed files may hold this many bytes, 2 GiB.
+/// The largest decompressed size, 2 GiB.
 const MOST_BYTES: usize = 1 << 31;
 
-/// The bytes of a file that may be compressed by gzip, told by its first two bytes.
+/// The bytes of a file that may be compressed by gzip, recognised by its first two bytes.
 pub(crate) fn gunzipped<'a>(path: &Path, bytes: &'a [u8]) -> Result<Cow<'a, [u8]>, Diagnostic> {
     gunzipped_up_to(MOST_BYTES, path, bytes)
 }
@@ -23,7 +23,7 @@ fn gunzipped_up_to<'a>(
         return Ok(Cow::Borrowed(bytes));
     }
     let mut plain = Vec::new();
-    // One byte more shows that there are too many.
+    // One more byte means that the limit is exceeded.
     let mut decoder = MultiGzDecoder::new(bytes).take(most as u64 + 1);
     let read = decoder.read_to_end(&mut plain);
     read.map_err(|error| Diagnostic::file(path, format!("expected a gzip file: {error}")))?;

@@ -1,5 +1,5 @@
-//! The same picture, each quarter of another brightness, upright on a wall in every format, and
-//! around a scene.
+//! Tests of the orientation of images: the same picture, each quarter of another brightness, on a
+//! wall in every format, and as an environment map.
 
 use core::f32::consts::PI;
 use std::path::Path;

@@ -12,7 +12,7 @@ use crate::{Diagnostic, Files, Location};
 
 /// The luminaire that a file describes: EULUMDAT if its name ends in `.ldt`, LM-63 otherwise.
 ///
-/// A file that `TILT=` names is looked for beside it.
+/// A file that `TILT=` names is searched in the same folder.
 ///
 /// # Errors
 /// When a file cannot be read or is malformed: file, line and what was expected there.
@@ -21,7 +21,7 @@ pub fn read_luminaire(path: &Path) -> Result<Luminaire, Diagnostic> {
 }
 
 /// As [`read_luminaire`], from the text of the file; `path` says by its ending which format it has,
-/// and names it in messages. A file that `TILT=` names is asked of `files`.
+/// and names it in messages. A file that `TILT=` names is read from `files`.
 ///
 /// # Errors
 /// As [`read_luminaire`].

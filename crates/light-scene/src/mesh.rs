@@ -11,7 +11,7 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 pub struct Mesh {
     /// The group's name in the file; may be empty.
     pub name: String,
-    /// What the triangles are made of.
+    /// The material of the triangles.
     pub material: MaterialId,
     /// Positions of the vertices, in scene units.
     pub positions: Vec<Vec3>,
@@ -102,7 +102,7 @@ impl Mesh {
         mesh
     }
 
-    /// Turns fronts into backs.
+    /// Swaps front and back.
     pub(crate) fn turn_over(&mut self) {
         self.turn_triangles();
         for normal in self.normals.iter_mut().flatten() {
@@ -110,7 +110,7 @@ impl Mesh {
         }
     }
 
-    /// Leaves out the triangles without area: nothing meets them, and they have no front.
+    /// Removes the triangles without area: no ray hits them, and they have no front.
     pub(crate) fn drop_empty_triangles(&mut self) {
         let positions = &self.positions;
         self.indices.retain(|triangle| {

@@ -31,14 +31,14 @@ impl fmt::Display for TooInvolved {
     }
 }
 
-/// The triangles of a face, as places in the list of its corners, all with its front.
+/// The triangles of a face, as indices into the list of its corners, all with its front.
 ///
 /// A convex face of few corners is a fan around the first. One of many is halved over and over: a
-/// fan would put all its triangles side by side around one corner, where nothing tells them apart.
-/// Any other is cut ear by ear, in its own plane.
+/// fan would put all its triangles side by side around one corner, where no hierarchy can separate
+/// them. Any other is cut ear by ear, in its own plane.
 ///
 /// # Errors
-/// When more than [`MOST_WORK`] would be to be done.
+/// When the work would exceed [`MOST_WORK`].
 ///
 /// # Source
 /// `[Meisters1975]`, polygons have ears.
@@ -83,7 +83,7 @@ fn flattened(corners: &[Vec3]) -> Vec<DVec2> {
     corners.iter().map(place).collect()
 }
 
-/// Corners cut in two halves, and these again.
+/// Splits the corners into halves, recursively.
 fn halves(count: u32) -> Vec<[u32; 3]> {
     let mut all = Vec::new();
     let mut waiting = vec![(0u32, count - 1)];
@@ -182,7 +182,7 @@ impl Ring<'_> {
         let is_inside = |&i: &u32| {
             let p = self.flat[i as usize];
             let is_near = p.cmpge(low).all() && p.cmple(high).all();
-            // A corner that two parts of a face share is in nobody's way.
+            // A corner that two parts of a face share does not block an ear.
             is_near
                 && p != a
                 && p != b

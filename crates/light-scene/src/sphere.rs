@@ -11,17 +11,16 @@ use crate::{MaterialId, Mesh};
 /// Its texture coordinates are those of [`Mesh`]es that readers make of spheres: u runs around the
 /// axis +z of `transform`, v from the lower pole to the upper.
 ///
-/// One that emits light is one light, which is found best where no light passes its surface: what a
-/// sphere with holes or of [`Surface::Interface`](crate::Surface::Interface) gives off at its
-/// inside is asked for at the nearer side alone.
+/// An emissive sphere is one light. Light samples only find its near side, so that inside emission
+/// through an alpha mask or a [`Surface::Interface`](crate::Surface::Interface) is noisier.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Sphere {
     /// The name in the file; may be empty.
     pub name: String,
-    /// What it is made of.
+    /// Its material.
     pub material: MaterialId,
-    /// From the unit sphere around the origin to the scene: a turn, mirrored or not, with one scale
-    /// in all directions.
+    /// From the unit sphere around the origin to the scene: a rotation or reflection with uniform
+    /// scale and translation.
     pub transform: Affine3A,
     /// Which side is the front, on which a one-sided emitter emits.
     pub front: SphereFront,
@@ -38,7 +37,7 @@ pub enum SphereFront {
 }
 
 impl Sphere {
-    /// The unit sphere as `transform` moves it, seen from outside.
+    /// The unit sphere under `transform`, with its front outside.
     #[must_use]
     pub fn new(name: impl Into<String>, material: MaterialId, transform: Affine3A) -> Self {
         Self {
@@ -100,7 +99,7 @@ impl Sphere {
         }
     }
 
-    /// The sphere moved by `transform`, its front as it was; `None` where it would be none.
+    /// The sphere under `transform`, with the same front; `None` if it would not stay a sphere.
     #[must_use]
     pub fn transformed(&self, transform: &Affine3A) -> Option<Self> {
         let moved = Self {

@@ -1,5 +1,4 @@
-//! What the readers of line-by-line formats share: lines, words, numbers, and errors that know
-//! where they are.
+//! Parsing of line-based formats: lines, words, numbers, and errors with their location.
 
 use alloc::borrow::Cow;
 use core::str::SplitWhitespace;

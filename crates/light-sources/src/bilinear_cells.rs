@@ -98,8 +98,8 @@ pub(crate) fn next_bend(wrap: Wrap, n: u32, from: f64) -> f64 {
     f64::INFINITY
 }
 
-/// The texture on a surface: an image, the opacity of a mask, or the product of both if they have the
-/// same mapping.
+/// The texture on a surface: an image, the opacity of a mask, or the product of both if they have
+/// the same mapping.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     /// White where there is none.

@@ -67,8 +67,8 @@ fn pieces(density: &UvDensity) -> impl Iterator<Item = [Vec2; 2]> {
 /// The most blocks of a surface along an axis, as a power of two.
 const FINEST: u32 = 12;
 
-/// As [`FINEST`], for a mask with a mapping of its own: in smaller blocks that are partly masked, it
-/// is replaced by its mean, independent of the image behind.
+/// As [`FINEST`], for a mask with a mapping of its own: in smaller blocks that are partly masked,
+/// it is replaced by its mean, independent of the image behind.
 const FINEST_APART: u32 = 5;
 
 /// The most repetitions of an image that are integrated: more do not change the mean.

@@ -1,5 +1,5 @@
-//! The power of a surface with an alpha mask that has a mapping of its own, a cutoff or values above
-//! 1 is that of the part that emits.
+//! The power of a surface with an alpha mask that has a mapping of its own, a cutoff or values
+//! above 1 is that of the part that emits.
 
 use core::f32::consts::PI;
 
@@ -119,8 +119,8 @@ fn values_above_1() {
     }
 }
 
-/// The power of triangles, squares, patches and spheres is the mean of the radiance at places spread
-/// evenly over them, whatever lies on them and however.
+/// The power of triangles, squares, patches and spheres is the mean of the radiance at places
+/// spread evenly over them, whatever lies on them and however.
 #[test]
 fn any_masks_on_any_shapes() {
     let mut rng = Rng::new(91);

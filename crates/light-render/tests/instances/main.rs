@@ -1,4 +1,4 @@
-//! Objects that stand in several transforms look as copies of them do, and are stored once.
+//! Instances of an object look as copies of it do, and the object is stored once.
 
 mod hits;
 mod pictures;
@@ -52,7 +52,7 @@ fn block(material: MaterialId) -> Mesh {
     mesh
 }
 
-/// Turned, mirrored, squeezed and skewed transforms in the box `[0, 1]^3`.
+/// Rotated, mirrored, scaled and skewed transforms into the box `[0, 1]^3`.
 fn transforms() -> Vec<Affine3A> {
     let turn = |angle| Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 2.0) / 3.0, angle);
     [

@@ -64,8 +64,8 @@ fn a_forest_takes_the_memory_of_a_tree() {
     assert_eq!(forest.primitive(count), None, "no more");
 }
 
-/// Copies in exactly the same transform are stored once, so that a ray does not visit all of them,
-/// unless each hides a share of what is behind: a long row of them and one transform elsewhere.
+/// Instances with exactly the same transform are stored once, so that a ray does not visit all of
+/// them, unless their opacity is fractional.
 #[test]
 fn copies_in_the_same_place_are_one() {
     let count = |crown: Material, copies: usize| {

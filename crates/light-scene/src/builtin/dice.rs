@@ -1,7 +1,7 @@
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Chance for a generated scene: the same numbers from the same seed.
+/// Random choices of a generated scene: the same numbers from the same seed.
 #[derive(Clone, Debug)]
 pub(super) struct Dice(Pcg64Mcg);
 

@@ -83,7 +83,7 @@ pub(super) fn fog(seed: u64) -> Scene {
     scene
 }
 
-/// A place on the ground, `margin` or more beside the path.
+/// A position on the ground, at least `margin` from the path.
 fn beside_the_path(dice: &mut Dice, margin: f32) -> Vec3 {
     let x = dice.between(0.5 * PATH + margin, HALF);
     let side = if dice.chance(0.5) { 1.0 } else { -1.0 };

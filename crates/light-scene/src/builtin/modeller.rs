@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Material, MaterialId, Mesh, Scene};
 
-/// Builds a scene out of simple solids, one mesh per material and way of shading.
+/// Builds a scene from simple solids, one mesh per material and kind of shading.
 #[derive(Debug, Default)]
 pub(super) struct Modeller {
     scene: Scene,
@@ -21,12 +21,12 @@ impl Modeller {
         self.scene.add_material(material)
     }
 
-    /// The number of triangles so far whose material emits light.
+    /// The number of emissive triangles so far.
     pub(super) fn emissive_triangle_count(&self) -> usize {
         self.scene.emissive_triangle_count()
     }
 
-    /// Adds what is no solid: lights, images, a camera.
+    /// Access to the scene for lights, images and the camera.
     pub(super) fn scene(&mut self) -> &mut Scene {
         &mut self.scene
     }

@@ -22,7 +22,7 @@ pub(super) fn rotunda() -> Scene {
     let marble = modeller.material(Material::diffuse("marble", Vec3::new(0.72, 0.69, 0.63)));
     let water = modeller.material(Material::new(
         "water",
-        // No absorption index: what is not reflected is lost in the deep.
+        // No absorption index: light that is not reflected is lost.
         Surface::Conductor {
             eta: Vec3::splat(1.33),
             k: Vec3::ZERO,

@@ -2,7 +2,7 @@ use super::buffers::{Buffers, View};
 use super::item::Item;
 use crate::Diagnostic;
 
-/// Numbers that a document may ask for in all, however often it names the same ones: 2 GiB of them.
+/// The most numbers that a document may read in all, repeated reads included: 2 GiB.
 const MOST_NUMBERS: usize = 1 << 29;
 
 /// A typed part of a buffer.
@@ -10,7 +10,7 @@ const MOST_NUMBERS: usize = 1 << 29;
 pub(super) struct Accessor<'a> {
     item: Item<'a>,
     count: usize,
-    /// Numbers an element.
+    /// Numbers per element.
     width: usize,
     component: Component,
     normalized: bool,
@@ -19,7 +19,7 @@ pub(super) struct Accessor<'a> {
     sparse: Option<Sparse>,
 }
 
-/// Elements one behind the other, with gaps if the stride is longer than an element.
+/// Consecutive elements, with gaps if the stride is longer than an element.
 #[derive(Debug)]
 struct Run {
     view: View,
@@ -29,11 +29,11 @@ struct Run {
 
 #[derive(Debug)]
 struct Sparse {
-    places: Vec<usize>,
+    indices: Vec<usize>,
     values: Run,
 }
 
-/// How a number is stored, little end first.
+/// The type of a stored number, in little-endian order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Component {
     I8,
@@ -89,11 +89,11 @@ impl<'a> Accessor<'a> {
         let sparse = match item.get("sparse")? {
             None => None,
             Some(sparse) => {
-                let places = places(&sparse, buffers, count)?;
+                let indices = sparse_indices(&sparse, buffers, count)?;
                 let values = sparse.require("values")?;
                 let view = buffers.view(&values.require("bufferView")?)?;
-                let values = run(Some(view), &values, places.len())?;
-                values.map(|values| Sparse { places, values })
+                let values = run(Some(view), &values, indices.len())?;
+                values.map(|values| Sparse { indices, values })
             }
         };
         Ok(Self {
@@ -123,17 +123,17 @@ impl<'a> Accessor<'a> {
             self.base.as_ref().map(|base| (base, &each)),
             self.sparse
                 .as_ref()
-                .map(|sparse| (&sparse.values, &sparse.places)),
+                .map(|sparse| (&sparse.values, &sparse.indices)),
         ];
-        for (run, places) in runs.into_iter().flatten() {
-            for (index, &place) in places.iter().enumerate() {
+        for (run, indices) in runs.into_iter().flatten() {
+            for (index, &index) in indices.iter().enumerate() {
                 let bytes = run.element(index);
                 let size = self.component.size();
-                for (number, bytes) in elements[place].iter_mut().zip(bytes.chunks_exact(size)) {
+                for (number, bytes) in elements[index].iter_mut().zip(bytes.chunks_exact(size)) {
                     *number = self.component.number(bytes, self.normalized);
                 }
-                if !elements[place].iter().all(|number| number.is_finite()) {
-                    let message = format!("element {place}: expected finite numbers");
+                if !elements[index].iter().all(|number| number.is_finite()) {
+                    let message = format!("element {index}: expected finite numbers");
                     return Err(self.item.error(&message));
                 }
             }
@@ -141,7 +141,7 @@ impl<'a> Accessor<'a> {
         Ok(elements)
     }
 
-    /// All elements as places of `count` vertices.
+    /// All elements as indices of `count` vertices.
     pub(super) fn indices(&self, count: usize) -> Result<Vec<u32>, Diagnostic> {
         let kinds = [Component::U8, Component::U16, Component::U32];
         if self.width != 1 || !kinds.contains(&self.component) || self.sparse.is_some() {
@@ -150,10 +150,10 @@ impl<'a> Accessor<'a> {
         }
         let run = self.base.as_ref();
         let run = run.ok_or_else(|| self.item.error("expected a member `bufferView`"))?;
-        let index = |place: usize| {
-            let index = self.component.whole(run.element(place));
+        let index = |index: usize| {
+            let index = self.component.whole(run.element(index));
             let found = (index as usize) < count;
-            let message = || format!("element {place}: vertex {index} of {count} does not exist");
+            let message = || format!("element {index}: vertex {index} of {count} does not exist");
             found
                 .then_some(index)
                 .ok_or_else(|| self.item.error(&message()))
@@ -162,8 +162,8 @@ impl<'a> Accessor<'a> {
     }
 }
 
-/// Where the elements of a sparse accessor are that differ, in ascending order.
-fn places(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result<Vec<usize>, Diagnostic> {
+/// Indices of the elements that a sparse accessor replaces, in ascending order.
+fn sparse_indices(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result<Vec<usize>, Diagnostic> {
     let count = sparse.require("count")?;
     let message = || format!("at most {of}, the number of elements");
     let number = count.whole()?;
@@ -175,15 +175,15 @@ fn places(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result<Vec<usi
     let view = buffers.view(&indices.require("bufferView")?)?;
     let offset = indices.whole_or("byteOffset", 0)?;
     let run = Run::new(&indices, view, offset, component.size(), number)?;
-    let places: Vec<usize> = (0..number)
+    let indices: Vec<usize> = (0..number)
         .map(|index| component.whole(run.element(index)) as usize)
         .collect();
-    let ascends = places.windows(2).all(|pair| pair[0] < pair[1]);
-    if !ascends || places.last().is_some_and(|&last| last >= of) {
-        let message = format!("expected ascending places below {of}");
+    let ascends = indices.windows(2).all(|pair| pair[0] < pair[1]);
+    if !ascends || indices.last().is_some_and(|&last| last >= of) {
+        let message = format!("expected ascending indices below {of}");
         return Err(indices.error(&message));
     }
-    Ok(places)
+    Ok(indices)
 }
 
 impl Run {
@@ -240,7 +240,7 @@ impl Component {
         }
     }
 
-    /// The number in the first bytes; a normalised whole number represents a part of the largest.
+    /// The number in the first bytes; a normalised integer is divided by its largest value.
     fn number(self, bytes: &[u8], normalized: bool) -> f32 {
         let (number, largest) = match self {
             Self::I8 => (f32::from(i8::from_le_bytes([bytes[0]])), 127.0),

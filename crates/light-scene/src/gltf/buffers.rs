@@ -6,7 +6,7 @@ use super::document::Document;
 use super::item::Item;
 use crate::{Diagnostic, Files};
 
-/// The bytes that a document speaks of.
+/// The buffers of a document.
 pub(super) struct Buffers<'a> {
     files: Files<'a>,
     document: &'a Document,
@@ -19,7 +19,7 @@ pub(super) struct View {
     buffer: Rc<[u8]>,
     start: usize,
     end: usize,
-    /// Bytes from one element to the next, if the view says so.
+    /// Stride in bytes, if the view has one.
     pub(super) stride: Option<usize>,
 }
 
@@ -30,7 +30,7 @@ impl View {
 }
 
 impl<'a> Buffers<'a> {
-    /// All buffers, each file read once; `binary` is what a binary file carries.
+    /// All buffers, each file read once; `binary` is the binary chunk of a `.glb` file.
     pub(super) fn new(
         document: &'a Document,
         binary: Option<&[u8]>,
@@ -66,12 +66,12 @@ impl<'a> Buffers<'a> {
         Ok(all)
     }
 
-    /// Where the files come from that a document names.
+    /// The source of files that a document refers to.
     pub(super) const fn files(&self) -> Files<'a> {
         self.files
     }
 
-    /// The bytes that a URI represents.
+    /// The bytes of a URI.
     pub(super) fn load(&self, uri: &Item<'_>) -> Result<Vec<u8>, Diagnostic> {
         match resource(uri.text()?) {
             Some(Resource::Bytes(bytes)) => Ok(bytes),

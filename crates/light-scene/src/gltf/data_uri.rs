@@ -1,18 +1,18 @@
-//! What a URI of glTF represents: bytes in the document, or a file beside it.
+//! URIs of glTF: bytes in the document, or a file relative to it.
 
-/// What a URI represents.
+/// A decoded URI.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Resource {
     /// The bytes themselves.
     Bytes(Vec<u8>),
-    /// The name of a file, from the folder of the document on.
+    /// A file name relative to the folder of the document.
     File(String),
 }
 
-/// Why a URI represents nothing.
+/// Why a URI is invalid.
 pub(super) const EXPECTED: &str = "a file's name, or data in base64";
 
-/// What a URI represents; `None` if it is broken or of another scheme.
+/// Decodes a URI; fails if it is malformed or of another scheme.
 pub(super) fn resource(uri: &str) -> Option<Resource> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, text) = data.split_once(";base64,")?;
@@ -59,7 +59,7 @@ fn sextet(c: u8) -> Option<u32> {
     Some(six.into())
 }
 
-/// The text with `%20` and its like made plain.
+/// Decodes percent-encoded characters such as `%20`.
 fn percent_decoded(uri: &str) -> Option<String> {
     let mut parts = uri.split('%');
     let mut bytes = parts.next()?.as_bytes().to_vec();

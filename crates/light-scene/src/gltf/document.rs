@@ -1,4 +1,4 @@
-//! A JSON document that remembers what was asked for.
+//! A JSON document that records which members were read.
 
 use core::cell::RefCell;
 use std::collections::HashSet;
@@ -13,7 +13,7 @@ use crate::Diagnostic;
 pub(super) struct Document {
     path: PathBuf,
     pub(super) root: Value,
-    /// The addresses of what was asked for.
+    /// The addresses of the members that were read.
     pub(super) asked: RefCell<HashSet<*const Value>>,
 }
 

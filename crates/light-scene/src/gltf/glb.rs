@@ -2,12 +2,12 @@ use std::path::Path;
 
 use crate::{Diagnostic, Location};
 
-/// What a glTF file consists of.
+/// The parts of a glTF file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Chunks<'a> {
     /// The document.
     pub(super) json: &'a [u8],
-    /// The first buffer, if the file carries it.
+    /// The binary chunk, if the file has one.
     pub(super) binary: Option<&'a [u8]>,
 }
 
@@ -15,7 +15,7 @@ const MAGIC: &[u8] = b"glTF";
 const JSON: &[u8] = b"JSON";
 const BINARY: &[u8] = b"BIN\0";
 
-/// The chunks of a binary file; any other file is a document as a whole.
+/// Splits a binary file into chunks; any other file is a JSON document.
 ///
 /// # Source
 /// `[GLTF]`, section 4: a header of three words, then chunks, each behind its length and its type.
@@ -41,7 +41,7 @@ pub(super) fn chunks<'a>(path: &'a Path, bytes: &'a [u8]) -> Result<Chunks<'a>, 
         return Err(rest.error("expected a chunk of JSON first"));
     }
     let mut binary = None;
-    // Chunks of other types are for readers that know them.
+    // Chunks of unknown types are ignored, as the specification demands.
     while binary.is_none() && rest.at < length {
         let (kind, chunk) = rest.chunk()?;
         binary = (kind == BINARY).then_some(chunk);

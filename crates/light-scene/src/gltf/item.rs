@@ -23,7 +23,7 @@ impl Document {
         }
     }
 
-    /// A part that somebody asks for.
+    /// A part that a reader asks for.
     pub(super) fn ask<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
         self.asked.borrow_mut().insert(core::ptr::from_ref(value));
         Item {
@@ -42,7 +42,7 @@ impl<'a> Item<'a> {
         Diagnostic::file(self.document.path(), message)
     }
 
-    /// Says that something else was expected than what is there.
+    /// The message that something else was expected.
     pub(super) fn expected(&self, what: &str) -> Diagnostic {
         let found = match self.value {
             Value::Object(_) => "an object".to_owned(),
@@ -52,7 +52,7 @@ impl<'a> Item<'a> {
         self.error(&format!("expected {what}, found {found}"))
     }
 
-    /// The path without the places in lists.
+    /// The path without list indices.
     pub(super) fn kind(&self) -> String {
         let mut inside = false;
         let keep = |c: &char| {
@@ -75,13 +75,13 @@ impl<'a> Item<'a> {
         Ok(value.map(|value| self.document.ask(value, joined(&self.path, name))))
     }
 
-    /// A member of this object that has to be there.
+    /// A required member of this object.
     pub(super) fn require(&self, name: &str) -> Result<Self, Diagnostic> {
         let member = self.get(name)?;
         member.ok_or_else(|| self.error(&format!("expected a member `{name}`")))
     }
 
-    /// What an extension adds to this object.
+    /// The object of an extension in this object.
     pub(super) fn extension(&self, name: &str) -> Result<Option<Self>, Diagnostic> {
         let extensions = self.get("extensions")?;
         extensions.map_or(Ok(None), |extensions| extensions.get(name))
@@ -113,12 +113,12 @@ impl<'a> Item<'a> {
         Ok(self.document.ask(value, format!("{}[{index}]", self.path)))
     }
 
-    /// What this part points to: an element, by its place, of a list of the root.
+    /// The element of a list of the root that this index refers to.
     pub(super) fn target(&self, list: &str) -> Result<(usize, Self), Diagnostic> {
         self.target_in(&self.document.root(), list)
     }
 
-    /// What this part points to: an element, by its place, of a list of `owner`.
+    /// The element of a list of `owner` that this index refers to.
     pub(super) fn target_in(&self, owner: &Self, list: &str) -> Result<(usize, Self), Diagnostic> {
         let index = self.whole()?;
         let found = owner.get(list)?.and_then(|list| list.element(index).ok());
@@ -199,7 +199,7 @@ impl<'a> Item<'a> {
         truth.ok_or_else(|| member.expected("`true` or `false`"))
     }
 
-    /// The name of what this object describes; may be empty.
+    /// The name of this object; may be empty.
     pub(super) fn name(&self) -> &'a str {
         self.value
             .get("name")
@@ -215,7 +215,7 @@ fn number(value: &Value) -> Option<f32> {
     number.is_finite().then_some(number)
 }
 
-/// A number from 0 to 1, but for what exporters round.
+/// A number from 0 to 1, with a tolerance for rounding by exporters.
 pub(super) fn share(number: f32) -> Option<f32> {
     const ROUNDING: f32 = 1e-3;
     let is_near = (-ROUNDING..=1.0 + ROUNDING).contains(&number);

@@ -14,11 +14,11 @@ use crate::glam::{Affine3A, Mat3A, Quat, Vec3};
 use crate::luminaire::read_beside;
 use crate::{Diagnostic, goniometric_light};
 
-/// Texels a side of the map of a measured luminaire.
+/// Texels per side of the map of a measured luminaire.
 const WEB_SIZE: u32 = 256;
 
 impl<'a> Reader<'a> {
-    /// The lights that extensions hang on a node.
+    /// The lights that extensions attach to a node.
     pub(super) fn lights(
         &mut self,
         node: &Item<'a>,
@@ -78,7 +78,7 @@ impl<'a> Reader<'a> {
         let multiplier = extension.amount_or("multiplier", 1.0)?;
         let transform = rigid(node, transform)? * Affine3A::from_quat(turned);
         let mut light = goniometric_light(&web, transform, color, WEB_SIZE);
-        // A tint takes away what it does not let through.
+        // A tint reduces the power.
         let lumens = web.total_lumens() * multiplier * rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens));
         Ok(LightDesc::Goniometric(light))
@@ -91,7 +91,7 @@ fn punctual(
     node: &Item<'_>,
     transform: &Affine3A,
 ) -> Result<LightDesc<Rgb>, Diagnostic> {
-    // How far real-time renderers look.
+    // The range limit of real-time renderers.
     light.get("range")?;
     let emission = color(light)? * (light.amount_or("intensity", 1.0)? / K_M);
     let media = MediumInterface::default();
@@ -109,7 +109,7 @@ fn punctual(
                 Some(spot) => {
                     let start = spot.number_or("innerConeAngle", 0.0)?;
                     let angle = spot.number_or("outerConeAngle", FRAC_PI_4)?;
-                    // One unit in the last transform more is still a right angle.
+                    // One unit in the last place more is still a right angle.
                     if !(0.0 <= start && start < angle && angle <= FRAC_PI_2 * 1.000_001) {
                         let message = "expected an `innerConeAngle` from 0 on, below an `outerConeAngle` of at most pi/2";
                         return Err(spot.error(message));

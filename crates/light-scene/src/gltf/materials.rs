@@ -6,13 +6,13 @@ use super::texture_images::Texture;
 use crate::glam::{Vec2, Vec3};
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Material, MaterialId, Surface};
 
-/// What decides how a surface scatters light.
+/// The scattering parameters of a material.
 struct Finish {
     base: Color,
     metallic: f32,
     roughness: f32,
     eta: f32,
-    /// Whether light is reflected above the base.
+    /// Whether there is a coat above the base.
     specular: bool,
     transmission: f32,
 }
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
         Ok((finish, base, opacity))
     }
 
-    /// The nearest thing to a mixture of metal, glass and lacquer.
+    /// The closest surface model to a mixture of metal, glass and lacquer.
     fn surface(&mut self, item: &Item<'a>, finish: &Finish) -> Surface {
         // Perceived roughness to the width of the microfacet distribution.
         let alpha = Vec2::splat(finish.roughness * finish.roughness);

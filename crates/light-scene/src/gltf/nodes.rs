@@ -4,7 +4,7 @@ use crate::glam::{Affine3A, Mat4, Quat, Vec3};
 use crate::{Camera, Diagnostic};
 
 impl<'a> Reader<'a> {
-    /// Places all that hangs on the nodes of the document's scene.
+    /// Visits the nodes of the document's scene, with their transforms.
     pub(super) fn nodes(&mut self) -> Result<(), Diagnostic> {
         let root = self.document.root();
         let nodes = root.list("nodes")?;
@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         camera.get("type")?;
-        // What is too near or too far for a rasteriser.
+        // The clipping distances of rasterisers.
         ["znear", "zfar"]
             .map(|name| perspective.get(name))
             .into_iter()
@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
         let vertical = perspective.require("yfov")?;
         let tan = (0.5 * vertical.number()?).tan();
         let aspect = perspective.amount_or("aspectRatio", 1.0)?.min(1.0);
-        // Ours is that of the shorter side.
+        // This crate uses that of the shorter side.
         let fov = 2.0 * (tan * aspect).atan();
         let position = Vec3::from(transform.translation);
         let [forward, up] = [Vec3::NEG_Z, Vec3::Y].map(|axis| transform.transform_vector3(axis));

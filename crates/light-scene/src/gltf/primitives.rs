@@ -4,7 +4,7 @@ use super::reader::Reader;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Diagnostic, Mesh};
 
-/// Triangles that a document may hold, however often it names the same ones.
+/// The most triangles of a document, repeated references included.
 const MOST_TRIANGLES: usize = 1 << 27;
 
 impl<'a> Reader<'a> {

@@ -21,7 +21,7 @@ const KNOWN: [&str; 8] = [
     "KHR_texture_transform",
 ];
 
-/// What a document has become so far.
+/// The state of reading a document.
 pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: Buffers<'a>,
@@ -36,8 +36,7 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of a document, once its version, what it requires and its buffers are known to be
-    /// good.
+    /// A reader of a document, after its version, required extensions and buffers were checked.
     pub(super) fn new(
         document: &'a Document,
         binary: Option<&[u8]>,
@@ -78,7 +77,7 @@ impl<'a> Reader<'a> {
         Ok(self.scene)
     }
 
-    /// Says something about a part of the document, once for each kind of part.
+    /// Adds a warning about a part of the document, once for each kind of part.
     pub(super) fn warn(&mut self, item: &Item<'_>, message: &str) {
         if self.warned.insert(format!("{} {message}", item.kind())) {
             self.scene.warnings.push(item.error(message));

@@ -27,7 +27,7 @@ impl Textures {
     ) -> Result<usize, Diagnostic> {
         let source = match item.get("uri")? {
             Some(uri) => uri.text()?.to_owned(),
-            // No file's name holds a line break.
+            // No file name contains a line break.
             None => format!("\n{}", item.require("bufferView")?.whole()?),
         };
         Ok(*self.by_source.entry(source).or_insert(image))
@@ -40,12 +40,12 @@ pub(super) struct Texture {
     /// Which of the mesh's texture coordinates.
     pub(super) uv_set: usize,
     pub(super) mapping: TextureMapping,
-    /// Place in the document's list of images.
+    /// Index in the document's list of images.
     pub(super) image: usize,
 }
 
 impl Texture {
-    /// The image as this texture lays it on a surface, times `scale`.
+    /// The image with the mapping of this texture, times `scale`.
     pub(super) fn shown(&self, image: ImageId, scale: Vec3) -> ColorImage {
         ColorImage {
             image,

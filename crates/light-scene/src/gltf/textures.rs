@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
                     view.bytes().to_vec()
                 }
             };
-            // The bytes themselves say it too.
+            // The format is also known from the bytes.
             item.get("mimeType")?;
             let path = self.document.path();
             let decoded = EncodedImage::parse(path, &bytes).and_then(|decoded| {
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
         }))
     }
 
-    /// What is beyond the edges of an image; all are smooth between texels.
+    /// The sampler: the rule beyond the edges of an image. All sampling is bilinear.
     fn sampler(&mut self, sampler: &Item<'a>) -> Result<[Wrap; 2], Diagnostic> {
         const LINEAR: usize = 9729;
         if let Some(filter) = sampler.get("magFilter")? {
@@ -107,7 +107,7 @@ fn texture_transform(moved: &Item<'_>) -> Result<Affine2, Diagnostic> {
     Ok(flip * moved * flip)
 }
 
-/// What is beyond two edges of an image.
+/// The rule beyond two edges of an image.
 fn wrap(sampler: &Item<'_>, name: &str) -> Result<Wrap, Diagnostic> {
     let Some(mode) = sampler.get(name)? else {
         return Ok(Wrap::Repeat);

@@ -1,4 +1,4 @@
-//! The members of a document that no reader asks for.
+//! The members of a document that were not read.
 
 use alloc::collections::BTreeSet;
 use std::collections::HashSet;
@@ -8,8 +8,7 @@ use serde_json::Value;
 use super::document::Document;
 use super::item::{Item, joined};
 
-/// Members that say nothing about light: nobody has to ask for them. Filters are those of
-/// rasterisers.
+/// Members without effect on light, which need not be read. Filters are those of rasterisers.
 const SAYS_NOTHING: [&str; 8] = [
     "name",
     "extras",
@@ -22,7 +21,7 @@ const SAYS_NOTHING: [&str; 8] = [
 ];
 
 impl Document {
-    /// What nobody asked for: the first of each kind, places in lists aside.
+    /// The members that were not read: the first of each path, without list indices.
     pub(super) fn unasked(&self) -> Vec<Item<'_>> {
         let mut unasked = Unasked {
             asked: &self.asked.borrow(),

@@ -10,17 +10,16 @@ use super::openexr::message;
 use crate::text::read_bytes;
 use crate::{Diagnostic, write_atomically};
 
-/// More numbers than this many times the bytes of a file are not in it: no method of compression
-/// reaches that.
+/// The most numbers per byte of a file: no method of compression exceeds it.
 const DENSEST: usize = 4096;
 
-/// An OpenEXR file as it is: any channels by name, and notes beside them.
+/// The content of an OpenEXR file: channels by name, and custom attributes.
 ///
-/// For pictures that hold more than colour. Colour alone is read by
+/// For pictures with more than colour. Colour alone is read by
 /// [`read_image`](crate::read_image).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ChannelFile {
-    /// Numbers a row.
+    /// Numbers per row.
     pub width: u32,
     /// Rows.
     pub height: u32,

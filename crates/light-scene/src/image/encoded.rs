@@ -7,14 +7,14 @@ use super::{Image, display::decode, srgb};
 use crate::Diagnostic;
 use crate::glam::Vec3;
 
-/// How numbers of a file represent amounts of light.
+/// The transfer function of the numbers in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Encoding {
-    /// By the curve of sRGB.
+    /// The sRGB curve.
     Srgb,
-    /// In proportion.
+    /// Linear.
     Linear,
-    /// By a power.
+    /// A power function.
     Gamma(f32),
 }
 

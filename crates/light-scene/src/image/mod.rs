@@ -38,7 +38,7 @@ pub struct Image {
     texels: Vec<Vec3>,
 }
 
-/// Why texels are no image.
+/// Why an image is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ImageError {

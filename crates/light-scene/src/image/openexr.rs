@@ -15,8 +15,7 @@ use crate::{Diagnostic, write_atomically};
 /// More texels than this are refused: 16384 by 8192 is the largest environment map that is sold.
 const MAX_TEXELS: usize = 1 << 27;
 
-/// How many bytes one of a file makes at most: deflate's limit, above that of all other
-/// compressions.
+/// The largest compression ratio: that of deflate, above all other methods.
 const MOST_EXPANDED: usize = 1032;
 
 /// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of

@@ -2,11 +2,11 @@ use std::path::Path;
 
 use crate::Diagnostic;
 
-/// Texels of all images of a scene together: 6 GiB of memory, 32 images of 4096 by 4096. Tests make
-/// do with fewer.
+/// The most texels of all images of a scene: 6 GiB of memory, 32 images of 4096 by 4096. Tests use
+/// a smaller limit.
 pub(crate) const MOST_TEXELS: u64 = if cfg!(test) { 1 << 22 } else { 1 << 29 };
 
-/// How many texels the images of a scene have so far.
+/// The number of texels of a scene's images so far.
 #[derive(Debug, Default)]
 pub(crate) struct TexelBudget(u64);
 

@@ -10,10 +10,10 @@ use super::{LightSetFile, SetLight, SetPoint};
 /// Shading points of a generated set.
 pub(super) const POINTS: usize = 4096;
 
-/// How many lights of a mixed set are a thousand times as strong as the rest.
+/// The number of lights of a mixed set with a thousand times the power of the rest.
 const STRONG: usize = 8;
 
-/// What a generated set looks like.
+/// The kind of a generated set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SetKind {
     /// Small triangles all over the unit cube, over three decades of power.
@@ -26,7 +26,7 @@ pub enum SetKind {
     /// A quarter each of one-sided triangles, two-sided triangles, points and spots of 5 to 70
     /// degrees, over a floor of 10 by 10; eight of them a thousand times as strong.
     Mixed,
-    /// Points and spots that all stand at one place.
+    /// Points and spots at one position.
     OnePoint,
     /// Points and spots along one line.
     Line,
@@ -82,7 +82,7 @@ impl FromStr for SetKind {
 }
 
 impl LightSetFile {
-    /// The set of `n` lights and 4096 points that `kind`, `n` and `seed` represent.
+    /// Generates the set of `kind` with `n` lights and 4096 points; a function of its arguments.
     #[must_use]
     pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
         let mut random = Random::new(seed ^ (kind as u64) << 56 ^ (n as u64) << 24);
@@ -167,7 +167,7 @@ fn cluster_lights(r: &mut Random, n: usize) -> Vec<SetLight> {
             lamp,
         }
     });
-    // Lights of a cluster stand about as dense as they are large.
+    // The spacing of the lights of a cluster is about their size.
     let size = 0.3 / float::sqrt((n / count).max(1) as f32);
     let mut next = 0;
     repeat(n, || {

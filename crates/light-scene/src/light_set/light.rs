@@ -18,14 +18,14 @@ pub enum SetLight {
         /// Whether the other side emits as well.
         two_sided: bool,
     },
-    /// A point that emits equally in all directions.
+    /// An isotropic point light.
     Point {
         /// Position.
         p: Vec3,
         /// Radiant intensity.
         intensity: f32,
     },
-    /// A point that emits light into a cone with a soft edge.
+    /// A spot light with a soft edge.
     Spot {
         /// Position.
         p: Vec3,
@@ -68,16 +68,15 @@ impl SetLight {
         light
     }
 
-    /// The irradiance that reaches `at` without occlusion, the light taken as if all of it were at
-    /// its position.
+    /// The irradiance at `at` without occlusion, with the whole light at its position.
     #[must_use]
     pub fn contribution(&self, at: &SetPoint) -> f64 {
         let n = at.n.as_dvec3();
         self.contribution_from(self.position(), at, |wi| n.dot(wi).max(0.0))
     }
 
-    /// What reaches `at` from `position` as if all of the light were there, times `response` to the
-    /// unit vector toward it.
+    /// The irradiance at `at` with the whole light at `position`, times `response` to the unit
+    /// vector toward it.
     #[must_use]
     pub fn contribution_from(
         &self,
@@ -111,7 +110,7 @@ impl SetLight {
         }
     }
 
-    /// What a light sampler is told about the light.
+    /// The extent of the light for light samplers.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub fn bounds(&self) -> LightBounds {
@@ -197,13 +196,13 @@ impl SetLight {
     }
 }
 
-/// Where a spot at `p` emits light. In doubles, so that squares of tiny lengths do not vanish; +z
+/// The axis of a spot at `p`. In doubles, so that squares of tiny lengths do not vanish; +z
 /// if the target is where the spot is.
 fn spot_axis(p: Vec3, target: Vec3) -> DVec3 {
     (target.as_dvec3() - p.as_dvec3()).normalize_or(DVec3::Z)
 }
 
-/// The half angles up to which a spot emits light fully, and at all, in radians.
+/// The half angles of full and of any emission of a spot, in radians.
 fn cone(cone_deg: f32, delta_deg: f32) -> [f64; 2] {
     let end = f64::from(cone_deg);
     [end - f64::from(delta_deg), end].map(f64::to_radians)

@@ -18,7 +18,7 @@ pub use reader::{LightSetError, LightSetProblem};
 
 use glam::Vec3;
 
-/// A point that asks for light, with its unit normal.
+/// A shading point, with its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPoint {
     /// Position.

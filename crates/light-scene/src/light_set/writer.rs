@@ -35,7 +35,7 @@ impl LightSetFile {
                 .map(|file| (path.clone(), file))
                 .map_err(|error| cannot_be_written(path, error))
         });
-        // One without the other is no set: both are complete before either is at its place.
+        // One file without the other is not a set: both are complete before either is published.
         let [lights, points] = staged;
         for (path, file) in [lights?, points?] {
             file.publish()

@@ -4,7 +4,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::text::{Line, shown};
 use crate::{Diagnostic, MaterialId, Mesh, polygon};
 
-/// What the lines so far have defined, and the meshes that grow from their faces.
+/// The attributes defined so far, and the meshes of the faces so far.
 #[derive(Debug, Default)]
 pub(super) struct Faces {
     pub(super) positions: Vec<Vec3>,

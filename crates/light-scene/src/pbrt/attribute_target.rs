@@ -2,7 +2,7 @@ use alloc::rc::Rc;
 
 use super::parameters::Parameters;
 
-/// What kind of directive an `Attribute` speaks to.
+/// The kind of directive that an `Attribute` applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Target {
     Shape,

@@ -1,4 +1,4 @@
-//! The parameters that say a colour.
+//! Parameters that are colours.
 
 use super::parameter::{Parameter, ParameterType, single};
 use super::parameters::Parameters;

@@ -7,7 +7,7 @@ use crate::Diagnostic;
 use crate::glam::{Mat4, Vec3, Vec4};
 use crate::text::shown;
 
-/// The directives about the picture as a whole, which stand before the world.
+/// The directives about the picture as a whole, before `WorldBegin`.
 const OPTIONS: [&str; 6] = [
     "Camera",
     "Film",
@@ -171,7 +171,7 @@ impl Reader {
             return self.attribute(typed);
         }
         let done = self.carry_out(&typed, directive);
-        // What is wrong with a parameter explains what goes wrong then.
+        // A faulty parameter explains the errors that follow from it.
         typed.parameters.check()?;
         done
     }

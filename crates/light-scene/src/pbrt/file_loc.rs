@@ -3,7 +3,7 @@ use std::path::Path;
 use super::parameters::Parameters;
 use crate::{Diagnostic, Location};
 
-/// Where a directive stands.
+/// The location of a directive: file and line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileLoc<'a> {
     pub(super) path: &'a Path,
@@ -15,7 +15,7 @@ impl FileLoc<'_> {
         Diagnostic::at(self.path, Location::Line(self.line), message)
     }
 
-    /// Says that a directive lacks the one that it ends, or one in between.
+    /// The error of a directive whose opening counterpart is missing.
     pub(super) fn unmatched(&self, before: &str) -> Diagnostic {
         self.diagnostic(format!("expected `{before}` before"))
     }

@@ -106,7 +106,7 @@ fn projections_stand_upright() {
     assert_eq!(light.position(), Vec3::new(1.0, 2.0, 3.0), "place");
     for (column, row) in (0..8u8).map(|k| (k % 4, k / 4)) {
         let (x, y) = (f32::from(column), f32::from(row));
-        // FileLoc 90 degrees rows span [-1, 1] on the plane z = 1, the upper one above.
+        // At 90 degrees rows span [-1, 1] on the plane z = 1, the upper one above.
         let w = Vec3::new(x - 1.5, 0.5 - y, 1.0).normalize();
         let found = number(light.intensity(turned(w), &()).y);
         assert_block(found, 1.0 + x + 4.0 * y, "projection");

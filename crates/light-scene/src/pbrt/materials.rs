@@ -109,7 +109,7 @@ impl Reader {
         })
     }
 
-    /// A metal; `prefix` stands before the names of its parameters.
+    /// A metal; `prefix` precedes the names of its parameters.
     fn conductor(&mut self, typed: &Typed<'_>, prefix: &str) -> Surface {
         let parameters = &typed.parameters;
         let alpha = self.facets(typed, prefix);
@@ -144,7 +144,7 @@ impl Reader {
         )
     }
 
-    /// The widths of the microfacet distribution; `prefix` stands before the names of its
+    /// The widths of the microfacet distribution; `prefix` precedes the names of its
     /// parameters.
     fn facets(&mut self, typed: &Typed<'_>, prefix: &str) -> Vec2 {
         let mut roughness = |name| self.plain_number(typed, &format!("{prefix}{name}"));

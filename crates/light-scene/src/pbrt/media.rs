@@ -55,7 +55,7 @@ impl Reader {
         Ok(())
     }
 
-    /// `MediumInterface "inside" "outside"`; one name represents both, an empty one for vacuum.
+    /// `MediumInterface "inside" "outside"`; one name is for both, an empty one for vacuum.
     pub(super) fn medium_interface(
         &mut self,
         at: FileLoc<'_>,
@@ -171,7 +171,7 @@ impl Reader {
     }
 }
 
-/// The same medium in all places.
+/// A homogeneous medium.
 fn everywhere(
     typed: &Typed<'_>,
     coefficients: [Vec3; 2],

@@ -9,8 +9,7 @@ use crate::{Color, Diagnostic, Mesh, Sphere, SphereFront, Surface};
 const AROUND: u16 = 64;
 
 impl Reader {
-    /// A whole sphere that stays round and is asked for light as one; `None` for those that are
-    /// better made of triangles.
+    /// A whole sphere as one primitive; `None` for those that have to be tessellated.
     pub(super) fn whole_sphere(&mut self, typed: &Typed<'_>) -> Result<Option<Sphere>, Diagnostic> {
         let Parts { radius, z, turn } = Parts::of(typed);
         if !(radius > 0.0) {
@@ -34,7 +33,7 @@ impl Reader {
         Ok(sphere.map(|sphere| Sphere { front, ..sphere }))
     }
 
-    /// Whether a sphere, if it emits light, does so evenly and as far as the nearer side shows.
+    /// Whether a sphere, if it is emissive, has uniform emission that is visible on its near side.
     fn is_one_light(&mut self, typed: &Typed<'_>, front: SphereFront) -> bool {
         let Some(light) = self.state.area_light else {
             return true;
@@ -48,13 +47,13 @@ impl Reader {
         is_even && (is_outside || !(lets_light_pass || typed.parameters.has("alpha")))
     }
 
-    /// In pbrt a mirroring transform turns quadrics over, but no meshes.
+    /// In pbrt a mirroring transform swaps front and back of quadrics, but not of meshes.
     pub(super) fn turns_quadrics_over(&self) -> bool {
         self.state.reversed ^ self.mirrors()
     }
 }
 
-/// The part of a sphere that there is.
+/// The part of a sphere that is kept.
 struct Parts {
     radius: f32,
     /// Its lowest and its highest z.

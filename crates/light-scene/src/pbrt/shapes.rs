@@ -69,8 +69,8 @@ impl Reader {
         self.add_mesh(at, mesh)
     }
 
-    /// The material of a shape of this area: the one in force, with the media, the light and the
-    /// holes of the shape.
+    /// The material of a shape of this area: the current one, with the media, the emission and the
+    /// alpha mask of the shape.
     fn shape_material(&mut self, typed: &Typed<'_>, area: impl FnOnce() -> f32) -> MaterialId {
         let material = self.material();
         let material = self.with_media(material);
@@ -84,7 +84,7 @@ impl Reader {
         mesh
     }
 
-    /// A material of its own that emits light, if an area light is in force.
+    /// The material with the emission of the current area light; the same material without one.
     fn with_light(&mut self, material: MaterialId, area: impl FnOnce() -> f32) -> MaterialId {
         let Some(light) = self.state.area_light else {
             return material;
@@ -173,7 +173,7 @@ fn vertices(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
     Ok(mesh)
 }
 
-/// What the renderer relies on.
+/// The guarantees for the renderer.
 fn check(at: FileLoc<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
     let count = mesh.positions.len();
     let outside = mesh

@@ -19,10 +19,10 @@ use crate::image::TexelBudget;
 use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Scene};
 
-/// Blocks of one kind that may be open at a time.
+/// The most open blocks of one kind.
 pub(super) const MOST_BLOCKS: usize = 1 << 16;
 
-/// What the directives so far have built, and the state that the next one acts on.
+/// The scene so far, and the state that the next directive acts on.
 #[derive(Debug, Default)]
 pub(super) struct Reader {
     pub(super) files: Files<'static>,
@@ -62,11 +62,11 @@ pub(super) struct Reader {
 #[derive(Debug)]
 pub(super) struct Saved<T> {
     pub(super) state: T,
-    /// What to say if nothing ends it.
+    /// The error if nothing ends it.
     unclosed: Diagnostic,
 }
 
-/// What `AttributeBegin` saves.
+/// The state that `AttributeBegin` saves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
     pub(super) transform: Mat4,
@@ -92,7 +92,7 @@ impl Reader {
         self.state.transform.determinant() < 0.0
     }
 
-    /// The material in force, which is grey if the file named none.
+    /// The current material, grey if the file named none.
     pub(super) fn material(&mut self) -> MaterialId {
         let scene = &mut self.scene;
         let make = || scene.add_material(Material::diffuse("default", Vec3::splat(0.5)));
@@ -120,7 +120,7 @@ impl Reader {
         [self.saved.len(), self.saved_transforms.len()]
     }
 
-    /// Says something about a place in the file, once for each `what`.
+    /// Adds a warning with a location, once for each `what`.
     pub(super) fn warn(&mut self, at: FileLoc<'_>, what: &str, message: &str) {
         if self.warned.insert(what.to_owned()) {
             let message = format!("{} {message}", shown(what));
@@ -128,7 +128,7 @@ impl Reader {
         }
     }
 
-    /// Names the parameters of a directive that nobody asked for.
+    /// Adds a warning for the unread parameters of a directive.
     pub(super) fn warn_unused(
         &mut self,
         at: FileLoc<'_>,

@@ -5,7 +5,7 @@ use crate::Color;
 /// The textures so far: numbers and colours have names of their own.
 pub(super) type Textures = HashMap<(TextureKind, String), Color>;
 
-/// What a texture gives.
+/// The value type of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum TextureKind {
     /// A number: of a colour the first channel counts.

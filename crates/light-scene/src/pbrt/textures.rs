@@ -62,7 +62,7 @@ impl Reader {
         self.lookup(typed, name, default, TextureKind::Float, f32::INFINITY)
     }
 
-    /// A number where there is no place for a texture.
+    /// A number, for a parameter that takes no texture.
     pub(super) fn plain_number(&mut self, typed: &Typed<'_>, name: &str) -> Option<f32> {
         if typed.parameters.texture(name).is_none() {
             return typed
@@ -122,7 +122,7 @@ impl Reader {
         })
     }
 
-    /// Colours put together place by place, or by their means where their images do not lie alike.
+    /// Combines colours texel by texel, or by their means if their mappings differ.
     fn baked<const N: usize>(
         &mut self,
         typed: &Typed<'_>,

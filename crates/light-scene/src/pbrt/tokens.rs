@@ -17,7 +17,7 @@ pub(super) struct Tokens<'a> {
 pub(super) enum Token<'a> {
     /// A directive, a number, `true` or `false`.
     Word(&'a str),
-    /// What stood in quotes.
+    /// A quoted string.
     Quoted(Cow<'a, str>),
     /// `[`
     Open,
@@ -50,7 +50,7 @@ impl<'a> Tokens<'a> {
         self.clone().next()
     }
 
-    /// The next token; none at the end of the file.
+    /// The next token; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<Token<'a>>, Diagnostic> {
         self.skip_blanks();
         let Some(first) = self.rest.chars().next() else {
@@ -112,7 +112,7 @@ impl<'a> Tokens<'a> {
         Ok(numbers)
     }
 
-    /// Says that something else was expected than what came.
+    /// The error that something else was expected.
     pub(super) fn expected(&self, what: &str, found: Option<&Token<'_>>) -> Diagnostic {
         let found = match found {
             None => "the end of the file".to_owned(),

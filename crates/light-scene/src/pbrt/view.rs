@@ -1,4 +1,4 @@
-//! Who looks, and at how many pixels.
+//! The camera and the film.
 
 use super::file_loc::Typed;
 use super::lights::fov;
@@ -47,7 +47,7 @@ impl Reader {
 
     pub(super) fn film(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
         let Typed { at, parameters, .. } = typed;
-        // Where the image goes is said on the command line.
+        // The command line gives the output file.
         parameters.accept("filename");
         let size = |name, default| parameters.count(name, LONGEST).unwrap_or(default);
         let resolution = [size("xresolution", 1280), size("yresolution", 720)];

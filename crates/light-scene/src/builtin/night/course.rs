@@ -1,6 +1,6 @@
 use crate::glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
-/// The way of the canal: from the origin toward -z, bending to the right on a circle.
+/// The path of the canal: from the origin toward -z, then a circular bend to the right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     /// Radius of the bend along the middle of the canal.
@@ -27,7 +27,7 @@ impl Bank {
 }
 
 impl Course {
-    /// The place `along` metres down the middle and `across` metres to the right of it: x to the
+    /// The frame `along` metres down the middle and `across` metres to the right of it: x to the
     /// right, y up, z back along the canal.
     pub(super) fn at(&self, along: f32, across: f32) -> Affine3A {
         let (sin, cos) = (along / self.radius).sin_cos();
@@ -42,7 +42,7 @@ impl Course {
         }
     }
 
-    /// A place on a bank, `away` metres from the middle, that faces the water: z toward it, y up, x
+    /// A frame on a bank, `away` metres from the middle, that faces the water: z toward it, y up, x
     /// to the right of who looks from the water.
     pub(super) fn facing_water(&self, bank: Bank, along: f32, away: f32) -> Affine3A {
         let at = self.at(along, bank.sign() * away);

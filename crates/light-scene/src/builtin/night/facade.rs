@@ -4,7 +4,7 @@ use crate::MaterialId;
 use crate::builtin::modeller::Modeller;
 use crate::glam::Affine3A;
 
-/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `transform`, with holes
+/// A wall from `x[0]` to `x[1]` and `y[0]` to `y[1]` in the plane z = 0 of `transform`, with gaps
 /// for the openings of one floor, which lie side by side from left to right within it.
 pub(super) fn wall(
     modeller: &mut Modeller,

@@ -7,7 +7,7 @@ use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};
 
 impl House {
-    /// Builds what stands on a front of height `top`.
+    /// Builds the gable on a front of height `top`.
     pub(super) fn gable(
         &self,
         modeller: &mut Modeller,

@@ -7,14 +7,14 @@ use crate::glam::{Affine3A, Vec3};
 /// From one lantern to the next along a quay, in metres.
 pub(super) const SPACING: f32 = 9.0;
 
-/// Where a lantern's post stands, in metres behind the quay wall.
+/// Distance of a lantern's post behind the quay wall, in metres.
 const BEHIND_WALL: f32 = 0.9;
 
 /// Height of a lantern's glass above its foot.
 pub(super) const GLASS: f32 = 3.1;
 
-/// The places of the lanterns of one bank, along the middle of the canal; none where a bridge comes
-/// ashore.
+/// The positions of the lanterns of one bank, along the middle of the canal; none where a bridge
+/// comes ashore.
 pub(super) fn places(course: &Course, bank: Bank) -> Vec<f32> {
     let along = |k: u8| course.along(bank, WATER, f32::from(k) * SPACING - 8.0);
     let free = |at: &f32| BRIDGES.iter().all(|bridge| (at - bridge).abs() > 4.2);

@@ -3,7 +3,7 @@
 //! boats.
 //!
 //! Twenty thousand emissive triangles, most of them hidden from any one point by houses, bridges
-//! and boats, none of them far brighter than the rest: what a light hierarchy is for.
+//! and boats, none of them far brighter than the rest: the case for a light hierarchy.
 
 mod boat;
 mod bridge;

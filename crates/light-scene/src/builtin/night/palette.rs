@@ -60,7 +60,7 @@ impl Palette {
         let tiles = matte("tiles", 0.12, 0.06, 0.05);
         let paint = matte("white paint", 0.68, 0.67, 0.62);
         let curtain = matte("curtain", 0.50, 0.40, 0.33);
-        // Neither lets through what it does not reflect: the deep and the dark room swallow it.
+        // Neither transmits light: what is not reflected is absorbed.
         let mut shiny = |name: &str, eta: f32, alpha: f32| {
             let surface = Surface::Conductor {
                 eta: Vec3::splat(eta),

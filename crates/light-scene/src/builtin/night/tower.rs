@@ -6,7 +6,7 @@ use super::{FRONTS, QUAY};
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};
 
-/// A church tower behind the houses of the bend: the mark by which one knows the town.
+/// A church tower behind the houses of the bend.
 pub(super) fn tower(modeller: &mut Modeller, palette: &Palette, course: &Course) {
     let mut transform = course.facing_water(Bank::Left, 72.0, FRONTS + 19.0);
     transform.translation.y += QUAY;

@@ -8,7 +8,7 @@ use crate::glam::Vec3;
 /// Radius of a bulb.
 const BULB: f32 = 0.04;
 
-/// Where trees stand along each quay.
+/// Positions of the trees along each quay.
 const PLACES: [(Bank, f32); 9] = [
     (Bank::Left, 3.5),
     (Bank::Left, 24.0),
@@ -29,7 +29,7 @@ pub(super) struct Branch {
     radius: f32,
 }
 
-/// Bare trees along the quays; what comes back is their branches without the trunks.
+/// Adds bare trees along the quays; returns their branches without the trunks.
 pub(super) fn trees(
     modeller: &mut Modeller,
     palette: &Palette,
@@ -76,7 +76,7 @@ fn grow(
             let angle = turn + core::f32::consts::TAU * f32::from(k) / f32::from(forks);
             let aside = u * angle.cos() + v * angle.sin();
             let spread = dice.between(0.45, 0.75);
-            // Branches seek the light.
+            // Branches grow upward.
             let way = way.normalize_or(Vec3::Y) + aside * spread + Vec3::Y * 0.18;
             let length = if age == 0 {
                 1.5

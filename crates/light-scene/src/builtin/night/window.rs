@@ -47,7 +47,7 @@ impl Opening {
                 let drawn = dice.chance(0.35);
                 let columns = if self.x[1] - self.x[0] > 2.0 { 4 } else { 2 };
                 self.panes(modeller, transform, [columns, 3], |_, row| {
-                    // Lamps hang high, and what stands in the room darkens the lower panes.
+                    // Lamps hang high, and furniture darkens the lower panes.
                     panes[if row == 0 { 2 } else { dice.pick(&[0, 0, 1]) }]
                 });
                 self.bars(modeller, palette, transform, [columns, 3]);
@@ -79,7 +79,7 @@ impl Opening {
         }
     }
 
-    /// The four sides of the hole.
+    /// The four sides of the opening.
     fn reveal(&self, modeller: &mut Modeller, material: MaterialId, transform: &Affine3A) {
         let ([x0, x1], [y0, y1]) = (self.x, self.y);
         let around = [(x0, y0), (x0, y1), (x1, y1), (x1, y0), (x0, y0)];

@@ -13,9 +13,9 @@ pub(super) struct Description {
     specular: Vec3,
     emitted: Vec3,
     pub(super) emitted_map: Option<ColorImage>,
-    /// `d`: how much of the surface is there.
+    /// `d`: the opacity.
     dissolve: Option<f32>,
-    /// `Tr`: how much is not.
+    /// `Tr`: the transparency.
     transparency: Option<f32>,
     pub(super) dissolve_map: Option<ColorImage>,
     index_of_refraction: f32,
@@ -24,7 +24,7 @@ pub(super) struct Description {
     illumination: u8,
 }
 
-/// What a description is nearest to.
+/// The closest surface model of a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Finish {
     Matt,
@@ -53,7 +53,7 @@ impl Description {
         }
     }
 
-    /// Takes in one line; whether its keyword is understood.
+    /// Reads one line; returns whether its keyword is supported.
     pub(super) fn parameter(
         &mut self,
         keyword: &str,
@@ -69,7 +69,7 @@ impl Description {
             "Pr" => self.roughness = Some(share(line, "a roughness")?),
             "Pm" => self.metallic = share(line, "a metalness")?,
             "illum" => self.illumination = illumination(line)?,
-            // Ambient light has no place where light is traced; the exponent goes with the gloss of
+            // Ambient light has no meaning in path tracing; the exponent belongs to the gloss of
             // `Ks`.
             "Ka" | "map_Ka" | "Ns" => {}
             _ => return Ok(false),
@@ -77,7 +77,7 @@ impl Description {
         Ok(true)
     }
 
-    /// What of the description does not count, in words.
+    /// The ignored parts of the description, for a warning.
     pub(super) fn simplifications(&self) -> impl Iterator<Item = &'static str> {
         let finish = self.finish();
         let has_diffuse =
@@ -141,7 +141,7 @@ impl Description {
 
     fn alpha(&self) -> Option<Alpha> {
         let stated = self.dissolve.or(self.transparency.map(|tr| 1.0 - tr));
-        // What glass does not hold back is light that passes it.
+        // The transparency of glass is its transmission, not an alpha mask.
         let is_glass = self.finish() == Finish::Glass;
         let scale = Vec3::splat(stated.filter(|_| !is_glass).unwrap_or(1.0));
         let opacity = match self.dissolve_map {

@@ -1,4 +1,4 @@
-//! Material libraries: which of MTL's many parameters mean what here.
+//! Material libraries: the meaning of MTL parameters in this crate.
 
 mod description;
 mod texture;
@@ -12,7 +12,7 @@ use crate::{Diagnostic, Files, MaterialId, Scene};
 use description::Description;
 use texture::{Content, Textures};
 
-/// Adds the materials of a library to the scene; what comes back is their names and ids.
+/// Adds the materials of a library to the scene; returns their names and ids.
 pub(super) fn parse_mtl(
     path: &Path,
     text: &str,
@@ -36,7 +36,7 @@ struct Library<'a> {
     textures: Textures<'a>,
     /// The materials so far, each with where it starts.
     described: Vec<(Description, Diagnostic)>,
-    /// What a warning has said already.
+    /// The warnings so far.
     warned: BTreeSet<(PathBuf, String)>,
 }
 

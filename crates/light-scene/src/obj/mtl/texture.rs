@@ -25,7 +25,7 @@ const OPTIONS: [(&str, usize); 14] = [
     ("-type", 1),
 ];
 
-/// What a texture says of a surface.
+/// The quantity that a texture gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Content {
     Color,
@@ -44,7 +44,7 @@ pub(super) struct Textures<'a> {
 /// What a line names.
 #[derive(Debug, Default)]
 pub(super) struct Texture {
-    /// None where its kind is not read.
+    /// `None` if its format is not supported.
     pub(super) image: Option<ColorImage>,
     pub(super) warnings: Vec<Diagnostic>,
 }
@@ -101,7 +101,7 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// Takes the options that stand before a file name.
+/// Reads the options before a file name.
 fn mapping(
     line: &mut Line<'_>,
     warnings: &mut Vec<Diagnostic>,
