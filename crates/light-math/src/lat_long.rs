@@ -1,5 +1,5 @@
-//! The latitude-longitude map between the unit square and the sphere, in which environment maps
-//! come.
+//! The latitude-longitude map between the unit square and the sphere, the usual layout of
+//! environment maps.
 //!
 //! `u` in `[0, 1)` runs along a row, `v` in `[0, 1]` from the top row (+y) to the bottom row (-y).
 //! With `t = pi v` and `p = 2 pi u` the direction is `(sin t sin p, cos t, -sin t cos p)`: the

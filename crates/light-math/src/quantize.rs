@@ -1,7 +1,7 @@
-//! Cosines and boxes in few bits, rounded so that what they bound only ever grows.
+//! Cosines and boxes in few bits, rounded conservatively: the decoded bounds contain the original.
 //!
-//! "Only ever" holds for the decoded floats, not just for the ideal numbers: an encoder that finds
-//! its code to decode to the wrong side takes the next one. In the cases where plain rounding is on
+//! This holds for the decoded floats, not just for exact numbers: an encoder whose code decodes to
+//! the wrong side takes the next one. In the cases where plain rounding is on
 //! the right side the codes are those of `[PBRT4]`, section 12.6.3.
 
 use glam::Vec3;

@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use crate::float::floor;
 use crate::{equal_area, lat_long};
 
-/// How a square or rectangular image is laid around the sphere.
+/// The map from an image to the sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SphereMap {
@@ -59,9 +59,9 @@ impl SphereMap {
     }
 }
 
-/// An image of the sphere, its texels wherever the caller has them.
+/// An image of the sphere, with texels in the storage of the caller.
 ///
-/// `F` answers the texel at column `x` and row `y`, counted from the top left: for a slice,
+/// `F` returns the texel at column `x` and row `y`, counted from the top left: for a slice,
 /// `|x, y| texels[(y * columns + x) as usize]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereImage<F> {
@@ -83,7 +83,7 @@ impl<F> SphereImage<F> {
         Ok(Self { map, size, texel })
     }
 
-    /// How the image lies around the sphere.
+    /// The map of the image.
     #[inline]
     #[must_use]
     pub const fn map(&self) -> SphereMap {
@@ -141,7 +141,7 @@ impl core::fmt::Display for SphereImageError {
 
 impl core::error::Error for SphereImageError {}
 
-/// Whether an image may have the size.
+/// Checks the size of an image.
 pub(crate) fn check(map: SphereMap, size: [u32; 2]) -> Result<(), SphereImageError> {
     if size.contains(&0) {
         return Err(SphereImageError::Empty);

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Bytes that are taken to be there where the system does not say.
+/// Bytes that are assumed to be available if the system does not report them.
 pub(crate) const ASSUMED: u64 = 8 << 30;
 
 /// Bytes of memory that this process can still take without swapping: the least of what the machine
@@ -25,7 +25,7 @@ pub(crate) fn available_memory() -> u64 {
     limits.min().unwrap_or(ASSUMED)
 }
 
-/// What `/proc/meminfo` says.
+/// The value of `/proc/meminfo`.
 fn of_machine(meminfo: &str) -> Option<u64> {
     let kilobytes = after(meminfo, "MemAvailable:")?;
     kilobytes.checked_mul(1024)
@@ -41,7 +41,7 @@ fn group_folders(cgroup: &str) -> Vec<PathBuf> {
     folders.map(Path::to_path_buf).collect()
 }
 
-/// What a control group's files say: its limit, less what it uses, but for the files in its cache.
+/// The limit of a control group minus its use without the file cache.
 fn of_group(max: &str, current: &str, stat: &str) -> Option<u64> {
     let max: u64 = max.trim().parse().ok()?;
     let used: u64 = current.trim().parse().ok()?;
@@ -49,7 +49,7 @@ fn of_group(max: &str, current: &str, stat: &str) -> Option<u64> {
     Some(max.saturating_sub(used.saturating_sub(cached)))
 }
 
-/// What `/proc/self/limits` and `/proc/self/statm` say about addresses.
+/// The address space limit of `/proc/self/limits` minus the use of `/proc/self/statm`.
 fn of_addresses(limits: &str, statm: &str) -> Option<u64> {
     /// Linux has larger ones on few processors; there less is counted as taken.
     const PAGE: u64 = 4096;

@@ -5,13 +5,12 @@ use lights::sources::{Light, PdfCoverage};
 
 use crate::World;
 
-/// How well `sampler` chooses among the lights of `world`: the exact relative variance of one
-/// choice, the median over points spread over the scene's triangles and spheres. Every light counts
-/// by the light of its middle, with nothing in the way; 0 would be a choice in proportion to it.
-/// `None` where no point is lit.
+/// The exact relative variance of one choice by `sampler` among the lights of `world`: the median
+/// over points on the triangles and spheres of the scene. The contribution of a light is that of
+/// its middle without occlusion; 0 means choices in proportion to it. `None` if no point is lit.
 #[must_use]
 pub(crate) fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
-    /// Lights are looked at this often in all, so that the answer takes about a second.
+    /// Light evaluations in all, so that the result takes about a second.
     const LOOKS: usize = 2_000_000;
     const POINTS: usize = 64;
     let primitives = world.triangle_count() + world.sphere_count();

@@ -5,19 +5,19 @@ use sha2::{Digest, Sha256};
 
 use crate::file_checksum::hex;
 
-/// A number of 128 bits that represents all of a value: every field of every struct in it, every
-/// element, every bit of every number. Values that differ anywhere have different digests, on all
+/// A 128-bit digest of a value: of every field of every struct in it, every element, every bit of
+/// every number. Values that differ anywhere have different digests, on all
 /// platforms and for any number of threads.
 pub(crate) fn content_digest(value: &impl Serialize) -> String {
     let mut content = Content(Sha256::new());
-    // Lists whose length is not known beforehand are the only failure, and no scene holds one.
+    // Lists of unknown length are the only failure, and no scene has one.
     let written = value.serialize(&mut content);
     debug_assert!(written.is_ok(), "a list of unknown length");
     hex(&content.0.finalize()[..16])
 }
 
-/// Takes a value apart into bytes: numbers as they are, the lowest byte first; lists and texts
-/// behind their length; variants behind their name. So no two values of a type have the same bytes.
+/// Serialises a value into bytes: numbers in little-endian order; lists and texts after their
+/// length; variants after their name. No two values of a type have the same bytes.
 struct Content(Sha256);
 
 type Written = Result<(), fmt::Error>;

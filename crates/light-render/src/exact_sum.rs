@@ -2,11 +2,11 @@ use core::ops::{Add, AddAssign};
 
 use lights::glam::Vec3;
 
-/// A sum of colours that is the same in whatever order and grouping its terms are added: so that
-/// parts of a picture can be rendered anywhere and put together to the same bits.
+/// A sum of colours that does not depend on the order and grouping of its terms, so that parts of a
+/// picture can be rendered anywhere and merged to the same bits.
 ///
 /// Each channel counts steps of 2^-48 in 128 bits: terms smaller than that are lost. Terms of more
-/// than 2^46 count as 2^46, so that no sum of 2^32 terms ends before all bits.
+/// than 2^46 count as 2^46, so that no sum of 2^32 terms overflows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExactSum([i128; 3]);
 
@@ -20,7 +20,7 @@ impl ExactSum {
         Self(steps)
     }
 
-    /// How many steps each channel counts.
+    /// The steps of each channel.
     #[must_use]
     pub const fn steps(self) -> [i128; 3] {
         self.0

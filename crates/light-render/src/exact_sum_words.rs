@@ -1,5 +1,5 @@
-/// How many integers hold the sum of a channel, and how many of them are always there; the others
-/// are 0 if they are not.
+/// The number of integers of the sum of a channel, and how many of them are always stored; omitted
+/// ones are 0.
 pub(crate) const WORDS: usize = 4;
 pub(crate) const LOW_WORDS: usize = 2;
 
@@ -13,7 +13,7 @@ pub(crate) fn words(steps: i128) -> [u32; WORDS] {
     core::array::from_fn(|word| (steps >> (32 * word)) as u32)
 }
 
-/// The sum that [`words`] has cut into integers.
+/// The inverse of [`words`].
 pub(crate) fn from_words(words: [u32; WORDS]) -> i128 {
     let mut steps = 0;
     for (i, word) in words.into_iter().enumerate() {

@@ -2,15 +2,15 @@ use core::fmt::Write;
 
 use sha2::{Digest, Sha256};
 
-/// The note of a file that holds its checksum.
+/// The attribute of a file with its checksum.
 pub(crate) const CHECKSUM: &str = "lights.checksum";
 
-/// What represents the checksum while there is none.
+/// Placeholder of the checksum while it is computed.
 pub(crate) const NO_CHECKSUM: &str =
     "0000000000000000000000000000000000000000000000000000000000000000";
 
-/// Replaces [`NO_CHECKSUM`] in the note [`CHECKSUM`] of an OpenEXR file by the SHA-256 of all
-/// bytes; `false` if there is no such note.
+/// Replaces [`NO_CHECKSUM`] in the attribute [`CHECKSUM`] of an OpenEXR file by the SHA-256 of all
+/// bytes; `false` if there is no such attribute.
 pub(crate) fn seal(bytes: &mut [u8]) -> bool {
     let Some(start) = find(bytes) else {
         return false;
@@ -41,7 +41,7 @@ fn find(bytes: &[u8]) -> Option<usize> {
     (start + NO_CHECKSUM.len() <= bytes.len()).then_some(start)
 }
 
-/// Two digits of base 16 a byte.
+/// Two hexadecimal digits per byte.
 pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         // Writing to a string does not fail.

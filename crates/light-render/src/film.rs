@@ -2,7 +2,7 @@ use lights::glam::Vec3;
 
 use crate::{ExactSum, FilmRow};
 
-/// The picture while it is made: the sum of the samples of every pixel, rows from the top.
+/// The film: the sum of the samples of every pixel, rows from the top.
 ///
 /// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no
 /// other. A pixel takes [`BYTES_PER_PIXEL`](Self::BYTES_PER_PIXEL).
@@ -14,8 +14,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// What a pixel takes in rows where a sum of a channel reaches 65536; 24 bytes in others.
-    /// Beyond sums of 2^31, which no scene that makes sense has, 48.
+    /// Bytes per pixel of rows where a sum of a channel reaches 65536; others take 24, and rows
+    /// with sums above 2^31, which no sensible scene has, 48.
     pub(crate) const BYTES_PER_PIXEL: u64 = 30;
 
     /// A black film of `width` by `height` pixels.
@@ -99,7 +99,7 @@ impl Film {
 
 impl PartialEq for Film {
     fn eq(&self, other: &Self) -> bool {
-        // Rows of equal sums may differ in the room that they have for them.
+        // Rows of equal sums may differ in their storage.
         self.resolution() == other.resolution()
             && self.samples == other.samples
             && self.sums().eq(other.sums())

@@ -18,7 +18,7 @@ enum HighWords {
     Zero,
     /// All fit into 16 bits.
     Narrow(Vec<[i16; 3]>),
-    /// They need their room.
+    /// They need all bits.
     Wide(Vec<[i64; 3]>),
 }
 
@@ -80,7 +80,7 @@ impl HighWords {
         }
     }
 
-    /// Sets the words of pixel `x` of `width`, with more room for all where these do not fit.
+    /// Sets the words of pixel `x` of `width`, with wider storage for all where these do not fit.
     #[cold]
     fn set(&mut self, x: usize, high: [i64; 3], width: usize) {
         let narrow = narrowed(high);

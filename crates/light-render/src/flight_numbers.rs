@@ -1,7 +1,7 @@
-/// The random numbers of a flight through media: as many as it takes, each in `[0, 1)`.
+/// The random numbers of a flight through media: an unbounded sequence in `[0, 1)`.
 ///
-/// The first is stratified over the samples of the pixel; the others are independent, as nobody
-/// knows how many a tracker asks for.
+/// The first is stratified over the samples of the pixel; the others are independent,
+/// because a tracker uses an unknown number of them.
 ///
 /// # Source
 /// `[Steele2014]`, SplitMix64.

@@ -54,7 +54,7 @@ pub enum AnyLightSamplerError {
 }
 
 impl SamplerKind {
-    /// The kind that a program uses unless told otherwise.
+    /// The default kind of the program.
     pub const DEFAULT: Self = Self::Bvh;
 
     /// All kinds.
@@ -159,7 +159,7 @@ impl AnyLightSampler {
     }
 }
 
-/// The power that bounds tell of.
+/// The power of the bounds.
 fn power(extent: &LightExtent) -> f32 {
     match extent {
         LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) => bounds.phi,

@@ -23,7 +23,7 @@ pub struct RenderSettings {
     pub path: PathSettings,
 }
 
-/// How far a rendering has come, told after each pass over the picture.
+/// The progress of a rendering, reported after each pass over the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The share of the work that is done, in `[0, 1]`.
@@ -111,7 +111,7 @@ pub fn render<S: LightSampler + Sync>(
 /// The end of the pass that begins at sample `next`: passes double, and shrink to what the time
 /// limit leaves.
 fn pass_end(settings: &RenderSettings, next: u32, elapsed: Duration) -> u32 {
-    /// Longer passes would tell the progress too rarely.
+    /// Longer passes would report the progress too rarely.
     const LONGEST: u32 = 8;
     let before = next - settings.samples.start;
     let mut count = before.clamp(1, LONGEST);

@@ -18,7 +18,7 @@ pub struct Surface {
     pub ns: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
-    /// What it is a point of.
+    /// The primitive.
     pub primitive: PrimitiveId,
 }
 
@@ -100,7 +100,7 @@ impl Surface {
         }
     }
 
-    /// The query that light samplers and lights answer at this point, with the normals turned to
+    /// The context for light samplers and lights at this point, with the normals turned to
     /// the side of `wo`.
     #[inline]
     #[must_use]

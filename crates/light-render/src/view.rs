@@ -7,7 +7,7 @@ use lights::math::warp;
 
 use crate::Ray;
 
-/// A camera before a raster of square pixels: turns places in the picture into rays.
+/// A camera with a raster of square pixels: maps points of the picture to rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     camera: Camera,
@@ -105,8 +105,8 @@ impl View {
         (self.width, self.height)
     }
 
-    /// The ray through the place `film` of the picture, in pixels from its top left corner, and
-    /// through the place of the lens that `u_lens` in `[0, 1)^2` represents.
+    /// The ray through the point `film` of the picture, in pixels from its top left corner, and
+    /// through the point of the lens that `u_lens` in `[0, 1)^2` chooses.
     #[inline]
     #[must_use]
     pub fn ray(&self, film: Vec2, u_lens: Vec2) -> Ray {

@@ -5,11 +5,11 @@ use lights::sources::{MediumId, Rgb};
 
 use crate::Ray;
 
-/// The media of a world, and what rays do in them.
+/// The media of a world: transmittance and tracking along rays.
 #[derive(Debug)]
 pub(crate) struct WorldMedia {
     media: Vec<AnyMedium<Rgb>>,
-    /// The medium in which the camera stands.
+    /// The medium around the camera.
     pub(crate) camera: Option<MediumId>,
     /// Whether rays can pass through any surface unchanged.
     pub(crate) have_interfaces: bool,
@@ -39,7 +39,7 @@ impl WorldMedia {
         self.media.get(id?.index() as usize)
     }
 
-    /// An unbiased estimate of the share of light that is left after `distance` along `ray`.
+    /// An unbiased estimate of the transmittance over `distance` along `ray`.
     #[inline]
     pub(crate) fn transmittance(
         &self,

@@ -52,8 +52,7 @@ impl WorldMesh {
 }
 
 impl From<Mesh> for WorldMesh {
-    /// Vertices that triangles hardly share are stored once a triangle, so that nobody has to look
-    /// up which they are.
+    /// Vertices that triangles hardly share are stored per triangle, which saves the index lookup.
     fn from(mesh: Mesh) -> Self {
         let list = mesh.indices;
         let lies_apart = |vertex_bytes: usize, vertices: usize| {
@@ -84,7 +83,7 @@ impl From<Mesh> for WorldMesh {
     }
 }
 
-/// What the vertices have, three for each triangle.
+/// Vertex attributes, three for each triangle.
 fn of_triangles<T: Copy, L: FromIterator<T>>(vertices: &[T], triangles: &[[u32; 3]]) -> L {
     let corners = triangles.as_flattened().iter();
     corners.map(|&vertex| vertices[vertex as usize]).collect()

@@ -13,12 +13,12 @@ use super::window::Window;
 /// `Vec<u64>`, `&[u64]`, `[u64; M]`, one for each weight; sum `y * nx + x` counts all texels up to
 /// column x and row y.
 ///
-/// The sums are whole numbers, in a unit that is a power of two and 2^-62 of the total or so. So a
+/// The sums are whole numbers, in a unit that is a power of two of about 2^-62 of the total. A
 /// sum over texels is exact: never negative, zero only where all weights are, and the same in
 /// whatever order it was built. A weight below the unit counts as one unit.
 ///
 /// # Source
-/// `[Crow1984]`; whole numbers are ours.
+/// `[Crow1984]`; whole numbers are an addition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SummedAreaTable<S> {
     sums: S,

@@ -1,6 +1,6 @@
 use glam::Vec2;
 
-/// An axis-aligned rectangle of the unit square: the part of a table that a query looks at.
+/// An axis-aligned rectangle of the unit square: the part of a table that a query is restricted to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Lower corner.

@@ -1,4 +1,4 @@
-//! The eye of the CIE 1931 standard observer: from spectra to XYZ and luminance.
+//! The CIE 1931 standard observer: from spectra to XYZ and luminance.
 
 use glam::Vec3;
 
@@ -91,7 +91,7 @@ pub(super) const fn cubic(t: f64) -> [f64; 4] {
     ]
 }
 
-/// Cubics through four neighbours, clamped to what an eye can do.
+/// Cubics through four neighbours, clamped to be non-negative.
 const fn interpolate(rows: &[[f64; 3]; 95]) -> [Vec3; SAMPLES] {
     let mut out = [Vec3::ZERO; SAMPLES];
     let mut i = 0;

@@ -1,5 +1,5 @@
-//! Spectra: functions of wavelength, samples of them, and the way to and from numbers that people
-//! use.
+//! Spectra: functions of wavelength, samples of them, and conversions to and from colours and
+//! units.
 //!
 //! Wavelengths are nanometres, from [`cie::LAMBDA_MIN`] to [`cie::LAMBDA_MAX`]; a spectrum is 0
 //! outside. Emission spectra are per nanometre.

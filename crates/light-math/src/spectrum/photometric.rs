@@ -1,10 +1,10 @@
-//! Light as people state it: in lumen, candela, nit and lux, and the way to watts.
+//! Photometric units (lumen, candela, nit, lux) and their conversion to watts.
 //!
 //! A photometric quantity is the radiometric one weighted by the luminous efficiency `V` of the
 //! eye, times [`K_M`]. A light whose spectrum has the shape `s` gives [`luminous`]`(s)` photometric
 //! units for each unit of its scale, so the scale that gives what the user asked for is the
-//! quotient. What the light does with direction (`4 pi` sr of a point light, `pi` of a Lambertian
-//! surface) is for the light to know.
+//! quotient. The factor of the directions (`4 pi` sr of a point light, `pi` of a Lambertian
+//! surface) belongs to the light.
 //!
 //! In RGB, where white has `Y` = 1 and represents one watt, a colour gives `K_M * Y` photometric
 //! units. A spectral picture has the brightness of an RGB picture of the same lamps when its XYZ
@@ -17,7 +17,7 @@ use super::cie::{LAMBDA_MIN, OBSERVER};
 /// The luminous efficacy of a monochromatic light of 555 nm, in lm/W.
 pub const K_M: f32 = 683.0;
 
-/// Radiant power, in W: what the eye does not weigh.
+/// Radiant power, in W.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Watt(pub f32);
@@ -78,7 +78,7 @@ impl Lux {
     }
 }
 
-/// What a spectral quantity per nm amounts to in photometric units: W/nm to lm, W/(sr nm) to cd,
+/// A spectral quantity per nm in photometric units: W/nm to lm, W/(sr nm) to cd,
 /// and so on.
 #[must_use]
 pub fn luminous(spectrum: &impl Spectrum) -> f32 {
@@ -93,7 +93,7 @@ pub fn radiant(spectrum: &impl Spectrum) -> f32 {
 
 /// The luminous efficacy of radiation of a spectrum, in lm/W: 0 without visible light, 683 at most.
 ///
-/// Only what lies between 360 and 830 nm counts as power.
+/// Only power between 360 and 830 nm counts.
 #[must_use]
 pub fn efficacy(spectrum: &impl Spectrum) -> f32 {
     let (luminous, radiant) = integrals(spectrum);

@@ -3,10 +3,10 @@ use glam::Vec3;
 use super::uplift::{Uplift, strength};
 use super::{Daylight, SigmoidPolynomial, Spectrum};
 
-/// A smooth spectrum without upper end, by an RGB colour.
+/// A smooth unbounded spectrum of an RGB colour.
 ///
-/// Under the colour space's illuminant it has that colour: what an illuminant is multiplied by, or
-/// the coefficient of a medium.
+/// Under the colour space's illuminant it has that colour. It is a factor of an illuminant, or the
+/// coefficient of a medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RgbUnbounded {

@@ -2,9 +2,9 @@ use glam::Vec3;
 
 use super::SigmoidPolynomial;
 
-/// The way from a colour to a smooth spectrum of that colour.
+/// Converts a colour to a smooth spectrum of that colour.
 ///
-/// Emission has no upper end, so only the colour matters, not its strength: a colour is a spectrum
+/// Emission has no upper bound, so that only the chromaticity matters: a colour is a spectrum
 /// between 0 and 1 whose largest RGB component is 1/2, times a factor. Grey is the constant
 /// spectrum 1/2.
 pub trait Uplift {

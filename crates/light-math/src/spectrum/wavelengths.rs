@@ -3,7 +3,7 @@ use crate::float::{exp, ln};
 
 /// The `N` wavelengths that a path carries, with the density of each.
 ///
-/// The first is the one that may decide where the path goes; the others ride along until
+/// The first may decide the direction of the path; the others are carried along until
 /// [`terminate_secondary`](Self::terminate_secondary).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledWavelengths<const N: usize> {

@@ -1,4 +1,4 @@
-//! Distances along a ray, even in the angle under which a point sees them.
+//! Equiangular sampling: distances along a ray, uniform in the angle seen from a point.
 
 use crate::float::{atan2, sin_cos};
 use glam::Vec3;
@@ -6,7 +6,7 @@ use glam::Vec3;
 /// The least distance of a point from the ray: its square is still a normal number.
 const SMALLEST_DIST: f32 = 2e-19;
 
-/// A part of a ray seen from a point beside it, such as a light in a medium.
+/// A segment of a ray seen from a point off the ray, such as a light in a medium.
 ///
 /// # Source
 /// `[Kulla2012]`, equations 4 to 7, with angles counted from the near end, so that they keep their

@@ -1,7 +1,7 @@
 //! Maps from uniform random numbers to densities, each with its density and its inverse.
 //!
-//! Every module holds the trio `sample`, `pdf`, `invert`; a shape whose set-up is worth keeping
-//! between the three is a type with methods of these names. Random numbers `u` are in `[0, 1)`; a
+//! Every module holds the trio `sample`, `pdf`, `invert`; a shape with a costly set-up is a
+//! type with methods of these names. Random numbers `u` are in `[0, 1)`; a
 //! sample never has zero density, at both ends of that range too. Maps compose: the inverse of one
 //! feeds another, so that for example the corners of the square may be weighted by [`bilinear`]
 //! before they go through any other map.

@@ -1,9 +1,9 @@
 use lights::glam::Vec2;
 
-/// Where a ray meets the primitives of one hierarchy first.
+/// The first hit of a ray in one hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BvhHit {
-    /// Which primitive.
+    /// The number of the primitive.
     pub(super) number: u32,
     /// Distance along the ray.
     pub(super) t: f32,

@@ -114,7 +114,7 @@ impl Instances {
     }
 
     /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts.
-    // Kept out of the code that scenes without instances run.
+    // Not inlined: most scenes have no instances.
     #[inline(never)]
     pub(super) fn closest(
         &self,

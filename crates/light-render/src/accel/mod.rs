@@ -23,10 +23,10 @@ pub use instance_transform::InstanceTransform;
 use instances::Instances;
 pub use instances::Prototype;
 
-/// Where a ray meets the scene first.
+/// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// What it meets.
+    /// The primitive.
     pub primitive: PrimitiveId,
     /// Distance along the ray, in scene units.
     pub t: f32,

@@ -24,8 +24,8 @@ struct Leaf {
     radius: f32,
 }
 
-/// The part of a line inside of a sphere, in double precision: differences of squares leave little
-/// of large or distant spheres.
+/// The part of a line inside of a sphere, in double precision: differences of squares lose digits
+/// for large or distant spheres.
 struct Chord {
     direction: DVec3,
     /// From the centre to the middle of the chord.
@@ -62,7 +62,7 @@ impl SphereBvh {
 
     /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts, by sphere and octahedral
     /// coordinates. Of the sphere `from`, on which the ray starts, only the opposite side is hit.
-    // Kept out of the code that scenes without spheres run.
+    // Not inlined: most scenes have no spheres.
     #[inline(never)]
     pub(super) fn closest(
         &self,
@@ -128,7 +128,7 @@ impl SphereBvh {
 }
 
 impl Leaf {
-    /// What the line of `ray` and the sphere share.
+    /// The chord of the line of `ray` in the sphere.
     #[inline]
     fn chord(&self, ray: &Ray) -> Option<Chord> {
         let [origin, direction] = [ray.origin, ray.direction].map(|v| v.as_dvec3());

@@ -38,7 +38,7 @@ impl Candidate {
         refitted.ok().map(|()| milliseconds)
     }
 
-    /// Follows lights that moved, if the sampler can.
+    /// Refits to lights that moved, if the sampler can.
     ///
     /// # Errors
     /// The first light that has moved too far.
@@ -49,8 +49,7 @@ impl Candidate {
         Ok(())
     }
 
-    /// How little a step down the hierarchy narrows a group of lights; `None` for samplers that
-    /// follow no lights.
+    /// Degradation by refits, as `BvhLightSampler` defines it; `None` for samplers without refits.
     pub(super) fn degradation(&self) -> Option<f64> {
         self.sampler.degradation()
     }
@@ -78,7 +77,7 @@ impl Candidate {
         self.sampler.bytes(self.n_lights)
     }
 
-    /// Nodes on the longest way down.
+    /// Nodes on the longest path from the root.
     pub(super) fn depth(&self) -> usize {
         self.sampler.depth()
     }

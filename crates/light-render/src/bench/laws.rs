@@ -12,7 +12,7 @@ const SUM_BUDGET: usize = 4_000_000;
 /// Samples at each point.
 const SAMPLES: usize = 8;
 
-/// How a sampler keeps the laws.
+/// How well a sampler obeys the laws.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Laws {
     /// Share of samples without a light.
@@ -36,7 +36,7 @@ impl Laws {
     }
 }
 
-/// Samples at all points and sums at as many as there is time for.
+/// Samples at all points, and sums at as many points as the query budget allows.
 pub(super) fn check(candidate: &Candidate, contexts: &[LightSampleContext]) -> Laws {
     let sampler = candidate.sampler();
     let (mut none, mut mismatch, mut bad) = (0usize, 0usize, 0usize);

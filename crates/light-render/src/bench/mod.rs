@@ -48,9 +48,9 @@ pub struct BenchOptions {
     pub threads: usize,
     /// What counts as the contribution of a light.
     pub ground_truth: GroundTruth,
-    /// Who asks.
+    /// The kind of receiver.
     pub receiver: ReceiverKind,
-    /// Spheres that stand between lights and points, unknown to the samplers.
+    /// Occluding spheres, unknown to the samplers.
     pub occluders: usize,
 }
 
@@ -79,13 +79,13 @@ impl BenchOptions {
     }
 }
 
-/// What samplers are told about the lights of a set.
+/// The extents of the lights of a set.
 fn extents(set: &LightSetFile) -> Vec<LightExtent> {
     set.lights.iter().map(|l| l.bounds().into()).collect()
 }
 
-/// One row for each sampler, all measured in this run and in turns, so that their ratios mean
-/// something on a busy machine.
+/// One row for each sampler, all measured in this run and in turns, so that their ratios are valid
+/// on a busy machine.
 ///
 /// # Errors
 /// The first light that a sampler refuses.
@@ -188,7 +188,7 @@ mod tests {
         assert!(repeated.variance.mean > 0.0, "but noisy");
     }
 
-    /// A light that no sampler takes is named, not panicked at.
+    /// An invalid light gives an error, not a panic.
     #[test]
     fn a_light_that_is_refused_is_named() {
         let mut set = LightSetFile::generate(SetKind::Uniform, 10, 1);

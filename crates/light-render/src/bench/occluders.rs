@@ -8,8 +8,7 @@ use super::timing::unit;
 /// Share of the set's box that all spheres together have as volume.
 const FILLING: f64 = 0.1;
 
-/// Spheres among the lights of a set, which block light and know nothing of samplers, nor they of
-/// them.
+/// Occluding spheres among the lights of a set, unknown to the samplers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Occluders {
     spheres: Vec<DVec3>,
@@ -17,7 +16,7 @@ pub(super) struct Occluders {
 }
 
 impl Occluders {
-    /// `count` spheres of one size at random places of the box of the set's lights and points.
+    /// `count` spheres of one size at random positions in the box of the set's lights and points.
     pub(super) fn among(set: &LightSetFile, count: usize) -> Self {
         let places = || {
             let lights = set.lights.iter().map(|light| light.position());

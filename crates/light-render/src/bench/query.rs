@@ -5,7 +5,7 @@ use super::occluders::Occluders;
 use super::receiver::Asker;
 use super::{BenchOptions, GroundTruth};
 
-/// What is asked at the points of a set, and the true answer.
+/// The query at the points of a set, with the exact contributions.
 pub(super) struct Query {
     pub(super) askers: Vec<Asker>,
     pub(super) contexts: Vec<LightSampleContext>,
@@ -27,7 +27,7 @@ impl Query {
         }
     }
 
-    /// What `light` contributes at the asker's point.
+    /// The contribution of `light` at the receiver.
     pub(super) fn contribution(&self, light: &SetLight, asker: &Asker) -> f64 {
         let points = self.ground_truth.points(light);
         let count = points.len() as f64;

@@ -7,13 +7,13 @@ use lights::glam::{DVec3, Vec3};
 /// Albedo of the diffuse part of glossy receivers; the other half is reflected by microfacets.
 const GLOSSY_DIFFUSE: f32 = 0.5;
 
-/// Who asks at the points of a set.
+/// The kind of receiver at the points of a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ReceiverKind {
     /// A diffuse surface, lit from the front.
     #[default]
     Diffuse,
-    /// A surface that scatters light from both sides alike.
+    /// A surface that scatters light equally from both sides.
     TwoSided,
     /// A point in a medium.
     Medium,
@@ -22,7 +22,7 @@ pub enum ReceiverKind {
     Glossy(f32),
 }
 
-/// A point of a set, and who asks there.
+/// A receiver at a point of a set.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asker {
     pub(super) at: SetPoint,
@@ -31,7 +31,7 @@ pub(super) struct Asker {
 }
 
 impl ReceiverKind {
-    /// The asker at the set's point of the given index.
+    /// The receiver at the point of the given index.
     pub(super) fn asker(self, index: usize, at: SetPoint) -> Asker {
         let ctx = match self {
             Self::Diffuse => LightSampleContext::surface(at.p, at.n, at.n),
@@ -54,7 +54,7 @@ impl ReceiverKind {
 }
 
 impl Asker {
-    /// How much of what arrives from the unit vector `wi` counts.
+    /// The weight of light that arrives from the unit vector `wi`.
     pub(super) fn response(&self, wi: DVec3) -> f64 {
         let cos = self.at.n.as_dvec3().dot(wi);
         match self.kind {

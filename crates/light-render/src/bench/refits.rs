@@ -14,11 +14,11 @@ use super::variance::{self, Variance};
 use super::{BenchOptions, extents};
 use crate::{AnyLightSamplerError, SamplerKind};
 
-/// How far lights go in the first step, as a share of the mean distance of neighbours; each step
-/// ends twice as far.
+/// Displacement of lights in the first step, relative to the mean distance of neighbours; each step
+/// doubles it.
 const FIRST: f32 = 1.0 / 64.0;
 
-/// What a hierarchy is worth that follows lights, against one built for where they are.
+/// The quality of a refitted hierarchy, compared with one built for the same lights.
 #[derive(Clone, Debug)]
 pub struct RefitRow {
     /// Name of the set.
@@ -27,18 +27,18 @@ pub struct RefitRow {
     pub n_lights: usize,
     /// The hierarchy.
     pub sampler: SamplerKind,
-    /// How far each light is from where it was at first, in mean distances of neighbours.
+    /// Displacement of each light, in mean distances of neighbours.
     pub moved: f32,
-    /// Looseness of the refitted hierarchy, over what it was at first.
+    /// Degradation of the refitted hierarchy, relative to the first build.
     pub degradation: f64,
     /// Variance with the refitted hierarchy.
     pub refitted: Variance,
-    /// Variance with one that is built again.
+    /// Variance with a new build.
     pub built_anew: Variance,
 }
 
-/// A row for each hierarchy and step: lights fly straight, each in a direction of its own, twice as
-/// far in each step; the points stay. Samplers that do not follow lights have no rows.
+/// A row for each hierarchy and step: each light moves along a line of its own, twice
+/// as far in each step; the points stay. Samplers without refits have no rows.
 ///
 /// # Errors
 /// The first light that a sampler refuses, at the start or on its way.

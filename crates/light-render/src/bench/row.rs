@@ -7,7 +7,7 @@ use super::timing::QueryTime;
 use super::variance::Variance;
 use crate::SamplerKind;
 
-/// What was measured of one sampler on one set.
+/// The measurements of one sampler on one set.
 #[derive(Clone, Debug)]
 pub struct BenchRow {
     /// Name of the set.
@@ -20,17 +20,17 @@ pub struct BenchRow {
     pub k: u32,
     /// Milliseconds to build.
     pub build_ms: f64,
-    /// Milliseconds to follow lights that moved, where the sampler can.
+    /// Milliseconds to refit to lights that moved, if the sampler can.
     pub refit_ms: Option<f64>,
     /// Bytes that a query may touch.
     pub bytes: usize,
-    /// Nodes on the longest way down.
+    /// Nodes on the longest path from the root.
     pub depth: usize,
     /// Time of the queries.
     pub time: QueryTime,
     /// Variance of the estimate.
     pub variance: Variance,
-    /// How the sampler keeps the laws.
+    /// How well the sampler obeys the laws.
     pub laws: Laws,
 }
 

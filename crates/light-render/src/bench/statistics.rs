@@ -1,4 +1,4 @@
-/// Mean, median, a high quantile, and how sure the mean is.
+/// Mean, median, a high quantile, and the standard error of the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Summary {
     /// Mean.

@@ -11,8 +11,7 @@ use super::candidate::Candidate;
 /// Passes over all points that every sampler gets at least, and how long to go on.
 const MIN_PASSES: usize = 9;
 
-/// How far `u` moves from pass to pass: the golden ratio's fraction, by which no two of many passes
-/// come near each other.
+/// Increment of `u` between passes: the fraction of the golden ratio, which keeps passes apart.
 const TURN: f64 = 0.618_033_988_749_895;
 
 /// Queries that are timed together.
@@ -51,7 +50,7 @@ pub(super) fn queries(
     let mut passes = 0;
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
-        // Each pass asks with other `u`: the caches do not hold the ways of the last one.
+        // Each pass uses other `u`, so that the caches do not hold the nodes of the last one.
         us.iter_mut().for_each(|u| *u = (*u + TURN).fract());
         for ((candidate, plan), time) in candidates.iter().zip(&plans).zip(&mut times) {
             let asked: Vec<_> = contexts.iter().zip(&us).collect();
@@ -101,7 +100,7 @@ struct Fastest {
 }
 
 impl Fastest {
-    /// Asks all `queries` once, and keeps what was faster than ever.
+    /// Runs all `queries` once, and keeps the fastest times so far.
     fn pass<T>(&mut self, queries: &[T], mut ask: impl FnMut(&T)) {
         self.queries = queries.len();
         self.seconds
@@ -124,7 +123,7 @@ pub(super) fn unit(rng: &mut Pcg64Mcg) -> f64 {
     (rng.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
 }
 
-/// Which pmfs are asked.
+/// The kind of pmf query.
 struct Plan {
     picked: Vec<(LightSampleContext, LightId)>,
     random: Vec<(LightSampleContext, LightId)>,

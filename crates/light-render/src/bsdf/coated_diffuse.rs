@@ -7,17 +7,18 @@ use super::conductor::reflect;
 use super::microfacets::Microfacets;
 use super::{BsdfSample, fresnel};
 
-/// A diffuse base under a clear coat: lacquered wood, plastic. Opaque, alike on both sides.
+/// A diffuse base under a clear coat: lacquered wood, plastic. Opaque, the same on both sides.
 ///
-/// Light passes the coat, is scattered by the base, and is partly kept inside by the coat, again
-/// and again; the coat's roughness spreads its highlight, but is left out of what passes.
+/// Light passes the coat, is scattered by the base, and is partly reflected back inside by the
+/// coat, any number of times. The roughness of the coat affects its reflection, not its
+/// transmission.
 ///
 /// # Source
 /// `[Weidlich2007]`, section 3, for a Lambertian base, with the geometric series of reflections
 /// inside of the coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatedDiffuse {
-    /// What the base scatters, with all reflections inside of the coat, over pi.
+    /// Reflectance of the base, with all reflections inside of the coat, divided by pi.
     base: Vec3,
     eta: f32,
     facets: Microfacets,
@@ -74,7 +75,7 @@ impl CoatedDiffuse {
         p * coat + (1.0 - p) * cosine_hemisphere::pdf(wi.z.abs())
     }
 
-    /// A reflection by the coat or by the base, about as likely as it is bright.
+    /// Samples a reflection by the coat or by the base, about in proportion to their brightness.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {
@@ -111,7 +112,7 @@ impl CoatedDiffuse {
     fn coat_probability(&self, wo: Vec3) -> f32 {
         let coat = fresnel::dielectric(wo.z.abs(), self.eta);
         let base = (1.0 - coat) * self.base.max_element();
-        // Some of either, so that no direction is forgotten.
+        // Both have a positive probability, so that no direction is lost.
         (coat / (coat + base)).clamp(0.1, 0.9)
     }
 

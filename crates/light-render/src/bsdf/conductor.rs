@@ -9,11 +9,11 @@ use super::{BsdfSample, fresnel};
 /// `[PBRT4]`, section 9.6.5.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductor {
-    /// Real part of the index of refraction, a channel.
+    /// Real part of the index of refraction, per channel.
     pub eta: Vec3,
-    /// Imaginary part (absorption), a channel.
+    /// Imaginary part (absorption), per channel.
     pub k: Vec3,
-    /// How rough it is.
+    /// The microfacet distribution.
     pub facets: Microfacets,
 }
 
@@ -38,7 +38,7 @@ impl Conductor {
         })
     }
 
-    /// A reflection by one of the facets that are seen from `wo`.
+    /// Samples a reflection by one of the facets visible from `wo`.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u: Vec2) -> Option<BsdfSample> {

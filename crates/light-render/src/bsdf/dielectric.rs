@@ -15,7 +15,7 @@ use super::{BsdfSample, fresnel};
 pub struct Dielectric {
     /// Index of refraction behind the surface over that in front.
     pub eta: f32,
-    /// How rough it is.
+    /// The microfacet distribution.
     pub facets: Microfacets,
 }
 
@@ -28,7 +28,7 @@ struct Link {
 }
 
 impl Dielectric {
-    /// Whether nothing but Dirac directions is scattered to.
+    /// Whether all scattering is Dirac.
     #[inline]
     #[must_use]
     pub fn is_dirac(&self) -> bool {
@@ -65,7 +65,7 @@ impl Dielectric {
         })
     }
 
-    /// A reflection or a refraction, as likely as it is bright.
+    /// Samples a reflection or a refraction, in proportion to the Fresnel factor.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {

@@ -1,6 +1,6 @@
 use lights::glam::Vec3;
 
-/// The share of unpolarised light that a smooth boundary reflects, for light that arrives with
+/// The reflectance of a smooth boundary for unpolarised light that arrives with
 /// cosine `cos_i` (negative from behind), where `eta` is the index of refraction behind the
 /// boundary over that in front.
 ///
@@ -24,8 +24,8 @@ pub(super) fn dielectric(cos_i: f32, eta: f32) -> f32 {
     0.5 * (parallel * parallel + perpendicular * perpendicular)
 }
 
-/// The share of unpolarised light that a metal reflects, with refraction index `eta` and absorption
-/// `k` a channel.
+/// The reflectance of a metal for unpolarised light, with refraction index `eta` and absorption
+/// `k` per channel.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.5.2, in real arithmetic.
@@ -46,9 +46,9 @@ pub(super) fn conductor(cos_i: f32, eta: Vec3, k: Vec3) -> Vec3 {
     0.5 * (parallel + perpendicular)
 }
 
-/// The direction in which light that arrives from `wi` is bent by a boundary with normal `n`, and
-/// the ratio of the index behind `wi`'s boundary over that in front of it; `None` where all of it
-/// is reflected.
+/// The direction in which light that arrives from `wi` is refracted by a boundary with normal `n`,
+/// and the ratio of the index behind `wi`'s boundary over that in front of it; `None` where all of
+/// it is reflected.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.3.2.
@@ -69,7 +69,7 @@ pub(super) fn refract(wi: Vec3, n: Vec3, eta: f32) -> Option<(Vec3, f32)> {
     Some((-wi / eta + n * (cos_i / eta - cos_t), eta))
 }
 
-/// The share of diffuse light that a boundary of the given `eta` keeps behind itself.
+/// The internal reflectance of a boundary of the given `eta` for diffuse light.
 ///
 /// # Source
 /// `[Weidlich2007]`; what leaves is what enters over `eta^2`, as a diffuse field stays diffuse in

@@ -5,12 +5,12 @@ use lights::math::warp::cosine_hemisphere;
 
 use super::BsdfSample;
 
-/// Scatters alike in all directions: paint where it reflects, paper where it transmits too.
+/// Lambertian scattering: paint where it reflects, paper where it transmits too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lambert {
-    /// Share that leaves on the side it came from.
+    /// Reflectance.
     pub reflectance: Vec3,
-    /// Share that leaves on the other side.
+    /// Transmittance.
     pub transmittance: Vec3,
 }
 

@@ -2,7 +2,7 @@ use core::f32::consts::{PI, TAU};
 
 use lights::glam::{Vec2, Vec3};
 
-/// A surface of tiny mirrors, their normals spread by the GGX (Trowbridge-Reitz) distribution.
+/// A microfacet surface with the GGX (Trowbridge-Reitz) distribution of normals.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.6; visible normals as in `[Heitz2018]`.
@@ -12,7 +12,7 @@ pub struct Microfacets {
 }
 
 impl Microfacets {
-    /// Rougher by `alpha` along x and y; below 0.001 on both axes the surface counts as smooth.
+    /// Roughness `alpha` along x and y; below 0.001 on both axes the surface counts as smooth.
     #[must_use]
     pub fn new(alpha: Vec2) -> Self {
         Self {
@@ -20,14 +20,14 @@ impl Microfacets {
         }
     }
 
-    /// Whether the surface is a plane mirror for all that floats can tell.
+    /// Whether the surface counts as perfectly smooth.
     #[inline]
     #[must_use]
     pub(crate) fn is_smooth(&self) -> bool {
         self.alpha.max_element() < 1e-3
     }
 
-    /// How rough the surface is along its rougher axis.
+    /// The larger of both roughnesses.
     #[inline]
     #[must_use]
     pub fn alpha(&self) -> f32 {
@@ -46,8 +46,7 @@ impl Microfacets {
         1.0 / (PI * self.alpha.x * self.alpha.y * e * e)
     }
 
-    /// The share of facets toward `w` that others hide, and more: the auxiliary function of Smith's
-    /// shadowing.
+    /// Lambda, the auxiliary function of Smith's masking.
     #[inline]
     fn lambda(&self, w: Vec3) -> f32 {
         let stretched = Vec2::new(w.x, w.y) * self.alpha;
@@ -59,14 +58,14 @@ impl Microfacets {
         }
     }
 
-    /// The share of facets that is seen from `w`.
+    /// Smith's masking function: the share of facets visible from `w`.
     #[inline]
     #[must_use]
     pub(crate) fn g1(&self, w: Vec3) -> f32 {
         1.0 / (1.0 + self.lambda(w))
     }
 
-    /// The share of facets that is seen from `wo` and from `wi`, heights correlated.
+    /// Height-correlated masking and shadowing: the share of facets visible from `wo` and `wi`.
     #[inline]
     #[must_use]
     pub fn g(&self, wo: Vec3, wi: Vec3) -> f32 {

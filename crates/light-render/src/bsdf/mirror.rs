@@ -2,15 +2,15 @@ use lights::glam::Vec3;
 
 use super::BsdfSample;
 
-/// A plane mirror that reflects the same share at every angle.
+/// A plane mirror of constant reflectance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mirror {
-    /// Reflected share.
+    /// Reflectance.
     pub reflectance: Vec3,
 }
 
 impl Mirror {
-    /// The one direction that is reflected toward `wo`.
+    /// The direction that is reflected toward `wo`.
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3) -> Option<BsdfSample> {

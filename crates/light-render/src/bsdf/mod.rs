@@ -29,7 +29,7 @@ use lights::glam::{Vec2, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Bsdf {
-    /// Paint or paper: alike in all directions.
+    /// Lambertian paint or paper.
     Lambert(Lambert),
     /// A plane mirror.
     Mirror(Mirror),
@@ -53,8 +53,8 @@ pub struct BsdfSample {
     pub weight: Vec3,
     /// Density of `wi` in sr^-1; `None` for a Dirac, which no other strategy can choose.
     pub pdf: Option<f32>,
-    /// Index of refraction on the side of `wi` over that on the side of `wo`: by its square
-    /// radiance is squeezed.
+    /// Index of refraction on the side of `wi` over that on the side of `wo`: radiance is
+    /// scaled by its square.
     pub eta: f32,
 }
 
@@ -124,8 +124,7 @@ impl Bsdf {
         }
     }
 
-    /// Of an opaque surface that mirrors roughly, the width of its facets' distribution, and the
-    /// share of the light that it reflects as a matt one; `None` for all others.
+    /// Roughness and diffuse share of an opaque glossy surface; `None` for all others.
     #[inline]
     #[must_use]
     pub fn gloss(&self) -> Option<(f32, f32)> {

@@ -14,7 +14,7 @@ pub struct Scattering {
 }
 
 impl Scattering {
-    /// What `bsdf` does at `surface`.
+    /// `bsdf` in the shading frame of `surface`.
     #[inline]
     #[must_use]
     pub fn new(bsdf: Bsdf, surface: &Surface) -> Self {
@@ -54,7 +54,7 @@ impl Scattering {
         self.bsdf.pdf(local_wo, local_wi)
     }
 
-    /// A direction of incidence; see [`Bsdf::sample`].
+    /// Samples a direction of incidence; see [`Bsdf::sample`].
     #[inline]
     #[must_use]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2) -> Option<BsdfSample> {

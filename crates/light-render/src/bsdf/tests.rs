@@ -1,4 +1,4 @@
-//! What every scattering function has to obey.
+//! The laws of scattering functions.
 
 use super::*;
 use core::f32::consts::{PI, TAU};

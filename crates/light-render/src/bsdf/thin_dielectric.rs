@@ -2,8 +2,7 @@ use lights::glam::Vec3;
 
 use super::{BsdfSample, fresnel};
 
-/// A thin pane of glass: reflects and lets through without bending, with all reflections inside of
-/// it.
+/// A thin pane of glass: reflects and transmits without refraction, with all internal reflections.
 ///
 /// # Source
 /// `[PBRT4]`, section 9.5.2 (thin dielectric).

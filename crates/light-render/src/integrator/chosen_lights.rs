@@ -1,15 +1,15 @@
 use lights::bounds::SampledLight;
 
-/// Lights that were chosen at a vertex.
+/// The lights chosen at a vertex.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ChosenLights {
-    /// As many as most vertices choose, without a list.
+    /// The usual number of choices, stored inline.
     first: [Option<SampledLight>; 2],
     more: Vec<SampledLight>,
 }
 
 impl ChosenLights {
-    /// Adds one behind the others.
+    /// Appends a choice.
     #[inline]
     pub(super) fn push(&mut self, choice: SampledLight) {
         match self.first.iter_mut().find(|place| place.is_none()) {

@@ -22,9 +22,9 @@ pub struct PathSettings {
 }
 
 impl PathSettings {
-    /// How many lights are chosen at the first diffuse vertex, unless told otherwise.
+    /// Default number of lights chosen at the first diffuse vertex.
     ///
-    /// More would cost more than they gain: what is left of the noise is shadows.
+    /// More cost more than they gain: the remaining noise is that of shadows.
     pub const DEFAULT_LIGHT_SAMPLES: NonZeroU32 = NonZeroU32::new(2).unwrap();
 
     /// How many lights the first vertex chooses in `world`: more choices than lights repeat
@@ -48,7 +48,7 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// The one that shows all that is in `world`.
+    /// The integrator for `world`: [`VolPath`](Self::VolPath) if it has media.
     #[must_use]
     pub fn fitting(world: &World) -> Self {
         if world.has_media() {

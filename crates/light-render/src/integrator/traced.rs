@@ -1,10 +1,10 @@
 use lights::glam::Vec3;
 
-/// What one path found.
+/// The result of one path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Traced {
     /// Radiance that arrives along the first ray.
     pub radiance: Vec3,
-    /// How many rays were asked for, shadow rays included.
+    /// The number of rays traced, shadow rays included.
     pub rays: u32,
 }

@@ -10,7 +10,7 @@ use crate::bsdf::{
 };
 
 impl World {
-    /// How the material at `surface` scatters light.
+    /// The scattering function of the material at `surface`.
     #[inline]
     #[must_use]
     pub fn scattering(&self, surface: &Surface) -> Scattering {
@@ -48,14 +48,14 @@ impl World {
                 *eta,
                 Microfacets::new(*alpha),
             )),
-            // A boundary between equal indices bends and reflects nothing.
+            // A boundary between equal indices neither refracts nor reflects.
             Finish::Interface => Bsdf::ThinDielectric(ThinDielectric { eta: 1.0 }),
             _ => unreachable!("every kind of surface is handled above"),
         };
         Scattering::new(bsdf, surface)
     }
 
-    /// The query that light samplers and lights answer at `surface`, seen from `wo`.
+    /// The context for light samplers and lights at `surface`, seen from `wo`.
     #[inline]
     #[must_use]
     pub fn light_context(
@@ -65,7 +65,7 @@ impl World {
         wo: Vec3,
     ) -> LightSampleContext {
         if scattering.bsdf().transmits() {
-            // Light counts from both sides, as it does in a medium.
+            // Light counts from both sides, as in a medium.
             return LightSampleContext::medium(surface.p).with_error(surface.p_error);
         }
         let ctx = surface.light_context(wo);

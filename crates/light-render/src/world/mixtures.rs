@@ -4,14 +4,14 @@ use lights::glam::Vec3;
 use super::World;
 use crate::{Surface, sobol};
 
-/// What a mixture is that names no material before it.
+/// The surface of a mixture whose part does not come before it.
 const BLACK: &Finish = &Finish::Diffuse {
     reflectance: Color::Constant(Vec3::ZERO),
 };
 
 impl World {
-    /// How the surface scatters light there: of a mixture one of its parts, chosen by a hash of the
-    /// place, so that all who ask about the same point get the same answer.
+    /// The scattering of the surface: for a mixture one of its parts, chosen by a hash of the
+    /// position, so that all queries at the same point get the same result.
     ///
     /// # Source
     /// `[PBRT4]`, section 10.5.1.
@@ -22,7 +22,7 @@ impl World {
             let amount = self.color(amount, surface.uv).x;
             let second = chance(surface.p, id) < amount;
             let next = materials[usize::from(second)].0 as usize;
-            // Only ever down, so that it ends.
+            // Ids only decrease, so that the loop ends.
             if next >= id {
                 return BLACK;
             }
@@ -32,7 +32,7 @@ impl World {
     }
 }
 
-/// A number in `[0, 1)` that a place and the number of a material decide.
+/// A pseudorandom number in `[0, 1)`, a hash of a position and a material.
 #[expect(clippy::cast_possible_truncation, reason = "any bits will do")]
 fn chance(p: Vec3, material: usize) -> f32 {
     let bits = p.to_array().map(f32::to_bits);

@@ -29,7 +29,7 @@ struct Run {
 
 #[derive(Debug)]
 struct Sparse {
-    indices: Vec<usize>,
+    targets: Vec<usize>,
     values: Run,
 }
 
@@ -89,11 +89,11 @@ impl<'a> Accessor<'a> {
         let sparse = match item.get("sparse")? {
             None => None,
             Some(sparse) => {
-                let indices = sparse_indices(&sparse, buffers, count)?;
+                let targets = targets(&sparse, buffers, count)?;
                 let values = sparse.require("values")?;
                 let view = buffers.view(&values.require("bufferView")?)?;
-                let values = run(Some(view), &values, indices.len())?;
-                values.map(|values| Sparse { indices, values })
+                let values = run(Some(view), &values, targets.len())?;
+                values.map(|values| Sparse { targets, values })
             }
         };
         Ok(Self {
@@ -123,17 +123,17 @@ impl<'a> Accessor<'a> {
             self.base.as_ref().map(|base| (base, &each)),
             self.sparse
                 .as_ref()
-                .map(|sparse| (&sparse.values, &sparse.indices)),
+                .map(|sparse| (&sparse.values, &sparse.targets)),
         ];
-        for (run, indices) in runs.into_iter().flatten() {
-            for (index, &index) in indices.iter().enumerate() {
+        for (run, targets) in runs.into_iter().flatten() {
+            for (index, &target) in targets.iter().enumerate() {
                 let bytes = run.element(index);
                 let size = self.component.size();
-                for (number, bytes) in elements[index].iter_mut().zip(bytes.chunks_exact(size)) {
+                for (number, bytes) in elements[target].iter_mut().zip(bytes.chunks_exact(size)) {
                     *number = self.component.number(bytes, self.normalized);
                 }
-                if !elements[index].iter().all(|number| number.is_finite()) {
-                    let message = format!("element {index}: expected finite numbers");
+                if !elements[target].iter().all(|number| number.is_finite()) {
+                    let message = format!("element {target}: expected finite numbers");
                     return Err(self.item.error(&message));
                 }
             }
@@ -150,10 +150,10 @@ impl<'a> Accessor<'a> {
         }
         let run = self.base.as_ref();
         let run = run.ok_or_else(|| self.item.error("expected a member `bufferView`"))?;
-        let index = |index: usize| {
-            let index = self.component.whole(run.element(index));
+        let index = |target: usize| {
+            let index = self.component.whole(run.element(target));
             let found = (index as usize) < count;
-            let message = || format!("element {index}: vertex {index} of {count} does not exist");
+            let message = || format!("element {target}: vertex {index} of {count} does not exist");
             found
                 .then_some(index)
                 .ok_or_else(|| self.item.error(&message()))
@@ -163,7 +163,7 @@ impl<'a> Accessor<'a> {
 }
 
 /// Indices of the elements that a sparse accessor replaces, in ascending order.
-fn sparse_indices(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result<Vec<usize>, Diagnostic> {
+fn targets(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result<Vec<usize>, Diagnostic> {
     let count = sparse.require("count")?;
     let message = || format!("at most {of}, the number of elements");
     let number = count.whole()?;
@@ -175,15 +175,15 @@ fn sparse_indices(sparse: &Item<'_>, buffers: &Buffers<'_>, of: usize) -> Result
     let view = buffers.view(&indices.require("bufferView")?)?;
     let offset = indices.whole_or("byteOffset", 0)?;
     let run = Run::new(&indices, view, offset, component.size(), number)?;
-    let indices: Vec<usize> = (0..number)
+    let targets: Vec<usize> = (0..number)
         .map(|index| component.whole(run.element(index)) as usize)
         .collect();
-    let ascends = indices.windows(2).all(|pair| pair[0] < pair[1]);
-    if !ascends || indices.last().is_some_and(|&last| last >= of) {
+    let ascends = targets.windows(2).all(|pair| pair[0] < pair[1]);
+    if !ascends || targets.last().is_some_and(|&last| last >= of) {
         let message = format!("expected ascending indices below {of}");
         return Err(indices.error(&message));
     }
-    Ok(indices)
+    Ok(targets)
 }
 
 impl Run {
