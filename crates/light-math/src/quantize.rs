@@ -121,7 +121,7 @@ fn encode_lower(c: f32, a: f32, b: f32) -> u16 {
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "in [0, 65535] or NaN, which stands for the far corner"
+    reason = "in [0, 65535] or NaN, which means the far corner"
 )]
 fn encode_upper(c: f32, a: f32, b: f32) -> u16 {
     if a == b {

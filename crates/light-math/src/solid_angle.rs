@@ -20,8 +20,8 @@ pub fn triangle(v: [Vec3; 3], p: Vec3) -> f32 {
 /// The solid angle of the convex quadrilateral with the corners `v` in order around it, seen from
 /// `p`.
 ///
-/// A quadrilateral that is not planar counts as two triangles, beside the diagonal that looks
-/// shorter; where these face opposite ways their solid angles have opposite signs.
+/// A quadrilateral that is not planar counts as two triangles, on both sides of the diagonal that
+/// looks shorter; where these face opposite ways their solid angles have opposite signs.
 ///
 /// # Source
 /// As for [`triangle`]; half angles add up by multiplying complex numbers.

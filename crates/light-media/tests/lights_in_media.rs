@@ -159,7 +159,7 @@ fn dirac_lights_have_closed_forms() {
     }
 }
 
-/// What stands behind the point hides the phase function's samples, not the light's.
+/// An occluder behind the point blocks samples of the phase function, not of the light.
 struct DarkBehind;
 
 impl Visibility for DarkBehind {

@@ -29,7 +29,7 @@ fn mean(scene: &Scene, estimator: Estimator) -> (f64, f64) {
 
 fn check(name: &str, whole: &Scene, half: &Scene) {
     let (full, full_error) = mean(whole, Estimator::Light);
-    assert!(full > 0.01, "{name}: the lamp shines: {full}");
+    assert!(full > 0.01, "{name}: the lamp emits light: {full}");
     for estimator in [Estimator::Mis, Estimator::Light, Estimator::Bsdf] {
         let (part, error) = mean(half, estimator);
         let margin = 3.0 * (error + 0.5 * full_error) + 1e-4 * full;

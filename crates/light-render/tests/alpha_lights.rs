@@ -201,7 +201,7 @@ fn alpha_images_over_images_of_emission() {
         let mis = shot(Estimator::Mis, 16);
         let light = shot(Estimator::Light, 16);
         let bsdf = shot(Estimator::Bsdf, 256);
-        assert!(mis.0.x > 0.01, "it shines: {mis:?}");
+        assert!(mis.0.x > 0.01, "it emits light: {mis:?}");
         for (name, mean) in [("light", light), ("bsdf", bsdf)] {
             let error = (mean.1 * mean.1 + mis.1 * mis.1).map(f64::sqrt);
             assert!(
@@ -230,7 +230,7 @@ fn a_lamp_is_seen_as_a_share() {
     }
 }
 
-/// Through the holes of the near side of a sphere its far side is seen from within.
+/// Through the mask of the near side of a sphere, the inside of its far side is visible.
 #[test]
 fn spheres_with_holes() {
     let inside_too = [

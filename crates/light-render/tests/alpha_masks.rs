@@ -1,4 +1,5 @@
-//! Surfaces with holes: rays pass them, shadow rays too, and lamps emit where they are.
+//! Surfaces with alpha masks: camera rays and shadow rays pass through, and lights emit only where
+//! they are opaque.
 
 mod support;
 

@@ -41,7 +41,7 @@ impl Drop for SceneFile {
     }
 }
 
-/// What is refused is told in one line that holds all of `words`, and leaves no picture.
+/// A refusal is one line that contains all of `words`, and no picture is written.
 fn assert_refused(name: &str, media: &str, more: &[&str], words: &[&str]) {
     let scene = SceneFile::new(name, media);
     let output = scene.render(more);

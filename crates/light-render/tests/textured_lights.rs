@@ -21,7 +21,7 @@ fn picture(size: u32) -> Image {
     Image::new(size, size, (0..size * size).map(texel).collect()).expect("an image")
 }
 
-fn shining(scene: &mut Scene, image: ColorImage) -> MaterialId {
+fn emissive(scene: &mut Scene, image: ColorImage) -> MaterialId {
     scene.add_material(Material {
         emission: Some(Emission {
             radiance: Color::Image(image),
@@ -62,7 +62,7 @@ fn two_hundred_thousand_triangles_take_less_than_64_bytes_each() {
             scale: Vec3::splat(1.0 + f32::from(height % 7)),
             ..ColorImage::new(image)
         };
-        let material = shining(&mut scene, image);
+        let material = emissive(&mut scene, image);
         scene.meshes.push(sheet(15, f32::from(height), material));
     }
     let world = World::new(scene).expect("lights");
@@ -100,7 +100,7 @@ fn screen(mapping: TextureMapping, uvs: Option<[[f32; 2]; 4]>) -> Scene {
         mapping,
         ..ColorImage::new(image)
     };
-    let screen = shining(&mut scene, image);
+    let screen = emissive(&mut scene, image);
     let lamp = scene.meshes.iter_mut().find(|mesh| mesh.name == "lamp");
     let lamp = lamp.expect("a lamp");
     lamp.material = screen;

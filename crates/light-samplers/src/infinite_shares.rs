@@ -29,8 +29,8 @@ impl InfiniteShares {
     )]
     pub(crate) fn new(lights: &[LightExtent], has_others: HasOthers) -> Self {
         let ids = (0..).map(LightId).zip(lights);
-        let shining = ids.filter(|(_, extent)| extent.infinite().is_some_and(|i| i.fluence > 0.0));
-        let lights: Vec<_> = shining.map(|(id, _)| id).collect();
+        let emitting = ids.filter(|(_, extent)| extent.infinite().is_some_and(|i| i.fluence > 0.0));
+        let lights: Vec<_> = emitting.map(|(id, _)| id).collect();
         let others = match has_others {
             HasOthers::Yes => 1,
             HasOthers::No => 0,

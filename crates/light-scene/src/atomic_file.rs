@@ -26,8 +26,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
 pub fn exit_without_outputs(status: i32) -> ! {
     // Nobody begins or ends a file from here on.
     let all = staged_files();
-    for beside in all.iter() {
-        drop(fs::remove_file(beside));
+    for temporary in all.iter() {
+        drop(fs::remove_file(temporary));
     }
     std::process::exit(status)
 }
@@ -43,16 +43,16 @@ fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
 #[derive(Debug)]
 pub(crate) struct StagedFile {
     /// Where it is and where it belongs; `None` when nothing is left to do.
-    places: Option<(PathBuf, PathBuf)>,
+    paths: Option<(PathBuf, PathBuf)>,
 }
 
 impl StagedFile {
-    /// Writes `bytes` beside `path`.
+    /// Writes `bytes` to a temporary file next to `path`.
     pub(crate) fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
         Self::with(path, |file| file.write_all(bytes))
     }
 
-    /// Lets `write` fill a file beside `path`.
+    /// Lets `write` fill a temporary file next to `path`.
     fn with(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<Self> {
         let kind = fs::metadata(path).map(|there| there.file_type());
         if kind.as_ref().is_ok_and(fs::FileType::is_dir) {
@@ -60,19 +60,23 @@ impl StagedFile {
         }
         if kind.as_ref().is_ok_and(|kind| !kind.is_file()) {
             write(&mut File::options().write(true).open(path)?)?;
-            return Ok(Self { places: None });
+            return Ok(Self { paths: None });
         }
         let target = match kind {
             Ok(_) => fs::canonicalize(path)?,
             Err(_) => path.to_path_buf(),
         };
-        let beside = beside(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
+        let temporary =
+            temporary_path(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
         let mut all = staged_files();
-        let mut file = File::options().write(true).create_new(true).open(&beside)?;
-        all.push(beside.clone());
+        let mut file = File::options()
+            .write(true)
+            .create_new(true)
+            .open(&temporary)?;
+        all.push(temporary.clone());
         drop(all);
         let staged = Self {
-            places: Some((beside, target)),
+            paths: Some((temporary, target)),
         };
         write(&mut file)?;
         // A full disk may show here for the first time.
@@ -82,29 +86,29 @@ impl StagedFile {
 
     /// Renames the file to its target.
     pub(crate) fn publish(mut self) -> io::Result<()> {
-        if let Some((beside, target)) = &self.places {
+        if let Some((temporary, target)) = &self.paths {
             let mut all = staged_files();
-            fs::rename(beside, target)?;
-            all.retain(|other| other != beside);
+            fs::rename(temporary, target)?;
+            all.retain(|other| other != temporary);
         }
-        self.places = None;
+        self.paths = None;
         Ok(())
     }
 }
 
 impl Drop for StagedFile {
     fn drop(&mut self) {
-        if let Some((beside, _)) = &self.places {
+        if let Some((temporary, _)) = &self.paths {
             let mut all = staged_files();
             // What stops the removal stopped the writing, and that is what is reported.
-            drop(fs::remove_file(beside));
-            all.retain(|other| other != beside);
+            drop(fs::remove_file(temporary));
+            all.retain(|other| other != temporary);
         }
     }
 }
 
 /// A name in the same folder that nothing else uses.
-fn beside(path: &Path) -> Option<PathBuf> {
+fn temporary_path(path: &Path) -> Option<PathBuf> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     path.file_name()?;
     let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -117,14 +121,14 @@ mod tests {
     use crate::test_folder::TestFolder;
 
     #[test]
-    fn replaces_the_file_and_leaves_nothing_beside() {
+    fn replaces_the_file_and_leaves_nothing_else() {
         let folder = TestFolder::new("write_atomically");
         let path = folder.path("a.txt");
         for text in ["one", "two"] {
             write_atomically(&path, text.as_bytes()).expect("written");
             assert_eq!(fs::read_to_string(&path).expect("a file"), text, "content");
         }
-        assert_eq!(folder.names(), ["a.txt"], "nothing beside");
+        assert_eq!(folder.names(), ["a.txt"], "nothing else");
     }
 
     #[test]
@@ -135,7 +139,7 @@ mod tests {
         assert!(error.message.starts_with("cannot be written: "), "{error}");
         fs::create_dir(folder.path("folder")).expect("a folder");
         write_atomically(&folder.path("folder"), b"x").expect_err("a folder is in the way");
-        assert_eq!(folder.names(), ["folder"], "nothing beside");
+        assert_eq!(folder.names(), ["folder"], "nothing else");
         write_atomically(&folder.path(".."), b"x").expect_err("no name");
     }
 
@@ -150,7 +154,7 @@ mod tests {
         });
         let error = full.expect_err("a full disk");
         assert_eq!(error.kind(), io::ErrorKind::StorageFull, "its reason");
-        assert_eq!(folder.names(), ["a.txt"], "nothing beside");
+        assert_eq!(folder.names(), ["a.txt"], "nothing else");
         assert_eq!(fs::read(&path).expect("a file"), b"old", "as it was");
         drop(StagedFile::new(&path, b"new").expect("staged"));
         assert_eq!(folder.names(), ["a.txt"], "not published, not there");
@@ -161,7 +165,7 @@ mod tests {
         let folder = TestFolder::new("write_whole_long");
         let name = "n".repeat(250);
         write_atomically(&folder.path(&name), b"x").expect("written");
-        assert_eq!(folder.names(), [name], "nothing beside");
+        assert_eq!(folder.names(), [name], "nothing else");
     }
 
     #[cfg(unix)]
@@ -179,6 +183,6 @@ mod tests {
         assert!(error.message.starts_with("cannot be written: "), "{error}");
         let full = fs::metadata("/dev/full").expect("a device");
         assert!(full.file_type().is_char_device(), "still a device");
-        assert_eq!(folder.names(), ["device", "file", "link"], "nothing beside");
+        assert_eq!(folder.names(), ["device", "file", "link"], "nothing else");
     }
 }

@@ -72,7 +72,7 @@ fn assert_alike(a: &Scene, b: &Scene, names: &str) {
                 assert_eq!(x.sides, EmissionSides::Front, "{what}: sides");
                 assert_eq!(x.sides, y.sides, "{what}: sides");
                 let (x, y) = (Paint::of(a, x.radiance), Paint::of(b, y.radiance));
-                assert!(x.is_near(&y), "{what} shines: {x:?} and {y:?}");
+                assert!(x.is_near(&y), "{what} emission: {x:?} and {y:?}");
             }
             (x, y) => assert_eq!(x, y, "{what}: emission"),
         }
@@ -90,7 +90,7 @@ fn all_formats_read_to_the_same_scene() {
     let pbrt = read_pbrt(&path("room.pbrt")).expect("room.pbrt");
     let glb = read_gltf(&path("room.glb")).expect("room.glb");
     let gltf = read_gltf(&path("room.gltf")).expect("room.gltf");
-    assert_eq!(obj.emissive_triangle_count(), 4, "two quads shine");
+    assert_eq!(obj.emissive_triangle_count(), 4, "two emissive quads");
     for (scene, name) in [(&pbrt, "pbrt"), (&glb, "glb"), (&gltf, "gltf")] {
         assert_alike(scene, &obj, name);
         assert_eq!(scene.warnings, [], "{name}: all understood");

@@ -3,11 +3,11 @@ use light_math::glam::Vec3;
 use crate::generated_sets::triangle;
 use crate::{Emitter, LightSet, Rng};
 
-/// Contexts at random places of a set; more are added at its bounds.
+/// Contexts at random positions in a set; more are added at its bounds.
 const CONTEXTS: usize = 8;
 
 impl LightSet {
-    /// Sets on which light hierarchies were seen to fail, each with about `n` lights.
+    /// Sets on which light hierarchies have failed, each with about `n` lights.
     #[must_use]
     pub fn adversarial(n: usize) -> Vec<Self> {
         vec![
@@ -40,7 +40,7 @@ impl LightSet {
         Self::new("single", vec![light], CONTEXTS, 2)
     }
 
-    /// Points and spots that a split by position cannot tell apart.
+    /// Points and spots at one position, which no split by position separates.
     #[must_use]
     pub fn one_point(n: usize) -> Self {
         let mut rng = Rng::new(3);
@@ -181,7 +181,7 @@ impl LightSet {
         Self::new("back to back", emitters, CONTEXTS, 12)
     }
 
-    /// Beams of all widths, and what little emits light beside and behind them.
+    /// Beams of all widths, with a little stray light outside of them.
     #[must_use]
     pub fn lanterns(n: usize) -> Self {
         let mut rng = Rng::new(14);

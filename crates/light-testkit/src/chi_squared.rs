@@ -3,7 +3,7 @@ use crate::{SIGNIFICANCE, regularized_gamma_q, significance};
 /// Cells that expect less are pooled.
 const SMALLEST_CELL: f64 = 5.0;
 
-/// What Pearson's test says about observed counts.
+/// The result of Pearson's test of observed counts.
 #[derive(Clone, Copy, Debug)]
 pub struct ChiSquared {
     /// Sum over cells of `(observed - expected)^2 / expected`, or of the likelihood ratio's term
@@ -75,7 +75,7 @@ pub fn chi_squared(observed: &[u64], expected: &[f64]) -> ChiSquared {
     }
 }
 
-/// What a cell that expects `e` and observes `o` adds to the statistic.
+/// The term of a cell that expects `e` and observes `o`.
 fn term(e: f64, o: f64) -> f64 {
     // A pool that stays too small enters with a smaller weight, so that only a flagrant
     // contradiction shows.

@@ -4,9 +4,8 @@ use crate::{Cap, ChiSquared, Rng, chi_squared, integrate};
 
 /// A density against its sampler: chi-squared on a grid of cells whose masses come from quadrature.
 ///
-/// The sampler gets random numbers and answers a point, or `None` where it declines; the density is
-/// asked at any point of the domain and answers per unit of its measure, without a factor for the
-/// chance of `None`.
+/// The sampler maps random numbers to a point, or to `None`. The density is a function of a point
+/// of the domain, per unit of its measure, not normalised by the probability of `None`.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityTest {
     /// How many samples are drawn.
@@ -31,7 +30,7 @@ impl Default for DensityTest {
     }
 }
 
-/// What a [`DensityTest`] found.
+/// The result of a [`DensityTest`].
 #[derive(Clone, Copy, Debug)]
 pub struct DensityOutcome {
     /// The integral of the density over the domain.
@@ -188,7 +187,7 @@ impl DensityOutcome {
     /// quadrature's error.
     pub const MASS_TOLERANCE: f64 = 1e-3;
 
-    /// Why the density is not that of the sampler; `None` when it is.
+    /// The reason why the test fails; `None` if it passes.
     #[must_use]
     pub fn fault(&self) -> Option<&'static str> {
         if !(self.mass <= 1.0 + Self::MASS_TOLERANCE) {

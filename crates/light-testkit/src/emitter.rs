@@ -6,7 +6,7 @@ use light_math::{Aabb, glam::Vec3};
 
 use crate::real3::{Real3, cross, length, normalize, real3, sub, vec3};
 
-/// A light so simple that its contribution is a line of code: the truth that samplers are held to.
+/// A light whose exact contribution is a line of code: the ground truth for samplers.
 #[derive(Clone, Copy, Debug)]
 pub enum Emitter {
     /// A triangle that emits `radiance` on its counter-clockwise side, or on both.
@@ -18,18 +18,18 @@ pub enum Emitter {
         /// Whether the clockwise side emits too.
         two_sided: bool,
     },
-    /// A point that emits `intensity` alike in all directions.
+    /// An isotropic point light of `intensity`.
     Point {
-        /// Where it is.
+        /// Position.
         position: Vec3,
         /// Radiant intensity, in W·sr⁻¹.
         intensity: f32,
     },
     /// A spot light with a smooth falloff between two cones.
     Spot {
-        /// Where it is.
+        /// Position.
         position: Vec3,
-        /// Where it emits light, a unit vector.
+        /// Axis, a unit vector.
         axis: Vec3,
         /// Radiant intensity inside of the inner cone, in W·sr⁻¹.
         intensity: f32,
@@ -40,9 +40,9 @@ pub enum Emitter {
     },
     /// A point with a beam and a little stray light all around, known by its lobe.
     Lantern {
-        /// Where it is.
+        /// Position.
         position: Vec3,
-        /// Where the beam goes, a unit vector.
+        /// Axis of the beam, a unit vector.
         axis: Vec3,
         /// Radiant intensity of the beam, in W·sr⁻¹.
         beam: f32,
@@ -66,11 +66,10 @@ pub enum Emitter {
 }
 
 impl Emitter {
-    /// Cosines below this are not held against a sampler: bounds in `f32` cannot tell them from
-    /// zero.
+    /// Cosines below this count as zero: bounds in `f32` cannot distinguish them.
     pub const GRAZING: f64 = 1e-5;
 
-    /// What a sampler gets to know.
+    /// The extent for samplers.
     #[must_use]
     pub fn extent(&self) -> LightExtent {
         let point = |position, w, intensity, cos_theta_o, cos_theta_e| {

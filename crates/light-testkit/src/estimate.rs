@@ -1,6 +1,6 @@
 use crate::significance;
 
-/// The mean of random numbers, and how far it may be from what it estimates.
+/// The mean of random numbers, with its statistical tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Mean of the numbers.
@@ -35,7 +35,7 @@ impl Estimate {
         }
     }
 
-    /// How far the mean may be from `truth`.
+    /// Tolerance of the difference between the mean and `truth`.
     #[must_use]
     pub fn margin(&self, truth: f64) -> f64 {
         Self::STANDARD_ERRORS * self.standard_error + Self::ROUNDING * truth.abs()

@@ -108,7 +108,7 @@ fn variance(set: &LightSet<Rgb>, extents: &[LightExtent]) -> f64 {
             let f = sample.map_or(0.0, |li| f64::from(li.l.x * li.wi.z));
             let pmf = f64::from(sampler.pmf(&ctx, id));
             if f > 0.0 {
-                assert!(pmf > 0.0, "{id:?} shines at {p}: {:?}", extents[id.index()]);
+                assert!(pmf > 0.0, "{id:?} lights {p}: {:?}", extents[id.index()]);
                 sum += f;
                 squares += f * f / pmf;
             }

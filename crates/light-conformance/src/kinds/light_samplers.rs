@@ -1,5 +1,5 @@
 use super::light_tree;
-use super::sampler_answers::Question;
+use super::sampler_answers::Query;
 use super::sampler_set::{Set, light_id};
 use crate::{Case, Checker, Findings, Malformed};
 
@@ -34,17 +34,17 @@ fn compare_tree(set: &Set, case: &Case<'_>, findings: &mut Findings) -> Result<(
 fn compare_sampler(set: &Set, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
     let p = case.get("p")?.vec3()?;
     let [n, ns] = [case.get("n")?.vec3()?, case.get("ns")?.vec3()?];
-    let question = Question::new(set, case.get("sampler")?.text(), p, n, ns)?;
+    let query = Query::new(set, case.get("sampler")?.text(), p, n, ns)?;
     for pair in case.get("pmf")?.items()? {
-        question.compare_pmf(light_id(&pair.at(0)?)?, pair.at(1)?.float()?, findings);
+        query.compare_pmf(light_id(&pair.at(0)?)?, pair.at(1)?.float()?, findings);
     }
     for triple in case.get("samples")?.items()? {
         let choice = triple.at(1)?.integer()?;
         if choice >= 0 {
-            question.compare_pmf(light_id(&triple.at(1)?)?, triple.at(2)?.float()?, findings);
+            query.compare_pmf(light_id(&triple.at(1)?)?, triple.at(2)?.float()?, findings);
         }
         let u = f64::from(triple.at(0)?.float()?);
-        question.compare_choice(u, choice, findings);
+        query.compare_choice(u, choice, findings);
     }
     Ok(())
 }

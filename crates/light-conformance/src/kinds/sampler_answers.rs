@@ -29,7 +29,7 @@ const EDGE_OF_U: Rule = Rule {
 };
 
 /// Which sampler is asked, and by whom.
-pub(super) struct Question<'a> {
+pub(super) struct Query<'a> {
     set: &'a Set,
     sampler: Sampler,
     /// Point, and the normal that the sampler reads.
@@ -45,7 +45,7 @@ enum Sampler {
     Exhaustive,
 }
 
-impl<'a> Question<'a> {
+impl<'a> Query<'a> {
     pub(super) fn new(
         set: &'a Set,
         sampler: Option<&str>,

@@ -1,4 +1,4 @@
-//! One row of a piecewise-constant table: densities beside their running sum.
+//! One row of a piecewise-constant table: densities and their running sum.
 
 use crate::float::ONE_MINUS_EPSILON;
 

@@ -5,10 +5,10 @@ use core::time::Duration;
 use light_scene::Crop;
 use lights::glam::Vec3;
 
-/// Where the camera stands and looks: `ex,ey,ez,tx,ty,tz,ux,uy,uz`.
+/// Position, target and up vector of the camera: `ex,ey,ez,tx,ty,tz,ux,uy,uz`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LookAt {
-    /// Where the camera stands.
+    /// Position of the camera.
     pub(crate) eye: Vec3,
     /// What it looks at.
     pub(crate) target: Vec3,

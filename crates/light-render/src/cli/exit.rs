@@ -25,7 +25,7 @@ pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
             Err(failure) => failure.report(),
         };
     }
-    // What is wrong stands before the usage; the rest is for those who ask for help.
+    // The error comes before the usage, which only --help prints.
     let wrong = text.split("\nUsage:").next().unwrap_or_default();
     let wrong = wrong
         .split("\nFor more information")

@@ -32,7 +32,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use light_scene::exit_without_outputs;
 
-/// The status of a program that was told to stop, by custom.
+/// The conventional exit status of an interrupted program.
 const INTERRUPTED: i32 = 130;
 
 /// Lights and light sampling for physically based rendering.

@@ -114,7 +114,7 @@ fn nodes_of_gltf_files_look_flattened() {
     assert_eq!(
         world.stored_triangle_count(),
         8 + 3 * 2 + 4,
-        "the shining part is copied"
+        "the emissive part is copied"
     );
     assert_looks_flattened(&scene, "glTF");
 }
@@ -134,8 +134,11 @@ fn textures_and_holes_are_placed_with_their_meshes() {
         opacity: color,
         cutoff: Some(0.5),
     });
-    assert_looks_flattened(&scene, "with holes");
-    assert!(scene.materials.iter().any(|m| m.alpha.is_some()), "holes");
+    assert_looks_flattened(&scene, "with an alpha mask");
+    assert!(
+        scene.materials.iter().any(|m| m.alpha.is_some()),
+        "an alpha mask"
+    );
 }
 
 #[test]

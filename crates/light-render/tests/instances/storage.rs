@@ -8,7 +8,7 @@ use super::{flattened, green, grove, world};
 use crate::support::{Shot, agree};
 
 #[test]
-fn what_shines_is_copied_and_the_rest_is_stored_once() {
+fn emissive_parts_are_copied_and_the_rest_is_stored_once() {
     let tree = grove(green());
     let own = tree.prototype(tree.instances[0].prototype).triangle_count();
     let room: usize = tree.meshes.iter().map(|mesh| mesh.indices.len()).sum();
@@ -21,11 +21,11 @@ fn what_shines_is_copied_and_the_rest_is_stored_once() {
         "counted"
     );
 
-    let shining = grove(Material {
+    let emissive = grove(Material {
         emission: Some(Emission::one_sided(Vec3::ONE)),
         ..green()
     });
-    let (instanced, flat) = (world(&shining), world(&flattened(&shining)));
+    let (instanced, flat) = (world(&emissive), world(&flattened(&emissive)));
     assert_eq!(
         instanced.lights().len(),
         flat.lights().len(),
@@ -37,7 +37,7 @@ fn what_shines_is_copied_and_the_rest_is_stored_once() {
         room + 12 + 4 * crown,
         "copies"
     );
-    let means = [&shining, &flattened(&shining)].map(|scene| Shot::default().mean(scene));
+    let means = [&emissive, &flattened(&emissive)].map(|scene| Shot::default().mean(scene));
     assert!(agree(means[0], means[1]), "{means:?}");
 }
 

@@ -268,7 +268,7 @@ mod full {
             let ending = run(writer.into());
             assert_eq!(ending, (Some(0), String::new()), "{command:?}: closed");
         }
-        // A check that fails is told by the status, whoever reads.
+        // The exit status reports a failed check, even if nobody reads the output.
         let other = folder.path("b.exr");
         stdout(&[&["render", &scene, "-o", &other, "--seed", "1"], &SMALL[..]].concat());
         let (reader, writer) = std::io::pipe().expect("a pipe");

@@ -51,7 +51,7 @@ fn pictures_are_those_of_fine_triangles() {
                 opacity: Color::Constant(Vec3::splat(0.4)),
                 cutoff: None,
             }),
-            ..Material::diffuse("holes", grey)
+            ..Material::diffuse("masked", grey)
         },
         Material {
             emission: Some(Emission::one_sided(Vec3::ONE)),
@@ -77,7 +77,7 @@ fn textures_lie_on_spheres_as_on_triangles() {
         opacity: color,
         cutoff: Some(0.5),
     });
-    assert_looks_tessellated(&scene, "with holes");
+    assert_looks_tessellated(&scene, "with an alpha mask");
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
     let stretched = similarity(Vec3::new(0.6, 0.6, 0.5), 1.0)
         * Affine3A::from_scale(Vec3::new(0.2, 0.1, -0.15));
     let transforms = [stretched, similarity(Vec3::new(0.25, 0.6, 0.4), 0.12)];
-    for (shines, material) in [
+    for (is_emissive, material) in [
         (false, Material::new("glass", glass())),
         (true, lamp(Emission::one_sided(Vec3::ONE))),
     ] {
@@ -142,8 +142,8 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
         let count = (world.instance_count(), world.stored_sphere_count());
         assert_eq!(
             count,
-            if shines { (0, 1) } else { (2, 1) },
-            "what shines is copied"
+            if is_emissive { (0, 1) } else { (2, 1) },
+            "emissive parts are copied"
         );
         let shot = Shot {
             max_depth: 12,

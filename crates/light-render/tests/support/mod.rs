@@ -100,7 +100,7 @@ pub(crate) struct Shot {
     pub(crate) estimator: Estimator,
     pub(crate) sampler: SamplerKind,
     pub(crate) light_samples: NonZeroU32,
-    /// The one that fits the scene unless told otherwise.
+    /// By default the one for the scene.
     pub(crate) integrator: Option<Integrator>,
 }
 

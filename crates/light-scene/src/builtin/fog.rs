@@ -100,6 +100,6 @@ mod tests {
         assert_eq!(scene.lights.len(), 1000, "as announced");
         assert_eq!(scene.meshes, fog(1).meshes, "the same each time");
         assert_ne!(scene.meshes, fog(2).meshes, "another seed");
-        assert!(scene.camera_medium.is_some(), "the camera stands in fog");
+        assert!(scene.camera_medium.is_some(), "the camera is in fog");
     }
 }

@@ -92,10 +92,10 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
     let texels = vec![Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
     write_png(&path, &Image::new(2, 2, texels.clone()).expect("an image")).expect("written");
     let opaque = data_uri(&std::fs::read(&path).expect("read"));
-    let mut holes = image::RgbaImage::from_pixel(2, 1, image::Rgba([255, 0, 0, 255]));
-    holes.put_pixel(1, 0, image::Rgba([0, 0, 0, 51]));
-    holes.save(&path).expect("written");
-    let holes = data_uri(&std::fs::read(&path).expect("read"));
+    let mut mask = image::RgbaImage::from_pixel(2, 1, image::Rgba([255, 0, 0, 255]));
+    mask.put_pixel(1, 0, image::Rgba([0, 0, 0, 51]));
+    mask.save(&path).expect("written");
+    let mask = data_uri(&std::fs::read(&path).expect("read"));
     let scene = read(
         &format!(
             r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
@@ -108,7 +108,7 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
                 "baseColorTexture": {{"index": 1}}, "metallicRoughnessTexture": {{"index": 0}}}}}}],
         "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}],
         "samplers": [{{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728, "minFilter": 9987}}],
-        "images": [{{"uri": "{opaque}"}}, {{"uri": "{holes}"}}]"#
+        "images": [{{"uri": "{opaque}"}}, {{"uri": "{mask}"}}]"#
         )
         .replace(r#""material": 0"#, r#""indices": 2, "material": 0"#),
     )
@@ -135,7 +135,7 @@ fn textures_are_decoded_once_and_their_alpha_masks() {
         "linear"
     );
     let metal = scene.material(scene.meshes[1].material);
-    let alpha = metal.alpha.expect("holes");
+    let alpha = metal.alpha.expect("mask");
     assert_eq!(alpha.cutoff, Some(0.3), "a mask");
     let Color::Image(share) = alpha.opacity else {
         panic!("an image");

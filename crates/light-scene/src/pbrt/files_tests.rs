@@ -59,7 +59,7 @@ fn materials_may_be_described_after_their_use() {
     let lamp = scene.material(scene.meshes[0].material);
     let reflectance = Color::Constant(Vec3::new(0.9, 0.1, 0.1));
     assert_eq!(lamp.surface, Surface::Diffuse { reflectance }, "red");
-    assert!(lamp.emission.is_some(), "and shines");
+    assert!(lamp.emission.is_some(), "and is emissive");
     let Surface::Mix { materials, .. } = scene.material(scene.meshes[1].material).surface else {
         panic!("a mixture");
     };

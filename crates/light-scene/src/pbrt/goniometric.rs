@@ -76,7 +76,7 @@ impl Reader {
         transform: Affine3A,
         color: Vec3,
     ) -> Result<LightDesc<Rgb>, Diagnostic> {
-        let path = self.beside(name);
+        let path = self.resolve(name);
         let read = self.files.read(&path);
         let luminaire = read.and_then(|bytes| parse_luminaire(&path, &text_of(&bytes), self.files));
         let luminaire = luminaire.map_err(|error| typed.at.diagnostic(error.to_string()))?;

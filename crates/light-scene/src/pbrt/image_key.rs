@@ -4,7 +4,7 @@ use crate::Image;
 use crate::glam::Vec3;
 use crate::image::Encoding;
 
-/// A file of texels and what is made of them: as much as tells images apart that are stored once
+/// A file of texels and what is made of them: the key under which an image is stored once
 /// each.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct ImageKey {

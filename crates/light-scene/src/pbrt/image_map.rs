@@ -21,7 +21,7 @@ impl Reader {
         let parameters = &typed.parameters;
         let file = parameters.string("filename");
         let file = file.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-        let path = self.beside(file);
+        let path = self.resolve(file);
         let scale = parameters.amount_or("scale", 1.0);
         let mapping = self.texture_mapping(typed);
         self.filter(typed);

@@ -23,7 +23,7 @@ impl Reader {
             );
             return Err(tokens.diagnostic(message));
         }
-        let file = self.beside(&name);
+        let file = self.resolve(&name);
         let refuse = |error: Diagnostic| tokens.diagnostic(error.to_string());
         let bytes = self.files.read(&file).map_err(refuse)?;
         let plain = gunzipped(&file, &bytes).map_err(refuse)?;

@@ -161,7 +161,7 @@ impl Reader {
         let radiance = match parameters.string("filename") {
             // An image that does not repeat.
             Some(file) => Color::Image(ColorImage {
-                image: self.image(*at, ImageKey::colors(self.beside(file)))?,
+                image: self.image(*at, ImageKey::colors(self.resolve(file)))?,
                 scale,
                 mapping: TextureMapping::default(),
             }),
@@ -188,7 +188,7 @@ impl Reader {
     pub(super) fn light_image(&mut self, typed: &Typed<'_>) -> Result<Image, Diagnostic> {
         let name = typed.parameters.string("filename");
         let name = name.ok_or_else(|| typed.at.diagnostic("expected \"string filename\""))?;
-        let path = self.beside(name);
+        let path = self.resolve(name);
         if let Some(known) = self.light_images.get(&path) {
             return Ok(known.clone());
         }

@@ -97,7 +97,7 @@ fn media_are_read_with_their_coefficients_and_their_places() {
     assert!(at(puff, Vec3::new(0.5, 0.1, 0.5))[1].x > 0.5, "dense below");
 
     let air_id = scene.camera_medium.expect("a medium");
-    assert_eq!(air_id.index(), 0, "the camera stands in air");
+    assert_eq!(air_id.index(), 0, "the camera is in air");
     let media = |i: usize| scene.material(scene.spheres[i].material).media;
     assert_eq!(
         media(0).inside.map(|id| id.index()),

@@ -253,7 +253,7 @@ fn blocks_are_ended() {
     }
 }
 
-/// A parameter of an `Attribute` is refused where it stands, for what asks for it.
+/// An invalid parameter of an `Attribute` is refused at its own location.
 #[test]
 fn attributes_are_refused_where_they_stand() {
     let text = "WorldBegin\nAttribute \"light\" \"rgb I\" [1 -1 1]\n\nLightSource \"point\"";

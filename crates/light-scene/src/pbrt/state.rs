@@ -143,7 +143,7 @@ impl Reader {
     }
 
     /// Where a file is that a directive names.
-    pub(super) fn beside(&self, name: &str) -> PathBuf {
+    pub(super) fn resolve(&self, name: &str) -> PathBuf {
         self.root.with_file_name(name)
     }
 

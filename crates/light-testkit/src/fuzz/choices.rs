@@ -9,7 +9,7 @@ const ROUNDING: f64 = 2e-5;
 /// Overlaps narrower than this are taken for rounding error.
 const GAP: f64 = 4.0 * ROUNDING;
 
-/// Places in `[0, 1)` at which choices are tried.
+/// Values of `u` at which choices are tried.
 const GRID: u32 = 128;
 
 /// The `u` that lead to one light.
@@ -23,13 +23,13 @@ pub(super) enum Share {
 
 /// One way to choose a light: for a receiver, for none, one of several, or by a cut.
 pub(super) struct Choice<'a> {
-    /// What is asked, for messages.
+    /// Name of the query, for messages.
     pub(super) name: &'a str,
     pub(super) sample: &'a dyn Fn(f64) -> Option<SampledLight>,
     pub(super) pmf: &'a dyn Fn(LightId) -> f32,
     /// How many lights there are.
     pub(super) count: u32,
-    /// What each of them owns.
+    /// The intervals of `u` of each light.
     pub(super) share: Share,
 }
 
@@ -134,7 +134,7 @@ impl Choice<'_> {
     }
 }
 
-/// The part of `[0, 1)` that belongs to a light.
+/// The part of `[0, 1)` that leads to a light.
 #[derive(Clone, Copy, Debug)]
 struct Interval {
     light: LightId,

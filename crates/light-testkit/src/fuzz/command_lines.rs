@@ -2,7 +2,7 @@ use light_render::cli;
 
 use super::input::Input;
 
-/// Words that the program knows, and values that it may not like.
+/// Words that the program knows, and invalid values.
 const WORDS: [&str; 64] = [
     "bench",
     "compare",
@@ -73,10 +73,10 @@ const WORDS: [&str; 64] = [
 /// Words on a command line.
 const MAX_WORDS: usize = 12;
 
-/// The program understands a command line, or says what it does not; it is never run.
+/// The program parses a command line, or reports an error; it is never run.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn command_lines(data: &[u8]) {
     let mut input = Input::new(data);
     let mut words = vec!["lights".to_owned()];

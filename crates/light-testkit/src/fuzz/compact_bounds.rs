@@ -12,7 +12,7 @@ use crate::real3::{Real3, cross, dot, length, real3, sub};
 /// alone, where no light contributes.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn compact_bounds(data: &[u8]) {
     let mut input = Input::new(data);
     let bounds = input.bounds();

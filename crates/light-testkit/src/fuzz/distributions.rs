@@ -13,7 +13,7 @@ const MAX_CELLS: usize = 64;
 /// Tables refuse weights that are invalid, and never return a cell or a point without density.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn distributions(data: &[u8]) {
     let mut input = Input::new(data);
     let us = [

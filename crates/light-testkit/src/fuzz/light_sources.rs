@@ -13,14 +13,14 @@ const MAX_LIGHTS: usize = 4;
 /// How far away receivers are.
 const FAR: f32 = 1e6;
 
-/// Any description makes a light that keeps its promises, or is refused.
+/// Any description gives a light that obeys the laws, or is refused.
 ///
 /// Powers are finite, extents valid, sampled radiances finite and not negative, sampled densities
-/// those that are queried; and what arrives at a receiver has a pmf above zero. Of lights and
-/// receivers of extreme sizes and places densities are not compared.
+/// those that are queried; and what arrives at a receiver has a pmf above zero. For lights
+/// and receivers of extreme sizes and positions densities are not compared.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn light_sources(data: &[u8]) {
     let mut input = Input::new(data);
     let contexts = [Demand::Density, Demand::Range].map(|demand| {

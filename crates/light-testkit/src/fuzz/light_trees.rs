@@ -11,7 +11,7 @@ const MAX_LIGHTS: usize = 40;
 /// a sample has the bits of the queried pmf, and pmfs sum to one at most.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn light_trees(data: &[u8]) {
     let mut input = Input::new(data);
     let contexts = [input.context(), input.context()];

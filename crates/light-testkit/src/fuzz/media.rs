@@ -30,7 +30,7 @@ const STEPS: f32 = 32.0;
 /// is infinite or negative.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn media(data: &[u8]) {
     let mut input = Input::new(data);
     let phase = phase(&mut input);

@@ -1,7 +1,7 @@
-//! What the fuzz targets do with their bytes: plain functions, so that tests on stable replay the
-//! same input.
+//! The bodies of the fuzz targets: plain functions, so that tests on stable Rust replay the same
+//! input.
 //!
-//! Each panics when a promise is broken, and answers nothing otherwise.
+//! Each panics when a guarantee is violated.
 
 mod amounts;
 mod choices;
@@ -35,7 +35,7 @@ pub use readers::{read_gltf, read_image, read_luminaire, read_mtl, read_obj, rea
 pub use refits::refits;
 pub use samplers::samplers;
 
-/// A target: what one input has to survive.
+/// The body of a target.
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also the name of the folder of their corpus.

@@ -7,7 +7,7 @@ use crate::real3::{cross, dot, length, real3};
 /// Codes decode to unit vectors, and directions come back within the stated angle.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn octahedral(data: &[u8]) {
     let mut input = Input::new(data);
     let bits = input.u32();

@@ -12,7 +12,7 @@ const MAX_PARTS: usize = 4;
 /// order or to none, and no changed byte goes unnoticed; other bytes are refused in one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn partials(data: &[u8]) {
     let path = Path::new("part.exr");
     for error in [

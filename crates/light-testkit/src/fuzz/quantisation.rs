@@ -2,10 +2,10 @@ use light_math::quantize::{QuantizedBox, decode_cos, encode_cos};
 
 use super::input::Input;
 
-/// A coded cosine represents itself or for a wider angle, by two codes at most; order is kept.
+/// A decoded cosine is that of the same or of a wider angle, by two codes at most; order is kept.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn cosine_quantisation(data: &[u8]) {
     let mut input = Input::new(data);
     let (a, b) = (input.f32(), input.f32());
@@ -29,7 +29,7 @@ pub fn cosine_quantisation(data: &[u8]) {
 /// A coded box contains the original.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn box_quantisation(data: &[u8]) {
     let mut input = Input::new(data);
     let bounds = input.aabb();

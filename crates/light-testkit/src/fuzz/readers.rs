@@ -8,7 +8,7 @@ use light_scene::{
 /// An OBJ file gives a sound scene or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_obj(data: &[u8]) {
     scene(parse_scene(Path::new("a.obj"), data, Files::NONE));
 }
@@ -16,7 +16,7 @@ pub fn read_obj(data: &[u8]) {
 /// A material library gives a sound scene or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_mtl(data: &[u8]) {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     let library = |path: &Path| match path.to_str() {
@@ -29,7 +29,7 @@ pub fn read_mtl(data: &[u8]) {
 /// A pbrt file gives a sound scene or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_pbrt(data: &[u8]) {
     scene(parse_scene(Path::new("a.pbrt"), data, Files::NONE));
 }
@@ -37,7 +37,7 @@ pub fn read_pbrt(data: &[u8]) {
 /// A PLY file gives a sound mesh or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_ply(data: &[u8]) {
     if let Some(ply) = answer(parse_ply(Path::new("a.ply"), data)) {
         indices(&ply);
@@ -49,7 +49,7 @@ pub fn read_ply(data: &[u8]) {
 /// A glTF file, text or binary, gives a sound scene or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_gltf(data: &[u8]) {
     scene(parse_scene(Path::new("a.gltf"), data, Files::NONE));
 }
@@ -57,7 +57,7 @@ pub fn read_gltf(data: &[u8]) {
 /// An image file of any format gives finite texels of at least 0 or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_image(data: &[u8]) {
     for name in ["a.exr", "a.hdr", "a.png"] {
         if let Some(file) = answer(parse_image(Path::new(name), data)) {
@@ -74,7 +74,7 @@ pub fn read_image(data: &[u8]) {
 /// A photometric file of either format gives a web that gives off a finite power, or one line.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn read_luminaire(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     for name in ["a.ies", "a.ldt"] {

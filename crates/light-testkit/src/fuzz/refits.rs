@@ -30,7 +30,7 @@ const MAX_PLACE: Vec3 = Vec3::splat(1e36);
 /// right to a sixteenth, and to 2^-34 of the largest child.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn refits(data: &[u8]) {
     let mut input = Input::new(data);
     let options = options(&mut input);

@@ -16,7 +16,7 @@ const MAX_LIGHTS: usize = 24;
 /// light lost.
 ///
 /// # Panics
-/// If a promise is broken.
+/// If a guarantee is violated.
 pub fn samplers(data: &[u8]) {
     let mut input = Input::new(data);
     let options = options(&mut input);

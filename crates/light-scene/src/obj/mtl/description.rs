@@ -124,13 +124,13 @@ impl Description {
 
     fn emission(&self) -> Option<Emission> {
         // Emission of a material that does not emit is written as `Ke 0 0 0` by most exporters.
-        let shines = self.emitted != Vec3::ZERO;
+        let is_emissive = self.emitted != Vec3::ZERO;
         let radiance = match self.emitted_map {
             Some(image) => {
-                let scale = if shines { self.emitted } else { Vec3::ONE };
+                let scale = if is_emissive { self.emitted } else { Vec3::ONE };
                 Color::Image(ColorImage { scale, ..image })
             }
-            None if shines => Color::Constant(self.emitted),
+            None if is_emissive => Color::Constant(self.emitted),
             None => return None,
         };
         Some(Emission {
