@@ -12,7 +12,7 @@ use crate::glam::{Affine3A, Mat3A, Vec3};
 use crate::text::text_of;
 use crate::{Camera, Diagnostic, goniometric_light, in_luminaire, parse_luminaire};
 
-/// Texels a side of the map of a measured luminaire.
+/// Texels per side of the map of a measured luminaire.
 const WEB_SIZE: u32 = 256;
 
 impl Reader {
@@ -66,9 +66,8 @@ impl Reader {
         }))
     }
 
-    /// A luminaire gives off what its file says, times the colour; it hangs with its nadir along -y
-    /// and its photometric horizontal along x, and pictures show it the right way around: not as in
-    /// a mirror.
+    /// A luminaire has the power of its file, times the colour. Its nadir is along -y and its
+    /// photometric horizontal along x; its distribution is not mirrored in the picture.
     fn luminaire(
         &mut self,
         typed: &Typed<'_>,

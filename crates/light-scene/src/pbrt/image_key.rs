@@ -4,8 +4,8 @@ use crate::Image;
 use crate::glam::Vec3;
 use crate::image::Encoding;
 
-/// A file of texels and what is made of them: the key under which an image is stored once
-/// each.
+/// A file of texels and what is made of them: the key under which an image is stored
+/// once.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct ImageKey {
     pub(super) path: PathBuf,
@@ -17,7 +17,7 @@ pub(super) struct ImageKey {
 }
 
 impl ImageKey {
-    /// The colours of a file, as those who made it meant them.
+    /// The colours of a file with its own encoding.
     pub(super) fn colors(path: PathBuf) -> Self {
         Self {
             path,

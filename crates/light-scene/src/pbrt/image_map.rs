@@ -12,7 +12,7 @@ use crate::text::shown;
 use crate::{Color, ColorImage, Diagnostic, ImageFile, ImageId};
 
 impl Reader {
-    /// A texture that shows the image of a file.
+    /// A texture of an image file.
     pub(super) fn image_map(
         &mut self,
         typed: &Typed<'_>,
@@ -45,7 +45,7 @@ impl Reader {
         }))
     }
 
-    /// An image of a file beside the scene.
+    /// The image of a file relative to the scene.
     pub(super) fn image(&mut self, at: FileLoc<'_>, key: ImageKey) -> Result<ImageId, Diagnostic> {
         if let Some(&known) = self.images.get(&key) {
             return Ok(known);
@@ -74,7 +74,7 @@ impl Reader {
         Ok(file)
     }
 
-    /// How an image lies on surfaces, by their own coordinates.
+    /// The mapping of an image by surface parameters.
     fn texture_mapping(&mut self, typed: &Typed<'_>) -> TextureMapping {
         let parameters = &typed.parameters;
         let mapping = parameters.string("mapping").unwrap_or("uv");

@@ -1,10 +1,10 @@
-/// Files that a scene may include, each as often as it is included.
+/// The most files that a scene may include, repeated inclusions counted.
 pub(super) const MOST_FILES: usize = 1 << 16;
 
-/// Bytes of text in all of them, 4 GiB.
+/// The most bytes of text in all of them, 4 GiB.
 const MOST_BYTES: u64 = 1 << 32;
 
-/// What has been included so far.
+/// The number of inclusions so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Included {
     files: usize,

@@ -1,4 +1,4 @@
-//! Files that a scene consists of.
+//! `Include` and `Import`.
 
 use super::state::Reader;
 use super::tokens::Tokens;
@@ -6,11 +6,11 @@ use crate::Diagnostic;
 use crate::gunzip::gunzipped;
 use crate::text::text_of;
 
-/// Files that include each other deeper than this include themselves.
+/// The largest depth of inclusion: deeper files include themselves.
 const DEEPEST: usize = 32;
 
 impl Reader {
-    /// `Include "name"`: as if the text of the file stood there.
+    /// `Include "name"`: the text of the file replaces the directive.
     pub(super) fn include(
         &mut self,
         tokens: &mut Tokens<'_>,
@@ -32,7 +32,7 @@ impl Reader {
         self.file(&file, &text_of(&plain), depth + 1)
     }
 
-    /// `Import "name"`: what the file does to the state ends with it.
+    /// `Import "name"`: the state is restored after the file.
     pub(super) fn import(
         &mut self,
         tokens: &mut Tokens<'_>,

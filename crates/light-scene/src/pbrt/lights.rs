@@ -70,7 +70,7 @@ impl Reader {
                 amount: IrradianceAmount::default(),
             }),
             "projection" => LightDesc::Projection(ProjectionLightDesc {
-                // Rows run downward where y runs upward.
+                // Rows run downward, y upward.
                 transform: transform * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
                 image: self.light_image(typed)?,
                 fov: fov(typed).to_radians(),
@@ -92,7 +92,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A light without a surface lies in the medium outside.
+    /// A light without a surface is in the medium outside.
     pub(super) fn light_media(&self) -> MediumInterface {
         MediumInterface {
             inside: None,
@@ -159,7 +159,7 @@ impl Reader {
         }
         let scale = Vec3::splat(parameters.amount_or("scale", 1.0));
         let radiance = match parameters.string("filename") {
-            // An image that does not repeat.
+            // An image without repetition.
             Some(file) => Color::Image(ColorImage {
                 image: self.image(*at, ImageKey::colors(self.resolve(file)))?,
                 scale,
@@ -175,7 +175,7 @@ impl Reader {
         Ok(())
     }
 
-    /// The colour of a light, white if the file says nothing.
+    /// The colour of a light, white by default.
     pub(super) fn emission(&mut self, typed: &Typed<'_>, name: &str) -> Vec3 {
         let emission = typed.parameters.emission(name);
         if emission.is_none() && typed.parameters.has(name) {

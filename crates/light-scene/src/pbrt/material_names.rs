@@ -2,11 +2,11 @@ use std::collections::{HashMap, HashSet};
 
 use crate::{Diagnostic, MaterialId};
 
-/// What `MakeNamedMaterial` describes; files may name a material before they describe it.
+/// The materials of `MakeNamedMaterial`; a file may use a material before it defines it.
 #[derive(Debug, Default)]
 pub(super) struct NamedMaterials {
     pub(super) by_name: HashMap<String, MaterialId>,
-    /// Named but not described so far, with what to say if that stays so.
+    /// Used but not yet defined, with the error if that does not change.
     pub(super) awaited: HashMap<String, (MaterialId, Diagnostic)>,
     pub(super) awaited_ids: HashSet<MaterialId>,
     /// Materials that have taken their surface from another one, each with the other.

@@ -126,8 +126,7 @@ impl Reader {
         Surface::Conductor { eta, k, alpha }
     }
 
-    /// What a parameter says of a metal, in numbers or by the metal's name; of copper if it is not
-    /// given.
+    /// The optical constants of a metal, by numbers or by name; copper by default.
     fn of_metal(&mut self, typed: &Typed<'_>, name: &str, of: impl Fn(&Metal) -> [f32; 3]) -> Vec3 {
         let copper = Vec3::from(of(&METALS[4]));
         let Some(metal) = typed.parameters.spectrum_name(name) else {

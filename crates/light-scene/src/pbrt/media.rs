@@ -92,7 +92,7 @@ impl Reader {
         }
     }
 
-    /// All media, once everything is read.
+    /// All media, after the last directive.
     pub(super) fn finished_media(&mut self) -> Result<Vec<NamedMedium>, Diagnostic> {
         let slots = self.media.drain(..).map(|slot| match slot.medium {
             Some(medium) => Ok(NamedMedium {
@@ -156,7 +156,7 @@ impl Reader {
         value.unwrap_or(default)
     }
 
-    /// The emission `Le`, black if the file says nothing.
+    /// The emission `Le`, black by default.
     pub(super) fn glow(&mut self, typed: &Typed<'_>) -> Vec3 {
         if typed.parameters.has("Le") {
             self.emission(typed, "Le")
@@ -165,7 +165,7 @@ impl Reader {
         }
     }
 
-    /// Where the space of a medium lies.
+    /// The transform from medium space to the scene.
     pub(super) fn medium_to_scene(&self) -> Affine3A {
         Affine3A::from_mat4(self.state.transform)
     }
@@ -186,12 +186,12 @@ fn everywhere(
     .into())
 }
 
-/// A medium that does nothing.
+/// Vacuum.
 fn vacuum(typed: &Typed<'_>) -> Result<AnyMedium<Rgb>, Diagnostic> {
     everywhere(typed, [Vec3::ZERO; 2], 1.0, Vec3::ZERO)
 }
 
-/// What a medium is made of, from its absorption and scattering.
+/// The substance of given absorption and scattering.
 pub(super) fn substance(
     typed: &Typed<'_>,
     [sigma_a, sigma_s]: [Vec3; 2],
@@ -201,7 +201,7 @@ pub(super) fn substance(
     Substance::new(sigma_a * scale, sigma_s * scale, le).map_err(|error| refused(typed, error))
 }
 
-/// How a medium scatters.
+/// The phase function.
 pub(super) fn phase(typed: &Typed<'_>) -> Result<Phase, Diagnostic> {
     let g = typed.parameters.number_or("g", 0.0);
     if g == 0.0 {
@@ -211,7 +211,7 @@ pub(super) fn phase(typed: &Typed<'_>) -> Result<Phase, Diagnostic> {
     Ok(Phase::HenyeyGreenstein(phase))
 }
 
-/// What is wrong with a medium.
+/// The error of an invalid medium.
 pub(super) fn refused(typed: &Typed<'_>, what: impl core::fmt::Display) -> Diagnostic {
     let name = shown(&typed.kind);
     typed.at.diagnostic(format!("medium \"{name}\": {what}"))

@@ -86,7 +86,7 @@ impl Reader {
             let message = "expected values of `sigma_a`, of `sigma_s`, or of both";
             return Err(refused(typed, message));
         }
-        // What is not given is 1 everywhere, whatever the scale.
+        // A missing grid is 1 everywhere, not scaled.
         let ones = || {
             let grid = Grid::new(size, vec![1.0; 3 * samples(size)]);
             ColorGrid::new(RGB, grid.expect("ones")).expect("colours")
@@ -141,7 +141,7 @@ fn bounds(typed: &Typed<'_>) -> Aabb {
 
 /// Samples on each axis.
 fn size(typed: &Typed<'_>) -> Result<[u32; 3], Diagnostic> {
-    /// More than this is no grid that a file lists.
+    /// The largest number of samples per axis.
     const MOST: u32 = 1 << 16;
     let mut size = [1; 3];
     for (n, name) in size.iter_mut().zip(["nx", "ny", "nz"]) {

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use lights::media::AnyMedium;
 use lights::sources::Rgb;
 
-/// A medium by its name: files may name it before they describe it.
+/// A medium by its name: a file may use it before it defines it.
 #[derive(Debug)]
 pub(super) struct MediumSlot {
     pub(super) name: String,

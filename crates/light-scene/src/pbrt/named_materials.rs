@@ -69,8 +69,8 @@ impl Reader {
         twin
     }
 
-    /// Gives those that were named before they were described their surfaces, once everything is
-    /// read.
+    /// Sets the surfaces of materials that were used before their definition, after the last
+    /// directive.
     pub(super) fn finish_materials(&mut self) -> Result<(), Diagnostic> {
         let awaited = core::mem::take(&mut self.materials.awaited).into_values();
         if let Some((_, unknown)) = awaited.min_by_key(|(id, _)| *id) {

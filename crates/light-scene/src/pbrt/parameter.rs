@@ -15,11 +15,11 @@ pub(super) struct Parameter {
     pub(super) line: usize,
     pub(super) numbers: Vec<f64>,
     pub(super) words: Vec<String>,
-    /// Whether anybody has asked for it.
+    /// Whether it was read.
     pub(super) used: Cell<bool>,
 }
 
-/// What a parameter says that it is.
+/// The type of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ParameterType {
     Bool,
@@ -62,7 +62,7 @@ impl ParameterType {
         }
     }
 
-    /// What a value is.
+    /// A value.
     const fn value(self) -> &'static str {
         match self {
             Self::Bool => "`true` or `false`",

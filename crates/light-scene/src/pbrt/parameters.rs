@@ -10,17 +10,17 @@ use crate::glam::{Vec2, Vec3};
 use crate::text::{shown, text_of};
 use crate::{Diagnostic, Files, Location};
 
-/// The parameter list of a directive, which remembers what was asked for and what made no sense.
+/// The parameter list of a directive, which records which parameters were read and the first error.
 ///
-/// Who asks for a parameter of another type, of another number of values or outside of its domain
-/// gets what he would get without it; [`check`](Self::check) then refuses the directive.
+/// A parameter of the wrong type, of a wrong number of values or outside of its domain is read as
+/// if it were missing; [`check`](Self::check) then refuses the directive.
 #[derive(Debug)]
 pub(super) struct Parameters {
     path: Rc<Path>,
     list: Vec<Parameter>,
-    /// What `Attribute` directives have said before, the last one first.
+    /// Parameters of earlier `Attribute` directives, the last one first.
     inherited: Vec<Rc<Self>>,
-    /// The first thing that made no sense.
+    /// The first error.
     fault: RefCell<Option<Diagnostic>>,
 }
 
@@ -47,7 +47,7 @@ impl Parameters {
         })
     }
 
-    /// Takes over what the directive itself does not say.
+    /// Adds the parameters that the directive itself does not state.
     pub(super) fn inherit(&mut self, earlier: impl Iterator<Item = Rc<Self>>) {
         self.inherited.extend(earlier);
     }
@@ -86,7 +86,7 @@ impl Parameters {
         self.fault.borrow().clone().map_or(Ok(()), Err)
     }
 
-    /// Names and lines of the parameters that nobody asked for.
+    /// Names and lines of the parameters that were not read.
     pub(super) fn unused(&self) -> impl Iterator<Item = (&str, usize)> {
         let unused = self.list.iter().filter(|p| !p.used.get());
         unused.map(|p| (p.name.as_str(), p.line))
@@ -100,7 +100,7 @@ impl Parameters {
         self.find(name).map(|(parameter, _)| parameter.kind)
     }
 
-    /// Marks a parameter as known, though it has no say here.
+    /// Marks a parameter as known, although it has no effect here.
     pub(super) fn accept(&self, name: &str) {
         if let Some((parameter, _)) = self.find(name) {
             parameter.used.set(true);

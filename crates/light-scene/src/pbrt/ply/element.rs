@@ -1,4 +1,4 @@
-//! How a PLY file lays out its data.
+//! The data layout of a PLY file.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {

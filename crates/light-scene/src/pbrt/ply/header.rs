@@ -1,4 +1,4 @@
-//! What a PLY file says of itself before its data.
+//! The header of a PLY file.
 
 use super::body::Body;
 use super::element::{Element, Format, Number, Property};
