@@ -40,10 +40,18 @@ fn the_area_beside_a_hyperbola() {
             ([[1.0 - c, -c], [-c, -c]], 1.0 - below),
             ([[c, c], [c, c - 1.0]], below),
         ] {
-            let [all, above] = areas(&polygon(&SQUARE), &level(corners));
-            assert!((all - 1.0).abs() < 1e-12, "{c}: {all}");
-            let near = (above - expected).abs() < 1e-7;
-            assert!(near, "{c}: {above}, {expected}");
+            // Wherever the texel is.
+            for shift in [0.0, 3.0] {
+                let square = SQUARE.map(|corner| corner.map(|x| x + shift));
+                let level = Level {
+                    start: DVec2::splat(-shift),
+                    ..level(corners)
+                };
+                let [all, above] = areas(&polygon(&square), &level);
+                assert!((all - 1.0).abs() < 1e-12, "{c}: {all}");
+                let near = (above - expected).abs() < 1e-7;
+                assert!(near, "{c}: {above}, {expected}");
+            }
         }
     }
 }
