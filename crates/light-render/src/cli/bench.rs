@@ -26,8 +26,9 @@ pub(crate) struct BenchArgs {
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
     points: Option<PathBuf>,
-    /// Make a set: uniform, clusters, spots or mixed; adversarial ones are one-point, line, nested,
-    /// large-world and magnitudes.
+    /// Make a set: uniform, clusters, spots or mixed; a place, such as storeys, downlights or stadium
+    /// (any other word lists them all); or an adversarial set, one-point, line, nested, large-world
+    /// or magnitudes.
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.

@@ -4,6 +4,7 @@ use core::str::FromStr;
 use glam::Vec3;
 use lights::math::float;
 
+use super::families::Family;
 use super::random::Random;
 use super::{LightSetFile, SetLight, SetPoint};
 
@@ -36,12 +37,14 @@ pub enum SetKind {
     LargeWorld,
     /// Points with coordinates from 1e-20 to 1e18.
     Magnitudes,
+    /// A place of the given family.
+    Place(Family),
 }
 
 impl SetKind {
-    /// All kinds, in the order of the tables: four that are like scenes, and five that are
-    /// adversarial.
-    pub const ALL: [Self; 9] = [
+    /// The kinds that are no places, in the order of the tables: four that are like scenes, and
+    /// five that are adversarial.
+    pub const PLAIN: [Self; 9] = [
         Self::Uniform,
         Self::Clusters,
         Self::Spots,
@@ -66,6 +69,29 @@ impl SetKind {
             Self::Nested => "nested",
             Self::LargeWorld => "large-world",
             Self::Magnitudes => "magnitudes",
+            Self::Place(family) => family.name(),
+        }
+    }
+
+    /// All kinds: the plain ones, and the families.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let families = Family::ALL.into_iter().map(Self::Place);
+        Self::PLAIN.into_iter().chain(families)
+    }
+
+    /// Tells kinds apart in seeds.
+    const fn number(self) -> u64 {
+        match self {
+            Self::Uniform => 0,
+            Self::Clusters => 1,
+            Self::Spots => 2,
+            Self::Mixed => 3,
+            Self::OnePoint => 4,
+            Self::Line => 5,
+            Self::Nested => 6,
+            Self::LargeWorld => 7,
+            Self::Magnitudes => 8,
+            Self::Place(family) => 16 + family as u64,
         }
     }
 }
@@ -74,10 +100,14 @@ impl FromStr for SetKind {
     type Err = &'static str;
 
     fn from_str(s: &str) -> Result<Self, Self::Err> {
-        Self::ALL
-            .into_iter()
+        Self::all()
             .find(|kind| kind.name() == s)
-            .ok_or("expected uniform, clusters, spots, mixed, one-point, line, nested, large-world or magnitudes")
+            .ok_or(
+                "expected uniform, clusters, spots, mixed, one-point, line, nested, large-world, \
+                 magnitudes, or a place: offices, storeys, shelves, stairs, tribune, canyon, facade, \
+                 head-lamps, wall-lamps, stadium, downlights, accents, hard-spots, soft-spots, \
+                 points, bulbs, tubes, foliage, terrain, nested-clusters, few-bright, sizes, grazing",
+            )
     }
 }
 
@@ -85,7 +115,7 @@ impl LightSetFile {
     /// Generates the set of `kind` with `n` lights and 4096 points; a function of its arguments.
     #[must_use]
     pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
-        let mut random = Random::new(seed ^ (kind as u64) << 56 ^ (n as u64) << 24);
+        let mut random = Random::new(seed ^ kind.number() << 56 ^ (n as u64) << 24);
         let r = &mut random;
         match kind {
             SetKind::Uniform => Self {
@@ -136,6 +166,7 @@ impl LightSetFile {
             SetKind::Nested => Self::nested(r, n),
             SetKind::LargeWorld => Self::large_world(r, n),
             SetKind::Magnitudes => Self::magnitudes(r, n),
+            SetKind::Place(family) => family.generate(r, n),
         }
     }
 }
@@ -237,7 +268,7 @@ mod tests {
 
     #[test]
     fn same_seed_same_set() {
-        for kind in SetKind::ALL {
+        for kind in SetKind::all() {
             let set = LightSetFile::generate(kind, 100, 7);
             assert_eq!(
                 set,
@@ -259,7 +290,7 @@ mod tests {
 
     #[test]
     fn all_lights_shine_however_small_they_are() {
-        for kind in SetKind::ALL {
+        for kind in SetKind::all() {
             let set = LightSetFile::generate(kind, 300, 3);
             for bounds in set.lights.iter().map(SetLight::bounds) {
                 assert_eq!(bounds.validate(), Ok(()), "{}", kind.name());

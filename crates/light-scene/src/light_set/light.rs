@@ -1,6 +1,6 @@
 use core::f64::consts::PI;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Quat, Vec3};
 use lights::bounds::LightBounds;
 use lights::math::Aabb;
 
@@ -63,6 +63,21 @@ impl SetLight {
             Self::Spot { p, target, .. } => {
                 *p += by;
                 *target += by;
+            }
+        }
+        light
+    }
+
+    /// The same light turned about the origin.
+    #[must_use]
+    pub(super) fn turned(&self, by: Quat) -> Self {
+        let mut light = *self;
+        match &mut light {
+            Self::Triangle { vertices, .. } => *vertices = vertices.map(|v| by * v),
+            Self::Point { p, .. } => *p = by * *p,
+            Self::Spot { p, target, .. } => {
+                *p = by * *p;
+                *target = by * *target;
             }
         }
         light

@@ -6,12 +6,14 @@
 //! consistent unit.
 
 mod adversarial;
+mod families;
 mod generate;
 mod light;
 mod random;
 mod reader;
 mod writer;
 
+pub use families::Family;
 pub use generate::SetKind;
 pub use light::SetLight;
 pub use reader::{LightSetError, LightSetProblem};

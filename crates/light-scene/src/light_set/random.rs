@@ -20,6 +20,29 @@ impl Random {
         (self.0.next_u32() >> 8) as f32 / 16_777_216.0
     }
 
+    /// Uniform in `[low, high)`.
+    pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A number below `n`, which is below 2^24.
+    pub(super) fn below(&mut self, n: usize) -> usize {
+        self.0.next_u32() as usize % n
+    }
+
+    /// Puts items in any order.
+    pub(super) fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, self.below(i + 1));
+        }
+    }
+
+    /// A unit vector without a z.
+    pub(super) fn level_direction(&mut self) -> Vec3 {
+        let (s, c) = float::sin_cos(TAU * self.unit());
+        Vec3::new(c, s, 0.0)
+    }
+
     /// From 1 to `10^decades`, uniform in the logarithm.
     pub(super) fn log_uniform(&mut self, decades: f32) -> f32 {
         float::powf(10.0, decades * self.unit())
