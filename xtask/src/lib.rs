@@ -40,6 +40,7 @@ usage: cargo xtask [COMMAND]
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
   api [--write]               hold the public items of each library crate against docs/api, or write them there
   arrows [--write]            hold the drawing of the crates in ARCHITECTURE.md against the manifests, or write it
+  families                    write the table of families of places into docs/light-bvh.md
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for docs/light-media.md
   median-cut-table [IMAGE...] remeasure median-cut lights for docs/light-sources.md
@@ -68,6 +69,9 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("bench", [flag, names @ ..]) if flag == "--table" => {
             one("bench --table", || programs::bench_tables(names))
         }
+        ("families", []) => one("families", || {
+            programs::bench_tables(&["families".to_owned()])
+        }),
         ("bench", rest) => one("bench", || bench::bench(rest)),
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("api", rest) => one("public items", || api::api(rest)),

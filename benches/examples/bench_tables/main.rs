@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use benches::page::write_table;
 
 mod adversarial;
+mod families;
 mod hierarchies;
 mod measure;
 mod receivers;
@@ -17,11 +18,12 @@ const PAGE: &str = "docs/light-bvh.md";
 /// A table: its name, and who makes its lines.
 type Table = (&'static str, fn() -> Result<String, String>);
 
-const TABLES: [Table; 4] = [
+const TABLES: [Table; 5] = [
     ("hierarchies", || hierarchies::table(&[])),
     ("receivers", receivers::table),
     ("adversarial", adversarial::table),
     ("refits", refits::table),
+    ("families", families::table),
 ];
 
 fn main() -> ExitCode {

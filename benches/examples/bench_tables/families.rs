@@ -1,0 +1,54 @@
+//! Families of places: both hierarchies, at three sizes, on seeds that nothing was tuned on.
+
+use light_render::SamplerKind;
+use light_render::bench::BenchOptions;
+use light_scene::light_set::{Family, LightSetFile, SetKind};
+
+use super::measure::{figure, measure, options};
+
+/// Seeds of the table. Constants were chosen on seeds below 10.
+const SEEDS: [u64; 2] = [11, 12];
+
+/// Lights, and the points that the variance is taken over.
+const SIZES: [(usize, usize); 2] = [(100, 1024), (10_000, 128)];
+
+const HEADER: &str = "\
+| family | lights | reference: V mean | V 99 % | default: V mean | V median | V 99 % |
+| --- | --- | --- | --- | --- | --- | --- |
+";
+
+/// A line a family and size: means over the seeds.
+pub(super) fn table() -> Result<String, String> {
+    let mut table = HEADER.to_owned();
+    for family in Family::ALL {
+        for (lights, points) in SIZES {
+            let options = BenchOptions {
+                threads: 2,
+                ..options(&[SamplerKind::BvhReference, SamplerKind::Bvh], points)
+            };
+            let mut sums = [0.0; 5];
+            for seed in SEEDS {
+                let kind = SetKind::Place(family);
+                let set = LightSetFile::generate(kind, lights, seed);
+                let rows = measure(kind, &set, &options)?;
+                let [reference, default] = [0, 1].map(|i| rows[i].variance);
+                let found = [
+                    reference.mean,
+                    reference.p99,
+                    default.mean,
+                    default.median,
+                    default.p99,
+                ];
+                for (sum, figure) in sums.iter_mut().zip(found) {
+                    *sum += figure / SEEDS.len() as f64;
+                }
+            }
+            let figures = sums.map(figure).join(" | ");
+            let line = format!("| {} | {lights} | {figures} |", family.name());
+            println!("{line}");
+            table += &line;
+            table.push('\n');
+        }
+    }
+    Ok(table)
+}
