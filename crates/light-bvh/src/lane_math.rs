@@ -22,6 +22,41 @@ pub(crate) fn masked(x: f32, keep: bool) -> f32 {
     f32::from_bits(x.to_bits() & mask)
 }
 
+/// All ones or all zeros: a condition of a lane, in as many bits as the numbers that it selects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LaneMask(u32);
+
+impl LaneMask {
+    /// The sign of a number, 1 where it is negative.
+    #[inline(always)]
+    #[expect(clippy::cast_sign_loss, reason = "all ones is a mask")]
+    pub(crate) const fn of_sign(x: i32) -> Self {
+        Self((x >> 31) as u32)
+    }
+
+    #[cfg(test)]
+    pub(crate) const fn is_set(self) -> bool {
+        self.0 != 0
+    }
+
+    #[inline(always)]
+    pub(crate) const fn and_not(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// `x` where this is set, otherwise 0.
+    #[inline(always)]
+    pub(crate) const fn keep(self, x: f32) -> f32 {
+        f32::from_bits(x.to_bits() & self.0)
+    }
+
+    /// `a` where this is set, otherwise `b`.
+    #[inline(always)]
+    pub(crate) const fn select(self, a: f32, b: f32) -> f32 {
+        f32::from_bits((a.to_bits() & self.0) | (b.to_bits() & !self.0))
+    }
+}
+
 /// All lanes joined in pairs.
 #[cfg(feature = "alloc")]
 #[inline(always)]

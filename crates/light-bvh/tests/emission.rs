@@ -5,7 +5,9 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use light_bvh::LightBvh;
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
-use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+use light_bvh::light_bounds::{
+    EmissionLobe, LightBounds, LightExtent, LightId, LightSampleContext,
+};
 use light_testkit::Rng;
 
 #[path = "support/double.rs"]
@@ -162,4 +164,33 @@ fn what_emits_everywhere_is_no_needle() {
     }
     assert_eq!(pmf(light(0.2, 0.3), Vec3::NEG_Z), 0.0, "a beam");
     assert_eq!(pmf(light(0.0, FRAC_PI_2), Vec3::NEG_Z), 0.0, "a flat lamp");
+}
+
+/// The line of a measured lobe is a mean: what it emits beyond its edge is not known.
+#[test]
+fn narrow_lobes_may_shine_anywhere() {
+    for length in [0.4, 0.7, 0.9, 0.99, 0.9999] {
+        let bounds = LightBounds {
+            bounds: Aabb::from_point(Vec3::ZERO),
+            w: Vec3::NEG_Z,
+            phi: 1.0,
+            cos_theta_o: -1.0,
+            cos_theta_e: 0.0,
+            two_sided: false,
+        };
+        let lobe = EmissionLobe {
+            power: 1.0,
+            mean: Vec3::NEG_Z * length,
+            spread: 0.0,
+        };
+        let one = LightExtent::Lobe(bounds, lobe);
+        for count in [1, 2, 40] {
+            let tree = LightBvh::build(&vec![one; count]).expect("valid lights");
+            for p in [Vec3::NEG_Z, Vec3::X, Vec3::Z, Vec3::new(0.6, 0.0, -0.8)] {
+                let ctx = LightSampleContext::surface(p, -p, -p);
+                let pmf = tree.pmf(&ctx, LightId(0));
+                assert!(pmf > 0.0, "{count} lobes of {length} at {p}");
+            }
+        }
+    }
 }

@@ -26,17 +26,14 @@ pub(crate) struct BinnedSplit<'a> {
     /// Box of the centres.
     bounds: Aabb,
     cost: f32,
-    /// Clusters before the first narrow one, in the order of the curve; 0 if all are of one kind.
-    wide: usize,
 }
 
 impl<'a> BinnedSplit<'a> {
-    /// The lights of `clusters`, which are in the order of the curve or of one kind.
+    /// The lights of `clusters`.
     pub(crate) fn new(clusters: &'a mut [Cluster], primitives: &'a [LightPrimitive]) -> Self {
         Self {
             bounds: centers(clusters),
             lights: clusters.iter().map(|p| p.lights as usize).sum(),
-            wide: clusters.partition_point(|p| !p.is_narrow()),
             clusters,
             primitives,
             cost: f32::INFINITY,
@@ -58,7 +55,6 @@ impl<'a> BinnedSplit<'a> {
             lights,
             bounds: bounds[side],
             cost: costs[side],
-            wide: 0,
         };
         (
             part(left, left_lights, 0),
@@ -110,13 +106,6 @@ impl SplitGroup for BinnedSplit<'_> {
     }
 
     fn split(self) -> (Self, Self) {
-        if (1..self.clusters.len()).contains(&self.wide) {
-            let (wide, narrow) = self.clusters.split_at(self.wide);
-            let bounds = [centers(wide), centers(narrow)];
-            let costs = [cost(wide, bounds[0].min), cost(narrow, bounds[1].min)];
-            let middle = self.wide;
-            return self.split_at(middle, bounds, costs);
-        }
         if SNAP.contains(&self.clusters.len()) {
             return self.split_few();
         }

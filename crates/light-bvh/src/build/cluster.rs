@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::build::light_primitive::{LightPrimitive, NARROW};
+use crate::build::light_primitive::LightPrimitive;
 
 /// A light, or a few neighbours on the curve, as the builder splits them.
 ///
@@ -47,11 +47,6 @@ impl Cluster {
             first: place,
             lights: 1,
         }
-    }
-
-    /// Whether the cones are narrow; all lights of a cluster have narrow cones, or none has.
-    pub(crate) fn is_narrow(&self) -> bool {
-        self.axis_sq > NARROW
     }
 
     /// Neighbours together, that follow each other along the curve.

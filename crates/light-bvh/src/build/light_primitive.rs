@@ -7,9 +7,6 @@ use crate::node::moments::Moments;
 /// width.
 const LONGEST_AXIS: f32 = 3.0;
 
-/// Squared length of an axis beyond which a cone is narrow; that of a diffuse light is at most 1.
-pub(crate) const NARROW: f32 = 8.4;
-
 /// What the builder reads of a light to group it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightPrimitive {

@@ -6,13 +6,11 @@ use light_bounds::{LightBounds, LightExtent};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
-use crate::build::light_primitive::NARROW;
 use crate::build::lights::{Lights, phi};
 use crate::build::morton_entry::MortonEntry;
 use crate::build::options::DarkLights;
 use crate::build::radix_sort as radix;
 use crate::build::scan::is_held;
-use crate::node::moments::Moments;
 use crate::parallel::map;
 
 /// Bits of a key for each axis.
@@ -64,14 +62,6 @@ const fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// The highest bit of a key: lights with narrow cones follow all others, because groups of mixed
-/// kinds are best split early.
-fn kind(bounds: &LightBounds) -> u64 {
-    let length = Moments::axis_length(bounds);
-    let is_narrow = length * length > NARROW;
-    u64::from(is_narrow) << 63
-}
-
 /// The lights that the tree holds, along the curve through `centers`; the side of the smallest
 /// cells.
 pub(crate) fn sorted(
@@ -91,7 +81,7 @@ pub(crate) fn sorted(
             .filter_map(|(i, e)| Some((i, e, e.bounded()?)));
         let held = bounded.filter(|(_, extent, _)| is_held(phi(extent), dark));
         let entry = |(light, extent, bounds): (u32, &LightExtent, &LightBounds)| MortonEntry {
-            key: kind(bounds) | grid.map_or(0, |grid| grid.key(bounds.bounds.center())),
+            key: grid.map_or(0, |grid| grid.key(bounds.bounds.center())),
             light,
             power: lights.share(extent),
         };

@@ -13,7 +13,9 @@ use super::lights::phi;
 use super::node_children::is_depth_limited;
 use super::options::{BuildMode, DarkLights, LightBvhOptions};
 use super::quality::degradation;
-use crate::node::moments::{Moments, Shape};
+use crate::node::light_emission::Shape;
+use crate::node::moments::Moments;
+use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{WideNode, encode_power};
 
 fn cluster(center: Vec3, power: f32, axis: Vec3) -> Cluster {
@@ -220,7 +222,9 @@ fn degradation_is_the_ratio_of_the_spreads() {
     root.axis[0][0] = 100;
     root.axis[1][1] = 100;
     (root.offset[0], root.offset[1]) = (20, 60);
-    (root.spread[0], root.spread[1]) = (10, 30);
+    // The root of 1 more than the mean square deviation.
+    let spread = |x: f32| SpreadCode::new(x, false, true).0;
+    (root.spread[0], root.spread[1]) = (spread(10.0), spread(30.0));
     let mut child = WideNode {
         count: 2,
         gain,
@@ -235,7 +239,7 @@ fn degradation_is_the_ratio_of_the_spreads() {
     let variance = 100.0 * 100.0 + 0.5 * below;
     // Axes (50, 50, 0) and offset 40 on average.
     let common = f64::from(2 * 50 * 50 + 40 * 40);
-    let emission_sq = 0.5 * f64::from(10_000 + 400 + 100) + 0.5 * f64::from(10_000 + 3600 + 900);
+    let emission_sq = 0.5 * f64::from(10_000 + 400 + 99) + 0.5 * f64::from(10_000 + 3600 + 899);
     let disagreement = 2.0 - common / emission_sq;
     let expected = (below / (variance * disagreement.powf(1.25))).sqrt();
     let found = degradation(&[root, child]);

@@ -2,14 +2,25 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
-use crate::lane_math::{larger, masked};
+use crate::lane_math::{LaneMask, larger, masked};
 
-/// How much of a child's squared width counts as variance of its emission, in codes of the axis.
-/// Chosen by V: see `docs/light-bvh.md`.
+/// How much of the squared width of one light counts as variance of its emission, in codes of the
+/// axis. Chosen by V: see `docs/light-bvh.md`.
 const RAMP_BY_POSITION: f32 = 11.0;
 
-/// How much of its squared spread and distance counts as variance of its emission. Chosen by V.
-const RAMP_BY_SPREAD: f32 = 0.27;
+/// The same of a group: where its emitters lie on both sides of the plane through the receiver,
+/// those in front count although the mean is behind. Chosen by V.
+const GROUP_BY_POSITION: f32 = 400.0;
+
+/// How much of its squared spread and distance counts as variance of its emission. Chosen by V for
+/// ramps; the spread of steps is encoded so that it is theirs as well.
+pub(crate) const BY_SPREAD: f32 = 0.27;
+
+/// The length of the axis of one light that emits in a step, in codes.
+const UNIT: f32 = 127.0;
+
+/// What is left of `UNIT - offset` for the narrowest cones, whose offset rounds to [`UNIT`].
+const LEAST_CAP: f32 = 0.25;
 
 /// How much more a child counts where its width is its distance. Chosen by V.
 const NEARNESS: f32 = 0.28;
@@ -24,6 +35,14 @@ const NEARNESS: f32 = 0.28;
 /// needs 210.
 const BOX_EMISSION: f32 = 297.0;
 
+/// Half the width of the rim of a spot over its spread, which is rounded up: the root of 5 times
+/// [`BY_SPREAD`], 1.16190, and a little more.
+const STEP_EDGE: f32 = 1.162;
+
+/// How far rounding of axis and offset moves the edge of a step, in codes: half the diagonal of a
+/// cube and half a code, 1.3661, and a little more.
+const STEP_ERROR: f32 = 1.4;
+
 impl ChildView {
     /// Whether any light of the child may emit toward the receiver's position. Sound there only:
     /// not for other points of a segment.
@@ -33,10 +52,17 @@ impl ChildView {
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
         let beyond = mx * vx + my * vy + mz * vz + self.offset * self.dist;
-        // Round-off is less than 0.001 times the distance, which the code of the offset leaves: see
-        // its margin. A spread above 0 means that lights differ: the line of their mean proves
-        // nothing.
-        (beyond < BOX_EMISSION * (hx + hy + hz)) | (self.spread > 0.0)
+        // Round-off is less than 0.001 times the distance, which the codes leave: see their margins.
+        let edge = self.step.keep(STEP_EDGE * self.spread + STEP_ERROR) * self.dist;
+        // The mean of lights that differ proves nothing.
+        let anywhere = self.soft.keep(f32::MAX);
+        (beyond < (BOX_EMISSION * (hx + hy + hz) + edge) + anywhere) | self.both_sides
+    }
+
+    /// Whether the child is a group of lights none of which emits in a step.
+    #[inline(always)]
+    pub(crate) const fn is_ramp_group(&self) -> LaneMask {
+        self.soft.and_not(self.step)
     }
 
     /// The same child as seen from a point `offset` away from the receiver's position, and no
@@ -57,24 +83,37 @@ impl ChildView {
     /// The importance of the child to a point without a normal.
     #[inline(always)]
     pub(crate) fn fluence(&self) -> f32 {
-        self.weight(2.0 * self.dist)
+        self.weight(2.0 * self.dist, 0.0)
     }
 
-    /// The importance of the child to a point over whose horizon it is at half of `height`.
+    /// The importance of the child to a point over whose horizon it is at half of `height`. `lift`
+    /// is how much less of its emission the mean of what is above the horizon is beyond, times the
+    /// distance; at most 0.
+    ///
+    /// A ramp emits `max(0, -beyond)`, half of the root less `beyond` where these vary. A step
+    /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by `width`
+    /// a step varies by the solid angle of its cap, `2 pi (1 - cos)`, so that the flux of a beam
+    /// stays about what it is.
     #[inline(always)]
-    pub(crate) fn weight(&self, height: f32) -> f32 {
+    pub(crate) fn weight(&self, height: f32, lift: f32) -> f32 {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
         // All of the emission times the distance, which is not divided by before the end.
-        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist;
+        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist + lift;
         let width = hx + hy + hz;
-        let variance = RAMP_BY_POSITION * (width * width)
-            + RAMP_BY_SPREAD * (self.spread * self.spread + 1.0) * self.dist_sq;
-        let ramp = float::sqrt(beyond * beyond + variance) - masked(beyond, !self.both_sides);
+        let cap = (0.25 * UNIT) * larger(UNIT - self.offset, LEAST_CAP);
+        let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
+        let by_position = self.step.select(cap, ramp);
+        let width_sq = width * width;
+        let variance =
+            by_position * width_sq + BY_SPREAD * (self.spread * self.spread) * self.dist_sq;
+        let root = float::sqrt(beyond * beyond + variance);
+        let ramp = root - masked(beyond, !self.both_sides);
+        let scale = self.step.select(UNIT * self.dist / root, 1.0);
         let inv_dist_sq = 1.0 / self.dist_sq;
         // One near light may outshine all others of its group.
-        let near = 1.0 + NEARNESS * (width * width * inv_dist_sq);
-        (((self.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * ramp
+        let near = 1.0 + NEARNESS * (width_sq * inv_dist_sq);
+        (((self.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * (ramp * scale)
     }
 }

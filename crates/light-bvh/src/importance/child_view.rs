@@ -1,6 +1,8 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
+use crate::lane_math::LaneMask;
+use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
 
 /// How much of a child's squared width counts as variance of its distance. Chosen by V: see
@@ -29,12 +31,17 @@ pub struct ChildView {
     pub slack: f32,
     /// Mean emission axis, no component of which is above 127.
     pub axis: [f32; 3],
-    /// Mean emission offset, of `[-127, 127]`: the child emits about
+    /// Mean emission offset, of `[-127, 127]`: a child that is no step emits about
     /// `power * max(0, dot(axis, w) - offset)` toward a unit vector `w`.
     pub offset: f32,
-    /// Root mean square deviation of axis and offset. 0 if no light of the child emits beyond its
-    /// axis and offset: where these say that nothing is emitted, nothing is.
+    /// Root of 1 more than the mean square deviation of axis and offset.
     pub spread: f32,
+    /// Whether some light of the child may emit beyond the edge that axis, offset and spread tell:
+    /// all but single flat lights and single spots.
+    pub(crate) soft: LaneMask,
+    /// Whether the child emits in a step: `power` toward a unit vector `w` where `dot(axis, w)` is
+    /// above the offset, and nothing elsewhere, with an edge as wide as `spread`.
+    pub(crate) step: LaneMask,
     /// Whether the child emits alike to both sides, about `power / 2 * |dot(axis, w)|`.
     pub both_sides: bool,
     /// Scale of the emission; 0 for an empty slot.
@@ -91,6 +98,7 @@ impl NodeFrame {
         let dist_sq = dist_sq(mean, extent, DISTANCE, 1e-4 * code * code);
         let dist = float::sqrt(dist_sq);
         let both_sides = node.offset[k] == BOTH_SIDES;
+        let spread = SpreadCode(node.spread[k]);
         ChildView {
             mean,
             extent,
@@ -107,7 +115,9 @@ impl NodeFrame {
             } else {
                 f32::from(node.offset[k])
             },
-            spread: f32::from(node.spread[k]),
+            spread: spread.value(),
+            soft: spread.soft(),
+            step: spread.step(),
             both_sides,
             power: decode_power(node.power[k]),
         }

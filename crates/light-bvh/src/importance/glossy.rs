@@ -117,6 +117,7 @@ impl Receiver for GlossyReceiver {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lane_math::LaneMask;
 
     /// A child without extent in direction `v`, which emits alike in all directions.
     fn child(v: Vec3) -> ChildView {
@@ -128,7 +129,9 @@ mod tests {
             slack: 1e-5,
             axis: [0.0; 3],
             offset: -1.0,
-            spread: 1.0,
+            spread: 2.0f32.sqrt(),
+            soft: LaneMask::of_sign(-1),
+            step: LaneMask::of_sign(0),
             both_sides: false,
             power: 1.0,
         }

@@ -2,6 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
+use crate::lane_math::larger;
 
 /// How much of the squared support of a child counts as variance of its height over the horizon.
 /// Chosen by V: see `docs/light-bvh.md`.
@@ -34,6 +35,21 @@ impl Horizon {
             n.x * vx + n.y * vy + n.z * vz,
             abs_n.x * hx + abs_n.y * hy + abs_n.z * hz,
         )
+    }
+
+    /// How much the product of the axis of a group and its mean position changes where only what is
+    /// above the horizon counts; 0 of what is no group of ramps.
+    ///
+    /// Lights that fill their box evenly have that mean half way between the highest point and the
+    /// larger of their mean height and zero: it is raised by half of `support - height`. Height and
+    /// emission so go together: where lights face down, what is above the horizon is what is in
+    /// front.
+    #[inline(always)]
+    pub(crate) fn lift(&self, child: &ChildView, height: f32, support: f32) -> f32 {
+        let [mx, my, mz] = child.axis;
+        let n = self.n;
+        let raised = child.is_ramp_group().keep(larger(0.0, support - height));
+        (0.5 * raised) * (mx * n.x + my * n.y + mz * n.z)
     }
 }
 

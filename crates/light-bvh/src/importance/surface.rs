@@ -50,6 +50,7 @@ impl Receiver for SurfaceReceiver {
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         let (height, support) = self.horizon.height(child);
         let lit = (height + support > -child.slack) & child.may_reach();
-        masked(child.weight(self.expected_height(child)), lit)
+        let lift = self.horizon.lift(child, height, support);
+        masked(child.weight(self.expected_height(child), lift), lit)
     }
 }

@@ -42,6 +42,6 @@ impl Receiver for TwoSidedReceiver {
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         let (height, support) = self.horizon.height(child);
         let expected = larger(child.slack, expected_abs(height, support));
-        masked(child.weight(2.0 * expected), child.may_reach())
+        masked(child.weight(2.0 * expected, 0.0), child.may_reach())
     }
 }

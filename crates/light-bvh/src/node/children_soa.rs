@@ -1,4 +1,5 @@
-use crate::node::moments::{Moments, Shape};
+use crate::node::light_emission::Shape;
+use crate::node::moments::Moments;
 use crate::node::wide_node::WIDTH;
 
 /// The children of a node side by side, so that the compiler computes all of them together.
@@ -12,6 +13,8 @@ pub(crate) struct ChildrenSoa {
     pub(crate) offset: [f32; WIDTH],
     pub(crate) spread_sq: [f32; WIDTH],
     pub(crate) both_sides: [bool; WIDTH],
+    pub(crate) is_step: [bool; WIDTH],
+    pub(crate) is_mean: [bool; WIDTH],
 }
 
 impl ChildrenSoa {
@@ -28,6 +31,8 @@ impl ChildrenSoa {
             offset: [0.0; WIDTH],
             spread_sq: [0.0; WIDTH],
             both_sides: [false; WIDTH],
+            is_step: [false; WIDTH],
+            is_mean: [false; WIDTH],
         };
         for k in 0..WIDTH {
             let child = child(k).unwrap_or(some);
@@ -38,7 +43,9 @@ impl ChildrenSoa {
                 children.axis[axis][k] = child.axis[axis];
             }
             children.offset[k] = child.offset;
-            children.spread_sq[k] = child.spread_sq;
+            children.spread_sq[k] = child.total_spread_sq();
+            children.is_step[k] = child.shape == Shape::Steps;
+            children.is_mean[k] = child.is_mean;
             children.both_sides[k] = child.shape == Shape::BothSides;
         }
         children

@@ -1,7 +1,9 @@
 use light_math::float;
 
+use crate::importance::child_importance::BY_SPREAD;
 use crate::lane_math::{larger, low_byte, nearest, smaller};
 use crate::node::children_soa::ChildrenSoa;
+use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {
@@ -16,14 +18,15 @@ impl WideNode {
                 children.axis[2][k],
             ];
             let offset = children.offset[k];
-            // Less than the true spread where narrow cones make the axes long, for few of their
-            // deviations matter to one receiver. Measured: half the variance is best.
-            let is_narrow = larger(x * x + y * y + z * z, offset * offset) > 1.1;
-            let counted = if is_narrow { 0.5 } else { 1.0 };
-            spreads[k] = float::sqrt(counted * children.spread_sq[k]);
+            spreads[k] = float::sqrt(children.spread_sq[k]);
             // What makes the largest of them fit its code.
             let widest = larger(larger(x.abs(), y.abs()), larger(z.abs(), offset.abs()));
-            units[k] = larger(larger(widest, 0.5 * spreads[k]), 1e-6) * (1.0 / 127.0);
+            let unit = larger(larger(widest, 0.5 * spreads[k]), 1e-6) * (1.0 / 127.0);
+            units[k] = if children.is_step[k] {
+                1.0 / 127.0
+            } else {
+                unit
+            };
         }
         let inv_units = units.map(|unit| 1.0 / unit);
         let mut axes = [[0.0; WIDTH]; 3];
@@ -33,7 +36,7 @@ impl WideNode {
             }
         }
         let lengths = lengths(&axes);
-        let mut offsets = [0.0; WIDTH];
+        let (mut offsets, mut is_soft) = ([0.0; WIDTH], [false; WIDTH]);
         for k in 0..WIDTH {
             let exact = [
                 children.axis[0][k] * inv_units[k],
@@ -44,11 +47,17 @@ impl WideNode {
             let offset = children.offset[k] * inv_units[k];
             let below = offset_below(decoded, lengths[k], exact, offset);
             // Only lights that are all alike have no spread.
-            let sharp =
-                (children.spread_sq[k] == 0.0) & (below >= -127.0) & !children.both_sides[k];
-            offsets[k] = if sharp { below } else { nearest(offset) };
-            let spread = larger(nearest(spreads[k] * inv_units[k] + 0.5), 1.0);
-            spreads[k] = if sharp { 0.0 } else { spread };
+            let is_step = children.is_step[k];
+            let is_flat = (children.spread_sq[k] == 0.0) & (below >= -127.0) & !is_step;
+            let is_sharp = is_flat & !children.both_sides[k];
+            offsets[k] = if is_sharp { below } else { nearest(offset) };
+            is_soft[k] = children.is_mean[k] | !(is_flat | is_step);
+            // In codes of the axis, squared.
+            let spread_sq = (spreads[k] * inv_units[k]) * (spreads[k] * inv_units[k]);
+            let error_sq = step_error_sq(decoded, exact, offsets[k] - offset, children.offset[k]);
+            let ramp = 1.0 + if is_flat { 0.0 } else { spread_sq };
+            let step = (spread_sq + error_sq) * (1.0 / BY_SPREAD);
+            spreads[k] = float::sqrt(if is_step { step } else { ramp });
         }
         for k in 0..WIDTH {
             let (code, both_sides) = (
@@ -56,7 +65,7 @@ impl WideNode {
                 children.both_sides[k],
             );
             self.offset[k] = if both_sides { BOTH_SIDES } else { code };
-            self.spread[k] = low_byte(spreads[k]);
+            self.spread[k] = SpreadCode::new(spreads[k], children.is_step[k], is_soft[k]).0;
         }
         for (codes, axis) in self.axis.iter_mut().zip(&axes) {
             for k in 0..WIDTH {
@@ -65,6 +74,24 @@ impl WideNode {
         }
         units
     }
+}
+
+/// The squared error of the code of a step, in codes: of axis less offset along the axis, and of
+/// the axis across it, of which the edge of the cone sees the sine.
+#[inline(always)]
+fn step_error_sq(decoded: [f32; 3], exact: [f32; 3], offset_error: f32, cos: f32) -> f32 {
+    let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let error = [
+        decoded[0] - exact[0],
+        decoded[1] - exact[1],
+        decoded[2] - exact[2],
+    ];
+    let inv_length = 1.0 / float::sqrt(larger(dot(exact, exact), 1.0));
+    let along = dot(error, exact) * inv_length;
+    let aside_sq = larger(dot(error, error) - along * along, 0.0);
+    let forward = along - offset_error;
+    let sin_sq = larger(1.0 - cos * cos, 0.0);
+    forward * forward + 0.5 * aside_sq * sin_sq
 }
 
 #[inline(always)]

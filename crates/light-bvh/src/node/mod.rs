@@ -7,5 +7,8 @@ pub(crate) mod encode;
 #[cfg(feature = "alloc")]
 pub(crate) mod encode_emission;
 #[cfg(feature = "alloc")]
+pub(crate) mod light_emission;
+#[cfg(feature = "alloc")]
 pub(crate) mod moments;
+pub(crate) mod spread_code;
 pub(crate) mod wide_node;

@@ -11,8 +11,10 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// 8-bit moments.
 ///
 /// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector
-/// `w` is about `power * max(0, dot(axis, w) - offset)`, blurred by its `spread`; the three share a
-/// unit that is folded into `power`. The first `inner` children are subtrees, in the nodes
+/// `w` is a ramp, about `power * max(0, dot(axis, w) - offset)`, or a step, about `power` where
+/// `dot(axis, w) > offset`; both are blurred by its `spread`. The three share a unit, that of a ramp
+/// is folded into `power`, that of a step is 1/127. A child is a step if a light of it has a narrow
+/// cone. The first `inner` children are subtrees, in the nodes
 /// `child_base..`; the others are lights, in the order entries `light_base..`.
 ///
 /// Aligned so that none is on more than four cache lines.
@@ -23,7 +25,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 48 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
 /// | 96 | `axis[axis][child]` | mean emission axis, signed |
 /// | 144 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
-/// | 160 | `spread[child]` | how far axis and offset vary within the child; 0 if no light of it emits toward any `w` of `dot(axis, w) <= offset` |
+/// | 160 | `spread[child]` | bit 7: it is a step; bit 6: it is anything but one flat light or one spot; below, the root of 1 more than the mean square deviation of axis and offset: three bits of exponent and three of mantissa, from 1 to 240 |
 /// | 176 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
 /// | 192 | `origin` | |
 /// | 204 | `inv_scale` | |

@@ -1,5 +1,9 @@
 use super::*;
+use crate::node::light_emission::Lobe;
+use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::WideNode;
+use core::f32::consts::{FRAC_PI_2, PI};
+use light_math::float;
 
 fn bounds(w: Vec3, theta_o: f32, theta_e: f32) -> LightBounds {
     LightBounds {
@@ -32,146 +36,114 @@ fn diffuse(w: Vec3, power: f32) -> Moments {
     )
 }
 
-/// The spread that a node keeps of a group.
-fn spread_code(group: &Moments) -> u8 {
-    WideNode::encode(core::slice::from_ref(group)).spread[0]
+/// Whether a node takes the edge of these lights for a proof that none emits beyond.
+fn is_sharp(lights: &Moments) -> bool {
+    let node = WideNode::encode(core::slice::from_ref(lights));
+    !SpreadCode(node.spread[0]).soft().is_set()
 }
 
+/// Means of equal lights may differ from each by rounding.
 #[test]
-fn groups_of_equal_lines_are_as_exact_as_their_lights() {
-    for light in [
-        spot(20.0, 1.0),
-        spot(2.0, 1.0),
-        diffuse(Vec3::new(0.6, 0.0, -0.8), 1.0),
-    ] {
+fn single_lights_are_sharp_and_groups_and_curved_ones_are_not() {
+    let flat = diffuse(Vec3::new(0.6, 0.0, -0.8), 1.0);
+    assert!(is_sharp(&flat), "one flat light");
+    assert!(is_sharp(&spot(20.0, 1.0)), "one spot");
+    for light in [flat, spot(20.0, 1.0), spot(2.0, 1.0)] {
         let powers = [0.1, 3.0, 0.7, 1e-20, 11.0];
-        let lights = powers.map(|power| Moments { power, ..light });
-        let [left, right] = [Moments::join(&lights[..2]), Moments::join(&lights[2..])];
-        for group in [
-            Moments::join(&lights),
-            left,
-            Moments::join(&[left, right, Moments::NOTHING]),
-        ] {
-            assert_eq!(group.spread_sq, 0.0, "{group:?}");
-            assert_eq!(
-                (group.axis, group.offset),
-                (light.axis, light.offset),
-                "{group:?}"
-            );
-            assert_eq!(spread_code(&group), 0, "{group:?}");
-        }
+        let group = Moments::join(&powers.map(|power| Moments { power, ..light }));
+        assert!(!is_sharp(&group), "{group:?}");
     }
-}
-
-/// Whatever cancels or vanishes by rounding: only equal lines have no spread.
-#[test]
-fn groups_of_unlike_lines_have_a_spread() {
-    let next = |x: f32| f32::from_bits(x.to_bits() + 1);
-    let one = spot(20.0, 1.0);
-    let flat = diffuse(Vec3::NEG_Z, 1.0);
-    let both_sides = moments(
-        LightBounds {
-            two_sided: true,
-            cos_theta_e: 0.0,
-            ..bounds(Vec3::NEG_Z, 0.0, 0.0)
-        },
-        1.0,
-    );
-    let pairs = [
-        (spot(8.0, 1.0), spot(60.0, 1.0)),
-        (spot(20.0, 1.0), spot(20.001, 1.0)),
-        (
-            one,
-            Moments {
-                offset: next(one.offset),
-                ..one
-            },
-        ),
-        (
-            one,
-            Moments {
-                axis: one.axis * (1.0 + f32::EPSILON),
-                ..one
-            },
-        ),
-        (
-            one,
-            Moments {
-                axis: -one.axis,
-                ..one
-            },
-        ),
-        (
-            one,
-            Moments {
-                spread_sq: f32::MIN_POSITIVE,
-                ..one
-            },
-        ),
-        (
-            one,
-            Moments {
-                power: 1e-38,
-                axis: Vec3::X,
-                ..one
-            },
-        ),
-        (flat, both_sides),
-        (
-            both_sides,
-            Moments {
-                shape: Shape::Mixed,
-                ..both_sides
-            },
-        ),
-    ];
-    for (a, b) in pairs {
-        for (a, b) in [(a, b), (b, a)] {
-            let pair = Moments::join(&[a, b]);
-            let groups = [
-                pair,
-                Moments::join(&[a, a, b]),
-                Moments::join(&[pair, b, b]),
-            ];
-            for group in groups {
-                assert!(
-                    group.spread_sq >= f32::MIN_POSITIVE,
-                    "{a:?} and {b:?}: {group:?}"
-                );
-                assert!(spread_code(&group) > 0, "{a:?} and {b:?}: {group:?}");
-            }
-        }
-    }
+    let curved = moments(bounds(Vec3::X, 0.3, FRAC_PI_2), 1.0);
+    assert!(!is_sharp(&curved), "{curved:?}");
 }
 
 #[test]
 fn lights_that_are_off_do_not_count() {
     let (one, off) = (
-        spot(20.0, 1.0),
+        diffuse(Vec3::NEG_Z, 1.0),
         Moments {
             power: 0.0,
             ..spot(60.0, 1.0)
         },
     );
-    assert_eq!(Moments::join(&[off, one, off]).spread_sq, 0.0, "one is on");
+    assert_eq!(
+        Moments::join(&[off, one, off]).power,
+        one.power,
+        "one is on"
+    );
     assert_eq!(Moments::join(&[off, off]).power, 0.0, "none is on");
     assert_eq!(Moments::join(&[]).power, 0.0, "none at all");
 }
 
-/// The line is 1 on the axis and 0 at the sum of the angles.
+/// The mean and the variance of a smooth step from the first angle to the sum of both.
 #[test]
-fn a_spot_is_a_line_from_its_axis_to_its_edge() {
+fn a_spot_is_a_step_at_the_middle_of_its_rim() {
     for (o, e) in [(0.1, 0.0), (0.3, 0.2), (0.0, 1.0), (0.5, 1.4)] {
         let light = moments(bounds(Vec3::X, o, e), 1.0);
-        let line = |theta: f32| light.axis.x * float::cos(theta) - light.offset;
-        assert!((line(0.0) - 1.0).abs() < 1e-5, "{o} and {e}: {light:?}");
-        assert!(line(o + e).abs() < 1e-5, "{o} and {e}: {light:?}");
+        let steps = 100_000u32;
+        let (mut mean, mut square) = (0.0, 0.0);
+        let [start, end] = [f64::from(o).cos(), f64::from(o + e).cos()];
+        for i in 0..steps {
+            // The density of the edge is the slope of the falloff.
+            let t = (f64::from(i) + 0.5) / f64::from(steps);
+            let (density, cos) = (6.0 * t * (1.0 - t), end + (start - end) * t);
+            mean += density * cos / f64::from(steps);
+            square += density * cos * cos / f64::from(steps);
+        }
+        let variance = square - mean * mean;
         assert_eq!(
-            (light.spread_sq, light.shape),
-            (0.0, Shape::Spots),
-            "{o} and {e}"
+            (light.axis, light.shape),
+            (Vec3::X, Shape::Steps),
+            "{o}, {e}"
+        );
+        assert!(
+            (f64::from(light.offset) - mean).abs() < 1e-5,
+            "{o}, {e}: {light:?}"
+        );
+        let found = f64::from(light.spread_sq);
+        assert!(
+            (found - variance).abs() < 1e-5,
+            "{o}, {e}: {found}, not {variance}"
         );
     }
+}
+
+/// What a group emits toward a direction is the mean of what its lights emit, at any width.
+#[test]
+fn groups_of_steps_have_the_mean_and_the_variance_of_their_edges() {
+    let parts = [spot(8.0, 1.0), spot(60.0, 3.0)];
+    let group = Moments::join(&parts);
+    let [a, b] = [8.0f32, 60.0].map(|degrees| float::cos(degrees.to_radians()));
+    let mean = 0.25 * a + 0.75 * b;
+    let variance = 0.25 * (a - mean) * (a - mean) + 0.75 * (b - mean) * (b - mean);
+    assert!((group.offset - mean).abs() < 1e-6, "{group:?}");
+    assert!((group.spread_sq - variance).abs() < 1e-6, "{group:?}");
+    assert!(group.axis.distance(Vec3::NEG_Z) < 1e-6, "{group:?}");
+    assert!(group.axis_var < 1e-12, "{group:?}");
+    let turned = moments(bounds(Vec3::X, 0.1, 0.0), 1.0);
+    let group = Moments::join(&[turned, spot(8.0, 1.0)]);
+    assert!((group.axis_var - 0.5).abs() < 1e-6, "{group:?}");
+}
+
+/// A flat light is a step whose edge is evenly spread over the cosines of the half space, a point
+/// is one that is lit everywhere.
+#[test]
+fn lights_of_other_kinds_join_spots_as_steps() {
+    let dark = Moments {
+        power: 1e-30,
+        ..spot(20.0, 1.0)
+    };
+    let flat = Moments::join(&[diffuse(Vec3::X, 1.0), dark]);
+    assert_eq!(flat.shape, Shape::Steps, "{flat:?}");
+    assert!((flat.offset - 0.5).abs() < 1e-6, "{flat:?}");
+    assert!((flat.spread_sq - 1.0 / 12.0).abs() < 1e-6, "{flat:?}");
+    let point = moments(bounds(Vec3::Z, PI, 0.0), 1.0);
+    let point = Moments::join(&[dark, point]);
+    assert!((point.offset + 1.0).abs() < 1e-6, "{point:?}");
+    assert!(
+        point.spread_sq < 1e-6 && point.axis.length() < 1e-6,
+        "{point:?}"
+    );
 }
 
 #[test]

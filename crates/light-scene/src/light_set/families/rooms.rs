@@ -64,8 +64,7 @@ pub(super) fn shelves(r: &mut Random, place: &mut Place) {
     let depth = r.between(0.3, 0.6);
     let aisle = r.between(1.2, 2.5);
     let piece = r.between(0.3, 1.0);
-    let rows = ((place.n() / 2 / boards) as f32).sqrt().max(1.0) * 0.5;
-    let rows = (rows as usize).max(1);
+    let rows = ((place.n() / 2 / boards).isqrt() / 2).max(1);
     let length = place.n() as f32 / (2 * boards * rows) as f32 * piece + piece;
     let y = |row: usize| row as f32 * (depth + aisle);
     while place.wants_lights() {
