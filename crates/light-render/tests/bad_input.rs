@@ -11,7 +11,12 @@ use light_scene::{Image, write_image};
 fn refusal(folder: &Path, arguments: &[&str], file: &str) -> Option<String> {
     let path = folder.join(file);
     let mut command = Command::new(env!("CARGO_BIN_EXE_lights"));
-    let output = command.args(arguments).arg(&path).output();
+    // Pictures without a name of their own are written to the current folder.
+    let output = command
+        .args(arguments)
+        .arg(&path)
+        .current_dir(folder)
+        .output();
     let output = output.expect("the program runs");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let code = output.status.code();

@@ -76,7 +76,10 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 
 /// Every kind that something is drawn from.
 fn kinds() -> Vec<String> {
-    let mut kinds = variants("light-sources/src/desc.rs", "LightDesc<C: ColorModel>");
+    let mut kinds = variants(
+        "light-sources/src/light_desc.rs",
+        "LightDesc<C: ColorModel>",
+    );
     kinds.extend(variants("light-sources/src/shape/any.rs", "ShapeDesc"));
     kinds.extend(variants("light-media/src/phase/mod.rs", "Phase"));
     for file in ["bvh", "exhaustive", "power", "reference_bvh", "uniform"] {
