@@ -5,7 +5,7 @@ use crate::{ExactSum, FilmRow};
 /// The film: the sum of the samples of every pixel, rows from the top.
 ///
 /// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no
-/// other. A pixel takes [`BYTES_PER_PIXEL`](Self::BYTES_PER_PIXEL).
+/// other. A pixel takes 30 bytes.
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,

@@ -69,8 +69,8 @@ impl InstanceTransform {
         (ray, stretch)
     }
 
-    /// Bound, for each component, on the distance that rounding moves a ray with origin `p` in
-    /// [`object_ray`](Self::object_ray), in world space.
+    /// Bound, for each component, on the distance in world space by which rounding moves a ray with
+    /// origin `p` that is turned into object space.
     #[inline]
     #[must_use]
     pub fn error(&self, p: Vec3) -> Vec3 {
