@@ -7,9 +7,9 @@
 use glam::Vec3;
 use lights::math::float;
 
-use super::generate::{POINTS, repeat};
+use super::generate::repeat;
 use super::random::Random;
-use super::{LightSetFile, SetLight, SetPoint};
+use super::{LightSetFile, POINTS, SetLight, SetPoint};
 
 /// How many scales nested clusters have, each an eighth of the one before.
 const SCALES: i32 = 24;

@@ -6,10 +6,7 @@ use lights::math::float;
 
 use super::families::Family;
 use super::random::Random;
-use super::{LightSetFile, SetLight, SetPoint};
-
-/// Shading points of a generated set.
-pub(super) const POINTS: usize = 4096;
+use super::{LightSetFile, POINTS, SetLight, SetPoint};
 
 /// The number of lights of a mixed set with a thousand times the power of the rest.
 const STRONG: usize = 8;

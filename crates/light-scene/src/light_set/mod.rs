@@ -20,6 +20,9 @@ pub use reader::{LightSetError, LightSetProblem};
 
 use glam::Vec3;
 
+/// Shading points of a generated set.
+const POINTS: usize = 4096;
+
 /// A shading point, with its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPoint {

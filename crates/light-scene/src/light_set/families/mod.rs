@@ -9,9 +9,8 @@ mod rooms;
 mod scatter;
 mod streets;
 
-use super::generate::POINTS;
 use super::random::Random;
-use super::{LightSetFile, SetLight, SetPoint};
+use super::{LightSetFile, POINTS, SetLight, SetPoint};
 use glam::Quat;
 use place::Place;
 
