@@ -3,6 +3,7 @@ use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
 use crate::lane_math::{LaneMask, larger, masked};
+use crate::node::spread_code::BY_SPREAD;
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
 /// axis. Chosen by V: see `docs/light-bvh.md`.
@@ -11,10 +12,6 @@ const RAMP_BY_POSITION: f32 = 11.0;
 /// The same of a group: where its emitters lie on both sides of the plane through the receiver,
 /// those in front count although the mean is behind. Chosen by V.
 const GROUP_BY_POSITION: f32 = 400.0;
-
-/// How much of its squared spread and distance counts as variance of its emission. Chosen by V for
-/// ramps; the spread of steps is encoded so that it is theirs as well.
-pub(crate) const BY_SPREAD: f32 = 0.27;
 
 /// The length of the axis of one light that emits in a step, in codes.
 const UNIT: f32 = 127.0;
@@ -87,8 +84,8 @@ impl ChildView {
     }
 
     /// The importance of the child to a point over whose horizon it is at half of `height`. `lift`
-    /// is how much less of its emission the mean of what is above the horizon is beyond, times the
-    /// distance; at most 0.
+    /// is what the mean of what is above the horizon adds to how far the receiver is beyond the
+    /// emission, times the distance.
     ///
     /// A ramp emits `max(0, -beyond)`, half of the root less `beyond` where these vary. A step
     /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by `width`

@@ -1,6 +1,6 @@
 //! The importance of the children of a node to a receiver: one kind of receiver a file.
 
-pub(crate) mod child_importance;
+mod child_importance;
 pub(crate) mod child_view;
 pub(crate) mod glossy;
 mod horizon;

@@ -1,9 +1,8 @@
 use light_math::float;
 
-use crate::importance::child_importance::BY_SPREAD;
 use crate::lane_math::{larger, low_byte, nearest, smaller};
 use crate::node::children_soa::ChildrenSoa;
-use crate::node::spread_code::SpreadCode;
+use crate::node::spread_code::{BY_SPREAD, SpreadCode};
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {
@@ -46,8 +45,8 @@ impl WideNode {
             let decoded = [axes[0][k], axes[1][k], axes[2][k]];
             let offset = children.offset[k] * inv_units[k];
             let below = offset_below(decoded, lengths[k], exact, offset);
-            // Only lights that are all alike have no spread.
             let is_step = children.is_step[k];
+            // Only flat lights have no spread.
             let is_flat = (children.spread_sq[k] == 0.0) & (below >= -127.0) & !is_step;
             let is_sharp = is_flat & !children.both_sides[k];
             offsets[k] = if is_sharp { below } else { nearest(offset) };
@@ -55,7 +54,7 @@ impl WideNode {
             // In codes of the axis, squared.
             let spread_sq = (spreads[k] * inv_units[k]) * (spreads[k] * inv_units[k]);
             let error_sq = step_error_sq(decoded, exact, offsets[k] - offset, children.offset[k]);
-            let ramp = 1.0 + if is_flat { 0.0 } else { spread_sq };
+            let ramp = 1.0 + spread_sq;
             let step = (spread_sq + error_sq) * (1.0 / BY_SPREAD);
             spreads[k] = float::sqrt(if is_step { step } else { ramp });
         }
@@ -80,7 +79,6 @@ impl WideNode {
 /// the axis across it, of which the edge of the cone sees the sine.
 #[inline(always)]
 fn step_error_sq(decoded: [f32; 3], exact: [f32; 3], offset_error: f32, cos: f32) -> f32 {
-    let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let error = [
         decoded[0] - exact[0],
         decoded[1] - exact[1],
@@ -92,6 +90,11 @@ fn step_error_sq(decoded: [f32; 3], exact: [f32; 3], offset_error: f32, cos: f32
     let forward = along - offset_error;
     let sin_sq = larger(1.0 - cos * cos, 0.0);
     forward * forward + 0.5 * aside_sq * sin_sq
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
@@ -108,7 +111,6 @@ fn offset_below(decoded: [f32; 3], length: f32, axis: [f32; 3], offset: f32) -> 
     /// axis may be too short by 5e-6, and less than 0.001 where a receiver computes the same
     /// product and its distance, in single precision from numbers of at most 220.
     const MARGIN: f32 = 0.01;
-    let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let length_sq = dot(axis, axis);
     let inv_length = 1.0 / float::sqrt(larger(length_sq, f32::MIN_POSITIVE));
     let along = dot(decoded, axis) * inv_length;

@@ -2,8 +2,12 @@
 
 use crate::lane_math::LaneMask;
 
-/// Bit 7: it emits in a step. Bit 6: it is soft, anything but one flat light or one spot. Below: the spread, of
-/// `[1, 240]`, three bits of exponent and three of mantissa.
+/// How much of its squared spread and distance counts as variance of a child's emission. Chosen by V
+/// for ramps; the spread of steps is encoded so that it is theirs as well.
+pub(crate) const BY_SPREAD: f32 = 0.27;
+
+/// Bit 7: it emits in a step. Bit 6: it is soft, anything but one flat light or one spot. Below: the
+/// spread, of `[1, 240]`, three bits of exponent and three of mantissa.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SpreadCode(pub(crate) u8);
 
