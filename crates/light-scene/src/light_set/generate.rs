@@ -94,17 +94,14 @@ impl SetKind {
 }
 
 impl FromStr for SetKind {
-    type Err = &'static str;
+    type Err = String;
 
     fn from_str(s: &str) -> Result<Self, Self::Err> {
-        Self::all()
-            .find(|kind| kind.name() == s)
-            .ok_or(
-                "expected uniform, clusters, spots, mixed, one-point, line, nested, large-world, \
-                 magnitudes, or a place: offices, storeys, shelves, stairs, tribune, canyon, facade, \
-                 head-lamps, wall-lamps, stadium, downlights, accents, hard-spots, soft-spots, \
-                 points, bulbs, tubes, foliage, terrain, nested-clusters, few-bright, sizes, grazing",
-            )
+        Self::all().find(|kind| kind.name() == s).ok_or_else(|| {
+            let plain = Self::PLAIN.map(Self::name).join(", ");
+            let places = Family::ALL.map(Family::name).join(", ");
+            format!("expected {plain}, or a place: {places}")
+        })
     }
 }
 

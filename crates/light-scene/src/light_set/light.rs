@@ -56,28 +56,24 @@ impl SetLight {
     /// The same light, displaced by a vector in scene units.
     #[must_use]
     pub fn moved(&self, by: Vec3) -> Self {
-        let mut light = *self;
-        match &mut light {
-            Self::Triangle { vertices, .. } => *vertices = vertices.map(|v| v + by),
-            Self::Point { p, .. } => *p += by,
-            Self::Spot { p, target, .. } => {
-                *p += by;
-                *target += by;
-            }
-        }
-        light
+        self.mapped(|p| p + by)
     }
 
     /// The same light turned about the origin.
     #[must_use]
     pub(super) fn turned(&self, by: Quat) -> Self {
+        self.mapped(|p| by * p)
+    }
+
+    /// The same light with other points.
+    fn mapped(&self, map: impl Fn(Vec3) -> Vec3) -> Self {
         let mut light = *self;
         match &mut light {
-            Self::Triangle { vertices, .. } => *vertices = vertices.map(|v| by * v),
-            Self::Point { p, .. } => *p = by * *p,
+            Self::Triangle { vertices, .. } => *vertices = vertices.map(map),
+            Self::Point { p, .. } => *p = map(*p),
             Self::Spot { p, target, .. } => {
-                *p = by * *p;
-                *target = by * *target;
+                *p = map(*p);
+                *target = map(*target);
             }
         }
         light
