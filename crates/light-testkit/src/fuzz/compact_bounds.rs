@@ -10,10 +10,7 @@ use crate::real3::{Real3, cross, dot, length, real3, sub};
 ///
 /// Importance as such is not promised to stay: that of the exact form may be above 0 by its slack
 /// alone, where no light contributes.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn compact_bounds(data: &[u8]) {
+pub(super) fn compact_bounds(data: &[u8]) {
     let mut input = Input::new(data);
     let bounds = input.bounds();
     let all = bounds.bounds.union(input.aabb());

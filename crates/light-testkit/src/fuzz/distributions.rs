@@ -11,10 +11,7 @@ use super::input::Input;
 const MAX_CELLS: usize = 64;
 
 /// Tables refuse weights that are invalid, and never return a cell or a point without density.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn distributions(data: &[u8]) {
+pub(super) fn distributions(data: &[u8]) {
     let mut input = Input::new(data);
     let us = [
         input.unit(),

@@ -8,6 +8,7 @@ mod choices;
 mod command_lines;
 mod compact_bounds;
 mod distributions;
+mod encodings;
 mod images;
 mod input;
 mod light_sources;
@@ -23,15 +24,12 @@ mod sampler_kind;
 mod samplers;
 
 pub use command_lines::command_lines;
-pub use compact_bounds::compact_bounds;
-pub use distributions::distributions;
+pub use encodings::encodings;
 pub use light_sources::light_sources;
 pub use light_trees::light_trees;
 pub use media::media;
-pub use octahedral::octahedral;
 pub use partials::partials;
-pub use quantisation::{box_quantisation, cosine_quantisation};
-pub use readers::{read_gltf, read_image, read_luminaire, read_mtl, read_obj, read_pbrt, read_ply};
+pub use readers::readers;
 pub use refits::refits;
 pub use samplers::samplers;
 
@@ -39,24 +37,14 @@ pub use samplers::samplers;
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also the name of the folder of their corpus.
-pub const TARGETS: [(&str, Target); 19] = [
-    ("box_quantisation", box_quantisation),
+pub const TARGETS: [(&str, Target); 9] = [
     ("command_lines", command_lines),
-    ("compact_bounds", compact_bounds),
-    ("cosine_quantisation", cosine_quantisation),
-    ("distributions", distributions),
+    ("encodings", encodings),
     ("light_sources", light_sources),
     ("light_trees", light_trees),
     ("media", media),
-    ("octahedral", octahedral),
     ("partials", partials),
-    ("read_gltf", read_gltf),
-    ("read_image", read_image),
-    ("read_luminaire", read_luminaire),
-    ("read_mtl", read_mtl),
-    ("read_obj", read_obj),
-    ("read_pbrt", read_pbrt),
-    ("read_ply", read_ply),
+    ("readers", readers),
     ("refits", refits),
     ("samplers", samplers),
 ];

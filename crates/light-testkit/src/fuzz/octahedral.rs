@@ -5,10 +5,7 @@ use super::input::Input;
 use crate::real3::{cross, dot, length, real3};
 
 /// Codes decode to unit vectors, and directions come back within the stated angle.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn octahedral(data: &[u8]) {
+pub(super) fn octahedral(data: &[u8]) {
     let mut input = Input::new(data);
     let bits = input.u32();
     let decoded = OctahedralVector::from_bits(bits).decode();

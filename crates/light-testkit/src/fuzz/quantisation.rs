@@ -3,10 +3,7 @@ use light_math::quantize::{QuantizedBox, decode_cos, encode_cos};
 use super::input::Input;
 
 /// A decoded cosine is that of the same or of a wider angle, by two codes at most; order is kept.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn cosine_quantisation(data: &[u8]) {
+pub(super) fn cosine_quantisation(data: &[u8]) {
     let mut input = Input::new(data);
     let (a, b) = (input.f32(), input.f32());
     for c in [a, b] {
@@ -27,10 +24,7 @@ pub fn cosine_quantisation(data: &[u8]) {
 }
 
 /// A coded box contains the original.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn box_quantisation(data: &[u8]) {
+pub(super) fn box_quantisation(data: &[u8]) {
     let mut input = Input::new(data);
     let bounds = input.aabb();
     let enclosing = bounds.union(input.aabb());

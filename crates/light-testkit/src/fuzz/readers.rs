@@ -5,19 +5,32 @@ use light_scene::{
     parse_scene,
 };
 
-/// An OBJ file gives a sound scene or one line.
+/// A file of any format, which the first byte chooses, is read or refused in one line.
 ///
 /// # Panics
 /// If a guarantee is violated.
-pub fn read_obj(data: &[u8]) {
+pub fn readers(data: &[u8]) {
+    let Some((format, data)) = data.split_first() else {
+        return;
+    };
+    match format % 7 {
+        0 => read_gltf(data),
+        1 => read_image(data),
+        2 => read_luminaire(data),
+        3 => read_mtl(data),
+        4 => read_obj(data),
+        5 => read_pbrt(data),
+        _ => read_ply(data),
+    }
+}
+
+/// An OBJ file gives a sound scene or one line.
+fn read_obj(data: &[u8]) {
     scene(parse_scene(Path::new("a.obj"), data, Files::NONE));
 }
 
 /// A material library gives a sound scene or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_mtl(data: &[u8]) {
+fn read_mtl(data: &[u8]) {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     let library = |path: &Path| match path.to_str() {
         Some("a.mtl") => Ok(data.to_vec()),
@@ -27,18 +40,12 @@ pub fn read_mtl(data: &[u8]) {
 }
 
 /// A pbrt file gives a sound scene or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_pbrt(data: &[u8]) {
+fn read_pbrt(data: &[u8]) {
     scene(parse_scene(Path::new("a.pbrt"), data, Files::NONE));
 }
 
 /// A PLY file gives a sound mesh or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_ply(data: &[u8]) {
+fn read_ply(data: &[u8]) {
     if let Some(ply) = answer(parse_ply(Path::new("a.ply"), data)) {
         indices(&ply);
         let finite = ply.positions.iter().all(|position| position.is_finite());
@@ -47,18 +54,12 @@ pub fn read_ply(data: &[u8]) {
 }
 
 /// A glTF file, text or binary, gives a sound scene or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_gltf(data: &[u8]) {
+fn read_gltf(data: &[u8]) {
     scene(parse_scene(Path::new("a.gltf"), data, Files::NONE));
 }
 
 /// An image file of any format gives finite texels of at least 0 or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_image(data: &[u8]) {
+fn read_image(data: &[u8]) {
     for name in ["a.exr", "a.hdr", "a.png"] {
         if let Some(file) = answer(parse_image(Path::new(name), data)) {
             let is_light =
@@ -72,10 +73,7 @@ pub fn read_image(data: &[u8]) {
 }
 
 /// A photometric file of either format gives a web that gives off a finite power, or one line.
-///
-/// # Panics
-/// If a guarantee is violated.
-pub fn read_luminaire(data: &[u8]) {
+fn read_luminaire(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     for name in ["a.ies", "a.ldt"] {
         if let Some(luminaire) = answer(parse_luminaire(Path::new(name), &text, Files::NONE)) {
