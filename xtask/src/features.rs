@@ -155,6 +155,7 @@ mod tests {
                 "light-conformance",
                 "light-render",
                 "light-scene",
+                "light-sets",
                 "light-testkit",
             ];
             if others.contains(&name.as_str()) {

@@ -1,7 +1,7 @@
 //! Sets that break hierarchies: how deep they grow, and that no light is lost.
 
 use light_render::SamplerKind;
-use light_scene::light_set::SetKind;
+use light_sets::SetKind;
 
 use super::measure::{figure, measure, options, set};
 

@@ -2,7 +2,7 @@
 
 use light_render::SamplerKind;
 use light_render::bench::BenchOptions;
-use light_scene::light_set::{Family, LightSetFile, SetKind};
+use light_sets::{BenchSet, Family, SetKind};
 
 use super::measure::{figure, measure, options};
 
@@ -29,7 +29,7 @@ pub(super) fn table() -> Result<String, String> {
             let mut sums = [0.0; 5];
             for seed in SEEDS {
                 let kind = SetKind::Place(family);
-                let set = LightSetFile::generate(kind, lights, seed);
+                let set = BenchSet::generate(kind, lights, seed);
                 let rows = measure(kind, &set, &options)?;
                 let [reference, default] = [0, 1].map(|i| rows[i].variance);
                 let found = [

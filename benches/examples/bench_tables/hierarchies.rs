@@ -2,7 +2,7 @@
 
 use light_render::SamplerKind;
 use light_render::bench::{BenchOptions, BenchRow};
-use light_scene::light_set::{LightSetFile, SetKind};
+use light_sets::{BenchSet, SetKind};
 
 use super::measure::{figure, measure, options, set};
 
@@ -52,7 +52,7 @@ pub(super) fn table(sizes: &[u32]) -> Result<String, String> {
 }
 
 /// The rows of a set, in the order of [`LINES`]; all trees are built on two threads.
-fn rows(kind: SetKind, set: &LightSetFile, points: usize) -> Result<Vec<BenchRow>, String> {
+fn rows(kind: SetKind, set: &BenchSet, points: usize) -> Result<Vec<BenchRow>, String> {
     let mut rows = Vec::new();
     // What is measured with the same number of samples is measured in one run, in turns.
     for same in LINES.chunk_by(|a, b| a.1 == b.1) {

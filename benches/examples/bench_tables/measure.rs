@@ -2,14 +2,14 @@
 
 use light_render::SamplerKind;
 use light_render::bench::{BenchOptions, BenchRow, bench};
-use light_scene::light_set::{LightSetFile, SetKind};
+use light_sets::{BenchSet, SetKind};
 
 /// Seed of the sets of all tables.
 const SEED: u64 = 1;
 
 /// The set of `n` lights of a kind.
-pub(super) fn set(kind: SetKind, n: u32) -> LightSetFile {
-    LightSetFile::generate(kind, n as usize, SEED)
+pub(super) fn set(kind: SetKind, n: u32) -> BenchSet {
+    BenchSet::generate(kind, n as usize, SEED)
 }
 
 /// The variance of these samplers over so many points, otherwise as `lights bench` measures.
@@ -27,7 +27,7 @@ pub(super) fn options(samplers: &[SamplerKind], points: usize) -> BenchOptions {
 /// A light that a sampler refuses, or a broken law.
 pub(super) fn measure(
     kind: SetKind,
-    set: &LightSetFile,
+    set: &BenchSet,
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, String> {
     let rows = bench(kind.name(), set, options).map_err(|e| format!("{}: {e}", kind.name()))?;

@@ -2,7 +2,7 @@
 
 use light_render::SamplerKind;
 use light_render::bench;
-use light_scene::light_set::SetKind;
+use light_sets::SetKind;
 
 use super::measure::{figure, options, set};
 

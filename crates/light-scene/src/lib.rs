@@ -24,7 +24,7 @@ mod image;
 #[cfg(test)]
 mod image_orientation;
 mod instance;
-pub mod light_set;
+mod light_set;
 mod luminaire;
 mod material;
 mod mesh;
@@ -52,6 +52,7 @@ pub use image::{
     write_exr_half, write_image, write_png,
 };
 pub use instance::{Instance, Prototype};
+pub use light_set::{LightSetError, LightSetProblem, read_light_set, write_light_set};
 pub(crate) use luminaire::goniometric_light;
 pub use luminaire::{in_luminaire, parse_luminaire, read_luminaire};
 pub use material::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Surface};

@@ -1,6 +1,6 @@
 use core::str::FromStr;
 
-use light_scene::light_set::SetLight;
+use light_sets::SetLight;
 use lights::glam::DVec3;
 
 /// What counts as the contribution of a light at a point.
@@ -78,11 +78,7 @@ mod tests {
 
     #[test]
     fn far_away_both_ground_truths_agree() {
-        let set = light_scene::light_set::LightSetFile::generate(
-            light_scene::light_set::SetKind::Clusters,
-            20,
-            1,
-        );
+        let set = light_sets::BenchSet::generate(light_sets::SetKind::Clusters, 20, 1);
         let mut at = set.points[0];
         at.p.z -= 1000.0;
         for light in &set.lights {

@@ -26,7 +26,7 @@ pub use row::BenchRow;
 pub use timing::QueryTime;
 pub use variance::Variance;
 
-use light_scene::light_set::LightSetFile;
+use light_sets::BenchSet;
 use lights::bounds::LightExtent;
 
 use crate::{AnyLightSamplerError, SamplerKind};
@@ -72,7 +72,7 @@ impl Default for BenchOptions {
 
 impl BenchOptions {
     /// How many points of the set its variance is taken over.
-    fn points_of(&self, set: &LightSetFile) -> usize {
+    fn points_of(&self, set: &BenchSet) -> usize {
         let all = set.points.len();
         let few = if set.lights.len() > 10_000 { 256 } else { all };
         self.var_points.unwrap_or(few).min(all)
@@ -80,7 +80,7 @@ impl BenchOptions {
 }
 
 /// The extents of the lights of a set.
-fn extents(set: &LightSetFile) -> Vec<LightExtent> {
+fn extents(set: &BenchSet) -> Vec<LightExtent> {
     set.lights.iter().map(|l| l.bounds().into()).collect()
 }
 
@@ -94,7 +94,7 @@ fn extents(set: &LightSetFile) -> Vec<LightExtent> {
 /// If the system refuses to start the threads.
 pub fn bench(
     name: &str,
-    set: &LightSetFile,
+    set: &BenchSet,
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
     let extents = extents(set);
@@ -150,7 +150,7 @@ pub fn bench(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_scene::light_set::SetKind;
+    use light_sets::SetKind;
 
     fn options(k: u32) -> BenchOptions {
         BenchOptions {
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn uniform_sampling_loses_nothing_and_its_pmf_adds_up() {
-        let set = LightSetFile::generate(SetKind::Mixed, 50, 1);
+        let set = BenchSet::generate(SetKind::Mixed, 50, 1);
         let rows = bench("mixed", &set, &options(1)).expect("valid lights");
         let row = &rows[0];
         assert_eq!(row.variance.lost_energy, 0.0, "every light can be picked");
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn repeated_calls_agree_with_the_exact_variance() {
-        let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
+        let set = BenchSet::generate(SetKind::Uniform, 10, 1);
         let exact = &bench("uniform", &set, &options(1)).expect("valid lights")[0];
         let repeated = &bench("uniform", &set, &options(2)).expect("valid lights")[0];
         // Two stratified samples are at most as noisy as two independent ones, up to the noise of
@@ -191,7 +191,7 @@ mod tests {
     /// An invalid light gives an error, not a panic.
     #[test]
     fn a_light_that_is_refused_is_named() {
-        let mut set = LightSetFile::generate(SetKind::Uniform, 10, 1);
+        let mut set = BenchSet::generate(SetKind::Uniform, 10, 1);
         set.lights[7] = set.lights[7].moved(lights::math::glam::Vec3::splat(1e38));
         let options = BenchOptions {
             samplers: vec![SamplerKind::Bvh],

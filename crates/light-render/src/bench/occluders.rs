@@ -1,4 +1,4 @@
-use light_scene::light_set::LightSetFile;
+use light_sets::BenchSet;
 use lights::glam::DVec3;
 use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -17,7 +17,7 @@ pub(super) struct Occluders {
 
 impl Occluders {
     /// `count` spheres of one size at random positions in the box of the set's lights and points.
-    pub(super) fn among(set: &LightSetFile, count: usize) -> Self {
+    pub(super) fn among(set: &BenchSet, count: usize) -> Self {
         let places = || {
             let lights = set.lights.iter().map(|light| light.position());
             lights.chain(set.points.iter().map(|at| at.p.as_dvec3()))

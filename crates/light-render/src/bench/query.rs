@@ -1,4 +1,4 @@
-use light_scene::light_set::{LightSetFile, SetLight};
+use light_sets::{BenchSet, SetLight};
 use lights::bounds::LightSampleContext;
 
 use super::occluders::Occluders;
@@ -14,7 +14,7 @@ pub(super) struct Query {
 }
 
 impl Query {
-    pub(super) fn new(set: &LightSetFile, options: &BenchOptions) -> Self {
+    pub(super) fn new(set: &BenchSet, options: &BenchOptions) -> Self {
         let askers: Vec<Asker> = (0..)
             .zip(&set.points)
             .map(|(index, &at)| options.receiver.asker(index, at))

@@ -1,6 +1,6 @@
 use core::str::FromStr;
 
-use light_scene::light_set::SetPoint;
+use light_sets::SetPoint;
 use lights::bounds::{Gloss, LightSampleContext};
 use lights::glam::{DVec3, Vec3};
 

@@ -1,6 +1,6 @@
 use core::fmt;
 
-use light_scene::light_set::LightSetFile;
+use light_sets::BenchSet;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use rand_core::SeedableRng;
@@ -44,7 +44,7 @@ pub struct RefitRow {
 /// The first light that a sampler refuses, at the start or on its way.
 pub fn refits(
     name: &str,
-    set: &LightSetFile,
+    set: &BenchSet,
     options: &BenchOptions,
     steps: u32,
 ) -> Result<Vec<RefitRow>, AnyLightSamplerError> {
@@ -64,7 +64,7 @@ pub fn refits(
         };
         for moved in (0..=steps).map(distance_after) {
             let lights = set.lights.iter().zip(&ways);
-            let set = LightSetFile {
+            let set = BenchSet {
                 lights: lights
                     .map(|(light, &way)| light.moved(way * moved))
                     .collect(),
@@ -97,7 +97,7 @@ fn distance_after(step: u32) -> f32 {
 
 /// The side of the cube that a light has for itself.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-fn mean_distance(set: &LightSetFile) -> f32 {
+fn mean_distance(set: &BenchSet) -> f32 {
     let boxes = set.lights.iter().map(|light| light.bounds().bounds);
     let size = boxes.fold(Aabb::EMPTY, Aabb::union).diagonal();
     let volume = size.as_dvec3().element_product();
@@ -174,11 +174,11 @@ impl fmt::Display for RefitRow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_scene::light_set::SetKind;
+    use light_sets::SetKind;
 
     #[test]
     fn a_hierarchy_that_follows_loses_nothing_but_grows_loose() {
-        let set = LightSetFile::generate(SetKind::Uniform, 500, 1);
+        let set = BenchSet::generate(SetKind::Uniform, 500, 1);
         let options = BenchOptions {
             samplers: vec![SamplerKind::Uniform, SamplerKind::Bvh],
             var_points: Some(16),

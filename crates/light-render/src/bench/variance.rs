@@ -1,4 +1,4 @@
-use light_scene::light_set::LightSetFile;
+use light_sets::BenchSet;
 use lights::bounds::LightId;
 use rand_core::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -40,7 +40,7 @@ struct AtPoint {
 /// The variance of one sample, summed over all lights.
 pub(super) fn exact(
     candidate: &Candidate,
-    set: &LightSetFile,
+    set: &BenchSet,
     query: &Query,
     points: usize,
 ) -> Variance {
@@ -73,7 +73,7 @@ pub(super) fn exact(
 /// `k` times the variance of the mean of `k` samples, from repeated calls.
 pub(super) fn repeated(
     candidate: &Candidate,
-    set: &LightSetFile,
+    set: &BenchSet,
     query: &Query,
     points: usize,
     k: u32,

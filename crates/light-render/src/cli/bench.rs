@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::SamplerKind;
 use crate::bench::{BenchOptions, BenchRow, GroundTruth, ReceiverKind, RefitRow, bench, refits};
 use clap::Args;
-use light_scene::light_set::{LightSetFile, SetKind};
+use light_sets::{BenchSet, SetKind};
 use serde_json::Value;
 
 use super::arguments::threads;
@@ -90,7 +90,7 @@ impl BenchArgs {
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         let (name, set) = self.set()?;
         if let Some(prefix) = &self.write {
-            set.write(prefix).map_err(Failure::input)?;
+            light_scene::write_light_set(&set, prefix).map_err(Failure::input)?;
         }
         let options = BenchOptions {
             samplers,
@@ -130,12 +130,12 @@ impl BenchArgs {
         Ok(())
     }
 
-    fn set(&self) -> Result<(String, LightSetFile), Failure> {
+    fn set(&self) -> Result<(String, BenchSet), Failure> {
         if let (Some(lights), Some(points)) = (&self.lights, &self.points) {
             let name = lights
                 .file_stem()
                 .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            let set = LightSetFile::read(lights, points).map_err(Failure::input)?;
+            let set = light_scene::read_light_set(lights, points).map_err(Failure::input)?;
             return Ok((name, set));
         }
         let kind = self.generate.ok_or_else(|| {
@@ -147,7 +147,7 @@ impl BenchArgs {
         )?;
         Ok((
             kind.name().to_owned(),
-            LightSetFile::generate(kind, self.n as usize, self.seed),
+            BenchSet::generate(kind, self.n as usize, self.seed),
         ))
     }
 }

@@ -3,46 +3,45 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
+use light_sets::{BenchSet, SetLight};
 
-use super::{LightSetError, LightSetFile, LightSetProblem, SetLight};
+use super::error::{LightSetError, LightSetProblem};
 use crate::atomic_file::StagedFile;
 
-impl LightSetFile {
-    /// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same
-    /// bits.
-    ///
-    /// # Errors
-    /// [`LightSetError`] with the file that could not be written.
-    pub fn write(&self, prefix: &Path) -> Result<(), LightSetError> {
-        let mut lights = String::new();
-        for light in &self.lights {
-            write_light(&mut lights, light);
-        }
-        let mut points = String::new();
-        for point in &self.points {
-            points.push_str(&number(point.p.x));
-            for value in [point.p.y, point.p.z, point.n.x, point.n.y, point.n.z] {
-                push(&mut points, value);
-            }
-            points.push('\n');
-        }
-        let staged = [("lights", lights), ("points", points)].map(|(extension, text)| {
-            let mut path = prefix.as_os_str().to_owned();
-            path.push(".");
-            path.push(extension);
-            let path = PathBuf::from(path);
-            StagedFile::new(&path, text.as_bytes())
-                .map(|file| (path.clone(), file))
-                .map_err(|error| cannot_be_written(path, error))
-        });
-        // One file without the other is not a set: both are complete before either is published.
-        let [lights, points] = staged;
-        for (path, file) in [lights?, points?] {
-            file.publish()
-                .map_err(|error| cannot_be_written(path, error))?;
-        }
-        Ok(())
+/// Writes the set to `PREFIX.lights` and `PREFIX.points`, so that reading them gives the same
+/// bits.
+///
+/// # Errors
+/// [`LightSetError`] with the file that could not be written.
+pub fn write_light_set(set: &BenchSet, prefix: &Path) -> Result<(), LightSetError> {
+    let mut lights = String::new();
+    for light in &set.lights {
+        write_light(&mut lights, light);
     }
+    let mut points = String::new();
+    for point in &set.points {
+        points.push_str(&number(point.p.x));
+        for value in [point.p.y, point.p.z, point.n.x, point.n.y, point.n.z] {
+            push(&mut points, value);
+        }
+        points.push('\n');
+    }
+    let staged = [("lights", lights), ("points", points)].map(|(extension, text)| {
+        let mut path = prefix.as_os_str().to_owned();
+        path.push(".");
+        path.push(extension);
+        let path = PathBuf::from(path);
+        StagedFile::new(&path, text.as_bytes())
+            .map(|file| (path.clone(), file))
+            .map_err(|error| cannot_be_written(path, error))
+    });
+    // One file without the other is not a set: both are complete before either is published.
+    let [lights, points] = staged;
+    for (path, file) in [lights?, points?] {
+        file.publish()
+            .map_err(|error| cannot_be_written(path, error))?;
+    }
+    Ok(())
 }
 
 fn write_light(out: &mut String, light: &SetLight) {
@@ -120,18 +119,19 @@ fn cannot_be_written(path: PathBuf, error: io::Error) -> LightSetError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::light_set::SetKind;
+    use crate::light_set::read_light_set;
     use crate::test_folder::TestFolder;
+    use light_sets::SetKind;
     use std::fs;
 
     #[test]
     fn what_is_written_reads_back_bit_for_bit() {
-        let set = LightSetFile::generate(SetKind::Mixed, 60, 3);
+        let set = BenchSet::generate(SetKind::Mixed, 60, 3);
         let dir = std::env::temp_dir().join(format!("light-set-{}", std::process::id()));
         fs::create_dir_all(&dir).expect("a temporary folder");
         let prefix = dir.join("mixed");
-        set.write(&prefix).expect("written");
-        let again = LightSetFile::read(&dir.join("mixed.lights"), &dir.join("mixed.points"))
+        write_light_set(&set, &prefix).expect("written");
+        let again = read_light_set(&dir.join("mixed.lights"), &dir.join("mixed.points"))
             .expect("read back");
         fs::remove_dir_all(&dir).expect("cleaned");
         assert_eq!(set.lights, again.lights, "lights");
@@ -148,8 +148,8 @@ mod tests {
     fn a_set_is_written_whole_or_not_at_all() {
         let folder = TestFolder::new("light-set-whole");
         fs::create_dir(folder.path("set.points")).expect("a folder in the way");
-        let set = LightSetFile::generate(SetKind::Uniform, 10, 1);
-        let error = set.write(&folder.path("set")).expect_err("no file");
+        let set = BenchSet::generate(SetKind::Uniform, 10, 1);
+        let error = write_light_set(&set, &folder.path("set")).expect_err("no file");
         assert!(error.to_string().contains("set.points"), "{error}");
         assert_eq!(folder.names(), ["set.points"], "no lights without points");
     }

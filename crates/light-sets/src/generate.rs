@@ -2,11 +2,13 @@ use core::f32::consts::{PI, TAU};
 use core::str::FromStr;
 
 use glam::Vec3;
-use lights::math::float;
+use light_math::float;
 
-use super::families::Family;
-use super::random::Random;
-use super::{LightSetFile, POINTS, SetLight, SetPoint};
+use crate::bench_set::{BenchSet, POINTS};
+use crate::families::Family;
+use crate::random::{Random, repeat};
+use crate::set_light::SetLight;
+use crate::set_point::SetPoint;
 
 /// The number of lights of a mixed set with a thousand times the power of the rest.
 const STRONG: usize = 8;
@@ -105,7 +107,7 @@ impl FromStr for SetKind {
     }
 }
 
-impl LightSetFile {
+impl BenchSet {
     /// Generates the set of `kind` with `n` lights and 4096 points; a function of its arguments.
     #[must_use]
     pub fn generate(kind: SetKind, n: usize, seed: u64) -> Self {
@@ -252,10 +254,6 @@ fn scaled(light: SetLight, factor: f32) -> SetLight {
     light
 }
 
-pub(super) fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
-    core::iter::repeat_with(make).take(n).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -263,16 +261,16 @@ mod tests {
     #[test]
     fn same_seed_same_set() {
         for kind in SetKind::all() {
-            let set = LightSetFile::generate(kind, 100, 7);
+            let set = BenchSet::generate(kind, 100, 7);
             assert_eq!(
                 set,
-                LightSetFile::generate(kind, 100, 7),
+                BenchSet::generate(kind, 100, 7),
                 "{} is determined",
                 kind.name()
             );
             assert_ne!(
                 set,
-                LightSetFile::generate(kind, 100, 8),
+                BenchSet::generate(kind, 100, 8),
                 "{} depends on the seed",
                 kind.name()
             );
@@ -285,7 +283,7 @@ mod tests {
     #[test]
     fn all_lights_shine_however_small_they_are() {
         for kind in SetKind::all() {
-            let set = LightSetFile::generate(kind, 300, 3);
+            let set = BenchSet::generate(kind, 300, 3);
             for bounds in set.lights.iter().map(SetLight::bounds) {
                 assert_eq!(bounds.validate(), Ok(()), "{}", kind.name());
                 assert!(bounds.phi > 0.0, "{}: {bounds:?}", kind.name());

@@ -1,8 +1,8 @@
 use glam::Vec3;
-use lights::math::float;
+use light_math::float;
 
-use super::Random;
 use super::place::Place;
+use crate::random::Random;
 
 /// Windows on two facades that face each other; receivers on the road and on the facades.
 pub(super) fn canyon(r: &mut Random, place: &mut Place) {

@@ -1,7 +1,7 @@
 use glam::Vec3;
 
-use super::Random;
 use super::place::Place;
+use crate::random::Random;
 
 /// Half edges of a panel that shines down.
 fn down(half_x: f32, half_y: f32) -> [Vec3; 2] {

@@ -1,10 +1,10 @@
 use core::f64::consts::PI;
 
 use glam::{DVec3, Quat, Vec3};
-use lights::bounds::LightBounds;
-use lights::math::Aabb;
+use light_bounds::LightBounds;
+use light_math::Aabb;
 
-use super::SetPoint;
+use crate::set_point::SetPoint;
 
 /// A light of a light set.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl SetLight {
 
     /// The same light turned about the origin.
     #[must_use]
-    pub(super) fn turned(&self, by: Quat) -> Self {
+    pub(crate) fn turned(&self, by: Quat) -> Self {
         self.mapped(|p| by * p)
     }
 

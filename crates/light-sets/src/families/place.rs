@@ -2,19 +2,21 @@ use core::f32::consts::PI;
 
 use glam::{Quat, Vec3};
 
-use super::{LightSetFile, POINTS, SetLight, SetPoint};
+use crate::bench_set::{BenchSet, POINTS};
+use crate::set_light::SetLight;
+use crate::set_point::SetPoint;
 
 /// A set that is being filled: never more lights or points than asked for.
 pub(super) struct Place {
     n: usize,
-    set: LightSetFile,
+    set: BenchSet,
 }
 
 impl Place {
     pub(super) fn new(n: usize) -> Self {
         Self {
             n,
-            set: LightSetFile::default(),
+            set: BenchSet::default(),
         }
     }
 
@@ -84,7 +86,7 @@ impl Place {
     }
 
     /// The whole place about the origin.
-    pub(super) fn turned(self, rotation: Quat) -> LightSetFile {
+    pub(super) fn turned(self, rotation: Quat) -> BenchSet {
         let mut set = self.set;
         if rotation != Quat::IDENTITY {
             for light in &mut set.lights {

@@ -1,10 +1,11 @@
 use core::f32::consts::TAU;
 
 use glam::Vec3;
-use lights::math::float;
+use light_math::float;
 
 use super::place::Place;
-use super::{Random, SetLight};
+use crate::random::Random;
+use crate::set_light::SetLight;
 
 /// Receivers of any direction in a cube.
 fn in_cube(r: &mut Random, place: &mut Place, side: f32) {

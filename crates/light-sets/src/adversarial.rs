@@ -5,11 +5,12 @@
 //! needs std.
 
 use glam::Vec3;
-use lights::math::float;
+use light_math::float;
 
-use super::generate::repeat;
-use super::random::Random;
-use super::{LightSetFile, POINTS, SetLight, SetPoint};
+use crate::bench_set::{BenchSet, POINTS};
+use crate::random::{Random, repeat};
+use crate::set_light::SetLight;
+use crate::set_point::SetPoint;
 
 /// How many scales nested clusters have, each an eighth of the one before.
 const SCALES: i32 = 24;
@@ -19,7 +20,7 @@ const WORLD: f32 = 10_000.0;
 const TOWN: f32 = 40.0;
 const LIGHT: f32 = 0.01;
 
-impl LightSetFile {
+impl BenchSet {
     /// Points and spots at one place, with points all around it and every 64th there.
     pub(super) fn one_point(r: &mut Random, n: usize) -> Self {
         let place = Vec3::new(1.0, 2.0, 3.0);

@@ -1,62 +1,63 @@
 use core::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
-use lights::math::{Frame, float};
+use light_math::{Frame, float};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::{SetLight, SetPoint};
+use crate::set_light::SetLight;
+use crate::set_point::SetPoint;
 
 /// Random lights and points, the same for the same seed.
-pub(super) struct Random(Pcg64Mcg);
+pub(crate) struct Random(Pcg64Mcg);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
     /// Uniform in `[0, 1)`.
-    pub(super) fn unit(&mut self) -> f32 {
+    pub(crate) fn unit(&mut self) -> f32 {
         (self.0.next_u32() >> 8) as f32 / 16_777_216.0
     }
 
     /// Uniform in `[low, high)`.
-    pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
+    pub(crate) fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit()
     }
 
     /// A number below `n`, which is below 2^24.
-    pub(super) fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         self.0.next_u32() as usize % n
     }
 
     /// Puts items in any order.
-    pub(super) fn shuffle<T>(&mut self, items: &mut [T]) {
+    pub(crate) fn shuffle<T>(&mut self, items: &mut [T]) {
         for i in (1..items.len()).rev() {
             items.swap(i, self.below(i + 1));
         }
     }
 
     /// A unit vector without a z.
-    pub(super) fn level_direction(&mut self) -> Vec3 {
+    pub(crate) fn level_direction(&mut self) -> Vec3 {
         let (s, c) = float::sin_cos(TAU * self.unit());
         Vec3::new(c, s, 0.0)
     }
 
     /// From 1 to `10^decades`, uniform in the logarithm.
-    pub(super) fn log_uniform(&mut self, decades: f32) -> f32 {
+    pub(crate) fn log_uniform(&mut self, decades: f32) -> f32 {
         float::powf(10.0, decades * self.unit())
     }
 
-    pub(super) fn cube(&mut self) -> Vec3 {
+    pub(crate) fn cube(&mut self) -> Vec3 {
         Vec3::new(self.unit(), self.unit(), self.unit())
     }
 
-    pub(super) fn square(&mut self) -> Vec2 {
+    pub(crate) fn square(&mut self) -> Vec2 {
         Vec2::new(self.unit(), self.unit())
     }
 
-    pub(super) fn direction(&mut self) -> Vec3 {
+    pub(crate) fn direction(&mut self) -> Vec3 {
         let u = self.square();
         let z = 1.0 - 2.0 * u.x;
         let (s, c) = float::sin_cos(TAU * u.y);
@@ -64,26 +65,26 @@ impl Random {
         Vec3::new(radius * c, radius * s, z).normalize()
     }
 
-    pub(super) fn over_floor(&mut self, low: f32, high: f32) -> Vec3 {
+    pub(crate) fn over_floor(&mut self, low: f32, high: f32) -> Vec3 {
         let u = self.square() * 10.0;
         Vec3::new(u.x, u.y, low + (high - low) * self.unit())
     }
 
-    pub(super) fn on_floor(&mut self) -> SetPoint {
+    pub(crate) fn on_floor(&mut self) -> SetPoint {
         SetPoint {
             p: self.over_floor(0.0, 0.0),
             n: Vec3::Z,
         }
     }
 
-    pub(super) fn point_light(&mut self) -> SetLight {
+    pub(crate) fn point_light(&mut self) -> SetLight {
         SetLight::Point {
             p: self.over_floor(0.5, 3.0),
             intensity: self.log_uniform(2.0),
         }
     }
 
-    pub(super) fn spot(&mut self, narrow_deg: f32, wide_deg: f32) -> SetLight {
+    pub(crate) fn spot(&mut self, narrow_deg: f32, wide_deg: f32) -> SetLight {
         let p = self.over_floor(0.5, 3.0);
         let aside = self.square() * 2.0 - 1.0;
         let cone_deg = narrow_deg + (wide_deg - narrow_deg) * self.unit();
@@ -97,7 +98,7 @@ impl Random {
     }
 
     /// A triangle of about the given size (radius of its circumscribed circle) and emitted power.
-    pub(super) fn triangle(
+    pub(crate) fn triangle(
         &mut self,
         center: Vec3,
         normal: Vec3,
@@ -127,6 +128,11 @@ impl Random {
             two_sided,
         }
     }
+}
+
+/// As many items as asked for, made one after the other.
+pub(crate) fn repeat<T>(n: usize, make: impl FnMut() -> T) -> Vec<T> {
+    core::iter::repeat_with(make).take(n).collect()
 }
 
 #[cfg(test)]

@@ -9,9 +9,10 @@ mod rooms;
 mod scatter;
 mod streets;
 
-use super::random::Random;
-use super::{LightSetFile, POINTS, SetLight, SetPoint};
 use glam::Quat;
+
+use crate::bench_set::BenchSet;
+use crate::random::Random;
 use place::Place;
 
 /// A kind of place.
@@ -124,7 +125,7 @@ impl Family {
     }
 
     /// A place of `n` lights.
-    pub(super) fn generate(self, r: &mut Random, n: usize) -> LightSetFile {
+    pub(super) fn generate(self, r: &mut Random, n: usize) -> BenchSet {
         let mut place = Place::new(n);
         let rotation = if r.unit() < 0.5 {
             Quat::IDENTITY

@@ -1,10 +1,10 @@
 use core::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
-use lights::math::{Frame, float};
+use light_math::{Frame, float};
 
-use super::Random;
 use super::place::Place;
+use crate::random::Random;
 
 /// Spheres of triangles over a floor, at least as many triangles as a small lamp has.
 pub(super) fn bulbs(r: &mut Random, place: &mut Place) {

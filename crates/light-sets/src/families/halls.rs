@@ -1,7 +1,7 @@
 use glam::Vec3;
 
-use super::Random;
 use super::place::Place;
+use crate::random::Random;
 
 /// Side of a floor on which `n` lamps have `pitch` to each other.
 fn side(n: usize, pitch: f32) -> f32 {
@@ -24,7 +24,7 @@ pub(super) fn stadium(r: &mut Random, place: &mut Place) {
     let rim = r.between(0.1, 0.9);
     while place.wants_lights() {
         let turn = core::f32::consts::TAU * r.below(masts) as f32 / masts as f32;
-        let (s, c) = lights::math::float::sin_cos(turn);
+        let (s, c) = light_math::float::sin_cos(turn);
         let mast = field * 0.5 + field * Vec3::new(c, s, 0.0) * 0.8;
         let p = mast + Vec3::new(r.unit() * 4.0, r.unit() * 4.0, height + r.unit() * 4.0);
         let target = field * r.cube();

@@ -1,0 +1,14 @@
+use crate::set_light::SetLight;
+use crate::set_point::SetPoint;
+
+/// Shading points of a generated set.
+pub(crate) const POINTS: usize = 4096;
+
+/// A set of lights, and the points at which a sampler is measured on it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BenchSet {
+    /// The lights; the index is the light's id.
+    pub lights: Vec<SetLight>,
+    /// The shading points.
+    pub points: Vec<SetPoint>,
+}
