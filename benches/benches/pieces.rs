@@ -4,7 +4,8 @@ use core::hint::black_box;
 
 use benches::{Queries, criterion, queries_of, squares};
 use criterion::{Criterion, criterion_group, criterion_main};
-use light_testkit::{LightSet, Rng};
+use light_testkit::light_sets::SetKind;
+use light_testkit::{Rng, SamplerCase};
 use lights::bounds::{CompactLightBounds, LightBounds};
 use lights::math::distribution::{AliasTable, PiecewiseConstant1D, PiecewiseConstant2D};
 use lights::math::{Aabb, OctahedralVector, equal_area, warp};
@@ -58,7 +59,7 @@ fn tables(c: &mut Criterion) {
 }
 
 fn importance(c: &mut Criterion) {
-    let set = LightSet::clusters(1000, 74);
+    let set = SamplerCase::generated(SetKind::Clusters, 1000, 74);
     let bounds: Vec<LightBounds> = set
         .extents()
         .iter()

@@ -4,7 +4,8 @@
 use benches::{Queries, criterion, queries_of};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
-use light_testkit::LightSet;
+use light_testkit::SamplerCase;
+use light_testkit::light_sets::SetKind;
 use lights::bounds::LightExtent;
 use lights::bvh::LightBvhOptions;
 use lights::samplers::{
@@ -13,21 +14,21 @@ use lights::samplers::{
 
 /// The sets on which queries are timed. A million lights take `lights bench`, which knows of
 /// caches.
-fn sets() -> Vec<LightSet> {
+fn sets() -> Vec<SamplerCase> {
     [100, 10_000]
         .into_iter()
         .flat_map(|n| {
             [
-                LightSet::uniform(n, 81),
-                LightSet::clusters(n, 82),
-                LightSet::spots(n, 83),
-                LightSet::mixed(n, 84),
+                SamplerCase::generated(SetKind::Uniform, n, 81),
+                SamplerCase::generated(SetKind::Clusters, n, 82),
+                SamplerCase::generated(SetKind::Spots, n, 83),
+                SamplerCase::mixed(n, 84),
             ]
         })
         .collect()
 }
 
-fn name(set: &LightSet) -> String {
+fn name(set: &SamplerCase) -> String {
     format!("{} {}", set.name, set.emitters.len())
 }
 
@@ -46,7 +47,7 @@ fn sample_and_pmf(c: &mut Criterion) {
     }
 }
 
-fn each_sampler(set: &LightSet, mut bench: impl FnMut(&dyn LightSampler, &str)) {
+fn each_sampler(set: &SamplerCase, mut bench: impl FnMut(&dyn LightSampler, &str)) {
     let extents = set.extents();
     bench(
         &ReferenceBvhLightSampler::new(&extents).expect("valid lights"),
@@ -64,7 +65,7 @@ fn each_sampler(set: &LightSet, mut bench: impl FnMut(&dyn LightSampler, &str)) 
 
 fn bench_sample(
     group: &mut BenchmarkGroup<'_, WallTime>,
-    set: &LightSet,
+    set: &SamplerCase,
     sampler: &dyn LightSampler,
     by: &str,
 ) {
@@ -79,7 +80,7 @@ fn bench_sample(
 
 fn bench_pmf(
     group: &mut BenchmarkGroup<'_, WallTime>,
-    set: &LightSet,
+    set: &SamplerCase,
     sampler: &dyn LightSampler,
     by: &str,
 ) {

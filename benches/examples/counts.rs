@@ -6,7 +6,8 @@
 use core::hint::black_box;
 
 use benches::{Queries, queries_of};
-use light_testkit::LightSet;
+use light_testkit::SamplerCase;
+use light_testkit::light_sets::SetKind;
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use lights::bvh::reference::ReferenceLightBvh;
 use lights::bvh::{LightBvh, LightBvhOptions};
@@ -67,7 +68,7 @@ fn count_alias_sample(table: &AliasTable<Vec<lights::math::distribution::AliasBi
 }
 
 fn importance() {
-    let set = LightSet::clusters(1, 1);
+    let set = SamplerCase::generated(SetKind::Clusters, 1, 1);
     let extent = set.extents()[0];
     let bounds = extent.bounded().expect("a triangle");
     calls(queries_of(&set), |(ctx, _)| count_importance(bounds, &ctx));
@@ -88,21 +89,21 @@ fn count_octahedral_decode(code: OctahedralVector) {
     black_box(code.decode());
 }
 
-fn reference() -> (LightSet, ReferenceBvhLightSampler) {
-    let set = LightSet::clusters(LIGHTS, 1);
+fn reference() -> (SamplerCase, ReferenceBvhLightSampler) {
+    let set = SamplerCase::generated(SetKind::Clusters, LIGHTS, 1);
     let sampler = ReferenceBvhLightSampler::new(&set.extents()).expect("valid lights");
     (set, sampler)
 }
 
-fn bvh() -> (LightSet, BvhLightSampler) {
-    let set = LightSet::clusters(LIGHTS, 1);
+fn bvh() -> (SamplerCase, BvhLightSampler) {
+    let set = SamplerCase::generated(SetKind::Clusters, LIGHTS, 1);
     let sampler = BvhLightSampler::new(&set.extents()).expect("valid lights");
     (set, sampler)
 }
 
 /// Lights for a tree, and `work` on them, on one thread: callgrind counts by thread.
 fn on_one_thread(work: impl FnOnce(&[LightExtent]) + Send) {
-    let extents = LightSet::clusters(LIGHTS_TO_BUILD, 1).extents();
+    let extents = SamplerCase::generated(SetKind::Clusters, LIGHTS_TO_BUILD, 1).extents();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     pool.expect("a thread").install(|| work(&extents));
 }
@@ -197,7 +198,10 @@ fn count_pmf_reference(
 }
 
 /// Lights that the sampler itself would choose.
-fn chosen(set: &LightSet, sampler: &impl LightSampler) -> Queries<(LightSampleContext, LightId)> {
+fn chosen(
+    set: &SamplerCase,
+    sampler: &impl LightSampler,
+) -> Queries<(LightSampleContext, LightId)> {
     let mut asked = queries_of(set);
     Queries::new(|_| {
         loop {

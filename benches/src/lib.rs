@@ -6,7 +6,7 @@ pub mod page;
 use std::time::Duration;
 
 use criterion::Criterion;
-use light_testkit::{LightSet, Rng};
+use light_testkit::{Rng, SamplerCase};
 use lights::bounds::LightSampleContext;
 use lights::glam::Vec2;
 
@@ -39,8 +39,8 @@ impl<T: Copy> Queries<T> {
 
 /// Random contexts among the lights of a set, each with a random number to choose a light by.
 #[must_use]
-pub fn queries_of(set: &LightSet) -> Queries<(LightSampleContext, f64)> {
-    let asked = LightSet::new("asked", set.emitters.clone(), 4096, 72);
+pub fn queries_of(set: &SamplerCase) -> Queries<(LightSampleContext, f64)> {
+    let asked = SamplerCase::new("asked", set.emitters.clone(), 4096, 72);
     let mut contexts = asked.contexts.into_iter().cycle();
     Queries::new(|rng| (contexts.next().expect("a context"), rng.f64()))
 }

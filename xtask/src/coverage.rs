@@ -15,7 +15,8 @@ mod report;
 
 /// What the report leaves out: other crates, and files of tests. What a file holds below
 /// `mod tests` is cut off later.
-const OTHERS: &str = "light-testkit|light-scene|light-sets|light-render|crates/lights/|/tests?/|tests\\.rs";
+const OTHERS: &str =
+    "light-testkit|light-scene|light-sets|light-render|crates/lights/|/tests?/|tests\\.rs";
 
 /// The features that are not on by default and change what the tests run.
 const FEATURES: &str = "light-bvh/rayon,light-samplers/rayon";

@@ -6,7 +6,7 @@ use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
-use light_testkit::LightSet;
+use light_testkit::SamplerCase;
 
 light_testkit::sampler_laws! {
     /// Every light alike.
@@ -88,7 +88,7 @@ light_testkit::sampler_laws! {
 }
 
 /// The lights of a set, those that are somewhere in reverse order.
-fn exchanged(set: &LightSet) -> Vec<LightExtent> {
+fn exchanged(set: &SamplerCase) -> Vec<LightExtent> {
     let extents = set.extents();
     let mut bounded = extents.iter().rev().filter(|e| e.bounded().is_some());
     let other = |e: &LightExtent| match e {

@@ -1,8 +1,5 @@
 //! Sets on which light hierarchies have failed: excessive depth, probability 0 for lights that
 //! contribute, or powers that underflow.
-//!
-//! light-testkit tries samplers on small sets of the same kinds without knowing this crate, which
-//! needs std.
 
 use glam::Vec3;
 use light_math::float;

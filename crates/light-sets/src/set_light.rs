@@ -83,24 +83,26 @@ impl SetLight {
     #[must_use]
     pub fn contribution(&self, at: &SetPoint) -> f64 {
         let n = at.n.as_dvec3();
-        self.contribution_from(self.position(), at, |wi| n.dot(wi).max(0.0))
+        self.contribution_from(self.position(), at.p, 0.0, |wi| n.dot(wi).max(0.0))
     }
 
     /// The irradiance at `at` with the whole light at `position`, times `response` to the unit
-    /// vector toward it.
+    /// vector toward it. Directions whose cosine at the light is less than `grazing` inside of
+    /// where emission ends count as outside.
     #[must_use]
     pub fn contribution_from(
         &self,
         position: DVec3,
-        at: &SetPoint,
+        at: Vec3,
+        grazing: f64,
         response: impl FnOnce(DVec3) -> f64,
     ) -> f64 {
-        let to_light = position - at.p.as_dvec3();
+        let to_light = position - at.as_dvec3();
         let dist_sq = to_light.length_squared();
         if dist_sq == 0.0 {
             return 0.0;
         }
-        let intensity = self.intensity_toward(-to_light);
+        let intensity = self.intensity_toward(-to_light, grazing);
         if intensity > 0.0 {
             intensity * response(to_light / dist_sq.sqrt()) / dist_sq
         } else {
@@ -174,8 +176,9 @@ impl SetLight {
         }
     }
 
-    /// Radiant intensity along `direction`, of any length.
-    fn intensity_toward(&self, direction: DVec3) -> f64 {
+    /// Radiant intensity along `direction`, of any length; 0 where its cosine is less than
+    /// `grazing` inside of where emission ends.
+    fn intensity_toward(&self, direction: DVec3, grazing: f64) -> f64 {
         match *self {
             Self::Triangle {
                 vertices,
@@ -183,13 +186,18 @@ impl SetLight {
                 two_sided,
             } => {
                 let [a, b, c] = vertices.map(Vec3::as_dvec3);
-                let projected = 0.5 * (b - a).cross(c - a).dot(direction.normalize_or_zero());
+                let cross = (b - a).cross(c - a);
+                let projected = 0.5 * cross.dot(direction.normalize_or_zero());
                 let seen = if two_sided {
                     projected.abs()
                 } else {
-                    projected.max(0.0)
+                    projected
                 };
-                f64::from(radiance) * seen
+                if seen > 0.5 * grazing * cross.length() {
+                    f64::from(radiance) * seen
+                } else {
+                    0.0
+                }
             }
             Self::Point { intensity, .. } => f64::from(intensity),
             Self::Spot {
@@ -201,7 +209,11 @@ impl SetLight {
             } => {
                 let cos = spot_axis(p, target).dot(direction.normalize_or_zero());
                 let [cos_start, cos_end] = cone(cone_deg, delta_deg).map(f64::cos);
-                f64::from(intensity) * falloff(cos, cos_start, cos_end)
+                if cos > cos_end + grazing {
+                    f64::from(intensity) * falloff(cos, cos_start, cos_end)
+                } else {
+                    0.0
+                }
             }
         }
     }

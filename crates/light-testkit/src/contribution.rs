@@ -2,6 +2,7 @@ use core::f64::consts::PI;
 
 use light_bounds::LightSampleContext;
 use light_math::glam::Vec3;
+use light_sets::{SetLight, glam::DVec3};
 
 use crate::Emitter;
 use crate::real3::{Real3, dot, normalize, real3, sub};
@@ -16,51 +17,15 @@ impl Emitter {
             return 0.0;
         }
         match *self {
-            Self::Triangle {
-                corners,
-                radiance,
-                two_sided,
-            } => {
-                let normal = self.normal();
-                let emitted = |wi: Real3| {
-                    let cos = -dot(wi, normal);
-                    above_grazing(if two_sided { cos.abs() } else { cos })
-                };
-                // Corners pulled a little inside, and the centroid.
-                let middle = corners.iter().fold(Vec3::ZERO, |sum, &p| sum + p / 3.0);
-                let points = corners.map(|p| p + (middle - p) * 0.05);
-                let received = points.iter().chain([&middle]);
-                let mean = received
-                    .map(|&p| received_from(ctx, p, emitted))
-                    .sum::<f64>()
-                    / 4.0;
-                f64::from(radiance) * self.area() * mean
+            Self::Set(light) => {
+                let points = points(&light);
+                let received = points.iter().map(|&from| {
+                    light.contribution_from(from, ctx.p, Self::GRAZING, |wi| {
+                        cosine(ctx, wi.to_array())
+                    })
+                });
+                received.sum::<f64>() / points.len() as f64
             }
-            Self::Point {
-                position,
-                intensity,
-            } => received_from(ctx, position, |_| f64::from(intensity)),
-            Self::Spot {
-                position,
-                axis,
-                intensity,
-                cos_start,
-                cos_end,
-            } => received_from(ctx, position, |wi| {
-                let [start, end] = [cos_start, cos_end].map(f64::from);
-                let beyond = above_grazing(-dot(wi, real3(axis)) - end);
-                let rise = if end + beyond >= start {
-                    1.0
-                } else {
-                    beyond / (start - end)
-                };
-                f64::from(intensity)
-                    * if beyond > 0.0 {
-                        rise * rise * (3.0 - 2.0 * rise)
-                    } else {
-                        0.0
-                    }
-            }),
             Self::Lantern {
                 position,
                 axis,
@@ -76,6 +41,18 @@ impl Emitter {
             }
             Self::Sun { wi, irradiance } => f64::from(irradiance) * cosine(ctx, real3(wi)),
         }
+    }
+}
+
+/// Where a light emits: of a triangle its corners, pulled a little inside, and its centroid.
+fn points(light: &SetLight) -> Vec<DVec3> {
+    match light {
+        SetLight::Triangle { vertices, .. } => {
+            let middle = light.position();
+            let inside = vertices.map(|v| v.as_dvec3().lerp(middle, 0.05));
+            [&inside[..], &[middle]].concat()
+        }
+        SetLight::Point { .. } | SetLight::Spot { .. } => vec![light.position()],
     }
 }
 
@@ -111,17 +88,19 @@ mod tests {
     #[test]
     fn contributions_of_each_kind() {
         let up = LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z);
-        let point = Emitter::Point {
-            position: Vec3::new(0.0, 0.0, 2.0),
+        let point = Emitter::Set(SetLight::Point {
+            p: Vec3::new(0.0, 0.0, 2.0),
             intensity: 8.0,
-        };
+        });
         assert_eq!(point.contribution(&up), 2.0, "I / d^2");
-        let spot = |axis| Emitter::Spot {
-            position: Vec3::new(0.0, 0.0, 2.0),
-            axis,
-            intensity: 8.0,
-            cos_start: 0.9,
-            cos_end: 0.9,
+        let spot = |axis: Vec3| {
+            Emitter::Set(SetLight::Spot {
+                p: Vec3::new(0.0, 0.0, 2.0),
+                target: Vec3::new(0.0, 0.0, 2.0) + axis,
+                intensity: 8.0,
+                cone_deg: 25.0,
+                delta_deg: 0.0,
+            })
         };
         assert_eq!(spot(Vec3::NEG_Z).contribution(&up), 2.0, "on the axis");
         assert_eq!(spot(Vec3::Z).contribution(&up), 0.0, "behind it");
@@ -142,14 +121,16 @@ mod tests {
 
     #[test]
     fn a_small_triangle_is_a_point_with_a_cosine() {
-        let triangle = |two_sided| Emitter::Triangle {
-            corners: [
-                Vec3::new(0.0, 0.0, 2.0),
-                Vec3::new(1e-3, 0.0, 2.0),
-                Vec3::new(0.0, 1e-3, 2.0),
-            ],
-            radiance: 8e6,
-            two_sided,
+        let triangle = |two_sided| {
+            Emitter::Set(SetLight::Triangle {
+                vertices: [
+                    Vec3::new(0.0, 0.0, 2.0),
+                    Vec3::new(1e-3, 0.0, 2.0),
+                    Vec3::new(0.0, 1e-3, 2.0),
+                ],
+                radiance: 8e6,
+                two_sided,
+            })
         };
         let below = LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z);
         assert_eq!(

@@ -3,41 +3,13 @@ use core::f64::consts::PI;
 
 use light_bounds::{EmissionLobe, InfiniteBounds, LightBounds, LightExtent};
 use light_math::{Aabb, glam::Vec3};
-
-use crate::real3::{Real3, cross, length, normalize, real3, sub, vec3};
+use light_sets::SetLight;
 
 /// A light whose exact contribution is a line of code: the ground truth for samplers.
 #[derive(Clone, Copy, Debug)]
 pub enum Emitter {
-    /// A triangle that emits `radiance` on its counter-clockwise side, or on both.
-    Triangle {
-        /// The corners.
-        corners: [Vec3; 3],
-        /// Radiance, in W·m⁻²·sr⁻¹.
-        radiance: f32,
-        /// Whether the clockwise side emits too.
-        two_sided: bool,
-    },
-    /// An isotropic point light of `intensity`.
-    Point {
-        /// Position.
-        position: Vec3,
-        /// Radiant intensity, in W·sr⁻¹.
-        intensity: f32,
-    },
-    /// A spot light with a smooth falloff between two cones.
-    Spot {
-        /// Position.
-        position: Vec3,
-        /// Axis, a unit vector.
-        axis: Vec3,
-        /// Radiant intensity inside of the inner cone, in W·sr⁻¹.
-        intensity: f32,
-        /// Cosine of the inner cone's half angle.
-        cos_start: f32,
-        /// Cosine of the outer cone's half angle, at most `cos_start`.
-        cos_end: f32,
-    },
+    /// A triangle, point or spot as measured light sets hold them.
+    Set(SetLight),
     /// A point with a beam and a little stray light all around, known by its lobe.
     Lantern {
         /// Position.
@@ -72,43 +44,8 @@ impl Emitter {
     /// The extent for samplers.
     #[must_use]
     pub fn extent(&self) -> LightExtent {
-        let point = |position, w, intensity, cos_theta_o, cos_theta_e| {
-            LightExtent::Bounded(LightBounds {
-                bounds: Aabb::from_point(position),
-                w,
-                phi: (4.0 * PI) as f32 * intensity,
-                cos_theta_o,
-                cos_theta_e,
-                two_sided: false,
-            })
-        };
         match *self {
-            Self::Triangle {
-                corners,
-                radiance,
-                two_sided,
-            } => LightExtent::Bounded(LightBounds {
-                bounds: Aabb::from_points(corners),
-                w: vec3(self.normal()).normalize_or(Vec3::Z),
-                phi: (PI * self.area() * f64::from(radiance)) as f32,
-                cos_theta_o: 1.0,
-                cos_theta_e: 0.0,
-                two_sided,
-            }),
-            Self::Point {
-                position,
-                intensity,
-            } => point(position, Vec3::Z, intensity, -1.0, 0.0),
-            Self::Spot {
-                position,
-                axis,
-                intensity,
-                cos_start,
-                cos_end,
-            } => {
-                let band = f64::from(cos_end).acos() - f64::from(cos_start).acos();
-                point(position, axis, intensity, cos_start, band.cos() as f32)
-            }
+            Self::Set(light) => LightExtent::Bounded(light.bounds()),
             Self::Lantern {
                 position,
                 axis,
@@ -149,30 +86,11 @@ impl Emitter {
             (LightExtent::Lobe(_, lobe), _) => lobe.power,
             (
                 LightExtent::Bounded(bounds),
-                Self::Triangle {
+                Self::Set(SetLight::Triangle {
                     two_sided: true, ..
-                },
+                }),
             ) => 2.0 * bounds.phi,
             (LightExtent::Bounded(bounds), _) => bounds.phi,
-        }
-    }
-
-    /// The unit normal of a triangle; zero for one without area and for other lights.
-    pub(crate) fn normal(&self) -> Real3 {
-        normalize(self.doubled_area())
-    }
-
-    pub(crate) fn area(&self) -> f64 {
-        0.5 * length(self.doubled_area())
-    }
-
-    fn doubled_area(&self) -> Real3 {
-        match *self {
-            Self::Triangle { corners, .. } => {
-                let [a, b, c] = corners.map(real3);
-                cross(sub(b, a), sub(c, a))
-            }
-            _ => [0.0; 3],
         }
     }
 }

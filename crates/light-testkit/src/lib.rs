@@ -12,11 +12,13 @@ extern crate alloc;
 pub use light_math::glam;
 #[cfg(feature = "samplers")]
 pub use light_samplers;
+#[cfg(feature = "samplers")]
+pub use light_sets;
 #[cfg(feature = "sources")]
 pub use light_sources;
 
 #[cfg(feature = "samplers")]
-mod adversarial_sets;
+mod adversarial_cases;
 mod cap;
 mod chi_squared;
 #[cfg(feature = "samplers")]
@@ -29,20 +31,18 @@ mod estimate;
 #[cfg(feature = "fuzz")]
 pub mod fuzz;
 mod gamma;
-#[cfg(feature = "samplers")]
-mod generated_sets;
 mod kolmogorov_smirnov;
 pub mod laws;
 #[cfg(any(feature = "fuzz", feature = "soak"))]
 mod light_agreement;
-#[cfg(feature = "samplers")]
-mod light_set;
 #[cfg(feature = "samplers")]
 mod may_contribute;
 pub mod naive;
 mod quadrature;
 mod real3;
 mod rng;
+#[cfg(feature = "samplers")]
+mod sampler_case;
 mod significance;
 #[cfg(feature = "soak")]
 pub mod soak;
@@ -56,9 +56,9 @@ pub use estimate::Estimate;
 pub use gamma::{ln_gamma, regularized_gamma_q};
 pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 #[cfg(feature = "samplers")]
-pub use light_set::LightSet;
-#[cfg(feature = "samplers")]
 pub use may_contribute::may_contribute;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
+#[cfg(feature = "samplers")]
+pub use sampler_case::SamplerCase;
 pub use significance::{FAMILY_ERROR, PROGRAMS, SIGNIFICANCE, TESTS_PER_PROGRAM, tests_taken};

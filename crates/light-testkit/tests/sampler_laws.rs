@@ -10,7 +10,7 @@ use std::panic::catch_unwind;
 
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_samplers::LightSampler;
-use light_testkit::LightSet;
+use light_testkit::SamplerCase;
 use light_testkit::laws::sampler::{
     contributing_lights_can_be_chosen, frequencies_match_and_u_stays_uniform, nonsense_is_survived,
     pmfs_and_none_sum_to_one, sampled_pmf_is_the_queried_pmf, unknown_lights_have_no_pmf,
@@ -64,10 +64,10 @@ impl LightSampler for Broken {
     }
 }
 
-type Law = fn(&LightSet, &Broken);
+type Law = fn(&SamplerCase, &Broken);
 
-fn holds(law: impl Fn(&LightSet, &Broken), fault: Fault) -> bool {
-    let set = LightSet::mixed(9, 1);
+fn holds(law: impl Fn(&SamplerCase, &Broken), fault: Fault) -> bool {
+    let set = SamplerCase::mixed(9, 1);
     let count = set.count();
     catch_unwind(AssertUnwindSafe(|| law(&set, &Broken { count, fault }))).is_ok()
 }

@@ -84,7 +84,7 @@ mod tests {
         for light in &set.lights {
             let [a, b] = [GroundTruth::Centroid, GroundTruth::Area].map(|ground_truth| {
                 let n = at.n.as_dvec3();
-                let from = |p| light.contribution_from(p, &at, |wi| n.dot(wi).max(0.0));
+                let from = |p| light.contribution_from(p, at.p, 0.0, |wi| n.dot(wi).max(0.0));
                 let points = ground_truth.points(light);
                 let count = points.len() as f64;
                 points.map(from).sum::<f64>() / count

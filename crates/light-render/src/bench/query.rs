@@ -33,7 +33,7 @@ impl Query {
         let count = points.len() as f64;
         let sum: f64 = points
             .map(|p| {
-                let f = light.contribution_from(p, &asker.at, |wi| asker.response(wi));
+                let f = light.contribution_from(p, asker.at.p, 0.0, |wi| asker.response(wi));
                 if f > 0.0 && self.occluders.block(asker.at.p.as_dvec3(), p) {
                     0.0
                 } else {

@@ -12,6 +12,6 @@ mod sampler_laws;
 mod several_choices;
 
 #[cfg(feature = "samplers")]
-pub use sampler_laws::sampler_sets;
+pub use sampler_laws::sampler_cases;
 #[cfg(feature = "samplers")]
 pub use several_choices::several_choices_follow_their_pmf;

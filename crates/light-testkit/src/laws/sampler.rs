@@ -3,12 +3,12 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_samplers::LightSampler;
 
-use crate::{LightSet, Rng, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
+use crate::{Rng, SamplerCase, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
 
 /// A choice is asked either for a context, or without one.
 type Query = Option<LightSampleContext>;
 
-fn queries(set: &LightSet) -> impl Iterator<Item = Query> {
+fn queries(set: &SamplerCase) -> impl Iterator<Item = Query> {
     set.contexts.iter().copied().map(Some).chain([None])
 }
 
@@ -31,7 +31,7 @@ fn pmf(sampler: &impl LightSampler, query: &Query, light: LightId) -> f32 {
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn sampled_pmf_is_the_queried_pmf(set: &LightSet, sampler: &impl LightSampler) {
+pub fn sampled_pmf_is_the_queried_pmf(set: &SamplerCase, sampler: &impl LightSampler) {
     let mut rng = Rng::new(31);
     for query in queries(set) {
         let edges = edge_cases::EDGES_OF_U.map(f64::from);
@@ -63,7 +63,7 @@ pub fn sampled_pmf_is_the_queried_pmf(set: &LightSet, sampler: &impl LightSample
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn pmfs_and_none_sum_to_one(set: &LightSet, sampler: &impl LightSampler) {
+pub fn pmfs_and_none_sum_to_one(set: &SamplerCase, sampler: &impl LightSampler) {
     // Stratified u: a sampler that maps each light to an interval misses by less than one stratum a
     // light.
     const STRATA: u32 = 4096;
@@ -101,7 +101,7 @@ pub(super) const ROUNDING: f64 = 2e-5;
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn contributing_lights_can_be_chosen(set: &LightSet, sampler: &impl LightSampler) {
+pub fn contributing_lights_can_be_chosen(set: &SamplerCase, sampler: &impl LightSampler) {
     for ctx in &set.contexts {
         for (id, emitter) in set.ids().zip(&set.emitters) {
             let (pmf, contribution) = (sampler.pmf(ctx, id), emitter.contribution(ctx));
@@ -130,7 +130,7 @@ pub fn contributing_lights_can_be_chosen(set: &LightSet, sampler: &impl LightSam
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn unknown_lights_have_no_pmf(set: &LightSet, sampler: &impl LightSampler) {
+pub fn unknown_lights_have_no_pmf(set: &SamplerCase, sampler: &impl LightSampler) {
     let n = set.count();
     for query in queries(set) {
         for id in [n, n + 1, 1 << 24, u32::MAX >> 1, u32::MAX] {
@@ -144,7 +144,7 @@ pub fn unknown_lights_have_no_pmf(set: &LightSet, sampler: &impl LightSampler) {
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn frequencies_match_and_u_stays_uniform(set: &LightSet, sampler: &impl LightSampler) {
+pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl LightSampler) {
     const DRAWS: u32 = 8192;
     const ENOUGH_FOR_U: usize = 200;
     let mut rng = Rng::new(33);
@@ -190,7 +190,7 @@ pub fn frequencies_match_and_u_stays_uniform(set: &LightSet, sampler: &impl Ligh
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn nonsense_is_survived(set: &LightSet, sampler: &impl LightSampler) {
+pub fn nonsense_is_survived(set: &SamplerCase, sampler: &impl LightSampler) {
     use crate::glam::Vec3;
     let mut contexts = Vec::new();
     for x in [f32::NAN, f32::INFINITY, f32::MAX, f32::from_bits(1)] {

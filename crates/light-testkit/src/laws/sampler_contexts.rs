@@ -5,7 +5,7 @@ use light_math::glam::Vec3;
 use light_samplers::LightSampler;
 
 use super::sampler::ROUNDING;
-use crate::{LightSet, Rng};
+use crate::{Rng, SamplerCase};
 
 /// Lengths that break careless code.
 const LENGTHS: [f32; 12] = [
@@ -101,7 +101,7 @@ pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn laws_hold_at_any_context(set: &LightSet, sampler: &impl LightSampler) {
+pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) {
     const STRATA: u32 = 32;
     let mut rng = Rng::new(34);
     // Around one of the contexts, another one for each number of lights.
@@ -154,7 +154,7 @@ pub fn laws_hold_at_any_context(set: &LightSet, sampler: &impl LightSampler) {
 /// # Panics
 /// If the law does not hold.
 pub fn contributing_lights_can_be_chosen_whatever_the_normal(
-    set: &LightSet,
+    set: &SamplerCase,
     sampler: &impl LightSampler,
 ) {
     for ctx in &set.contexts {

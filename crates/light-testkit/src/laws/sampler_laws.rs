@@ -1,20 +1,22 @@
-use crate::LightSet;
+use light_sets::SetKind;
 
-/// The sets on which samplers are tried: generated ones of several sizes, and adversarial ones.
+use crate::SamplerCase;
+
+/// The cases on which samplers are tried: generated ones of several sizes, and adversarial ones.
 #[must_use]
-pub fn sampler_sets() -> Vec<LightSet> {
-    let mut sets = LightSet::adversarial(60);
+pub fn sampler_cases() -> Vec<SamplerCase> {
+    let mut sets = SamplerCase::adversarial(60);
     for n in [2, 9, 100] {
-        sets.push(LightSet::uniform(n, 21));
-        sets.push(LightSet::clusters(n, 22));
-        sets.push(LightSet::spots(n, 23));
-        sets.push(LightSet::mixed(n, 24));
+        sets.push(SamplerCase::generated(SetKind::Uniform, n, 21));
+        sets.push(SamplerCase::generated(SetKind::Clusters, n, 22));
+        sets.push(SamplerCase::generated(SetKind::Spots, n, 23));
+        sets.push(SamplerCase::mixed(n, 24));
     }
     sets
 }
 
 /// Makes a module of tests, one a law, for the sampler that `$build` makes of a
-/// [`LightSet`](crate::LightSet).
+/// [`SamplerCase`](crate::SamplerCase).
 ///
 /// Belongs in a file of `tests/`: in unit tests the trait of the crate under test is another one.
 ///
@@ -36,12 +38,12 @@ macro_rules! sampler_laws {
             #[allow(unused_imports, reason = "not every way to build a sampler needs what the file imports")]
             use super::*;
 
-            fn build($set: &$crate::LightSet) -> impl $crate::light_samplers::LightSampler + use<> {
+            fn build($set: &$crate::SamplerCase) -> impl $crate::light_samplers::LightSampler + use<> {
                 $build
             }
 
-            fn check<S>(law: impl Fn(&$crate::LightSet, &S), build: impl Fn(&$crate::LightSet) -> S) {
-                for set in $crate::laws::sampler_sets() {
+            fn check<S>(law: impl Fn(&$crate::SamplerCase, &S), build: impl Fn(&$crate::SamplerCase) -> S) {
+                for set in $crate::laws::sampler_cases() {
                     law(&set, &build(&set));
                 }
             }

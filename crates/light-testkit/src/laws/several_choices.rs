@@ -1,7 +1,7 @@
 use light_bounds::LightSampleContext;
 use light_samplers::{LightSampler, PreparedChoices};
 
-use crate::{LightSet, Rng, chi_squared, kolmogorov_smirnov_uniform};
+use crate::{Rng, SamplerCase, chi_squared, kolmogorov_smirnov_uniform};
 
 /// Several choices of one call carry the bits of `pmf_many`, which adds up to one at most, fall on
 /// lights as often as their pmf, and leave a uniform rest of `u` for each of them; what is kept
@@ -12,7 +12,7 @@ use crate::{LightSet, Rng, chi_squared, kolmogorov_smirnov_uniform};
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn several_choices_follow_their_pmf(set: &LightSet, sampler: &impl LightSampler) {
+pub fn several_choices_follow_their_pmf(set: &SamplerCase, sampler: &impl LightSampler) {
     const DRAWS: u32 = 1 << 13;
     let mut rng = Rng::new(34);
     let step = usize::max(1, set.contexts.len() / 2);
@@ -24,7 +24,7 @@ pub fn several_choices_follow_their_pmf(set: &LightSet, sampler: &impl LightSamp
 }
 
 fn check(
-    set: &LightSet,
+    set: &SamplerCase,
     sampler: &impl LightSampler,
     ctx: &LightSampleContext,
     count: u32,

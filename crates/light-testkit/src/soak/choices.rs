@@ -8,7 +8,9 @@ use light_samplers::{
 
 use super::receivers::receiver;
 use super::report::Row;
-use crate::{Emitter, LightSet, Rng};
+use light_sets::SetKind;
+
+use crate::{Emitter, Rng, SamplerCase};
 
 /// Choices for one receiver, one by one.
 const SINGLE: u32 = 8;
@@ -24,7 +26,7 @@ const FEW: usize = 64;
 
 /// A set of lights and every sampler of it.
 pub(super) struct SoakSet {
-    set: LightSet,
+    set: SamplerCase,
     samplers: Vec<(&'static str, Box<dyn LightSampler + Sync + Send>)>,
 }
 
@@ -33,17 +35,17 @@ pub(super) fn sets() -> Vec<SoakSet> {
     let mut sets = Vec::new();
     for n in [40, 1000, 30_000] {
         let generated = [
-            LightSet::uniform(n, 51),
-            LightSet::clusters(n, 52),
-            LightSet::spots(n, 53),
-            LightSet::mixed(n, 54),
+            SamplerCase::generated(SetKind::Uniform, n, 51),
+            SamplerCase::generated(SetKind::Clusters, n, 52),
+            SamplerCase::generated(SetKind::Spots, n, 53),
+            SamplerCase::mixed(n, 54),
         ];
         for set in generated {
             sets.push(below_a_sky(&set));
             sets.push(set);
         }
     }
-    let adversarial = LightSet::adversarial(60);
+    let adversarial = SamplerCase::adversarial(60);
     sets.extend(
         adversarial
             .into_iter()
@@ -58,13 +60,13 @@ pub(super) fn rows(sets: &[SoakSet]) -> Vec<Row> {
     sets.iter().map(|set| Row::new(name(set))).collect()
 }
 
-fn below_a_sky(set: &LightSet) -> LightSet {
+fn below_a_sky(set: &SamplerCase) -> SamplerCase {
     let mut set = set.clone();
     let sun = |wi: Vec3, irradiance| Emitter::Sun { wi, irradiance };
     set.emitters.push(Emitter::Sky { radiance: 0.1 });
     set.emitters.push(sun(Vec3::new(0.6, 0.0, 0.8), 2.0));
     set.emitters.push(sun(Vec3::new(0.0, 0.8, -0.6), 1e-3));
-    LightSet {
+    SamplerCase {
         name: match set.name {
             "uniform" => "uniform below a sky",
             "clusters" => "clusters below a sky",
@@ -76,7 +78,7 @@ fn below_a_sky(set: &LightSet) -> LightSet {
 }
 
 impl SoakSet {
-    fn new(set: LightSet) -> Self {
+    fn new(set: SamplerCase) -> Self {
         let extents = set.extents();
         let valid = "generated lights are valid";
         let tree = BvhLightSampler::new(&extents).expect(valid);

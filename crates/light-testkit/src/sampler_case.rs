@@ -1,38 +1,83 @@
 use light_bounds::{LightExtent, LightId, LightSampleContext};
 use light_math::{Aabb, glam::Vec3};
+use light_sets::{BenchSet, SetKind};
 
 use crate::{Emitter, Rng};
 
-/// Lights, and the contexts at which samplers of them are tried.
+/// Contexts at random places of a case; more are added at its bounds.
+pub(crate) const CONTEXTS: usize = 12;
+
+/// Lights, and the contexts at which the laws of samplers are checked on them.
 #[derive(Clone, Debug)]
-pub struct LightSet {
-    /// What the set is about.
+pub struct SamplerCase {
+    /// What the case is about.
     pub name: &'static str,
     /// One entry a light; the index is the light's id.
     pub emitters: Vec<Emitter>,
-    /// Who asks for light.
+    /// The receivers.
     pub contexts: Vec<LightSampleContext>,
 }
 
-impl LightSet {
+impl SamplerCase {
     /// The lights with `count` random contexts in and around their box, and a few more exactly at
     /// their bounds.
     #[must_use]
     pub fn new(name: &'static str, emitters: Vec<Emitter>, count: usize, seed: u64) -> Self {
         let mut rng = Rng::new(seed);
-        let mut set = Self {
+        let mut case = Self {
             name,
             emitters,
             contexts: Vec::new(),
         };
-        let (low, high) = set.corners();
+        let (low, high) = case.corners();
         let size = (high - low).max(Vec3::splat(1e-3));
         for i in 0..count {
             let p = low - size * 0.25 + size * 1.5 * rng.vec3();
-            set.contexts.push(context(p, i, &mut rng));
+            case.contexts.push(context(p, i, &mut rng));
         }
-        set.add_contexts_at_bounds(&mut rng);
-        set
+        case.add_contexts_at_bounds(&mut rng);
+        case
+    }
+
+    /// The lights of a measured set, and contexts at points of it.
+    #[must_use]
+    pub fn generated(kind: SetKind, n: usize, seed: u64) -> Self {
+        let set = BenchSet::generate(kind, n, seed);
+        let emitters = set.lights.into_iter().map(Emitter::Set).collect();
+        let mut case = Self::new(kind.name(), emitters, CONTEXTS, seed);
+        // The first two stay where they are: outside of the lights' box, mostly.
+        for (ctx, point) in case
+            .contexts
+            .iter_mut()
+            .take(CONTEXTS)
+            .skip(2)
+            .zip(&set.points)
+        {
+            ctx.p = point.p;
+        }
+        case
+    }
+
+    /// [`SetKind::Mixed`], with a sky and a sun among its lights.
+    #[must_use]
+    pub fn mixed(n: usize, seed: u64) -> Self {
+        let mut case = Self::generated(SetKind::Mixed, n, seed);
+        let infinite = [
+            (10, Emitter::Sky { radiance: 0.01 }),
+            (
+                20,
+                Emitter::Sun {
+                    wi: Vec3::new(0.6, 0.0, 0.8),
+                    irradiance: 2.0,
+                },
+            ),
+        ];
+        for (index, light) in infinite {
+            if let Some(emitter) = case.emitters.get_mut(index) {
+                *emitter = light;
+            }
+        }
+        case
     }
 
     /// What samplers are built from.
