@@ -15,117 +15,89 @@ use crate::bench_set::BenchSet;
 use crate::random::Random;
 use place::Place;
 
-/// A kind of place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
+/// Makes [`Family`] from a table: what a family is, its name on the command line, and what builds
+/// a place of it.
+macro_rules! families {
+    ($(#[doc = $doc:literal] $family:ident, $name:literal, $build:path;)*) => {
+        /// A kind of place.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Family {
+            $(#[doc = $doc] $family,)*
+        }
+
+        impl Family {
+            /// All families, in the order of the table.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$family),*];
+
+            /// The family's name on the command line.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$family => $name,)*
+                }
+            }
+
+            const fn build(self) -> fn(&mut Random, &mut Place) {
+                match self {
+                    $(Self::$family => $build,)*
+                }
+            }
+        }
+    };
+}
+
+families! {
     /// Panels in the ceiling of one large room.
-    Offices,
+    Offices, "offices", rooms::offices;
     /// Panels under the ceilings of many storeys, with receivers on the floors between.
-    Storeys,
+    Storeys, "storeys", rooms::storeys;
     /// Racks with a strip of light under each board.
-    Shelves,
+    Shelves, "shelves", rooms::shelves;
     /// Lights on the risers and under the nosings of stairs.
-    Stairs,
+    Stairs, "stairs", rooms::stairs;
     /// Rows of seats that rise, with lights at the feet of each row.
-    Tribune,
+    Tribune, "tribune", rooms::tribune;
     /// Windows on both facades of a street.
-    Canyon,
+    Canyon, "canyon", streets::canyon;
     /// Small emitters all over one wall, seen from near.
-    Facade,
+    Facade, "facade", streets::facade;
     /// Head lamps of cars on crossing roads.
-    HeadLamps,
+    HeadLamps, "head-lamps", streets::head_lamps;
     /// Lamps on walls that shine up and down.
-    WallLamps,
+    WallLamps, "wall-lamps", streets::wall_lamps;
     /// Narrow beams from masts, aimed over a field.
-    Stadium,
+    Stadium, "stadium", halls::stadium;
     /// Spots of unlike widths at one height, straight down.
-    Downlights,
+    Downlights, "downlights", halls::downlights;
     /// Narrow spots and a few wide ones at one height, straight down.
-    Accents,
+    Accents, "accents", halls::accents;
     /// Spots without a rim, of any direction.
-    HardSpots,
+    HardSpots, "hard-spots", halls::hard_spots;
     /// Spots with rims of any width.
-    SoftSpots,
+    SoftSpots, "soft-spots", halls::soft_spots;
     /// Isotropic points in a cube.
-    Points,
+    Points, "points", scatter::points;
     /// Tessellated spheres.
-    Bulbs,
+    Bulbs, "bulbs", lamps::bulbs;
     /// Tessellated tubes, some two-sided.
-    Tubes,
+    Tubes, "tubes", lamps::tubes;
     /// Leaves that shine to both sides, one in a hundred bright.
-    Foliage,
+    Foliage, "foliage", scatter::foliage;
     /// Ground that shines upward.
-    Terrain,
+    Terrain, "terrain", scatter::terrain;
     /// Clusters of clusters of triangles.
-    NestedClusters,
+    NestedClusters, "nested-clusters", scatter::nested_clusters;
     /// A few very bright triangles among dim ones.
-    FewBright,
+    FewBright, "few-bright", scatter::few_bright;
     /// Triangles of sizes over three decades.
-    Sizes,
+    Sizes, "sizes", scatter::sizes;
     /// Lights and receivers near one plane.
-    Grazing,
+    Grazing, "grazing", scatter::grazing;
 }
 
 impl Family {
-    /// All families, in the order of the table.
-    pub const ALL: [Self; 23] = [
-        Self::Offices,
-        Self::Storeys,
-        Self::Shelves,
-        Self::Stairs,
-        Self::Tribune,
-        Self::Canyon,
-        Self::Facade,
-        Self::HeadLamps,
-        Self::WallLamps,
-        Self::Stadium,
-        Self::Downlights,
-        Self::Accents,
-        Self::HardSpots,
-        Self::SoftSpots,
-        Self::Points,
-        Self::Bulbs,
-        Self::Tubes,
-        Self::Foliage,
-        Self::Terrain,
-        Self::NestedClusters,
-        Self::FewBright,
-        Self::Sizes,
-        Self::Grazing,
-    ];
-
-    /// The family's name on the command line.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Offices => "offices",
-            Self::Storeys => "storeys",
-            Self::Shelves => "shelves",
-            Self::Stairs => "stairs",
-            Self::Tribune => "tribune",
-            Self::Canyon => "canyon",
-            Self::Facade => "facade",
-            Self::HeadLamps => "head-lamps",
-            Self::WallLamps => "wall-lamps",
-            Self::Stadium => "stadium",
-            Self::Downlights => "downlights",
-            Self::Accents => "accents",
-            Self::HardSpots => "hard-spots",
-            Self::SoftSpots => "soft-spots",
-            Self::Points => "points",
-            Self::Bulbs => "bulbs",
-            Self::Tubes => "tubes",
-            Self::Foliage => "foliage",
-            Self::Terrain => "terrain",
-            Self::NestedClusters => "nested-clusters",
-            Self::FewBright => "few-bright",
-            Self::Sizes => "sizes",
-            Self::Grazing => "grazing",
-        }
-    }
-
     /// A place of `n` lights.
-    pub(super) fn generate(self, r: &mut Random, n: usize) -> BenchSet {
+    pub(crate) fn generate(self, r: &mut Random, n: usize) -> BenchSet {
         let mut place = Place::new(n);
         let rotation = if r.unit() < 0.5 {
             Quat::IDENTITY
@@ -133,32 +105,7 @@ impl Family {
             let axis = r.direction();
             Quat::from_axis_angle(axis, core::f32::consts::TAU * r.unit())
         };
-        let build = match self {
-            Self::Offices => rooms::offices,
-            Self::Storeys => rooms::storeys,
-            Self::Shelves => rooms::shelves,
-            Self::Stairs => rooms::stairs,
-            Self::Tribune => rooms::tribune,
-            Self::Canyon => streets::canyon,
-            Self::Facade => streets::facade,
-            Self::HeadLamps => streets::head_lamps,
-            Self::WallLamps => streets::wall_lamps,
-            Self::Stadium => halls::stadium,
-            Self::Downlights => halls::downlights,
-            Self::Accents => halls::accents,
-            Self::HardSpots => halls::hard_spots,
-            Self::SoftSpots => halls::soft_spots,
-            Self::Points => scatter::points,
-            Self::Bulbs => lamps::bulbs,
-            Self::Tubes => lamps::tubes,
-            Self::Foliage => scatter::foliage,
-            Self::Terrain => scatter::terrain,
-            Self::NestedClusters => scatter::nested_clusters,
-            Self::FewBright => scatter::few_bright,
-            Self::Sizes => scatter::sizes,
-            Self::Grazing => scatter::grazing,
-        };
-        build(r, &mut place);
+        self.build()(r, &mut place);
         place.turned(rotation)
     }
 }
