@@ -2,7 +2,7 @@ use lights::bounds::{CompactLightBounds, LightBounds, LightSampleContext};
 use lights::math::{Aabb, OctahedralVector, quantize::QuantizedBox};
 
 use super::bounds::{read_box, read_light_bounds};
-use super::compact_codes::{compact_codes, judge};
+use super::compact_codes::{ROUNDED_CODE, compact_codes, judge};
 use super::light_bounds_importance;
 use crate::oracle::{Certainty, codes};
 use crate::{Case, Findings, Malformed, Rule, Tolerance};
@@ -10,12 +10,6 @@ use crate::{Case, Findings, Malformed, Rule, Tolerance};
 const BOX_TOO_SMALL: Rule = Rule {
     name: "box too small",
     reason: "the reference's decoded box does not contain the original; ours takes the next code",
-};
-
-const ROUNDED_CODE: Rule = Rule {
-    name: "rounded_code",
-    reason: "a number lies on the edge between two codes up to single precision; ours is one of its codes in double \
-             precision",
 };
 
 const COSINE_ON_CODE: Rule = Rule {

@@ -3,18 +3,12 @@
 use lights::bounds::{LightBounds, LightExtent};
 use lights::bvh::reference::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
 
-use super::compact_codes::{Codes, compact_codes, judge};
+use super::compact_codes::{Codes, ROUNDED_CODE, compact_codes, judge};
 use super::light_tree_splits;
 use super::sampler_set::light_id;
 use crate::oracle::cone::ExactCone;
 use crate::oracle::{Certainty, Jitter, codes};
 use crate::{Case, Findings, Malformed, Rule, Tolerance};
-
-const ROUNDED_CODE: Rule = Rule {
-    name: "rounded_code",
-    reason: "a number lies on the edge between two codes up to single precision; ours is one of its codes in double \
-             precision",
-};
 
 const NARROW_CONE: Rule = Rule {
     name: "cone one code wider",

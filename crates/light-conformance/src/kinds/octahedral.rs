@@ -1,13 +1,8 @@
 use lights::math::OctahedralVector;
 
-use super::compact_codes::judge;
+use super::compact_codes::{ROUNDED_CODE, judge};
 use crate::oracle::{Certainty, codes};
-use crate::{Case, Findings, Malformed, Rule, Tolerance};
-
-const ROUNDED_CODE: Rule = Rule {
-    name: "rounded_code",
-    reason: "a number lies between two codes up to single precision; ours is one of both in double precision",
-};
+use crate::{Case, Findings, Malformed, Tolerance};
 
 /// Both codes are the same integers, the decoded vectors the same up to round-off.
 pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {

@@ -1,4 +1,6 @@
-use super::tables::{RUNNING_SUM, U_ROUNDING, check_inverse, refuses_signs, unless_zero};
+use super::tables::{
+    RUNNING_SUM, U_ROUNDING, check_integral, check_inverse, refuses_signs, unless_zero,
+};
 use crate::comparison::Comparison;
 use crate::oracle::{Certainty, Jitter};
 use crate::{Case, Findings, Malformed, Tolerance};
@@ -16,10 +18,7 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         return Ok(());
     };
 
-    let integral = findings.ours("integral", table.integral());
-    let theirs = case.get("integral")?.float()?;
-    findings.near("integral", integral, theirs, Tolerance::GENERAL);
-    findings.settled(Certainty::Determined);
+    check_integral(table.integral(), case, findings)?;
     for (&ours, theirs) in table.cdf().iter().zip(case.get("cdf")?.floats()?) {
         let ours = findings.ours("cdf", ours);
         findings.near("cdf", ours, theirs, RUNNING_SUM);

@@ -1,6 +1,5 @@
-use super::tables::{U_ROUNDING, check_inverse, refuses_signs, unless_zero};
+use super::tables::{U_ROUNDING, check_integral, check_inverse, refuses_signs, unless_zero};
 use crate::comparison::Comparison;
-use crate::oracle::Certainty;
 use crate::{Case, Findings, Malformed, Tolerance};
 use glam::{DVec2, DVec3};
 use lights::math::distribution::PiecewiseConstant2D;
@@ -23,10 +22,7 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
         return Ok(());
     };
 
-    let integral = findings.ours("integral", table.integral());
-    let theirs = case.get("integral")?.float()?;
-    findings.near("integral", integral, theirs, Tolerance::GENERAL);
-    findings.settled(Certainty::Determined);
+    check_integral(table.integral(), case, findings)?;
     let exact = super::tables::table(&weights, nx, ny);
     let (low, size) = (min.as_dvec2(), max.as_dvec2() - min.as_dvec2());
     let absolute = 1e-5 * (max - min).max_element();

@@ -54,6 +54,19 @@ pub(super) fn unless_zero<T>(
     }
 }
 
+/// Compares the integral of a table with the reference's.
+pub(super) fn check_integral(
+    ours: f32,
+    case: &Case<'_>,
+    findings: &mut Findings,
+) -> Result<(), Malformed> {
+    let ours = findings.ours("integral", ours);
+    let theirs = case.get("integral")?.float()?;
+    findings.near("integral", ours, theirs, Tolerance::GENERAL);
+    findings.settled(Certainty::Determined);
+    Ok(())
+}
+
 /// Small differences of large sums.
 pub(super) const CANCELLATION: Rule = Rule {
     name: "cancellation",

@@ -5,7 +5,6 @@ use crate::float::ONE_MINUS_EPSILON;
 /// Writes the running sum of `densities` over its total, from 0 to 1, and returns the total.
 ///
 /// The sum of a row without density rises evenly, so that inverting it stays defined.
-#[expect(clippy::cast_possible_truncation, reason = "rounds a share")]
 pub(super) const fn accumulate(densities: &[f32], sums: &mut [f32]) -> f64 {
     let len = densities.len();
     let mut total = 0.0;
@@ -18,7 +17,7 @@ pub(super) const fn accumulate(densities: &[f32], sums: &mut [f32]) -> f64 {
     let mut i = 0;
     while i < len {
         sums[i] = if total > 0.0 {
-            (partial / total) as f32
+            share(partial, total)
         } else {
             i as f32 / len as f32
         };
@@ -29,7 +28,7 @@ pub(super) const fn accumulate(densities: &[f32], sums: &mut [f32]) -> f64 {
     total
 }
 
-/// Like [`accumulate`], for totals of rows, which are shares of a sum known already.
+/// A running sum as a share of the sum of all, in `f32`.
 #[expect(clippy::cast_possible_truncation, reason = "rounds a share")]
 pub(super) const fn share(partial: f64, total: f64) -> f32 {
     (partial / total) as f32
