@@ -49,9 +49,11 @@ fn describe(light: &LightRef<'_, Rgb>) -> (&'static str, f32) {
         LightRef::Area(light) => ("area", light.shape().area()),
         LightRef::Triangle(light) => ("triangle", light.shape().area()),
         LightRef::Distant(_) => ("distant", 0.0),
+        LightRef::Sun(_) => ("sun", 0.0),
         LightRef::UniformInfinite(_) => ("uniform sky", 0.0),
         LightRef::ImageInfinite(_) => ("image sky", 0.0),
         LightRef::PortalInfinite(_) => ("portal", 0.0),
+        // The kinds are not exhaustive for other crates; those of today are all above.
         _ => ("other", 0.0),
     }
 }
@@ -62,6 +64,23 @@ mod tests {
     use crate::World;
     use light_scene::{Emission, Material, Mesh, Scene};
     use lights::glam::Vec3;
+    use lights::sources::{LightDesc, RadianceAmount, SunAmount, SunLightDesc};
+
+    #[test]
+    fn a_sun_is_named() {
+        let mut scene = Scene::default();
+        scene.lights.push(LightDesc::Sun(SunLightDesc {
+            direction: Vec3::Y,
+            angular_diameter: 0.01,
+            emission: Vec3::ONE,
+            amount: SunAmount::Radiance(RadianceAmount::default()),
+        }));
+        let world = World::new(scene).expect("a valid sun");
+        let [entry] = inventory(world.lights())[..] else {
+            panic!("one kind");
+        };
+        assert_eq!((entry.kind, entry.count), ("sun", 1), "the sun");
+    }
 
     #[test]
     fn lights_are_counted_with_their_power_and_area() {
