@@ -185,7 +185,8 @@ mod tests {
 
     #[test]
     fn stops_and_links() {
-        let line = "3. [`scene.rs`](crates/scene.rs): what was read, see [here](#rooms) and [there](https://a.b).";
+        let line = "3. [`scene.rs`](crates/scene.rs): what was read, see [here](#rooms) and \
+                    [there](https://a.b).";
         assert_eq!(stop(line), Some("crates/scene.rs"), "a stop");
         assert_eq!(stop("- [a](b)"), None, "no number");
         assert_eq!(links(line).collect::<Vec<_>>(), ["crates/scene.rs"]);

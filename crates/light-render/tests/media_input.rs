@@ -106,7 +106,8 @@ fn a_camera_in_fog_without_end_and_a_flame_without_lights_are_rendered() {
     let lit =
         format!("{fog}LightSource \"point\" \"point3 from\" [ 0 1 -2 ]\nLightSource \"infinite\"");
     let flame = "WorldBegin\nMakeNamedMedium \"flame\" \"string type\" \"uniformgrid\" \"float density\" 5 \
-                 \"float temperature\" 2000 \"rgb sigma_s\" [ 0 0 0 ]\nMediumInterface \"flame\" \"\"\nMaterial \"interface\"";
+                 \"float temperature\" 2000 \"rgb sigma_s\" [ 0 0 0 ]\nMediumInterface \"flame\" \
+                   \"\"\nMaterial \"interface\"";
     for (name, media) in [("fog", lit.as_str()), ("flame", flame)] {
         for integrator in [
             "volpath",

@@ -17,7 +17,8 @@ impl EmissiveCopies {
             return Ok(());
         }
         Err(format!(
-            "expected at most {MAX_EMISSIVE_COPIES} emissive triangles and spheres in all instances, found {} so far",
+            "expected at most {MAX_EMISSIVE_COPIES} emissive triangles and spheres in all \
+             instances, found {} so far",
             self.0
         ))
     }

@@ -26,7 +26,8 @@ impl fmt::Display for TooInvolved {
         let Self { corners, inward } = self;
         write!(
             f,
-            "expected a face whose corners times those that point inward are at most {MOST_WORK}, found {corners} times {inward}"
+            "expected a face whose corners times those that point inward are at most {MOST_WORK}, \
+             found {corners} times {inward}"
         )
     }
 }

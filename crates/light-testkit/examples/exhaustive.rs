@@ -19,7 +19,8 @@ fn main() -> ExitCode {
     let start = Instant::now();
     let worst = check_rows(0..ROWS);
     println!(
-        "octahedral, 2^32 codes in {:.0} s: length error {:.3e}, angular error {:.4e} (stated {:.4e}), {} codes lost",
+        "octahedral, 2^32 codes in {:.0} s: length error {:.3e}, angular error {:.4e} (stated \
+         {:.4e}), {} codes lost",
         start.elapsed().as_secs_f64(),
         worst.length_error,
         worst.angular_error,

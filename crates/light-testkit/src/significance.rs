@@ -27,7 +27,8 @@ pub(crate) fn take() {
     let taken = TAKEN.fetch_add(1, Ordering::Relaxed) + 1;
     assert!(
         taken <= TESTS_PER_PROGRAM,
-        "more than {TESTS_PER_PROGRAM} statistical tests in one program: raise TESTS_PER_PROGRAM, which lowers the level"
+        "more than {TESTS_PER_PROGRAM} statistical tests in one program: raise TESTS_PER_PROGRAM, \
+         which lowers the level"
     );
 }
 

@@ -26,7 +26,8 @@ const ROUNDED_CENTRE: Rule = Rule {
 
 const SINGLE: Rule = Rule {
     name: "single_precision",
-    reason: "the axes are almost opposite or alike, and the reference loses digits; ours is the cone in double precision",
+    reason: "the axes are almost opposite or alike, and the reference loses digits; ours is the \
+             cone in double precision",
 };
 
 /// Unions of cones, and cones toward boxes.

@@ -24,12 +24,14 @@ const AT_CENTRE: Rule = Rule {
 
 const NO_FALLOFF: Rule = Rule {
     name: "light without falloff",
-    reason: "the reference takes a light that emits nothing beyond its cone (theta_e = 0) for dark; ours finds it",
+    reason: "the reference takes a light that emits nothing beyond its cone (theta_e = 0) for \
+             dark; ours finds it",
 };
 
 const EMISSION_EDGE: Rule = Rule {
     name: "edge of the emission",
-    reason: "at theta' = theta_e, to the reference's round-off, zero and the value beside the step are both right",
+    reason: "at theta' = theta_e, to the reference's round-off, zero and the value beside the step \
+             are both right",
 };
 
 const SPHERE_EDGE: Rule = Rule {
@@ -39,7 +41,8 @@ const SPHERE_EDGE: Rule = Rule {
 
 const SINGLE: Rule = Rule {
     name: "single_precision",
-    reason: "the box is small for its distance from the origin, or the point near to it, and the reference loses digits",
+    reason: "the box is small for its distance from the origin, or the point near to it, and the \
+             reference loses digits",
 };
 
 /// Importance of bounds at a point, with and without a normal.

@@ -9,7 +9,8 @@ use crate::{Case, Findings, Malformed, Rule, Tolerance};
 
 const SINGLE: Rule = Rule {
     name: "single_precision",
-    reason: "the axes are almost opposite or alike, and the reference loses digits; ours is the cone in double precision",
+    reason: "the axes are almost opposite or alike, and the reference loses digits; ours is the \
+             cone in double precision",
 };
 
 /// Bounds of two groups of lights together.

@@ -9,12 +9,14 @@ use crate::{Findings, Malformed, Rule, Tolerance};
 
 const NO_POWER: Rule = Rule {
     name: "light without power",
-    reason: "the reference answers for a light that is not in its tree as if it were at infinity; ours answers 0",
+    reason: "the reference answers for a light that is not in its tree as if it were at infinity; \
+             ours answers 0",
 };
 
 const NOT_A_NUMBER: Rule = Rule {
     name: "reference is not a number",
-    reason: "it divides 0 by 0 above two children that do not matter, or normalises a vector of length zero at a box centre",
+    reason: "it divides 0 by 0 above two children that do not matter, or normalises a vector of \
+             length zero at a box centre",
 };
 
 const IMPORTANCE: Rule = Rule {
@@ -25,7 +27,8 @@ const IMPORTANCE: Rule = Rule {
 
 const EDGE_OF_U: Rule = Rule {
     name: "edge of a choice",
-    reason: "by the reference's importance u falls on the other side of a choice; ours is a choice in double precision",
+    reason: "by the reference's importance u falls on the other side of a choice; ours is a choice \
+             in double precision",
 };
 
 /// Which sampler is asked, and by whom.

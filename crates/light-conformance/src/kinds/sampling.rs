@@ -28,7 +28,8 @@ const ROOT: Rule = Rule {
 
 const ROUNDED_COSINE: Rule = Rule {
     name: "rounded_cosine",
-    reason: "the reference inverts a narrow cone by the rounded cosine, which ends within two roundings of ours",
+    reason: "the reference inverts a narrow cone by the rounded cosine, which ends within two \
+             roundings of ours",
 };
 
 const SEARCH: Rule = Rule {

@@ -5,7 +5,8 @@ use lights::math::discrete;
 
 const ON_EDGE: Rule = Rule {
     name: "u_on_the_edge",
-    reason: "u lies between two weights up to rounding: ours is a choice in double precision for u moved by 4 ulps",
+    reason: "u lies between two weights up to rounding: ours is a choice in double precision for u \
+             moved by 4 ulps",
 };
 
 /// The choice, its probability, and what is left of u.

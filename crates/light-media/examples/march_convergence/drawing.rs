@@ -32,17 +32,23 @@ pub(super) fn drawing(media: &[MediumFigures]) -> String {
     for power in -6..=0 {
         let at = y(10f64.powi(power));
         add(format!(
-            "<path d=\"M70 {at:.1}H490\" stroke=\"#ddd\"/><text x=\"64\" y=\"{:.1}\" text-anchor=\"end\">1e{power}</text>",
+            "<path d=\"M70 {at:.1}H490\" stroke=\"#ddd\"/><text x=\"64\" y=\"{:.1}\" \
+             text-anchor=\"end\">1e{power}</text>",
             at + 4.0
         ));
     }
     for step in [0.01, 0.1, 1.0] {
         let at = x(step);
         add(format!(
-            "<path d=\"M{at:.1} 20V330\" stroke=\"#ddd\"/><text x=\"{at:.1}\" y=\"346\" text-anchor=\"middle\">{step}</text>"
+            "<path d=\"M{at:.1} 20V330\" stroke=\"#ddd\"/><text x=\"{at:.1}\" y=\"346\" \
+             text-anchor=\"middle\">{step}</text>"
         ));
     }
-    add("<text x=\"280\" y=\"368\" text-anchor=\"middle\">step of the march, in units of 1 / extinction</text>".into());
+    add(
+        "<text x=\"280\" y=\"368\" text-anchor=\"middle\">step of the march, in units of 1 / \
+         extinction</text>"
+            .into(),
+    );
     for (row, series) in media.iter().zip(COLORS).flat_map(series).enumerate() {
         let Series {
             label,

@@ -107,7 +107,8 @@ impl FromStr for ReceiverKind {
     type Err = &'static str;
 
     fn from_str(s: &str) -> Result<Self, Self::Err> {
-        let expected = "expected diffuse, two-sided, medium, or glossy:ROUGHNESS with a roughness of 0.01 to 1";
+        let expected = "expected diffuse, two-sided, medium, or glossy:ROUGHNESS with a roughness \
+                        of 0.01 to 1";
         match s {
             "diffuse" => Ok(Self::Diffuse),
             "two-sided" => Ok(Self::TwoSided),

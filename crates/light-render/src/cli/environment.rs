@@ -47,7 +47,8 @@ impl Environment {
             None if width == height.saturating_mul(2) => SphereMap::LatLong,
             None => {
                 return Err(refuse(format!(
-                    "expected 2:1 (lat-long) or a square (equal-area), found {width} x {height}; say which map it is"
+                    "expected 2:1 (lat-long) or a square (equal-area), found {width} x {height}; \
+                     say which map it is"
                 )));
             }
         };

@@ -153,12 +153,14 @@ impl InfoArgs {
         )?;
         if let Some(quality) = tree.quality {
             say!(
-                "  quality    {quality:.3}: relative variance of one choice, nothing in the way, the median over points"
+                "  quality    {quality:.3}: relative variance of one choice, nothing in the way, \
+                 the median over points"
             )?;
         }
         if let Some(degradation) = tree.degradation {
             say!(
-                "  degradation  {degradation:.3}: spread of a group over that of its parent; lights that move raise it"
+                "  degradation  {degradation:.3}: spread of a group over that of its parent; \
+                 lights that move raise it"
             )?;
         }
         for warning in warnings {

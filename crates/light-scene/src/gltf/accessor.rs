@@ -203,7 +203,8 @@ impl Run {
         let (found, whole) = (view.bytes().len(), stride >= size);
         if !whole || needed.is_none_or(|needed| needed > found) {
             let message = format!(
-                "expected a view that holds {count} elements of {size} bytes from byte {offset} on, found {found} bytes"
+                "expected a view that holds {count} elements of {size} bytes from byte {offset} \
+                 on, found {found} bytes"
             );
             return Err(owner.error(&message));
         }

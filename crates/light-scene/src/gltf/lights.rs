@@ -111,7 +111,8 @@ fn punctual(
                     let angle = spot.number_or("outerConeAngle", FRAC_PI_4)?;
                     // One unit in the last place more is still a right angle.
                     if !(0.0 <= start && start < angle && angle <= FRAC_PI_2 * 1.000_001) {
-                        let message = "expected an `innerConeAngle` from 0 on, below an `outerConeAngle` of at most pi/2";
+                        let message = "expected an `innerConeAngle` from 0 on, below an \
+                                       `outerConeAngle` of at most pi/2";
                         return Err(spot.error(message));
                     }
                     (start, angle)

@@ -45,7 +45,11 @@ impl<'a> Reader<'a> {
         let uv_set = base.or(emissive).map_or(0, |texture| texture.uv_set);
         let emissive = emissive.filter(|texture| texture.uv_set == uv_set);
         if emissive.is_none() && item.get("emissiveTexture")?.is_some() {
-            self.warn(item, "has an `emissiveTexture` that was ignored: its coordinates are not those of the base colour");
+            self.warn(
+                item,
+                "has an `emissiveTexture` that was ignored: its coordinates are not \
+                             those of the base colour",
+            );
         }
         if let Some(ior) = item.extension("KHR_materials_ior")? {
             finish.eta = ior.amount_or("ior", 1.5)?;

@@ -80,12 +80,14 @@ fn broken_accessors_are_named_and_ask_for_no_memory() {
         (
             r#""count": 4, "type": "VEC3""#,
             r#""count": 5, "type": "VEC3""#,
-            "a.gltf: accessors[0]: expected a view that holds 5 elements of 12 bytes from byte 0 on, found 48 bytes",
+            "a.gltf: accessors[0]: expected a view that holds 5 elements of 12 bytes from byte 0 \
+             on, found 48 bytes",
         ),
         (
             r#""bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3""#,
             r#""componentType": 5126, "count": 999999999999, "type": "VEC3""#,
-            "a.gltf: accessors[0].count: expected at most 536870912 numbers in all accessors that are read, found 999999999999",
+            "a.gltf: accessors[0].count: expected at most 536870912 numbers in all accessors that \
+             are read, found 999999999999",
         ),
         (
             r#""byteOffset": 80, "byteLength": 12"#,
@@ -95,7 +97,8 @@ fn broken_accessors_are_named_and_ask_for_no_memory() {
         (
             r#""bufferView": 2, "#,
             r#""bufferView": 2, "byteOffset": 2, "#,
-            "a.gltf: accessors[2]: expected a view that holds 6 elements of 2 bytes from byte 2 on, found 12 bytes",
+            "a.gltf: accessors[2]: expected a view that holds 6 elements of 2 bytes from byte 2 \
+             on, found 12 bytes",
         ),
         (
             r#""bufferView": 2, "#,
@@ -105,7 +108,8 @@ fn broken_accessors_are_named_and_ask_for_no_memory() {
         (
             r#""byteLength": 48}"#,
             r#""byteLength": 48, "byteStride": 1}"#,
-            "a.gltf: accessors[0]: expected a view that holds 4 elements of 12 bytes from byte 0 on, found 48 bytes",
+            "a.gltf: accessors[0]: expected a view that holds 4 elements of 12 bytes from byte 0 \
+             on, found 48 bytes",
         ),
         (
             r#""byteLength": 92"#,

@@ -81,7 +81,8 @@ fn what_is_no_image_that_is_read_is_named() {
     let other = other.expect("a scene");
     assert_eq!(other.meshes[0].uvs, None, "there is no second set");
     let error = shown("", r#""source": 0"#, 7).map(|_| ());
-    let expected = "a.gltf: samplers[0].wrapS: expected 10497 (repeat), 33071 (clamp) or 33648 (mirror), found 7";
+    let expected = "a.gltf: samplers[0].wrapS: expected 10497 (repeat), 33071 (clamp) or 33648 \
+                    (mirror), found 7";
     assert_eq!(error, Err(expected.to_owned()), "a mode");
 }
 
@@ -205,7 +206,8 @@ fn shares_lie_between_0_and_1() {
         ),
         (
             r#""extensions": {"KHR_materials_transmission": {"transmissionFactor": -1}}"#,
-            "materials[0].extensions.KHR_materials_transmission.transmissionFactor: expected a number from 0 to 1, found -1",
+            "materials[0].extensions.KHR_materials_transmission.transmissionFactor: expected a \
+             number from 0 to 1, found -1",
         ),
     ] {
         let found = refusal(material);

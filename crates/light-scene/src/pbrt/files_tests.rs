@@ -8,7 +8,8 @@ use crate::{Alpha, Color, Diagnostic, Files, Scene, Surface};
 fn read(first: &str) -> Result<Scene, String> {
     const TRIANGLE: &[u8] = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
         element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    const GEOMETRY: &[u8] = b"Translate 0 0 3 NamedMaterial \"red\" Shape \"plymesh\" \"string filename\" \"geometry/a.ply\"";
+    const GEOMETRY: &[u8] = b"Translate 0 0 3 NamedMaterial \"red\" Shape \"plymesh\" \"string \
+                              filename\" \"geometry/a.ply\"";
     const MATERIALS: &[u8] =
         b"MakeNamedMaterial \"red\" \"string type\" [ \"diffuse\" ] \"rgb reflectance\" [ .9 .1 .1 ]";
     fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
@@ -123,7 +124,8 @@ fn the_world_and_the_camera_are_coordinate_systems() {
     let text = format!(
         "Translate 0 0 -4 Camera \"perspective\" WorldBegin
         Translate 1 0 0 CoordinateSystem \"here\"
-        CoordSysTransform \"world\" {TRIANGLE} CoordSysTransform \"camera\" {TRIANGLE} CoordSysTransform \"here\" {TRIANGLE}"
+        CoordSysTransform \"world\" {TRIANGLE} CoordSysTransform \"camera\" {TRIANGLE} \
+                            CoordSysTransform \"here\" {TRIANGLE}"
     );
     let scene = read(&text).expect("a scene");
     let corners: Vec<_> = scene.meshes.iter().map(|mesh| mesh.positions[0]).collect();

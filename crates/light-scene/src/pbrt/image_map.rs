@@ -52,7 +52,10 @@ impl Reader {
         }
         let encoding = key.encoding().ok_or_else(|| {
             let found = shown(&key.encoding);
-            let message = format!("expected an `encoding` of \"sRGB\", \"linear\" or \"gamma\" and a number, found \"{found}\"");
+            let message = format!(
+                "expected an `encoding` of \"sRGB\", \"linear\" or \"gamma\" and \
+                                   a number, found \"{found}\""
+            );
             at.diagnostic(message)
         })?;
         let file = read_encoded_from(&key.path, self.files, encoding);

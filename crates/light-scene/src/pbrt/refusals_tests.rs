@@ -108,7 +108,8 @@ fn broken_files_give_one_clear_line() {
         ),
         (
             "Attribute \"world\" \"float alpha\" 1",
-            "a.pbrt:1: expected \"shape\", \"light\", \"material\", \"medium\" or \"texture\", found \"world\"",
+            "a.pbrt:1: expected \"shape\", \"light\", \"material\", \"medium\" or \"texture\", \
+             found \"world\"",
         ),
         (
             "Include \"a.pbrt\"",

@@ -81,7 +81,8 @@ fn images_are_scaled_inverted_and_decoded_as_files_say() {
         "Texture \"t\" \"float\" {grey} \"string encoding\" \"log\""
     ))
     .map(|_| ());
-    let expected = "dir/a.pbrt:2: expected an `encoding` of \"sRGB\", \"linear\" or \"gamma\" and a number, found \"log\"";
+    let expected = "dir/a.pbrt:2: expected an `encoding` of \"sRGB\", \"linear\" or \"gamma\" and \
+                    a number, found \"log\"";
     assert_eq!(error, Err(expected.to_owned()), "unknown");
 }
 
@@ -89,7 +90,8 @@ fn images_are_scaled_inverted_and_decoded_as_files_say() {
 fn images_lie_where_the_mapping_puts_them() {
     let (_, shown) = reflectance(
         "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.png\" \"string filter\" \"ewa\"
-        \"string wrap\" \"black\" \"float uscale\" 2 \"float vscale\" 3 \"float udelta\" .5 \"float vdelta\" -1",
+        \"string wrap\" \"black\" \"float uscale\" 2 \"float vscale\" 3 \"float udelta\" .5 \
+          \"float vdelta\" -1",
     );
     let place = shown.mapping.transform.transform_point2(Vec2::ONE);
     assert_eq!(place, Vec2::new(2.5, 2.0), "scaled, then moved");

@@ -36,7 +36,8 @@ pub(super) fn compact_bounds(data: &[u8]) {
     if let Some(from) = points.iter().find(|from| contributes(from)) {
         assert!(
             exact > 0.0 && coarse > 0.0,
-            "importance {exact}, compact {coarse} at {ctx:?} of {bounds:?} in {all:?}, which emits from {from:?}"
+            "importance {exact}, compact {coarse} at {ctx:?} of {bounds:?} in {all:?}, which emits \
+             from {from:?}"
         );
     }
 }

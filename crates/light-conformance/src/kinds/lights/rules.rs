@@ -25,7 +25,8 @@ pub(super) const PICTURE_POWER: Rule = Rule {
 
 pub(super) const PORTAL_POWER: Rule = Rule {
     name: "portal_power",
-    reason: "the reference divides by the solid angle per area where it has to multiply, and leaves out the cosine",
+    reason: "the reference divides by the solid angle per area where it has to multiply, and \
+             leaves out the cosine",
 };
 
 pub(super) const DARK: Rule = Rule {
@@ -35,7 +36,8 @@ pub(super) const DARK: Rule = Rule {
 
 pub(super) const NO_SAMPLE: Rule = Rule {
     name: "no_sample",
-    reason: "the surface is seen from its edge, or another part of it is in the way: there is no sample, or ours is it",
+    reason: "the surface is seen from its edge, or another part of it is in the way: there is no \
+             sample, or ours is it",
 };
 
 pub(super) const MISSED: Rule = Rule {
@@ -45,7 +47,8 @@ pub(super) const MISSED: Rule = Rule {
 
 pub(super) const OWN_SAMPLE: Rule = Rule {
     name: "misses_its_own_sample",
-    reason: "the reference's intersection misses the point that it has sampled, on the edge of a shape or a window",
+    reason: "the reference's intersection misses the point that it has sampled, on the edge of a \
+             shape or a window",
 };
 
 pub(super) const SINGLE: Rule = Rule {
@@ -60,7 +63,8 @@ pub(super) const SMALL_RECTANGLE: Rule = Rule {
 
 pub(super) const ANNULUS: Rule = Rule {
     name: "annulus",
-    reason: "the reference samples the disk without its hole, and most points fall into it; ours moves its circles",
+    reason: "the reference samples the disk without its hole, and most points fall into it; ours \
+             moves its circles",
 };
 
 pub(super) const NO_SIDES: Rule = Rule {
@@ -90,7 +94,8 @@ pub(super) const WINDOW: Rule = Rule {
 
 pub(super) const PORTAL_RAYS: Rule = Rule {
     name: "portal_rays",
-    reason: "rays from the reference's portal start all around the scene, most of them beside the portal; ours start on it",
+    reason: "rays from the reference's portal start all around the scene, most of them beside the \
+             portal; ours start on it",
 };
 
 pub(super) const WRAP: Rule = Rule {

@@ -87,7 +87,8 @@ impl Description {
         [
             (
                 finish == Finish::Matt && has_specular,
-                "`Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or `illum 3` or `5` of a mirror",
+                "`Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or `illum \
+                 3` or `5` of a mirror",
             ),
             (
                 finish == Finish::Mirror && has_diffuse,

@@ -148,7 +148,8 @@ fn what_does_not_count_is_named_once() {
         "dir/a.mtl:17: `bump` is not understood and was ignored",
         "dir/a.mtl:18: `Tf` is not understood and was ignored",
         "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .png, .tga or .jpg",
-        "dir/a.mtl:1: `Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or `illum 3` or `5` of a mirror",
+        "dir/a.mtl:1: `Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or \
+         `illum 3` or `5` of a mirror",
         "dir/a.mtl:5: `Kd` of a mirror was ignored",
         "dir/a.mtl:8: `Kd` of glass was ignored",
         "dir/a.mtl:11: `map_Kd` of a metal was taken as its mean",

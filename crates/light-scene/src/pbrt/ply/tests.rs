@@ -7,7 +7,9 @@ fn ply_in_text_and_binary() {
     let path = Path::new("a.ply");
     let head = |format: &str| {
         format!(
-            "ply\nformat {format} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "ply\nformat {format} 1.0\nelement vertex 4\nproperty float x\nproperty float \
+             y\nproperty float z\nelement face 1\nproperty list uchar int \
+             vertex_indices\nend_header\n"
         )
     };
     let text = head("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
@@ -61,11 +63,13 @@ fn ply_in_text_and_binary() {
             "a.ply:6: expected a list `vertex_indices` of faces",
         ),
         (
-            "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n0\n",
+            "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int \
+             vertex_indices\nend_header\n0\n",
             "a.ply:6: expected at least one face",
         ),
         (
-            "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+            "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float \
+             y\nproperty float z\nend_header\n1 2 3\n",
             "a.ply:9: expected a number, found ``",
         ),
     ];
