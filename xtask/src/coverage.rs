@@ -1,4 +1,4 @@
-//! `cargo xtask coverage`: which lines and regions of the core crates their tests reach, by
+//! `cargo xtask coverage [CRATE...]`: which lines and regions of the core crates their tests reach, by
 //! `cargo-llvm-cov`.
 
 use std::path::PathBuf;
@@ -21,15 +21,19 @@ const OTHERS: &str =
 /// The features that are not on by default and change what the tests run.
 const FEATURES: &str = "light-bvh/rayon,light-samplers/rayon";
 
-/// Runs the tests of the core crates; prints a table of the crates, and what is not reached with
-/// the reasons.
+/// Runs the tests of the core crates, or of those named; prints a table of the crates, and what is
+/// not reached with the reasons.
 ///
 /// The longer tests of the test kit, which reach more, are left out: what counts is that each
 /// crate's own tests reach it.
 ///
 /// # Errors
 /// What could not run.
-pub fn coverage() -> StepResult {
+pub fn coverage(names: &[String]) -> StepResult {
+    if let Some(name) = names.iter().find(|name| !CRATES.contains(&name.as_str())) {
+        return Err(format!("{name} is none of {}", CRATES.join(", ")));
+    }
+    let is_chosen = |name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
     let tool = cargo_tool("cargo-llvm-cov", Install::Allowed)?;
     let llvm = match llvm_tools() {
         Ok(llvm) => llvm,
@@ -53,8 +57,10 @@ pub fn coverage() -> StepResult {
         }
         Ok::<_, String>(command)
     };
+    // Objects and counts of an earlier run may be of other lines.
+    run(&mut command(&["clean", "--workspace"])?)?;
     let mut tests = command(&["--no-report", "--quiet", "--features", FEATURES])?;
-    for name in CRATES {
+    for name in CRATES.into_iter().filter(|name| is_chosen(name)) {
         tests.args(["--package", name]);
     }
     run(&mut tests)?;
@@ -63,7 +69,7 @@ pub fn coverage() -> StepResult {
     export.args(["--ignore-filename-regex", OTHERS, "--output-path"]);
     output(export.arg(&json))?;
     let text = std::fs::read_to_string(&json).map_err(|e| format!("{}: {e}", json.display()))?;
-    let report = Report::from_json(&text)?;
+    let report = Report::from_json(&text, is_chosen)?;
     print!("{report}");
     Ok(Outcome::Passed)
 }

@@ -45,7 +45,7 @@ usage: cargo xtask [COMMAND]
   march-convergence           redraw how marches through media converge, for docs/light-media.md
   median-cut-table [IMAGE...] remeasure median-cut lights for docs/light-sources.md
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
-  coverage                    which lines and regions of the core crates the tests reach
+  coverage [CRATE...]         which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                 break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
@@ -81,7 +81,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("median-cut-table", images) => {
             one("median-cut-table", || programs::median_cut_table(images))
         }
-        ("coverage", []) => one("coverage", coverage::coverage),
+        ("coverage", rest) => one("coverage", || coverage::coverage(rest)),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),

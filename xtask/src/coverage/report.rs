@@ -41,11 +41,11 @@ struct Segment {
 }
 
 impl Report {
-    /// From what `llvm-cov export` writes.
+    /// From what `llvm-cov export` writes, the files of the chosen crates.
     ///
     /// # Errors
     /// What is not as expected, or a file that cannot be read.
-    pub(super) fn from_json(text: &str) -> Result<Self, String> {
+    pub(super) fn from_json(text: &str, is_chosen: impl Fn(&str) -> bool) -> Result<Self, String> {
         let json: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
         let files = json["data"][0]["files"].as_array();
         let mut report = Self {
@@ -53,10 +53,13 @@ impl Report {
         };
         for file in files.ok_or("the report has no files")? {
             let path = file["filename"].as_str().ok_or("a file without a name")?;
+            let name = path.split_once("/crates/").map_or(path, |(_, name)| name);
+            if !is_chosen(crate_of(name)) {
+                continue;
+            }
             let source = fs::read_to_string(path).map_err(|e| format!("{path}: {e}"))?;
             let segments = file["segments"].as_array().ok_or("no segments")?;
             let segments: Option<Vec<_>> = segments.iter().map(Segment::from_json).collect();
-            let name = path.split_once("/crates/").map_or(path, |(_, name)| name);
             let coverage = FileCoverage::new(name, &source, &segments.ok_or("a bad segment")?);
             report.files.insert(name.to_owned(), coverage);
         }
@@ -120,6 +123,11 @@ fn runs(segments: &[Segment], line: usize) -> Option<u64> {
         .or(reaches_in.map(|segment| segment.count))
 }
 
+/// The crate of a file, by its path from the folder of the crates.
+fn crate_of(path: &str) -> &str {
+    path.split_once('/').map_or(path, |(name, _)| name)
+}
+
 /// The line that starts the function of a line.
 fn function_of<'a>(lines: &[&'a str], index: usize) -> &'a str {
     let starts = |line: &&&str| {
@@ -165,11 +173,10 @@ impl fmt::Display for Report {
         writeln!(f, "| --- | --- | --- | ---: | ---: |")?;
         for name in CRATES {
             let files = self.files.iter();
-            let files = || {
-                files
-                    .clone()
-                    .filter(|(path, _)| path.split('/').next() == Some(name))
-            };
+            let files = || files.clone().filter(|(path, _)| crate_of(path) == name);
+            if files().next().is_none() {
+                continue;
+            }
             let sum = |of: fn(&FileCoverage) -> Share| {
                 let shares = files().map(|(_, file)| of(file));
                 shares.fold(Share::default(), Share::plus)
