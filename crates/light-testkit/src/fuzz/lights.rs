@@ -4,7 +4,7 @@ use core::f32::consts::PI;
 use light_math::glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
 use light_sources::shape::ShapeDesc;
 use light_sources::{
-    AreaLightDesc, Channels, DiffuseEmissionDesc, DistantLightDesc, EmissionMask,
+    AlphaMask, AreaLightDesc, Channels, DiffuseEmissionDesc, DistantLightDesc, EmissionMask,
     GoniometricLightDesc, ImageInfiniteLightDesc, LightDesc, MediumInterface, MeshIndices,
     MeshLightDesc, PointLightDesc, PortalInfiniteLightDesc, ProjectionLightDesc, Rgb, SceneSphere,
     Sides, SpotLightDesc, SunAmount, SunLightDesc, SurfaceColor, Texture, TextureMapping,
@@ -188,6 +188,19 @@ fn diffuse(input: &mut Input<'_>) -> DiffuseEmissionDesc<Rgb> {
             tint: Vec3::ONE,
         }
     };
+    let mapping = mapping(input, kind);
+    DiffuseEmissionDesc {
+        color,
+        amount: surface_amount(input),
+        sides: [Sides::Front, Sides::Back, Sides::Both][input.below(3)],
+        mask: mask(input),
+        mapping,
+        media: MediumInterface::default(),
+    }
+}
+
+/// How an image lies on a surface: the lowest bits of `kind` are not read.
+fn mapping(input: &mut Input<'_>, kind: u8) -> TextureMapping {
     let wrap =
         |kind: u8| [Wrap::Clamp, Wrap::Repeat, Wrap::Mirror, Wrap::Black][usize::from(kind & 3)];
     let (scale, shift) = if kind & 8 == 0 {
@@ -199,20 +212,28 @@ fn diffuse(input: &mut Input<'_>) -> DiffuseEmissionDesc<Rgb> {
             Vec2::new(input.unit(), input.unit()),
         )
     };
-    DiffuseEmissionDesc {
-        color,
-        amount: surface_amount(input),
-        sides: [Sides::Front, Sides::Back, Sides::Both][input.below(3)],
-        mask: match input.byte() % 4 {
-            0 => EmissionMask::Alpha(square(input, Channels::Gray).into()),
-            1 => EmissionMask::Invisible,
-            _ => EmissionMask::Opaque,
-        },
-        mapping: TextureMapping {
-            transform: Affine2::from_scale_angle_translation(scale, 0.0, shift),
-            wrap: [wrap(kind >> 4), wrap(kind >> 6)],
-        },
-        media: MediumInterface::default(),
+    TextureMapping {
+        transform: Affine2::from_scale_angle_translation(scale, 0.0, shift),
+        wrap: [wrap(kind >> 4), wrap(kind >> 6)],
+    }
+}
+
+/// Mostly none; an image of alpha, with or without a mapping of its own, a scale and a cutoff.
+fn mask(input: &mut Input<'_>) -> EmissionMask {
+    let kind = input.byte();
+    match kind % 4 {
+        0 => {
+            let texture = square(input, Channels::Gray).into();
+            let own = (kind & 16 != 0).then(|| input.byte());
+            EmissionMask::Alpha(AlphaMask {
+                texture,
+                scale: if kind & 4 == 0 { 1.0 } else { input.number() },
+                mapping: own.map(|kind| mapping(input, kind)),
+                cutoff: (kind & 8 != 0).then(|| input.number()),
+            })
+        }
+        1 => EmissionMask::Invisible,
+        _ => EmissionMask::Opaque,
     }
 }
 
