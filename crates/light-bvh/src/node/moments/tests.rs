@@ -159,3 +159,26 @@ fn angles_beyond_half_a_turn_shine_everywhere() {
         assert_eq!((lobe.axis, lobe.offset), (0.0, -1.0), "{cos_o} and {cos_e}");
     }
 }
+
+/// The axis of a light that emits to both sides has no sign: groups of such lights are the same
+/// whichever way each points, but for the sign of the axis.
+#[test]
+fn axes_of_both_sides_join_whatever_their_signs() {
+    let both = |w: Vec3, power| {
+        let light = LightBounds {
+            two_sided: true,
+            ..bounds(w.normalize(), 0.0, FRAC_PI_2)
+        };
+        moments(light, power)
+    };
+    let (a, b) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.1, 1.0));
+    let expected = Moments::join(&[both(a, 1.0), both(b, 3.0)]);
+    assert!(expected.axis.length() > 0.9, "alike: {}", expected.axis);
+    for [sign_a, sign_b] in [[1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+        let joined = Moments::join(&[both(a * sign_a, 1.0), both(b * sign_b, 3.0)]);
+        assert_eq!(joined.shape, Shape::BothSides, "{sign_a}, {sign_b}");
+        assert_eq!(joined.axis * sign_a, expected.axis, "{sign_a}, {sign_b}");
+        let [found, expected] = [&joined, &expected].map(|m| (m.spread_sq, m.axis_var, m.offset));
+        assert_eq!(found, expected, "{sign_a}, {sign_b}");
+    }
+}
