@@ -117,17 +117,10 @@ where
             // An unbounded medium lets nothing through from infinity.
             LightType::DeltaDirection | LightType::Infinite => f32::INFINITY,
         };
-        let left = match Span::new(0.0, distance) {
-            Some(span) => transmittance::best::<C, M>(
-                self.medium,
-                &ray,
-                span,
-                self.shadow_step,
-                self.wavelengths,
-                next_u,
-            ),
-            None => C::Radiance::splat(1.0),
-        };
+        let step = self.shadow_step;
+        let left = Span::new(0.0, distance).map_or(C::Radiance::splat(1.0), |span| {
+            transmittance::best::<C, M>(self.medium, &ray, span, step, self.wavelengths, next_u)
+        });
         li.l * left * factor
     }
 }

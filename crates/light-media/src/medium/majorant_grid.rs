@@ -48,3 +48,18 @@ fn cells_reached(i: usize, n: usize) -> core::ops::RangeInclusive<usize> {
         |halves: usize| (halves * MajorantGrid::CELLS / (2 * n)).min(MajorantGrid::CELLS - 1);
     cell((2 * i).saturating_sub(1))..=cell(2 * i + 3)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_outside_of_the_grid_are_empty() {
+        let grid = MajorantGrid::new([1, 1, 1], [2.0].into_iter());
+        let last = i32::try_from(MajorantGrid::CELLS).expect("few") - 1;
+        assert_eq!(grid.get([0, last, 0]), 2.0, "a corner");
+        for outside in [[-1, 0, 0], [0, last + 1, 0], [0, 0, i32::MAX]] {
+            assert_eq!(grid.get(outside), 0.0, "{outside:?}");
+        }
+    }
+}
