@@ -118,6 +118,13 @@ mod tests {
     use crate::{LightSampleContext, SampledLight};
 
     #[test]
+    fn bounds_of_either_kind_are_extents() {
+        let (near, sky) = (LightBounds::EMPTY, InfiniteBounds::uniform(1.0));
+        assert_eq!(LightExtent::from(near), LightExtent::Bounded(near), "near");
+        assert_eq!(LightExtent::from(sky), LightExtent::Infinite(sky), "a sky");
+    }
+
+    #[test]
     fn named_skies_are_valid() {
         let sky = InfiniteBounds::uniform(0.5);
         let sun = InfiniteBounds::distant(1000.0, Vec3::Z);

@@ -140,6 +140,11 @@ mod tests {
         };
         let u = a.union(&b);
         assert_eq!(u.phi, 3.0, "powers add");
+        assert_eq!(
+            u.union(&LightBounds::default()),
+            u,
+            "the default is no light"
+        );
         assert_eq!(u.bounds, Aabb::new(Vec3::ZERO, Vec3::ONE), "boxes join");
         assert_eq!(u.cos_theta_e, -0.5, "the wider emission");
         assert!(u.two_sided, "one of them is");

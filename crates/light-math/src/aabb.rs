@@ -131,6 +131,8 @@ mod tests {
         assert!(!Aabb::EMPTY.contains(Vec3::ZERO), "holds nothing");
         assert!(b.contains_box(&Aabb::EMPTY), "lies in every box");
         assert_eq!(Aabb::EMPTY.surface_area(), 0.0, "no area");
+        assert_eq!(Aabb::EMPTY.bounding_sphere(), (Vec3::ZERO, 0.0), "a point");
+        assert_eq!(Aabb::default(), Aabb::EMPTY, "the default");
     }
 
     #[test]

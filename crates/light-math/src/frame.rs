@@ -88,4 +88,12 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn from_xz_keeps_both_axes() {
+        let frame = Frame::from_z(Vec3::new(0.6, 0.0, -0.8));
+        let same = Frame::from_xz(frame.x, frame.z);
+        assert_eq!((same.x, same.z), (frame.x, frame.z), "as they were");
+        assert!(same.y.distance(frame.y) < 1e-6, "right-handed");
+    }
 }

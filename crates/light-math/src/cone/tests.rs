@@ -19,6 +19,11 @@ fn cone() -> impl Strategy<Value = DirectionCone> {
 fn extremes() {
     let single = DirectionCone::from_direction(Vec3::X);
     assert!(DirectionCone::EMPTY.is_empty(), "empty");
+    assert_eq!(
+        DirectionCone::default(),
+        DirectionCone::EMPTY,
+        "the default"
+    );
     assert!(!DirectionCone::EMPTY.contains(Vec3::Z), "holds nothing");
     assert!(
         DirectionCone::WHOLE_SPHERE.contains(-Vec3::Z),

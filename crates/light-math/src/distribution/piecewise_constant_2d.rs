@@ -272,6 +272,13 @@ mod tests {
         assert_eq!(again, Ok(borrowed), "stored and used again");
         let wrong = PiecewiseConstant2D::from_table(&borrowed.table()[1..], 3, 2, 1.0);
         assert!(wrong.is_err(), "shifted");
+        let wrong = [0.0, f32::NAN, f32::INFINITY]
+            .map(|mean| PiecewiseConstant2D::from_table(borrowed.table(), 3, 2, mean).err());
+        assert_eq!(wrong, [Some(TableError::Malformed); 3], "means");
+        let mut falling = IN_FLASH.table().to_vec();
+        falling.reverse();
+        let wrong = PiecewiseConstant2D::from_table(falling, 3, 2, 1.0).err();
+        assert_eq!(wrong, Some(TableError::Malformed), "reversed");
     }
 
     #[test]
@@ -286,8 +293,14 @@ mod tests {
         );
         assert_eq!(new(&[], 0, 0), Err(TableError::Empty), "empty");
         assert_eq!(new(&[0.0; 4], 2, 2), Err(TableError::AllZero), "zero");
-        let domain =
-            PiecewiseConstant2D::new(&[1.0], 1, 1).and_then(|d| d.over(Vec2::ZERO, Vec2::X));
-        assert_eq!(domain.map(|_| ()), Err(TableError::Domain), "flat");
+        let over = |max: Vec2| {
+            let table = PiecewiseConstant2D::new(&[1.0], 1, 1).expect("valid weights");
+            table.over(Vec2::ZERO, max).map(|_| ())
+        };
+        assert_eq!(over(Vec2::X), Err(TableError::Domain), "flat");
+        for [x, y] in [[1e30, 1e30], [1e-30, 1e-30]] {
+            let found = over(Vec2::new(x, y));
+            assert_eq!(found, Err(TableError::Overflow), "{x} by {y}");
+        }
     }
 }

@@ -272,5 +272,7 @@ mod tests {
         );
         let falling = SummedAreaTable::from_sums([2, 1], 2, 1, 1.0).map(|_| ());
         assert_eq!(falling, Err(TableError::Malformed), "sums that fall");
+        let none = SummedAreaTable::from_sums([0; 0], 3, 0, 1.0).map(|_| ());
+        assert_eq!(none, Err(TableError::Empty), "no rows");
     }
 }

@@ -210,6 +210,18 @@ mod tests {
         }
     }
 
+    /// 0.7 as `f32` is below seven tenths, so in the texel before.
+    #[test]
+    fn samples_at_the_start_of_a_texel_lie_in_it() {
+        let weights = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0];
+        let table = table(&weights, 10, 1);
+        let s = table.sample(Vec2::ZERO, &Window::UNIT).expect("a weight");
+        assert_eq!(s.texel, [7, 0], "{s:?}");
+        let next = f32::from_bits(0.7f32.to_bits() + 1);
+        assert_eq!((s.p.x, s.pdf), (next, 10.0), "one step up");
+        assert_eq!(table.pdf(s.p, &Window::UNIT), s.pdf, "{s:?}");
+    }
+
     #[test]
     fn nonsense_windows_hold_nothing() {
         let table = table(&[1.0; 4], 2, 2);

@@ -112,6 +112,7 @@ mod tests {
             let b = Blackbody::new(kelvin).expect("valid");
             let peak = b.eval(WIEN / kelvin);
             assert!((peak - 1.0).abs() < 1e-5, "{peak}");
+            assert_eq!(b.max_value(), 1.0, "the bound");
             assert!((b.kelvin() / kelvin - 1.0).abs() < 1e-6, "temperature");
         }
     }

@@ -175,7 +175,7 @@ mod tests {
             SampledWavelengths::<4>::visible,
         ] {
             for terminated in [false, true] {
-                let mut sum = Vec3::ZERO;
+                let (mut sum, mut y) = (Vec3::ZERO, 0.0);
                 for i in 0..n {
                     let w = sample((i as f32 + 0.5) / n as f32);
                     let w = if terminated {
@@ -183,9 +183,12 @@ mod tests {
                     } else {
                         w
                     };
-                    sum += sampled_xyz(&Constant(2.0).sample(&w), &w) / n as f32;
+                    let spectrum = Constant(2.0).sample(&w);
+                    sum += sampled_xyz(&spectrum, &w) / n as f32;
+                    y += sampled_y(&spectrum, &w) / n as f32;
                 }
                 assert!(sum.distance(exact) < 5e-3, "{sum} for {exact}");
+                assert_eq!(y, sum.y, "the luminance is Y");
             }
         }
     }

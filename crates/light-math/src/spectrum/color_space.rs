@@ -17,7 +17,8 @@ impl RgbColorSpace {
     /// The space of the given red, green and blue (chromaticities `(x, y)`), and the given white.
     ///
     /// # Errors
-    /// If the primaries lie on a line, or one is not finite.
+    /// If the primaries lie on a line, if one is not finite, or if white lies on a line with two of
+    /// them, so that the third has no part in it.
     pub fn new(primaries: [Vec2; 3], illuminant: Daylight) -> Result<Self, RgbColorSpaceError> {
         let [r, g, b] = primaries.map(|xy| Vec3::new(xy.x, xy.y, 1.0 - xy.x - xy.y));
         let unscaled = Mat3::from_cols(r, g, b);
@@ -181,6 +182,23 @@ mod tests {
         for space in standards() {
             let identity = space.rgb_from_xyz() * space.xyz_from_rgb();
             assert!(identity.abs_diff_eq(Mat3::IDENTITY, 1e-5), "{identity}");
+        }
+    }
+
+    #[test]
+    fn refuses_a_primary_that_white_has_no_part_of() {
+        let white = cie::xyz(&Daylight::D65);
+        let white = Vec2::new(white.x, white.y) / white.element_sum();
+        let away = Vec2::new(0.2, 0.1);
+        for share in [0.0, 1e-8] {
+            let third = Vec2::new(0.1, 0.8);
+            let red = white + away + share * (third - white);
+            let primaries = [red, third, white - away];
+            assert_eq!(
+                RgbColorSpace::new(primaries, Daylight::D65),
+                Err(RgbColorSpaceError::Primaries),
+                "{primaries:?}"
+            );
         }
     }
 

@@ -117,6 +117,12 @@ mod tests {
             assert_eq!(s.eval(lambda), expected, "at {lambda}");
         }
         assert_eq!(s.max_value(), 3.0, "bound");
+        let numbers = (s.lambdas(), s.values());
+        assert_eq!(
+            numbers,
+            (&[400.0, 500.0, 700.0][..], &[1.0, 3.0, 0.0][..]),
+            "as given"
+        );
     }
 
     #[test]

@@ -264,6 +264,12 @@ mod tests {
             "no division by zero"
         );
         assert_eq!(a.lerp(b, 0.5), S::new([1.5, 1.0, 2.25]), "halfway");
+        let powers = S::new([0.0, 1.0, f32::NEG_INFINITY]).exp();
+        let error = powers - S::new([1.0, core::f32::consts::E, 0.0]);
+        assert!(
+            error.max_element() < 1e-6 && error.min_element() > -1e-6,
+            "{powers:?}"
+        );
         assert_eq!([a, b].into_iter().sum::<S>(), a + b, "sum of many");
         assert_eq!(-S::ONE + S::ONE, S::ZERO, "negation");
     }

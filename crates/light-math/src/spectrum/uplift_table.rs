@@ -196,4 +196,24 @@ mod tests {
             "too short"
         );
     }
+
+    /// A storage is foreign code: what it does later gives a wrong colour, but never a panic.
+    #[test]
+    fn storage_that_loses_its_numbers_gives_flat_spectra() {
+        struct Forgetful([f32; LEN]);
+        impl AsMut<[f32]> for Forgetful {
+            fn as_mut(&mut self) -> &mut [f32] {
+                &mut self.0
+            }
+        }
+        impl AsRef<[f32]> for Forgetful {
+            fn as_ref(&self) -> &[f32] {
+                &[]
+            }
+        }
+        let solver = UpliftSolver::new(&RgbColorSpace::srgb());
+        let table = UpliftTable::build(&solver, Forgetful([0.0; LEN])).expect("fits");
+        let shape = table.shape(Vec3::new(0.1, 0.5, 0.9));
+        assert_eq!(shape.c, [0.0; 3], "no coefficients");
+    }
 }

@@ -239,6 +239,9 @@ mod tests {
             (octant.solid_angle() - FRAC_PI_2).abs() < 1e-6,
             "an eighth of the sphere"
         );
+        let near = SphericalTriangle::new(OCTANT.map(|v| Vec3::ONE + 4.0 * v), Vec3::ONE);
+        let near = near.expect("the same solid angle");
+        assert_eq!(near.directions(), OCTANT, "toward the corners");
         let corners = [
             (0.0, 0.0, Vec3::Y),
             (0.0, 1.0, Vec3::X),
