@@ -25,6 +25,9 @@ const MEMBERS: [&str; 6] = [
     "variant",
 ];
 
+/// The libraries without feature sets.
+const WITHOUT_FEATURES: [&str; 3] = ["light-sets", "light-scene", "light-render"];
+
 /// In the title of a page that only leads to another one.
 const REDIRECTION: &str = "<title>Redirection</title>";
 
@@ -50,6 +53,7 @@ pub fn api(arguments: &[String]) -> StepResult {
     // The facade has no items of its own.
     let mut packages: Vec<&str> = packages.filter(|&package| package != "lights").collect();
     packages.dedup();
+    packages.extend(WITHOUT_FEATURES);
     let mut changed = Vec::new();
     for package in packages {
         let listed = listing(package)?;
