@@ -1,0 +1,197 @@
+use super::*;
+use light_math::{Aabb, DirectionCone, Frame};
+use proptest::prelude::*;
+
+fn lamp(bounds: Aabb) -> LightBounds {
+    LightBounds {
+        bounds,
+        w: Vec3::Z,
+        phi: 2.0,
+        cos_theta_o: 1.0,
+        cos_theta_e: 0.0,
+        two_sided: false,
+    }
+}
+
+fn dot(a: Vec3, b: Vec3) -> f64 {
+    let product = |i| f64::from(a[i]) * f64::from(b[i]);
+    product(0) + product(1) + product(2)
+}
+
+/// The computed angle of a box is hardly larger than the exact one: a box just beyond the edge
+/// of its emission has no importance.
+#[test]
+fn a_box_that_shines_away_does_not_matter() {
+    for size in [1e-3, 0.1, 1.0, 3.0] {
+        let lamp = lamp(Aabb::new(Vec3::splat(-size), Vec3::splat(size)));
+        // From a little less or more below the horizon of its centre than the angle that it
+        // subtends.
+        let sin_b = size * 3f32.sqrt() / 10.0;
+        for (sin, matters) in [(sin_b - 1e-4, true), (sin_b + 1e-4, false)] {
+            let p = Vec3::new(light_math::float::safe_sqrt(1.0 - sin * sin), 0.0, -sin);
+            let importance = lamp.importance(&LightSampleContext::medium(p * 10.0));
+            let is_zero = importance == 0.0;
+            assert_eq!(is_zero, !matters, "{size} at {p}: {importance}");
+        }
+    }
+}
+
+/// From the sphere about a box, and as far beyond the edge of the emission as round-off may
+/// reach, a light counts.
+#[test]
+fn a_light_counts_at_the_edges() {
+    let away = LightBounds {
+        w: Vec3::NEG_Z,
+        cos_theta_e: 0.9,
+        ..lamp(Aabb::new(Vec3::NEG_X, Vec3::X))
+    };
+    for (height, counts) in [(SIN_GROWTH, true), (SIN_GROWTH + 0.1, false)] {
+        let ctx = LightSampleContext::medium(Vec3::Z * height);
+        let importance = away.importance(&ctx);
+        assert_eq!(importance > 0.0, counts, "{height}: {importance}");
+    }
+    for (edge, counts) in [(EDGE_SLACK, true), (1.001 * EDGE_SLACK, false)] {
+        let aside = LightBounds {
+            cos_theta_e: edge,
+            ..lamp(Aabb::from_point(Vec3::ZERO))
+        };
+        let ctx = LightSampleContext::medium(Vec3::X);
+        let importance = aside.importance(&ctx);
+        assert_eq!(importance > 0.0, counts, "{edge}: {importance}");
+    }
+}
+
+#[test]
+fn a_point_above_a_lamp() {
+    let lamp = lamp(Aabb::from_point(Vec3::ZERO));
+    let p = Vec3::new(0.0, 3.0, 4.0);
+    assert!(
+        (lamp.importance(&LightSampleContext::medium(p)) - 2.0 * 0.8 / 25.0).abs() < 1e-7,
+        "phi cos / d^2"
+    );
+    let ctx = LightSampleContext::surface(p, Vec3::Z, Vec3::Y);
+    assert!(
+        (lamp.importance(&ctx) - 2.0 * 0.8 * 0.6 / 25.0).abs() < 1e-7,
+        "the shading normal counts"
+    );
+    let below = LightSampleContext::medium(-p);
+    assert_eq!(lamp.importance(&below), 0.0, "emits upward only");
+    let two_sided = LightBounds {
+        two_sided: true,
+        ..lamp
+    };
+    assert!(two_sided.importance(&below) > 0.0, "both sides");
+}
+
+#[test]
+fn a_light_without_power_does_not_matter() {
+    let dark = LightBounds {
+        phi: 0.0,
+        ..lamp(Aabb::from_point(Vec3::ZERO))
+    };
+    let ctx = LightSampleContext::medium(Vec3::Z);
+    assert_eq!(dark.importance(&ctx), 0.0, "no power");
+    assert_eq!(LightBounds::EMPTY.importance(&ctx), 0.0, "no light");
+}
+
+/// A spot without a falloff band emits in its cone and nothing beyond: `theta_e` is 0.
+#[test]
+fn a_spot_without_falloff_is_found() {
+    let spot = LightBounds {
+        cos_theta_o: 0.9,
+        cos_theta_e: 1.0,
+        ..lamp(Aabb::from_point(Vec3::ZERO))
+    };
+    let inside = LightSampleContext::medium(Vec3::new(0.4, 0.0, 1.0));
+    let outside = LightSampleContext::medium(Vec3::new(0.6, 0.0, 1.0));
+    assert!(spot.importance(&inside) > 0.0, "cos 0.928");
+    assert_eq!(spot.importance(&outside), 0.0, "cos 0.857");
+}
+
+#[test]
+fn receivers_in_the_middle_and_on_a_light_are_ordinary() {
+    let half = Aabb::new(Vec3::new(-1.0, -2.0, 0.0), Vec3::new(1.0, 2.0, 0.0));
+    for bounds in [half, Aabb::from_point(Vec3::ONE)] {
+        for ns in [Vec3::ZERO, Vec3::X] {
+            let ctx = LightSampleContext::surface(bounds.center(), ns, ns);
+            let importance = lamp(bounds).importance(&ctx);
+            assert!(importance > 0.0 && importance.is_finite(), "{importance}");
+        }
+    }
+}
+
+/// The published clamp: a squared distance is at least half of the diagonal's length.
+#[test]
+fn near_the_centre_the_diagonal_bounds_the_distance() {
+    let long = lamp(Aabb::new(
+        Vec3::new(-24.0, -32.0, 0.0),
+        Vec3::new(24.0, 32.0, 0.0),
+    ));
+    let importance = long.importance(&LightSampleContext::medium(Vec3::Z));
+    assert!((importance - 2.0 / 40.0).abs() < 1e-6, "{importance}");
+}
+
+#[test]
+fn no_context_gives_nan() {
+    let values = [0.0, 1e-38, -1e20, 3e38, f32::INFINITY, f32::NAN];
+    let boxes = [1e-40, 1.0, 1e18, 1e20, 3e38].map(|r| Aabb::new(Vec3::ZERO, Vec3::splat(r)));
+    for bounds in boxes {
+        for x in values {
+            for n in [Vec3::ZERO, Vec3::X, Vec3::NAN] {
+                let ctx = LightSampleContext::surface(Vec3::new(x, 0.0, x), n, n);
+                let importance = lamp(bounds).importance(&ctx);
+                assert!((0.0..=MAX_IMPORTANCE).contains(&importance), "at {x}, {n}");
+            }
+        }
+    }
+}
+
+/// Importance is scale invariant between the scales at which the result overflows or
+/// underflows.
+#[test]
+fn a_point_light_scales_with_the_squared_distance() {
+    let lamp = lamp(Aabb::from_point(Vec3::ZERO));
+    let at = |d: f32| lamp.importance(&LightSampleContext::medium(Vec3::new(d, 0.0, d)));
+    for d in [2f32.powi(-60), 0.25, 2f32.powi(62)] {
+        assert_eq!(at(d) * d * d, at(1.0), "distance {d}");
+    }
+}
+
+proptest! {
+    /// Bounds have a positive importance at every point that an emitter within them lights.
+    #[test]
+    fn contribution_implies_importance(
+        a in prop::array::uniform3(-1.0f32..1.0), b in prop::array::uniform3(-1.0f32..1.0),
+        p in prop::array::uniform3(-3.0f32..3.0), t in prop::array::uniform3(0.0f32..=1.0),
+        angles in prop::array::uniform3(0.0f32..1.0), theta_e in 0.0f32..1.6,
+        size in prop_oneof![Just(0.0f32), Just(1e-6), Just(1e-3), Just(1.0)],
+        origin in prop_oneof![Just(0.0f32), Just(1e6)],
+    ) {
+        let place = |v: [f32; 3]| Vec3::splat(origin) + Vec3::from(v) * size;
+        let bounds = Aabb::new(place(a), place(b));
+        let p = Vec3::splat(origin) + Vec3::from(p);
+        let [theta_o, tilt, turn] = angles;
+        let theta_o = theta_o * core::f32::consts::PI;
+        let turn = turn * core::f32::consts::TAU;
+        let group = LightBounds {
+            cos_theta_o: theta_o.cos(),
+            cos_theta_e: theta_e.cos(),
+            ..lamp(bounds)
+        };
+
+        // One emitter: a point of the box, a normal in the cone.
+        let emitter = bounds.min + bounds.diagonal() * Vec3::from(t);
+        let tilt = tilt * theta_o;
+        let normal = Frame::from_z(group.w).from_local(Vec3::new(
+            tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos(),
+        ));
+        let from_light = p - emitter;
+        let lengths = dot(normal, normal) * dot(from_light, from_light);
+        let cos = dot(normal, from_light) / lengths.sqrt();
+        if cos > f64::from(theta_e).cos() {
+            let importance = group.importance(&LightSampleContext::medium(p));
+            prop_assert!(importance > 0.0, "{:?} to {}: cos {}", group, p, cos);
+        }
+        prop_assert!(DirectionCone::new(group.w, group.cos_theta_o).contains(normal.normalize()));
+    }
+}
