@@ -1,5 +1,5 @@
 //! What the benches in `benches/`, the counts in `examples/counts.rs` and the tables of the pages
-//! share: who asks, for how long, and where tables are written.
+//! share: queries, measuring times, and where tables are written.
 
 pub mod page;
 

@@ -153,7 +153,7 @@ mod tests {
         f32::from_bits(mirror(mirror(c.to_bits() as i32) + ulps) as u32)
     }
 
-    /// Around every decoded value, the only places where a code can change or a rounding be wrong.
+    /// Around every decoded value: codes change and roundings fail there only.
     #[test]
     fn cosines_only_widen_around_every_code() {
         for q in 0..=MAX_COS {

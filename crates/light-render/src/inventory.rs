@@ -11,7 +11,8 @@ pub struct LightInventory {
     pub count: usize,
     /// Their power in W, a channel.
     pub power: DVec3,
-    /// The area that emits light, each side of a two-sided light once; 0 for lights without a surface.
+    /// The area that emits light, each side of a two-sided light once; 0 for lights without a
+    /// surface.
     pub area: f64,
 }
 

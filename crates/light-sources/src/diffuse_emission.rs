@@ -165,8 +165,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
         self.phi_of(shape.area(), self.mean(shape), wavelengths)
     }
 
-    /// Power that a shape emits on one side as one number for light samplers; above 0 unless the shape
-    /// is black.
+    /// Power that a shape emits on one side as one number for light samplers; above 0 unless the
+    /// shape is black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
         self.strength_of(shape.area(), self.mean(shape))

@@ -35,7 +35,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes; the returned source gives its id once the set is built.
+    /// Adds the light that `desc` describes; the returned source gives its id once the set is
+    /// built.
     ///
     /// # Errors
     /// When the description is invalid; the set is unchanged then.

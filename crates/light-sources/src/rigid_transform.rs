@@ -32,8 +32,8 @@ impl RigidTransform {
         translation: Vec3::ZERO,
     };
 
-    /// The rigid transform next to `transform`, whose axes may be off by rounding error, 1e-4, and are
-    /// then made exact.
+    /// The rigid transform next to `transform`, whose axes may be off by rounding error, 1e-4, and
+    /// are then made exact.
     ///
     /// # Errors
     /// When an entry is not finite, or the linear part scales, shears or flattens.

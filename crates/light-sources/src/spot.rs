@@ -133,8 +133,8 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
         self.falloff(w) / self.solid_angle()
     }
 
-    /// The power is that of an isotropic light: of two spots that light a point equally, the wide one
-    /// must not be chosen more often.
+    /// The power is that of an isotropic light: of two spots that light a point equally, the wide
+    /// one must not be chosen more often.
     fn point_bounds(&self) -> LightBounds {
         LightBounds {
             bounds: Aabb::from_point(self.transform.origin()),

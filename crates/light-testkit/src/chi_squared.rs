@@ -77,8 +77,8 @@ pub fn chi_squared(observed: &[u64], expected: &[f64]) -> ChiSquared {
 
 /// The term of a cell that expects `e` and observes `o`.
 fn term(e: f64, o: f64) -> f64 {
-    // A pool that stays too small enters with a smaller weight, so that only a flagrant
-    // contradiction shows.
+    // A pool that stays too small enters with a smaller weight, so that only a large excess
+    // fails.
     let pearson = (o - e) * (o - e) / e.max(SMALLEST_CELL);
     let of_counts = if o > 0.0 { o * (o / e).ln() } else { 0.0 };
     pearson.min(2.0 * (of_counts - o + e))

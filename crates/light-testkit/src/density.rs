@@ -146,7 +146,7 @@ impl DensityTest {
         Some(unit_cell(y, rows)? * columns + unit_cell(x, columns)?)
     }
 
-    /// Draws the samples; `draw` answers the cell (`None`: outside of the domain) and the density.
+    /// Draws the samples; `draw` returns the cell (`None`: outside of the domain) and the density.
     fn count(
         &self,
         masses: Vec<f64>,

@@ -1,11 +1,11 @@
-//! Floats that break code: strategies for property tests.
+//! Floats at which code tends to fail: strategies for property tests.
 
 use core::f32::consts::TAU;
 use light_math::float::ONE_MINUS_EPSILON;
 use light_math::glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
-/// The values of `u` at which samplers break: both ends, the middle and their neighbours.
+/// Values of `u` at which samplers tend to fail: both ends, the middle and their neighbours.
 pub const EDGES_OF_U: [f32; 9] = [
     0.0,
     f32::from_bits(1),
@@ -88,7 +88,7 @@ pub fn unit_f64() -> impl Strategy<Value = f64> + Clone {
     ]
 }
 
-/// Unit vectors to rounding: uniform ones, axes, and directions a hair away from an axis.
+/// Unit vectors to rounding: uniform ones, axes, and directions very close to an axis.
 pub fn unit_vector() -> impl Strategy<Value = Vec3> + Clone {
     let axes = [
         Vec3::X,

@@ -58,7 +58,7 @@ impl Emitter {
                 let lobe = EmissionLobe {
                     power,
                     mean: axis * (along / power.max(f32::MIN_POSITIVE)),
-                    // Next to nothing: the stray light must not depend on it.
+                    // Nearly 0: the pmf of the stray light must not come from the spread.
                     spread: 1e-3,
                 };
                 let bounds = LightBounds {

@@ -16,7 +16,7 @@ const GRAZING: f32 = 1e-3;
 /// or a texel, that its density is that of the other side.
 const NEAR: [f32; 3] = [1.2e-7, 1e-6, 1e-5];
 
-/// What is asked of a sample.
+/// What a sample must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Demand {
     /// It is finite and in range: all that shapes of any size and receivers anywhere promise.

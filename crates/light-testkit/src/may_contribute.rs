@@ -3,16 +3,16 @@ use light_math::glam::Vec3;
 
 use crate::real3::{Real3, dot, length, normalize, real3, sub};
 
-/// Angles and cosines closer than this to where light ends are not held against a sampler.
+/// Angles and cosines closer than this to the end of emission are not tested.
 const MARGIN: f64 = 1e-4;
 
-/// Places along a ray segment that are looked at.
+/// Positions along a ray segment that are tested.
 const ALONG: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Whether a light that has this extent certainly can send light to the receiver, by the meaning of
 /// the extent's fields alone, in `f64`.
 ///
-/// Looks at the corners and the centre of the light's box, so `false` proves nothing. A receiver
+/// Tests the corners and the centre of the light's box only, so `false` proves nothing. A receiver
 /// without a place gets nothing, and neither does one that is so far away that its irradiance is no
 /// positive `f32`.
 #[must_use]

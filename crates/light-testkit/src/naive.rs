@@ -1,5 +1,4 @@
-//! Naive twins: what clever code must agree with, written so that nothing can be wrong with it. All
-//! in `f64`.
+//! Naive twins, with which optimised code must agree: written as directly as possible, in `f64`.
 
 use light_math::glam::Vec3;
 
@@ -19,7 +18,7 @@ pub struct Choice {
 /// The entry of `weights` (none negative) at which the running share of the sum passes `u` in
 /// `[0, 1)`.
 ///
-/// `None` when all weights are zero. Never answers an entry of zero weight.
+/// `None` when all weights are zero. Never returns an entry of zero weight.
 #[must_use]
 pub fn choose(weights: &[f64], u: f64) -> Option<Choice> {
     let sum: f64 = weights.iter().sum();

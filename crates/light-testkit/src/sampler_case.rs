@@ -115,7 +115,7 @@ impl SamplerCase {
         }
     }
 
-    /// Where careless code divides by zero: box centres and corners of the first lights and of all
+    /// Adds contexts where distances are 0: box centres and corners of the first lights and of all
     /// lights.
     fn add_contexts_at_bounds(&mut self, rng: &mut Rng) {
         let (low, high) = self.corners();

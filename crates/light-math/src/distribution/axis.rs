@@ -1,7 +1,7 @@
 use super::TableError;
 use crate::float::{next_down, next_up};
 
-/// The most bins along an axis: beyond, an `f32` cannot count them.
+/// The most bins along an axis: an `f32` cannot count more.
 const MOST_BINS: usize = 1 << 24;
 
 /// Equal bins along an interval.

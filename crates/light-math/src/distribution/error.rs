@@ -79,7 +79,7 @@ pub(super) const fn total(weights: &[f32]) -> Result<f64, TableError> {
     Ok(total)
 }
 
-/// Like [`total`], for tables that have nothing to say when all weights are zero.
+/// Like [`total`]; an error if all weights are zero.
 pub(super) const fn positive_total(weights: &[f32]) -> Result<f64, TableError> {
     match total(weights) {
         Ok(total) if total > 0.0 => Ok(total),

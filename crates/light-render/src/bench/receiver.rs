@@ -24,7 +24,7 @@ pub enum ReceiverKind {
 
 /// A receiver at a point of a set.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asker {
+pub(super) struct BenchReceiver {
     pub(super) at: SetPoint,
     pub(super) ctx: LightSampleContext,
     kind: ReceiverKind,
@@ -32,7 +32,7 @@ pub(super) struct Asker {
 
 impl ReceiverKind {
     /// The receiver at the point of the given index.
-    pub(super) fn asker(self, index: usize, at: SetPoint) -> Asker {
+    pub(super) fn receiver_at(self, index: usize, at: SetPoint) -> BenchReceiver {
         let ctx = match self {
             Self::Diffuse => LightSampleContext::surface(at.p, at.n, at.n),
             Self::TwoSided => LightSampleContext::two_sided(at.p, at.n, at.n),
@@ -45,7 +45,7 @@ impl ReceiverKind {
                 })
             }
         };
-        Asker {
+        BenchReceiver {
             at,
             ctx,
             kind: self,
@@ -53,7 +53,7 @@ impl ReceiverKind {
     }
 }
 
-impl Asker {
+impl BenchReceiver {
     /// The weight of light that arrives from the unit vector `wi`.
     pub(super) fn response(&self, wi: DVec3) -> f64 {
         let cos = self.at.n.as_dvec3().dot(wi);

@@ -44,17 +44,17 @@ pub(super) fn exact(
     query: &Query,
     points: usize,
 ) -> Variance {
-    let at_points = query.askers[..points]
+    let at_points = query.receivers[..points]
         .par_iter()
-        .map(|asker| {
+        .map(|receiver| {
             let (mut total, mut reached, mut second_moment) = (0.0, 0.0, 0.0);
             for (id, light) in (0u32..).zip(&set.lights) {
-                let f = query.contribution(light, asker);
+                let f = query.contribution(light, receiver);
                 if f <= 0.0 {
                     continue;
                 }
                 total += f;
-                let pmf = f64::from(candidate.sampler().pmf(&asker.ctx, LightId(id)));
+                let pmf = f64::from(candidate.sampler().pmf(&receiver.ctx, LightId(id)));
                 if pmf > 0.0 {
                     reached += f;
                     second_moment += f * f / pmf;
@@ -78,14 +78,14 @@ pub(super) fn repeated(
     points: usize,
     k: u32,
 ) -> Variance {
-    let at_points = query.askers[..points]
+    let at_points = query.receivers[..points]
         .par_iter()
         .enumerate()
-        .map(|(i, asker)| {
+        .map(|(i, receiver)| {
             let total: f64 = set
                 .lights
                 .iter()
-                .map(|light| query.contribution(light, asker))
+                .map(|light| query.contribution(light, receiver))
                 .sum();
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
@@ -93,8 +93,8 @@ pub(super) fn repeated(
                 let mut mean = 0.0;
                 candidate
                     .sampler()
-                    .sample_many(&asker.ctx, unit(&mut rng), k, &mut |sample| {
-                        let f = query.contribution(&set.lights[sample.light.index()], asker);
+                    .sample_many(&receiver.ctx, unit(&mut rng), k, &mut |sample| {
+                        let f = query.contribution(&set.lights[sample.light.index()], receiver);
                         mean += f / f64::from(sample.pmf) / f64::from(k);
                     });
                 squares += (mean - total) * (mean - total) / CALLS as f64;

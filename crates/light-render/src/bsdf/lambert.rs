@@ -24,8 +24,8 @@ impl Lambert {
         }
     }
 
-    /// The scattering function times `|cos theta_i|`, in sr^-1, for unit vectors in the frame of the
-    /// surface.
+    /// The scattering function times `|cos theta_i|`, in sr^-1, for unit vectors in the frame of
+    /// the surface.
     #[inline]
     #[must_use]
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {

@@ -26,9 +26,9 @@ pub(crate) struct BenchArgs {
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
     points: Option<PathBuf>,
-    /// Make a set: uniform, clusters, spots or mixed; a place, such as storeys, downlights or stadium
-    /// (any other word lists them all); or an adversarial set, one-point, line, nested, large-world
-    /// or magnitudes.
+    /// Make a set: uniform, clusters, spots or mixed; a place, such as storeys, downlights or
+    /// stadium (any other word lists them all); or an adversarial set, one-point, line, nested,
+    /// large-world or magnitudes.
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.
@@ -46,7 +46,7 @@ pub(crate) struct BenchArgs {
     /// Samples of one call, at most 4096.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 12))]
     k: u32,
-    /// Points that the variance is taken over: all, or 256 above 10 thousand lights, unless told.
+    /// Points that the variance is taken over. By default all, or 256 above 10 thousand lights.
     #[arg(long, value_name = "M")]
     var_points: Option<usize>,
     /// Threads for building, at most 1024.

@@ -40,8 +40,8 @@ impl World {
         self.accel.instances().len()
     }
 
-    /// The `n`th of all triangles and spheres, those of prototypes counted once per instance; `None`
-    /// beyond the last.
+    /// The `n`th of all triangles and spheres, those of prototypes counted once per instance;
+    /// `None` beyond the last.
     #[must_use]
     pub fn primitive(&self, mut n: usize) -> Option<PrimitiveId> {
         let mut among = |ranges: [Range<u32>; 2]| {

@@ -78,8 +78,8 @@ impl<'a> Reader<'a> {
         texture.shown(image, scale)
     }
 
-    /// How opaque the image of a texture is, alike in all channels, times `scale`; `None` if it is so
-    /// everywhere.
+    /// How opaque the image of a texture is, alike in all channels, times `scale`; `None` if it is
+    /// so everywhere.
     pub(super) fn alpha_image(&mut self, texture: Texture, scale: Vec3) -> Option<ColorImage> {
         let (textures, scene) = (&mut self.textures, &mut self.scene);
         let decoded = &textures.decoded[&texture.image];

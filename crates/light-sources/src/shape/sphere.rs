@@ -93,8 +93,8 @@ impl Sphere {
         })
     }
 
-    /// The point, moved by more than its rounding error to the side from which it is seen, so that the
-    /// sphere does not occlude its own light.
+    /// The point, moved by more than its rounding error to the side from which it is seen, so that
+    /// the sphere does not occlude its own light.
     fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
         let error = 4.0 * f32::EPSILON * (self.center().abs().max_element() + self.radius);
         let p = at.p + at.n * (side * error);

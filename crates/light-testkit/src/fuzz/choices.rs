@@ -34,8 +34,8 @@ pub(super) struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// A sample at `u`, which has to be of a known light, with the bits of the queried pmf and a
-    /// rest in `[0, 1)`.
+    /// Checks the sample at `u`: its light is known, its pmf has the bits of the queried one, and
+    /// the unused part of `u` is in `[0, 1)`.
     pub(super) fn checked(&self, u: f64) -> Option<SampledLight> {
         let chosen = (self.sample)(u)?;
         let asked = (self.pmf)(chosen.light);
@@ -56,8 +56,8 @@ impl Choice<'_> {
         Some(chosen)
     }
 
-    /// Every pmf is in `[0, 1]`, that of an unknown light is 0, and they sum to one at most: their
-    /// sum.
+    /// Checks that every pmf is in `[0, 1]`, that of an unknown light 0, and their sum at most
+    /// one; returns the sum.
     pub(super) fn sum(&self) -> f64 {
         let name = self.name;
         for unknown in [self.count, self.count + 1, u32::MAX] {
@@ -77,8 +77,8 @@ impl Choice<'_> {
         sum
     }
 
-    /// Each light owns a part of `[0, 1)` as large as its pmf, no two overlap, and what none of
-    /// them owns is none.
+    /// Each light owns a part of `[0, 1)` as large as its pmf, no two overlap, and the
+    /// rest of `u` chooses `None`.
     ///
     /// So the pmfs and the probability of `None` sum to one: a grid of `u` meets each interval that
     /// is wider than its step.
@@ -117,7 +117,7 @@ impl Choice<'_> {
         );
     }
 
-    /// A light that certainly may light the receiver has a pmf above zero.
+    /// A light that certainly contributes at the receiver has a pmf above zero.
     pub(super) fn contributing_lights_are_possible(
         &self,
         lights: &[LightExtent],

@@ -81,7 +81,7 @@ fn point(input: &mut Input<'_>) -> Vec2 {
     Vec2::new(u(), u())
 }
 
-/// Within reach, with the normals of a surface or with none: only then a light promises anything.
+/// Near enough, with unit normals or none: the laws hold for these receivers only.
 fn is_somewhere(ctx: &LightSampleContext) -> bool {
     let is_normal = |n: Vec3| n == Vec3::ZERO || n.is_normalized();
     let is_near = |v: Vec3| v.abs().max_element() <= FAR;
@@ -125,7 +125,7 @@ fn check_samplers(set: &LightSet<Rgb>, contexts: &[LightSampleContext], us: &[Ve
             let arrives = us.iter().find_map(|&u| {
                 let sample = light.sample_li(ctx, u, &(), PdfCoverage::Complete)?;
                 let above = ctx.is_medium() || ctx.ns.dot(sample.wi) > 1e-4;
-                // Light that is no positive float is none.
+                // A contribution that is not a positive float counts as none.
                 let irradiance = sample.l.max_element() / sample.pdf;
                 let is_light = irradiance > 1e-30 && has_power(&light, sample.l);
                 (above && is_light).then_some(sample)

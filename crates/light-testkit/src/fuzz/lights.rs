@@ -18,7 +18,7 @@ use super::input::Input;
 /// The largest coordinate and size of a described light.
 const LARGEST: f32 = 1e6;
 
-/// Any description of a light, which may or may not make sense.
+/// Any description of a light, valid or not.
 pub(super) fn light(input: &mut Input<'_>) -> LightDesc<Rgb> {
     let media = MediumInterface::default();
     match input.byte() % 11 {
@@ -127,7 +127,7 @@ fn color(input: &mut Input<'_>) -> Vec3 {
     }
 }
 
-/// A rotation, sometimes a mirror, and a place.
+/// A rotation, sometimes with a reflection, and a translation.
 fn transform(input: &mut Input<'_>) -> Affine3A {
     let kind = input.byte();
     let rotation = match kind % 4 {

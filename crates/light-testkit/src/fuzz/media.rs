@@ -26,8 +26,8 @@ const THICKEST: f32 = 1e4;
 /// Steps of a march.
 const STEPS: f32 = 32.0;
 
-/// What is left of light in `[0, 1]`, by every way to find it; nothing that is tracked or marched
-/// is infinite or negative.
+/// Transmittances are in `[0, 1]` by every method, and no tracked or marched result is infinite or
+/// negative.
 ///
 /// # Panics
 /// If a guarantee is violated.
@@ -194,7 +194,7 @@ fn is_light(l: Vec3) -> bool {
     l.is_finite() && l.min_element() >= 0.0
 }
 
-/// The medium is where it says, and nowhere denser than its bounds.
+/// The medium lies in its segments, and its density nowhere exceeds their bounds.
 fn check_coefficients(medium: &AnyMedium<Rgb>, ray: &Ray, span: Span) {
     let at = || format!("{ray:?}, {span:?} in {medium:?}");
     let Some(inside) = medium.clip(ray, span) else {

@@ -5,7 +5,7 @@ use light_scene::{
     parse_scene,
 };
 
-/// A file of any format, which the first byte chooses, is read or refused in one line.
+/// A file of any format, which the first byte chooses, is read or refused with a one-line error.
 ///
 /// # Panics
 /// If a guarantee is violated.
@@ -24,12 +24,12 @@ pub fn readers(data: &[u8]) {
     }
 }
 
-/// An OBJ file gives a sound scene or one line.
+/// An OBJ file gives a valid scene or a one-line error.
 fn read_obj(data: &[u8]) {
     scene(parse_scene(Path::new("a.obj"), data, Files::NONE));
 }
 
-/// A material library gives a sound scene or one line.
+/// A material library gives a valid scene or a one-line error.
 fn read_mtl(data: &[u8]) {
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     let library = |path: &Path| match path.to_str() {
@@ -39,12 +39,12 @@ fn read_mtl(data: &[u8]) {
     scene(parse_obj(Path::new("a.obj"), obj, Files::new(&library)));
 }
 
-/// A pbrt file gives a sound scene or one line.
+/// A pbrt file gives a valid scene or a one-line error.
 fn read_pbrt(data: &[u8]) {
     scene(parse_scene(Path::new("a.pbrt"), data, Files::NONE));
 }
 
-/// A PLY file gives a sound mesh or one line.
+/// A PLY file gives a valid mesh or a one-line error.
 fn read_ply(data: &[u8]) {
     if let Some(ply) = answer(parse_ply(Path::new("a.ply"), data)) {
         indices(&ply);
@@ -53,12 +53,12 @@ fn read_ply(data: &[u8]) {
     }
 }
 
-/// A glTF file, text or binary, gives a sound scene or one line.
+/// A glTF file, text or binary, gives a valid scene or a one-line error.
 fn read_gltf(data: &[u8]) {
     scene(parse_scene(Path::new("a.gltf"), data, Files::NONE));
 }
 
-/// An image file of any format gives finite texels of at least 0 or one line.
+/// An image file of any format gives finite texels of at least 0 or a one-line error.
 fn read_image(data: &[u8]) {
     for name in ["a.exr", "a.hdr", "a.png"] {
         if let Some(file) = answer(parse_image(Path::new(name), data)) {
@@ -72,7 +72,7 @@ fn read_image(data: &[u8]) {
     }
 }
 
-/// A photometric file of either format gives a web that gives off a finite power, or one line.
+/// A photometric file of either format gives a web of finite power or a one-line error.
 fn read_luminaire(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     for name in ["a.ies", "a.ldt"] {

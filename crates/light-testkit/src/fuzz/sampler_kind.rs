@@ -107,7 +107,7 @@ fn received(kind: Kind, ctx: &LightSampleContext) -> LightSampleContext {
     }
 }
 
-/// `k` choices at once, and their pmfs with and without a prepared.
+/// `k` choices at once, and their pmfs with and without prepared choices.
 fn check_many(
     kind: Kind,
     sampler: &impl LightSampler,

@@ -5,7 +5,7 @@ use light_samplers::LightSampler;
 
 use crate::{Rng, SamplerCase, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
 
-/// A choice is asked either for a context, or without one.
+/// A query at a context, or for emission, without one.
 type Query = Option<LightSampleContext>;
 
 fn queries(set: &SamplerCase) -> impl Iterator<Item = Query> {
@@ -80,8 +80,8 @@ pub fn pmfs_and_none_sum_to_one(set: &SamplerCase, sampler: &impl LightSampler) 
             })
             .count();
         let p_none = none as f64 / f64::from(STRATA);
-        // Of the count that the pmfs predict; a share too small to be seen is seen once in a while
-        // nevertheless.
+        // The spread of the count that the pmfs predict, and three strata more: rare outcomes occur
+        // now and then.
         let predicted = (1.0 - sum).clamp(0.0, 1.0);
         let spread = (predicted * (1.0 - predicted) / f64::from(STRATA)).sqrt();
         let margin = 5.0 * spread + 3.0 / f64::from(STRATA);
@@ -94,7 +94,7 @@ pub fn pmfs_and_none_sum_to_one(set: &SamplerCase, sampler: &impl LightSampler) 
     }
 }
 
-/// What the sum of many pmfs may be off by in `f32`.
+/// The rounding error of a sum of many pmfs in `f32`.
 pub(super) const ROUNDING: f64 = 2e-5;
 
 /// A light that contributes at a context has a pmf above zero; no pmf is NaN or above one.
@@ -186,11 +186,11 @@ pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl L
     }
 }
 
-/// Nonsense as `u` or as context answers something, and never panics.
+/// Invalid `u` and contexts give a valid choice or `None`, and never a panic.
 ///
 /// # Panics
 /// If the law does not hold.
-pub fn nonsense_is_survived(set: &SamplerCase, sampler: &impl LightSampler) {
+pub fn invalid_queries_do_not_panic(set: &SamplerCase, sampler: &impl LightSampler) {
     use crate::glam::Vec3;
     let mut contexts = Vec::new();
     for x in [f32::NAN, f32::INFINITY, f32::MAX, f32::from_bits(1)] {

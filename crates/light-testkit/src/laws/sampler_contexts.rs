@@ -7,7 +7,7 @@ use light_samplers::LightSampler;
 use super::sampler::ROUNDING;
 use crate::{Rng, SamplerCase};
 
-/// Lengths that break careless code.
+/// Lengths at which code tends to fail: many have squares that overflow or vanish.
 const LENGTHS: [f32; 12] = [
     1e-45,
     1e-30,
@@ -23,9 +23,9 @@ const LENGTHS: [f32; 12] = [
     f32::NAN,
 ];
 
-/// Contexts about `ctx` with numbers of every kind in each of their fields.
+/// Contexts like `ctx` with numbers of every kind in each of their fields.
 #[must_use]
-pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
+pub fn invalid_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
     let LightSampleContext { p, ns, .. } = *ctx;
     let up = ns.normalize_or(Vec3::new(0.48, 0.6, 0.64));
     let surface = LightSampleContext::surface(p, up, up);
@@ -96,17 +96,17 @@ pub fn senseless_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
     all
 }
 
-/// At any context the pmfs are a distribution, sampling and asking agree bit for bit, and what is
-/// left of `u` is in `[0, 1)`.
+/// At any context the pmfs are a distribution, sampled and queried pmfs have the same bits, and the
+/// unused part of `u` is in `[0, 1)`.
 ///
 /// # Panics
 /// If the law does not hold.
 pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) {
     const STRATA: u32 = 32;
     let mut rng = Rng::new(34);
-    // Around one of the contexts, another one for each number of lights.
+    // Of one context only, for time; which one depends on the number of lights.
     let index = set.emitters.len() % set.contexts.len().max(1);
-    let around = set.contexts.get(index).map(senseless_contexts);
+    let around = set.contexts.get(index).map(invalid_contexts);
     for ctx in around.into_iter().flatten() {
         let name = set.name;
         let pmfs = set.ids().map(|id| {
@@ -136,7 +136,7 @@ pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) 
                 "{name}: {chosen:?}, asked {asked}, at u = {u}, {ctx:?}"
             );
         }
-        // As for other contexts: strata that borders cross may go either way.
+        // As for valid contexts: a stratum that spans an edge may go either way.
         let predicted = (1.0 - sum).clamp(0.0, 1.0);
         let spread = (predicted * (1.0 - predicted) / f64::from(STRATA)).sqrt();
         let margin = ROUNDING + 5.0 * spread + 3.0 / f64::from(STRATA);

@@ -4,8 +4,8 @@ use light_samplers::{LightSampler, PreparedChoices};
 use crate::{Rng, SamplerCase, chi_squared, kolmogorov_smirnov_uniform};
 
 /// Several choices of one call carry the bits of `pmf_many`, which adds up to one at most, fall on
-/// lights as often as their pmf, and leave a uniform rest of `u` for each of them; what is kept
-/// from the call answers the same.
+/// lights as often as their pmf, and leave a uniform rest of `u` for each of them; prepared
+/// choices give the same pmfs.
 ///
 /// Choices of one call are stratified, so counts vary less than independent ones: the test errs on
 /// the safe side.

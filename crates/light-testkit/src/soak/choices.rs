@@ -18,7 +18,7 @@ const SINGLE: u32 = 8;
 /// Choices for one receiver at once.
 const SEVERAL: [u32; 3] = [2, 4, 8];
 
-/// Choices that may be none, for each that is to be compared.
+/// `None` results that are allowed for each choice that is compared.
 const MOST_NONE: u64 = 8;
 
 /// Above so many lights a sampler that looks at all of them is left out.
@@ -108,7 +108,7 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
     let (low, high) = set.set.corners();
     let mut prepared = PreparedChoices::default();
     let mut turn = 0;
-    // Where hardly anything is chosen, nearly all is none.
+    // Where few lights can be chosen, nearly all results are `None`.
     while row.samples < count && row.none < MOST_NONE * count {
         let ctx = if rng.below(8) == 0 && !set.set.contexts.is_empty() {
             set.set.contexts[rng.below(set.set.contexts.len())]
@@ -118,7 +118,7 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
         turn += 1;
         let other = turn / 2 % set.samplers.len();
         let (name, sampler) = &set.samplers[if turn % 2 == 0 { 0 } else { other }];
-        let mut asked = Asked {
+        let mut query = SoakQuery {
             name,
             sampler: &**sampler,
             known: set.set.count(),
@@ -126,17 +126,17 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
             row: &mut row,
         };
         for _ in 0..SINGLE {
-            asked.single(rng.f64());
+            query.single(rng.f64());
         }
-        asked.emitter(rng.f64());
+        query.emitter(rng.f64());
         let k = SEVERAL[rng.below(SEVERAL.len())];
-        asked.several(rng.f64(), k, &mut prepared);
+        query.several(rng.f64(), k, &mut prepared);
     }
     row
 }
 
-/// Who is asked, for whom, and where it is written down.
-struct Asked<'a> {
+/// A sampler, the context it is queried at, and the row that records the results.
+struct SoakQuery<'a> {
     name: &'a str,
     sampler: &'a dyn LightSampler,
     known: u32,
@@ -144,7 +144,7 @@ struct Asked<'a> {
     row: &'a mut Row,
 }
 
-impl Asked<'_> {
+impl SoakQuery<'_> {
     fn single(&mut self, u: f64) {
         let chosen = self.sampler.sample(self.ctx, u);
         let pmf = |chosen: &SampledLight| self.sampler.pmf(self.ctx, chosen.light);
@@ -159,14 +159,14 @@ impl Asked<'_> {
         self.note(chosen, pmf, "emitter, ", u);
     }
 
-    /// All of them by the prepared that is kept, the last also without.
+    /// Checks all choices by the prepared ones, and the last also by a query without them.
     fn several(&mut self, u: f64, k: u32, prepared: &mut PreparedChoices) {
         let mut all = Vec::with_capacity(k as usize);
         let sampler = self.sampler;
         sampler.sample_many_prepared(self.ctx, u, k, prepared, &mut |light| all.push(light));
         for &chosen in &all {
             let pmf = sampler.pmf_many_prepared(self.ctx, chosen.light, k, prepared);
-            self.note(Some(chosen), Some(pmf), "of several with a prepared, ", u);
+            self.note(Some(chosen), Some(pmf), "of several, prepared, ", u);
         }
         if let Some(&last) = all.last() {
             let pmf = sampler.pmf_many(self.ctx, last.light, k);

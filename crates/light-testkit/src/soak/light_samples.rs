@@ -10,7 +10,7 @@ use crate::{Rng, edge_cases};
 /// Samples that one receiver takes.
 const EACH: u32 = 8;
 
-/// Samples that may be none, for each that is to be compared.
+/// `None` results that are allowed for each sample that is compared.
 const MOST_NONE: u64 = 8;
 
 /// One empty row a light.

@@ -14,7 +14,7 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-/// Samples that one thread takes before it takes up something else.
+/// Samples that a thread takes of one case before it continues with another.
 const CHUNK: u64 = 1 << 17;
 
 /// How much is sampled, from which random numbers.
@@ -29,8 +29,8 @@ pub struct Soak {
 }
 
 impl Soak {
-    /// Runs on all threads of rayon, and tells `progress` from time to time how many samples are
-    /// done, of how many.
+    /// Runs on all threads of rayon, and calls `progress` now and then with the number of samples
+    /// done and the number of all.
     #[must_use]
     pub fn run(&self, progress: impl Fn(u64, u64) + Sync) -> Report {
         let done = AtomicU64::new(0);

@@ -49,7 +49,7 @@ impl Worst {
 /// How many rows of codes there are.
 pub const ROWS: u32 = 1 << 16;
 
-/// Looks at all codes of the given rows of the square (`y` of the code), on all cores.
+/// Checks all codes of the given rows of the square (`y` of the code), on all cores.
 ///
 /// # Panics
 /// If the arithmetic under test panics.

@@ -17,11 +17,11 @@ pub struct Row {
     pub name: String,
     /// Samples taken and compared.
     pub samples: u64,
-    /// Samples that were none: there is nothing to compare then.
+    /// Samples that were `None` and could not be compared.
     pub none: u64,
     /// Samples that broke a promise.
     pub mismatches: u64,
-    /// The first of those, with all that it takes to see them again.
+    /// The first of those, with what is needed to reproduce them.
     pub shown: Vec<String>,
 }
 

@@ -15,7 +15,7 @@ const UV: Tolerance = Tolerance::new(1e-4, 1e-4);
 const VALUE: Tolerance = Tolerance::new(1e-4, 1e-6);
 
 /// Who asks, for us and for the oracle.
-struct Asker {
+struct QueryContext {
     ctx: LightSampleContext,
     coverage: PdfCoverage,
     at: Receiver,
@@ -28,9 +28,9 @@ impl LightCase<'_> {
             self.check_sample_li(query, findings)?;
         }
         for query in self.case.get("pdf_li")?.items()? {
-            let (asker, wi) = (Asker::read(query)?, query.get("wi")?.vec3()?);
+            let (query_ctx, wi) = (QueryContext::read(query)?, query.get("wi")?.vec3()?);
             let theirs = query.get("pdf")?.float()?;
-            self.check_pdf_li("pdf_li", &asker, wi, theirs, &MISSED, findings);
+            self.check_pdf_li("pdf_li", &query_ctx, wi, theirs, &MISSED, findings);
         }
         Ok(())
     }
@@ -38,7 +38,7 @@ impl LightCase<'_> {
     fn check_pdf_li(
         &self,
         name: &'static str,
-        Asker { ctx, coverage, at }: &Asker,
+        QueryContext { ctx, coverage, at }: &QueryContext,
         wi: Vec3,
         theirs: f32,
         rule: &'static Rule,
@@ -60,9 +60,11 @@ impl LightCase<'_> {
     }
 
     fn check_sample_li(&self, query: Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        let asker = Asker::read(query)?;
+        let query_ctx = QueryContext::read(query)?;
         let u = query.get("u")?.vec2()?;
-        let ours = self.light.sample_li(&asker.ctx, u, &(), asker.coverage);
+        let ours = self
+            .light
+            .sample_li(&query_ctx.ctx, u, &(), query_ctx.coverage);
         let theirs = query.find("out");
         let Some(ours) = findings.ours_if_any("sample_li", ours) else {
             if theirs.is_none() {
@@ -72,7 +74,8 @@ impl LightCase<'_> {
             }
             let is_dark = theirs.and_then(|t| color(t.find("L")?)) == Some(Vec3::ZERO);
             let rule = if is_dark { &DARK } else { &NO_SAMPLE };
-            let truth = |jitter: &mut Jitter| self.exact.sample_li(&asker.at, u.as_dvec2(), jitter);
+            let truth =
+                |jitter: &mut Jitter| self.exact.sample_li(&query_ctx.at, u.as_dvec2(), jitter);
             settle_none(findings, "sample_li", || rule, truth);
             return Ok(());
         };
@@ -100,14 +103,16 @@ impl LightCase<'_> {
         comparison.settle(
             findings,
             || self.rule_toward(theirs, pdf),
-            |jitter| self.exact_sample(&asker.at, u, uv, jitter),
+            |jitter| self.exact_sample(&query_ctx.at, u, uv, jitter),
         );
 
         // The density of that direction, asked for.
         let name = "pdf_li of the sample";
         match number_of(theirs, "pdf_li")? {
-            Some(theirs) => self.check_pdf_li(name, &asker, ours.wi, theirs, &OWN_SAMPLE, findings),
-            None => self.check_pdf_li(name, &asker, ours.wi, f32::NAN, &OWN_SAMPLE, findings),
+            Some(theirs) => {
+                self.check_pdf_li(name, &query_ctx, ours.wi, theirs, &OWN_SAMPLE, findings)
+            }
+            None => self.check_pdf_li(name, &query_ctx, ours.wi, f32::NAN, &OWN_SAMPLE, findings),
         }
         Ok(())
     }
@@ -142,7 +147,7 @@ impl LightCase<'_> {
     }
 }
 
-impl Asker {
+impl QueryContext {
     fn read(query: Case<'_>) -> Result<Self, Malformed> {
         let vec3 = |name| query.get(name)?.vec3();
         let is_incomplete = query.get("incomplete")?.flag()?;

@@ -86,7 +86,7 @@ pub fn li_adds_up<C: ColorModel, L: Light<C>>(
     }
 }
 
-/// A Dirac light answers the given irradiance (of a plane that faces it) with pdf 1, and its
+/// A Dirac light returns the given irradiance (of a plane that faces it) with pdf 1, and its
 /// density is 0.
 ///
 /// # Panics

@@ -6,7 +6,7 @@ use super::LightCase;
 use super::case::le;
 use crate::{Rng, edge_cases};
 
-/// Where light arrives, the bounds of the light say that it may.
+/// The bounds of a light have an importance above 0 wherever its light arrives.
 ///
 /// # Panics
 /// If the law does not hold.

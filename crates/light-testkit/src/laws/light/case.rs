@@ -5,7 +5,7 @@ use light_sources::{ColorModel, EmittedRay, Light, PdfCoverage, Radiance};
 use super::DENSITY_ROUNDING;
 use crate::Rng;
 
-/// A light, and who asks it.
+/// A light, and the contexts at which it is queried.
 #[derive(Debug)]
 pub struct LightCase<'a, C: ColorModel, L> {
     /// What the light is.
@@ -14,13 +14,13 @@ pub struct LightCase<'a, C: ColorModel, L> {
     pub light: &'a L,
     /// The wavelengths of all queries.
     pub wavelengths: C::Wavelengths,
-    /// Points that the light is asked from.
+    /// Contexts of the queries.
     pub contexts: Vec<LightSampleContext>,
 }
 
 impl<'a, C: ColorModel, L: Light<C>> LightCase<'a, C, L> {
-    /// A light at the colour model's reference wavelengths, asked at `count` random points that are
-    /// up to three radii from `center`: on surfaces of any orientation, and in a medium.
+    /// A light at the colour model's reference wavelengths, queried at `count` random points that
+    /// are up to three radii from `center`: on surfaces of any orientation, and in a medium.
     #[must_use]
     pub fn around(name: &'a str, light: &'a L, center: Vec3, radius: f32, count: usize) -> Self {
         let mut rng = Rng::new(41);
@@ -82,7 +82,7 @@ pub(super) struct Li {
 pub(super) struct Le {
     /// The power that the ray represents.
     pub(super) power: f64,
-    /// Whether `pdf_le` answers the densities that the sample carries.
+    /// Whether `pdf_le` returns the densities that the sample carries.
     pub(super) pdf_agrees: bool,
     /// The ray; `None` where none leaves.
     pub(super) ray: Option<EmittedRay>,

@@ -8,7 +8,7 @@ use super::case::le;
 use super::{LightCase, SAMPLES, STRAY};
 use crate::{Cap, Estimate, Rng};
 
-/// The mean of what leaves over its density is `phi`, and `pdf_le` answers the densities that
+/// The mean of what leaves over its density is `phi`, and `pdf_le` returns the densities that
 /// samples carry.
 ///
 /// # Panics
