@@ -29,17 +29,21 @@ const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
 
   (none)                      format, lints, tests over each feature set, documentation
-  ci                          the same, bare targets, the oldest toolchain, fuzz smoke, instruction counts
+  ci                          the same, bare targets, the oldest toolchain, fuzz smoke,
+                              instruction counts
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   conformance --self-test [DIR]
                               change each of our answers and demand that its case fails
   exhaustive                  check all 2^32 octahedral codes
   bench [FILTER]              time everything, with ratios to the reference
-  bench --table [TABLE...]    measure light hierarchies for docs/light-bvh.md: hierarchies, receivers, adversarial, refits
+  bench --table [TABLE...]    measure light hierarchies for docs/light-bvh.md: hierarchies,
+                              receivers, adversarial, refits
                               (numbers instead: print the first of sets of so many lights)
   counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
-  api [--write]               hold the public items of each library crate against docs/api, or write them there
-  arrows [--write]            hold the drawing of the crates in ARCHITECTURE.md against the manifests, or write it
+  api [--write]               compare the public items of each library crate with docs/api, or
+                              write them there
+  arrows [--write]            compare the drawing of the crates in ARCHITECTURE.md with the
+                              manifests, or write it
   families                    write the table of families of places into docs/light-bvh.md
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for docs/light-media.md
@@ -48,11 +52,13 @@ usage: cargo xtask [COMMAND]
   coverage [CRATE...]         which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
-                break the core crates on purpose: does a test notice? (default: 60 mutants a crate)
+                              break the core crates on purpose: does a test notice?
+                              (default: 60 mutants a crate)
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
-                              take very many samples and hold each against its query (default: 10^9, 10^8, seed 1)
+                              take very many samples and compare each with its query
+                              (default: 10^9, 10^8, seed 1)
   uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
 

@@ -204,7 +204,10 @@ proptest! {
 
     #[test]
     fn builders_refuse_exactly_what_makes_no_sense(
-        weights in prop::collection::vec(prop_oneof![8 => edge_cases::non_negative(), 1 => edge_cases::anything()], 0..12),
+        weights in prop::collection::vec(
+            prop_oneof![8 => edge_cases::non_negative(), 1 => edge_cases::anything()],
+            0..12,
+        ),
     ) {
         let expected = verdict(&weights);
         prop_assert_eq!(AliasTable::new(&weights).err(), expected, "alias table");
@@ -248,7 +251,10 @@ proptest! {
     }
 
     #[test]
-    fn a_choice_is_where_the_running_sum_passes_u(weights in edge_cases::weights(1..20), u in edge_cases::unit_f64()) {
+    fn a_choice_is_where_the_running_sum_passes_u(
+        weights in edge_cases::weights(1..20),
+        u in edge_cases::unit_f64(),
+    ) {
         let share = |weights: &[f32]| weights.iter().map(|&w| f64::from(w)).sum::<f64>();
         let total = share(&weights);
         if let Some(s) = discrete::sample(&weights, u) {

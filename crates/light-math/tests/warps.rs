@@ -174,7 +174,10 @@ proptest! {
     }
 
     #[test]
-    fn flat_samples_invert(u in edge_cases::unit_square(), w in prop::array::uniform4(edge_cases::non_negative())) {
+    fn flat_samples_invert(
+        u in edge_cases::unit_square(),
+        w in prop::array::uniform4(edge_cases::non_negative()),
+    ) {
         let p = concentric_disk::sample(u);
         prop_assert!(concentric_disk::pdf(p) > 0.0, "disk {p}");
         prop_assert!((concentric_disk::invert(p) - u).abs().max_element() < 2e-6, "disk {p}");

@@ -4,8 +4,8 @@ use lights::math::distribution::AliasTable;
 /// Where the reference's own bins lead.
 const BIN_LAYOUT: Rule = Rule {
     name: "bin_layout",
-    reason: "which index shares a bin with which is a choice of the builder; the frequencies that the bins give are \
-             compared instead",
+    reason: "which index shares a bin with which is a choice of the builder; the frequencies that \
+             the bins give are compared instead",
 };
 
 /// Probabilities, the frequencies that the bins really give, and what samples say of themselves.

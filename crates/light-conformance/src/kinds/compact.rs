@@ -14,8 +14,8 @@ const BOX_TOO_SMALL: Rule = Rule {
 
 const COSINE_ON_CODE: Rule = Rule {
     name: "cosine at a code",
-    reason: "the reference's code decodes to more than the cosine, a narrower cone; ours is the one below, which is \
-             right in double precision",
+    reason: "the reference's code decodes to more than the cosine, a narrower cone; ours is the \
+             one below, which is right in double precision",
 };
 
 /// Bounds to codes, back again, and the importance of what comes back.

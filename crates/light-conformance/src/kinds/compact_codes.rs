@@ -6,8 +6,8 @@ use crate::{Case, Findings, Malformed, Rule};
 /// Single precision may round a number to either side of the edge between two codes.
 pub(super) const ROUNDED_CODE: Rule = Rule {
     name: "rounded_code",
-    reason: "a number lies on the edge between two codes up to single precision; ours is one of its codes in double \
-             precision",
+    reason: "a number lies on the edge between two codes up to single precision; ours is one of \
+             its codes in double precision",
 };
 
 /// The codes of compact bounds.

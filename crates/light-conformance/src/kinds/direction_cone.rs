@@ -20,8 +20,8 @@ const ON_THE_SPHERE: Rule = Rule {
 
 const ROUNDED_CENTRE: Rule = Rule {
     name: "rounded centre",
-    reason: "the box is small for its distance from the origin; ours is the cone in double precision for a centre moved \
-             by its rounding",
+    reason: "the box is small for its distance from the origin; ours is the cone in double \
+             precision for a centre moved by its rounding",
 };
 
 const SINGLE: Rule = Rule {

@@ -12,14 +12,14 @@ use crate::{Case, Findings, Malformed, Rule, Tolerance};
 
 const NARROW_CONE: Rule = Rule {
     name: "cone one code wider",
-    reason: "rounding makes some cones of the reference narrower than what they hold; ours is a code of the union in \
-             double precision, or the next wider one",
+    reason: "rounding makes some cones of the reference narrower than what they hold; ours is a \
+             code of the union in double precision, or the next wider one",
 };
 
 const EQUAL_COST: Rule = Rule {
     name: "splits of equal cost",
-    reason: "the reference takes another of several splits that cost the least up to single precision; ours is one of \
-             them in double precision",
+    reason: "the reference takes another of several splits that cost the least up to single \
+             precision; ours is one of them in double precision",
 };
 
 /// What a node holds, in double precision where it is computed.

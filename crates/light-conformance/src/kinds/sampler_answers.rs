@@ -21,8 +21,8 @@ const NOT_A_NUMBER: Rule = Rule {
 
 const IMPORTANCE: Rule = Rule {
     name: "importance in single precision",
-    reason: "cosines of the reference are known to 5e-4, and it drops light at the edge of an emission; ours is the \
-             probability in double precision",
+    reason: "cosines of the reference are known to 5e-4, and it drops light at the edge of an \
+             emission; ours is the probability in double precision",
 };
 
 const EDGE_OF_U: Rule = Rule {

@@ -11,19 +11,20 @@ use lights::math::warp::{
 
 const POLE: Rule = Rule {
     name: "pole",
-    reason: "at a pole, or in the centre of a disk, the azimuth is not determined, nor is its inverse",
+    reason: "at a pole, or in the centre of a disk, the azimuth is not determined, nor is its \
+             inverse",
 };
 
 const ZERO_DENSITY: Rule = Rule {
     name: "zero_density",
-    reason: "the reference returns a point of density 0 for u at the end of its range, or divides by that density; \
-             ours stays off it by 2^-24",
+    reason: "the reference returns a point of density 0 for u at the end of its range, or divides \
+             by that density; ours stays off it by 2^-24",
 };
 
 const ROOT: Rule = Rule {
     name: "root_of_a_difference",
-    reason: "where a component is the root of 1 - cos^2 or the like, rounding under the root is magnified; squares \
-             agree to 4 roundings of 1",
+    reason: "where a component is the root of 1 - cos^2 or the like, rounding under the root is \
+             magnified; squares agree to 4 roundings of 1",
 };
 
 const ROUNDED_COSINE: Rule = Rule {
@@ -34,7 +35,8 @@ const ROUNDED_COSINE: Rule = Rule {
 
 const SEARCH: Rule = Rule {
     name: "search_ends_early",
-    reason: "the reference's search ends once x is known to 1e-6 or the integral is within 1e-6 of u",
+    reason: "the reference's search ends once x is known to 1e-6 or the integral is within 1e-6 of \
+             u",
 };
 
 /// The routine that `op` names.

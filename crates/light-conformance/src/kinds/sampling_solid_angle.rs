@@ -11,19 +11,22 @@ use std::f64::consts::PI;
 
 const SINGLE: Rule = Rule {
     name: "single_precision",
-    reason: "the reference adds angles in single precision, or answers half of the sphere for directions in one plane \
-             through the point, which ours counts as nothing; ours is an answer in double precision",
+    reason: "the reference adds angles in single precision, or answers half of the sphere for \
+             directions in one plane through the point, which ours counts as nothing; ours is an \
+             answer in double precision",
 };
 
 const OPPOSITE: Rule = Rule {
     name: "opposite_corners",
-    reason: "two neighbouring corners are opposite directions, so the side between them is not determined",
+    reason: "two neighbouring corners are opposite directions, so the side between them is not \
+             determined",
 };
 
 const QUAD: Rule = Rule {
     name: "not_convex",
-    reason: "the reference adds four angles below pi each, which is an area only if there are four corners, none is \
-             re-entrant, no sides cross and not all are in one plane; ours are two triangles in double precision",
+    reason: "the reference adds four angles below pi each, which is an area only if there are four \
+             corners, none is re-entrant, no sides cross and not all are in one plane; ours are \
+             two triangles in double precision",
 };
 
 /// The solid angle of three directions.

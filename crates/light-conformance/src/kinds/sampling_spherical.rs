@@ -8,14 +8,14 @@ use lights::math::warp::{SphericalRectangle, SphericalTriangle};
 
 const SINGLE: Rule = Rule {
     name: "single_precision",
-    reason: "the reference adds and subtracts angles and cosines in single precision; ours is the answer in double \
-             precision",
+    reason: "the reference adds and subtracts angles and cosines in single precision; ours is the \
+             answer in double precision",
 };
 
 const AREA_SAMPLING: Rule = Rule {
     name: "area_sampling_below_1e-3",
-    reason: "the reference samples the area of small rectangles, which is not what its density says; ours is the \
-             answer in double precision",
+    reason: "the reference samples the area of small rectangles, which is not what its density \
+             says; ours is the answer in double precision",
 };
 
 const SINGULAR: Rule = Rule {

@@ -11,7 +11,8 @@ use lights::math::distribution::{TableError, Window};
 /// A table of zeros.
 const ALL_ZERO: Rule = Rule {
     name: "all_zero",
-    reason: "the reference samples a table of zeros evenly with density 0; ours is refused when built",
+    reason: "the reference samples a table of zeros evenly with density 0; ours is refused when \
+             built",
 };
 
 /// The reference adds up to 24 numbers in single precision, ours adds in double.
@@ -19,8 +20,8 @@ pub(super) const RUNNING_SUM: Tolerance = Tolerance::new(1e-5, 2e-6);
 
 pub(super) const U_ROUNDING: Rule = Rule {
     name: "u_rounding",
-    reason: "u or the point lies on the edge of a bin, or in a bin as narrow as a rounding of the running sum; ours is \
-             an answer in double precision for u moved by roundings",
+    reason: "u or the point lies on the edge of a bin, or in a bin as narrow as a rounding of the \
+             running sum; ours is an answer in double precision for u moved by roundings",
 };
 
 /// The reference takes absolute values; we refuse negative weights.
@@ -70,8 +71,8 @@ pub(super) fn check_integral(
 /// Small differences of large sums.
 pub(super) const CANCELLATION: Rule = Rule {
     name: "cancellation",
-    reason: "the reference rounds the sums up to the window's four corners to single precision before it subtracts \
-             them; ours is the answer in double precision",
+    reason: "the reference rounds the sums up to the window's four corners to single precision \
+             before it subtracts them; ours is the answer in double precision",
 };
 
 /// The oracle of a table.

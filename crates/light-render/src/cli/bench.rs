@@ -32,7 +32,12 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
     generate: Option<SetKind>,
     /// Lights of the set to make.
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 10_000,
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
     n: u32,
     /// Seed of the set to make.
     #[arg(long, default_value_t = 1)]
@@ -60,7 +65,12 @@ pub(crate) struct BenchArgs {
     #[arg(long, default_value = "diffuse")]
     receiver: ReceiverKind,
     /// Spheres that block light, a tenth of the set's volume together; at most 65536.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1 << 16))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        value_parser = clap::value_parser!(u32).range(..=1 << 16)
+    )]
     occluders: u32,
     /// Move the lights in N steps, at most 20, each twice as far as the last, and compare
     /// hierarchies that follow with new ones.

@@ -20,7 +20,13 @@ pub(crate) struct CheckpointArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "samples")]
     checkpoint: Option<PathBuf>,
     /// How much work an interruption may lose.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "30", requires = "checkpoint")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        value_parser = seconds,
+        default_value = "30",
+        requires = "checkpoint"
+    )]
     checkpoint_every: Duration,
 }
 

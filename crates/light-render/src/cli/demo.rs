@@ -235,8 +235,9 @@ fn print_point(rows: &[Row]) -> Result<(), Failure> {
     };
     say!("")?;
     say!(
-        "In the same time the light hierarchy's error on the night scene is {:.0} times below that of uniform sampling, \
-         {:.0} times below that of sampling by power, {:.1} times below that of the published hierarchy.",
+        "In the same time the light hierarchy's error on the night scene is {:.0} times below that \
+         of uniform sampling, {:.0} times below that of sampling by power, {:.1} times below that \
+         of the published hierarchy.",
         uniform / best,
         power / best,
         published / best

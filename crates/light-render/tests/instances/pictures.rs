@@ -87,7 +87,13 @@ fn nodes_of_gltf_files_look_flattened() {
     let path = folder.join("room.gltf");
     let text = std::fs::read_to_string(&path).expect("it ships");
     let mut document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    let primitive = |positions: u32, material: u32| json!({"attributes": {"POSITION": positions, "TEXCOORD_0": 0}, "indices": 1, "material": material});
+    let primitive = |positions: u32, material: u32| {
+        json!({
+            "attributes": {"POSITION": positions, "TEXCOORD_0": 0},
+            "indices": 1,
+            "material": material,
+        })
+    };
     // Matt and metal, and what emits light.
     let primitives = [(2, 0), (5, 3), (4, 2)].map(|(p, m)| primitive(p, m));
     let lists = |document: &mut serde_json::Value, list: &str, more: serde_json::Value| {
@@ -96,8 +102,18 @@ fn nodes_of_gltf_files_look_flattened() {
     lists(&mut document, "meshes", json!({"primitives": primitives}));
     let transforms = [
         json!({"mesh": 4, "translation": [0.4, 0.5, 0.0], "scale": [0.2, 0.3, 0.2]}),
-        json!({"mesh": 4, "translation": [-0.6, 1.0, 0.5], "scale": [-0.2, 0.1, 0.3], "rotation": [0.0, 0.6, 0.0, 0.8]}),
-        json!({"mesh": 4, "translation": [0.7, 1.4, 0.5], "scale": [0.2, 0.2, 0.2], "rotation": [0.36, 0.48, 0.0, 0.8]}),
+        json!({
+            "mesh": 4,
+            "translation": [-0.6, 1.0, 0.5],
+            "scale": [-0.2, 0.1, 0.3],
+            "rotation": [0.0, 0.6, 0.0, 0.8],
+        }),
+        json!({
+            "mesh": 4,
+            "translation": [0.7, 1.4, 0.5],
+            "scale": [0.2, 0.2, 0.2],
+            "rotation": [0.36, 0.48, 0.0, 0.8],
+        }),
     ];
     for (number, node) in (5..).zip(transforms) {
         lists(&mut document, "nodes", node);

@@ -14,13 +14,14 @@ pub(super) const PATCH_AREA: Rule = Rule {
 
 pub(super) const WIDE_NORMALS: Rule = Rule {
     name: "wide_normals",
-    reason: "a cone wider than a half space is not convex, so the normals between the corners may leave it: ours is \
-             the whole sphere",
+    reason: "a cone wider than a half space is not convex, so the normals between the corners may \
+             leave it: ours is the whole sphere",
 };
 
 pub(super) const PICTURE_POWER: Rule = Rule {
     name: "picture_power",
-    reason: "the reference adds the centres of a picture's texels, ours is the integral: both are computed",
+    reason: "the reference adds the centres of a picture's texels, ours is the integral: both are \
+             computed",
 };
 
 pub(super) const PORTAL_POWER: Rule = Rule {
@@ -58,7 +59,8 @@ pub(super) const SINGLE: Rule = Rule {
 
 pub(super) const SMALL_RECTANGLE: Rule = Rule {
     name: "small_rectangle",
-    reason: "below 1e-3 sr the reference samples the area of a rectangle, which is not what its density says",
+    reason: "below 1e-3 sr the reference samples the area of a rectangle, which is not what its \
+             density says",
 };
 
 pub(super) const ANNULUS: Rule = Rule {
@@ -69,7 +71,8 @@ pub(super) const ANNULUS: Rule = Rule {
 
 pub(super) const NO_SIDES: Rule = Rule {
     name: "reversed_and_two_sided",
-    reason: "the reference turns over a surface that shines on both sides, which moves what u stands for",
+    reason: "the reference turns over a surface that shines on both sides, which moves what u \
+             stands for",
 };
 
 pub(super) const HORIZON: Rule = Rule {
@@ -79,17 +82,20 @@ pub(super) const HORIZON: Rule = Rule {
 
 pub(super) const AXIS: Rule = Rule {
     name: "axis",
-    reason: "near a cone's axis the reference rounds the cosine to 1, or its search for the place ends early",
+    reason: "near a cone's axis the reference rounds the cosine to 1, or its search for the place \
+             ends early",
 };
 
 pub(super) const TEXEL_EDGE: Rule = Rule {
     name: "texel_edge",
-    reason: "the direction lies on the edge of a texel up to rounding, or of the reference's inverse map",
+    reason: "the direction lies on the edge of a texel up to rounding, or of the reference's \
+             inverse map",
 };
 
 pub(super) const WINDOW: Rule = Rule {
     name: "outside_of_the_window",
-    reason: "the reference does not look whether a direction passes the portal; no light comes from there",
+    reason: "the reference does not look whether a direction passes the portal; no light comes \
+             from there",
 };
 
 pub(super) const PORTAL_RAYS: Rule = Rule {
@@ -100,6 +106,7 @@ pub(super) const PORTAL_RAYS: Rule = Rule {
 
 pub(super) const WRAP: Rule = Rule {
     name: "octahedral_wrap",
-    reason: "beyond the lower edges and the corners of an equal-area map the reference takes the second texel, not the \
-             first: its rectified picture, and the sum of that, differ from ours",
+    reason: "beyond the lower edges and the corners of an equal-area map the reference takes the \
+             second texel, not the first: its rectified picture, and the sum of that, differ from \
+             ours",
 };
