@@ -9,7 +9,7 @@ use crate::sphere_image::{SphereImage, SphereImageError, SphereMap, check, exten
 /// environment maps need it, and back.
 ///
 /// A texel becomes the mean, over its solid angle, of the source interpolated bilinearly: by a
-/// lattice of directions, of which at least [`DENSITY`](Self::DENSITY) fall into each texel of the
+/// lattice of directions, of which at least eight fall into each texel of the
 /// result and into each of the source (at the equator, where they are largest). Constant images
 /// stay constant. The energy of a smooth image is kept within 1e-3; that of a sun of a single texel
 /// within 3 % in the mean and 10 % at worst over the places where it may be, the slivers next to
@@ -28,7 +28,7 @@ pub struct Resampler<F> {
 
 impl<F> Resampler<F> {
     /// How many directions fall at least into a source texel, and into a texel of the result.
-    pub const DENSITY: u32 = 8;
+    const DENSITY: u32 = 8;
 
     /// The resampler of `source` to an image of the given map and size.
     ///

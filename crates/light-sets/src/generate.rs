@@ -43,7 +43,7 @@ pub enum SetKind {
 impl SetKind {
     /// The kinds that are no places, in the order of the tables: four that are like scenes, and
     /// five that are adversarial.
-    pub const PLAIN: [Self; 9] = [
+    const PLAIN: [Self; 9] = [
         Self::Uniform,
         Self::Clusters,
         Self::Spots,

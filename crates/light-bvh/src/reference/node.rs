@@ -38,9 +38,9 @@ const _: () = assert!(align_of::<ReferenceNode>() == 32, "one a half line");
 
 impl ReferenceNode {
     /// Lights and nodes are numbered below this.
-    pub const INDEX_LIMIT: u32 = LEAF_BIT;
+    pub(crate) const INDEX_LIMIT: u32 = LEAF_BIT;
 
-    /// The leaf of `light`, whose id is below [`INDEX_LIMIT`](Self::INDEX_LIMIT).
+    /// The leaf of `light`, whose id is below 2^31.
     #[must_use]
     pub fn leaf(bounds: CompactLightBounds, light: LightId) -> Self {
         debug_assert!(light.0 < LEAF_BIT, "31 bits");
@@ -52,7 +52,7 @@ impl ReferenceNode {
     }
 
     /// A node above others; the index of its second child is below
-    /// [`INDEX_LIMIT`](Self::INDEX_LIMIT).
+    /// 2^31.
     #[must_use]
     pub fn interior(bounds: CompactLightBounds, second_child: u32) -> Self {
         debug_assert!(second_child < LEAF_BIT, "31 bits");
