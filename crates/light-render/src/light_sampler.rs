@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 use core::str::FromStr;
 
-use lights::bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
@@ -131,7 +131,7 @@ impl AnyLightSampler {
             Self::Uniform(sampler) => size_of_val(sampler),
             // A bin of the alias table, as its documentation says.
             Self::Power(_) => 12 * lights,
-            Self::Exhaustive(_) => size_of::<LightExtent>() * lights,
+            Self::Exhaustive(_) => size_of::<LightBounds>() * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
             Self::Bvh(sampler) => sampler.tree().bytes(),
         }
