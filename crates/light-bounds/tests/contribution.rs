@@ -58,9 +58,9 @@ fn cosine(rng: &mut Rng) -> f32 {
 fn bounds(rng: &mut Rng) -> LightBounds {
     let origin = rng.direction() * [0.0, 1.0, 1e5][rng.below(3)];
     let size = [0.0, 1e-4, 0.1, 1.0, 100.0][rng.below(5)];
-    // Flat now and then.
+    // Some boxes are flat.
     let flat = Vec3::from_array([0; 3].map(|_| [0.0, 1.0, 1.0][rng.below(3)]));
-    // As far from a unit vector as bounds may have it.
+    // A vector as far from unit length as bounds may hold.
     let stretch = 1.0 + 4.5e-6 * [0.0, -1.0, 1.0][rng.below(3)];
     LightBounds {
         bounds: Aabb::new(origin, origin + rng.vec3() * flat * size),

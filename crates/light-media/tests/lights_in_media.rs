@@ -28,7 +28,7 @@ const AT: ScatteringPoint = ScatteringPoint {
     wo: Vec3::NEG_Z,
 };
 
-/// Nothing at all, or something dark all around.
+/// A scene that is empty, or dark in all directions.
 struct Emptiness(FirstHit);
 
 impl Visibility for Emptiness {

@@ -1,5 +1,5 @@
-//! Lamps with alpha are as bright as the share that is there, from every file format and by every
-//! estimator.
+//! Lamps with an alpha mask are as bright as their opaque share, from every file format and by
+//! every estimator.
 
 mod support;
 

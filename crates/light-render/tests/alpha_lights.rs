@@ -1,5 +1,5 @@
-//! Lamps with alpha: light samples, material samples and both together find what is there, as much
-//! as a closed form says.
+//! Lamps with an alpha mask: light samples, material samples and both together agree with a closed
+//! form.
 
 mod support;
 
@@ -159,8 +159,8 @@ fn alpha_images_of_one_value() {
     }
 }
 
-/// A mask of which one half is there, of a lamp of which the left third emits light: whatever is
-/// where, all three agree.
+/// A mask that is half opaque over a lamp whose left third emits light: all three estimators agree,
+/// however both are placed.
 #[test]
 fn alpha_images_over_images_of_emission() {
     for (cutoff, turn) in [(None, 0.0), (None, 0.4), (Some(0.5), 0.0), (Some(0.5), 0.4)] {
@@ -212,7 +212,7 @@ fn alpha_images_over_images_of_emission() {
     }
 }
 
-/// The lamp itself, seen by the camera, is as bright as what is there.
+/// The lamp itself, seen by the camera, is as bright as its opaque part.
 #[test]
 fn a_lamp_is_seen_as_a_share() {
     let mut scene = floor();

@@ -9,7 +9,7 @@ use light_scene::{Alpha, Color, ColorImage, Image, Material, Mesh, Scene};
 use lights::sources::{DistantLightDesc, IrradianceAmount, LightDesc};
 use support::{Shot, agree, plane, room};
 
-/// A plane under the noon sun, and between them a roof that is there as `alpha` says.
+/// A plane under the noon sun, and between them a roof with this `alpha`.
 fn under_roof(alpha: impl Fn(&mut Scene) -> Option<Alpha>) -> Scene {
     let mut scene = plane(0.5, 1.0);
     let sun = DistantLightDesc {

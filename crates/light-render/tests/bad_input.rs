@@ -96,7 +96,7 @@ fn broken_files_of_every_format_end_with_status_2() {
     }
 }
 
-/// What the smaller rooms leave out of the pbrt format.
+/// Parts of the pbrt format that the small rooms do not use.
 const PBRT: &str = r#"LookAt 0 1 5  0 1 0  0 1 0
 Camera "perspective" "float fov" 50
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8
@@ -126,7 +126,7 @@ AreaLightSource "diffuse" "float power" 10 "bool twosided" true
 Shape "sphere" "float radius" .25
 "#;
 
-/// What the smaller rooms leave out of the OBJ format.
+/// Parts of the OBJ format that the small rooms do not use.
 const OBJ: &str = "mtllib keys.mtl
 v 0 0 0
 v 1 0 0
@@ -144,7 +144,7 @@ usemtl glass
 f -4//1 -2//1 -1//1
 ";
 
-/// What the smaller rooms leave out of the MTL format.
+/// Parts of the MTL format that the small rooms do not use.
 const MTL: &str = "newmtl cloth
 Kd .5 .5 .5
 map_Kd -s 2 3 1 -o .5 .25 0 -clamp on a.png
@@ -164,7 +164,7 @@ Ks .5 .5 .5
 illum 3
 ";
 
-/// What the smaller rooms leave out of glTF.
+/// Parts of glTF that the small rooms do not use.
 const GLTF: &str = r#"{
  "asset": { "version": "2.0" },
  "extensionsUsed": [ "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength" ],
@@ -199,8 +199,8 @@ const GLTF: &str = r#"{
 fn broken_files_with_every_key_end_with_status_2() {
     /// Places at which each file is cut, and has a hole.
     const PLACES: usize = 160;
-    /// Variants that are no scene, at least: a text that ends early may still be one, and what is
-    /// not known by its name is left out with a warning.
+    /// The least number of variants that are refused: a text that ends early may still be a scene,
+    /// and unknown names are left out with a warning.
     const BROKEN: usize = 200;
     let name = format!("lights-bad-keys-{}", std::process::id());
     let folder = Folder(std::env::temp_dir().join(name));

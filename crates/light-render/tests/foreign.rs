@@ -1,5 +1,5 @@
-//! The same scenes by renderers that nobody here wrote: the pictures of `testdata/foreign` are
-//! Mitsuba's and Cycles'.
+//! The same scenes by independent renderers: the pictures of `testdata/foreign` are Mitsuba's and
+//! Cycles'.
 
 mod support;
 
@@ -89,7 +89,7 @@ fn over_runs(runs: &[Vec<DVec3>]) -> Vec<(DVec3, DVec3)> {
     (0..runs[0].len()).map(at).collect()
 }
 
-/// Renders the scene and holds it against its reference: the whole, each block, and pixel by pixel.
+/// Renders the scene and compares it with its reference: the whole, each block, and pixel by pixel.
 fn assert_agrees(name: &str) {
     assert_looks_like(name, &scene(name));
 }

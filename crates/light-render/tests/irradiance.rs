@@ -50,7 +50,7 @@ fn assert_point(light: LightDesc<Rgb>, irradiance: DVec3) {
     assert_irradiance(&scene, irradiance, LIGHT_AND_BOTH);
 }
 
-/// A light in the middle of nowhere that looks along z: from light space to the scene.
+/// From light space to the scene, for a light that looks along z and stands at no special place.
 const POSITION: Vec3 = Vec3::new(30.0, 40.0, 0.0);
 
 /// The light at [`POSITION`] turned so that the origin lies in the direction `toward` of light

@@ -1,5 +1,4 @@
-//! Media from outside: what the program makes of scenes with media, and how it refuses those that
-//! are invalid.
+//! Media in scene files: how the program renders scenes with media, and refuses invalid ones.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,10 +1,10 @@
-//! Descriptions that hold nonsense are refused, by the name of the field.
+//! Invalid descriptions are refused with the name of the field.
 
 use light_sources::glam::{Affine3A, Vec3};
 use light_sources::shape::ShapeDesc;
 use light_sources::*;
 
-/// What a set says to a description.
+/// The result of adding a description to a set.
 fn refusal(desc: LightDesc<Rgb>) -> String {
     let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
     let error = LightSetBuilder::new(scene).add(desc).err();
@@ -238,7 +238,7 @@ fn lights_with_pictures() {
     );
 }
 
-/// Pictures without light are lights without light.
+/// A black picture makes a light without power.
 #[test]
 fn black_pictures_are_accepted_and_never_sampled() {
     let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");

@@ -1,5 +1,5 @@
-//! A light behind a `LightRef` answers as the light itself: surfaces alone have a radiance that
-//! leaves them, skies alone one that arrives.
+//! A light behind a `LightRef` gives the results of the light itself: surfaces alone have a
+//! radiance that leaves them, skies alone one that arrives.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::shape::ShapeDesc;

@@ -1,4 +1,4 @@
-//! What the fuzz targets were fed once, and what would be their first random inputs, on stable.
+//! The committed inputs of the fuzz targets, and their first random inputs, on stable.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Each law of samplers finds the fault that it is there for.
+//! Each law of samplers finds the fault that it tests for.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

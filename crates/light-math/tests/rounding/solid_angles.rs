@@ -8,7 +8,7 @@ use light_math::solid_angle;
 use light_math::warp::{SphericalRectangle, SphericalTriangle};
 use light_testkit::Rng;
 
-/// From a point in its plane there is nothing to see of a triangle, inside of it or not.
+/// A triangle covers no solid angle from a point in its plane, inside of it or not.
 #[test]
 fn a_plane_that_holds_the_point_shows_nothing() {
     let mut rng = Rng::new(56);

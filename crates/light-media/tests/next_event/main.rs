@@ -1,5 +1,5 @@
 //! Next-event scattering along a ray: unequal lights, emission, opaque media, the gain by
-//! stratification, and what it asks of samplers and scenes.
+//! stratification, and its queries of samplers and scenes.
 
 #![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 

@@ -1,4 +1,4 @@
-//! What is asked of samplers and scenes.
+//! The queries that samplers and scenes receive.
 
 use core::cell::RefCell;
 
@@ -15,7 +15,7 @@ use light_sources::{
 
 use super::{NothingInTheWay, RAY, TWO, lights, medium};
 
-/// Keeps what it is asked, and chooses nothing.
+/// Records the contexts of its queries, and chooses no light.
 #[derive(Default)]
 struct Recorder(RefCell<Vec<LightSampleContext>>);
 
@@ -79,7 +79,7 @@ fn lights_are_chosen_for_the_part_of_the_ray_in_the_medium() {
     }
 }
 
-/// Whether a dark light can be seen is not asked, nor how much of its light would be left.
+/// A dark light costs neither a shadow ray nor a transmittance.
 #[test]
 fn dark_lights_ask_nothing_of_the_scene() {
     struct Nobody;

@@ -1,4 +1,4 @@
-//! Light in media, against what can be said in closed form or by quadrature.
+//! Light in media, against closed forms and quadrature.
 
 mod fog;
 mod furnace;

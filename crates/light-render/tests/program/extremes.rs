@@ -182,7 +182,7 @@ fn no_value_of_any_flag_breaks_the_program() {
     }
     assert!(runs.len() > 700, "many flags: {}", runs.len());
     let (first, second) = runs.split_at(runs.len() / 2);
-    // Where outputs named like numbers go.
+    // The folder for outputs that are named like numbers.
     let place = &folder.0;
     let run = |runs: &[Vec<String>]| {
         for run in runs {

@@ -1,4 +1,4 @@
-//! The program from outside: what it prints, how it ends, what it leaves behind.
+//! The program as a process: its output, its exit status and the files that it leaves.
 
 mod environments;
 mod extremes;

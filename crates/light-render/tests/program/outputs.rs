@@ -39,7 +39,7 @@ fn an_output_is_none_of_the_inputs() {
         );
     }
     let missing = folder.path("missing/kept.exr");
-    // At once: before the scene is read, which is not there either.
+    // Before the scene is read: its file is missing too.
     let render = [
         "render",
         "missing.obj",

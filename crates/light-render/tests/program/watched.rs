@@ -1,4 +1,4 @@
-//! The program under watch: it must end, and not by a panic or a signal.
+//! Runs the program with a time limit: it must end without a panic or a signal.
 
 use core::time::Duration;
 use std::fs::File;

@@ -135,7 +135,7 @@ fn projection() {
 
 const POSITION: Vec3 = Vec3::new(1.0, 2.0, -1.0);
 
-/// A place and an orientation with nothing special about it.
+/// A translation and a rotation without special values.
 fn tilted() -> Affine3A {
     let rotation = Quat::from_rotation_x(0.7) * Quat::from_rotation_y(-1.9);
     Affine3A::from_rotation_translation(rotation, POSITION)

@@ -1,4 +1,4 @@
-//! What a direction toward the edge of a shape rounds off does not make it miss.
+//! Rounding of a direction toward the edge of a shape does not make the ray miss.
 
 use light_sources::light_bounds::LightSampleContext;
 use light_sources::shape::{Shape, ShapeDesc};

@@ -216,7 +216,7 @@ fn image(rng: &mut Rng, size: [u32; 2], channels: Channels, brightest: f32) -> I
     Image::from_f32(size, channels, texels).expect("an image")
 }
 
-/// What a failure has to tell of an emission.
+/// The parts of an emission that a failure prints.
 fn what(emission: &DiffuseEmissionDesc<Rgb>) -> String {
     let color = match &emission.color {
         SurfaceColor::Image { texture, .. } => Some(texture.image().size()),

@@ -214,7 +214,7 @@ fn textures() {
     }
 }
 
-/// Holds a shape to the laws, one-sided and two-sided. `hit` answers where a ray first meets the
+/// Checks the laws for a shape, one-sided and two-sided. `hit` returns where a ray first meets the
 /// shape, as a number that is positive on its front and negative on its back; `corners` are those
 /// of something convex around it; `place` takes points of the shape evenly to the unit square.
 fn check(

@@ -101,8 +101,8 @@ fn surfaces<M: Model>(name: &str) {
     }
 }
 
-/// One triangle of two shows the bright middle of an image and the other its dark corner: what the
-/// mesh gives off is what was asked for all the same.
+/// One triangle of two shows the bright middle of an image and the other its dark corner: the mesh
+/// still emits the power that was asked for.
 #[test]
 fn a_textured_mesh_gives_off_what_it_was_asked_for() {
     let texels = vec![0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];

@@ -1,5 +1,4 @@
-//! A light that is given in lumens, candelas, nits or lux emits light that much, in both colour
-//! models.
+//! A light that is given in lumens, candelas, nits or lux emits that amount, in both colour models.
 
 mod by_intensity;
 mod by_radiance;
