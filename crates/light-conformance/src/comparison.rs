@@ -111,7 +111,7 @@ impl Comparison {
     }
 }
 
-/// The same where there is no answer of ours: nor is there one in truth, for inputs as near as
+/// The same where ours has no result: the truth has none either, for inputs as near as
 /// rounding moves them.
 pub(super) fn settle_none<T>(
     findings: &mut Findings,

@@ -1,6 +1,6 @@
 use super::Tolerance;
+use super::fault_injection::{Answer, FaultInjection};
 use super::oracle::Certainty;
-use super::sabotage::{Answer, Sabotage};
 use lights::math::glam::{Vec2, Vec3};
 
 /// A named reason why a difference is no failure.
@@ -18,24 +18,24 @@ pub struct Findings {
     pub(super) holds: usize,
     pub(super) failures: Vec<String>,
     pub(super) exemptions: Vec<&'static Rule>,
-    pub(super) sabotage: Sabotage,
+    pub(super) faults: FaultInjection,
 }
 
 impl Findings {
     /// Our answer on its way into the comparison, the only one: a self-test changes it here.
     pub fn ours<T: Answer>(&mut self, name: &'static str, answer: T) -> T {
-        self.sabotage.pass(name, answer)
+        self.faults.pass(name, answer)
     }
 
     /// The same for whether there is an answer.
     pub fn ours_if_any<T>(&mut self, name: &'static str, answer: Option<T>) -> Option<T> {
-        self.sabotage.pass_option(name, answer)
+        self.faults.pass_option(name, answer)
     }
 
     /// Notes that the answers since the last call have been compared, and whether the inputs
     /// determine them.
     pub(super) fn settled(&mut self, certainty: Certainty) {
-        self.sabotage.settle(certainty == Certainty::Undetermined);
+        self.faults.settle(certainty == Certainty::Undetermined);
     }
 
     /// Notes a failure.

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 mod case;
 mod comparison;
+mod fault_injection;
 mod files;
 mod findings;
 mod kinds;
 mod oracle;
 mod report;
-mod sabotage;
 pub mod self_test;
 mod tolerance;
 

@@ -1,7 +1,7 @@
 //! Checks the checks: changes one answer of ours at a time and demands that the comparison fails.
 
+use super::fault_injection::Change;
 use super::files::{VectorFile, read_folder};
-use super::sabotage::Change;
 use super::{Case, Checker, Findings, kinds};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -52,14 +52,14 @@ impl Tally {
     fn add(&mut self, change: Change, line: usize, findings: &Findings) {
         let i = change as usize;
         let is_detected = !findings.failures.is_empty();
-        if !is_detected && findings.sabotage.is_undetermined {
+        if !is_detected && findings.faults.is_undetermined {
             self.undetermined += 1;
             return;
         }
         self.changed[i] += 1;
         self.detected[i] += usize::from(is_detected);
         if !is_detected {
-            self.missed.push((line, findings.sabotage.change.clone()));
+            self.missed.push((line, findings.faults.change.clone()));
         }
     }
 }
@@ -119,13 +119,13 @@ fn run_file(file: &VectorFile, selection: &Selection) -> Result<Table, String> {
         {
             continue;
         }
-        let names = names.sabotage.names;
+        let names = names.faults.names;
         let about = about(&value);
         let stride = names.len().div_ceil(selection.answers).max(1);
         for target in (index % stride..names.len()).step_by(stride) {
             for change in Change::ALL {
                 let findings = run_line(&mut *checker, &value, Some((target, change)));
-                if findings.sabotage.is_done {
+                if findings.faults.is_done {
                     let key = [file.kind.clone(), about.clone(), names[target].to_owned()];
                     table
                         .rows
@@ -141,7 +141,7 @@ fn run_file(file: &VectorFile, selection: &Selection) -> Result<Table, String> {
 
 fn run_line(checker: &mut dyn Checker, value: &Value, target: Option<(usize, Change)>) -> Findings {
     let mut findings = Findings::default();
-    findings.sabotage.target = target;
+    findings.faults.target = target;
     if let Err(malformed) = checker.check(&Case::new(value), &mut findings) {
         findings.fail(malformed.0);
     }

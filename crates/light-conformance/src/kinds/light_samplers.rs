@@ -3,7 +3,7 @@ use super::sampler_answers::Query;
 use super::sampler_set::{Set, light_id};
 use crate::{Case, Checker, Findings, Malformed};
 
-/// Lights, then the tree of them, then what samplers answer.
+/// Lights, then the tree of them, then the results of samplers.
 #[derive(Default)]
 pub(super) struct LightSamplers {
     sets: Vec<Set>,

@@ -1,8 +1,8 @@
 //! What the tables have in common.
 
+use crate::fault_injection::Answer;
 use crate::oracle::table::ExactTable;
 use crate::oracle::{Certainty, ExactWindows, Jitter};
-use crate::sabotage::Answer;
 use crate::{Case, Findings, Malformed, Rule, Tolerance};
 use core::fmt::Display;
 use glam::DVec2;

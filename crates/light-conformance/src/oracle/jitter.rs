@@ -4,22 +4,22 @@ use glam::{DVec2, DVec3};
 /// How far single precision may move an input, relative to its magnitude.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
-/// How many moved inputs are tried.
+/// The number of perturbed inputs that are tried.
 const TRIES: u32 = 192;
 
-/// How wide the answers for moved inputs may be spread, relative to their magnitude, to count as
-/// one continuous range.
+/// The largest range of the results for perturbed inputs, relative to their magnitude, that counts
+/// as continuous.
 const CONTINUOUS: f64 = 0.05;
 
-/// How near to an answer those for moved inputs lie on both sides of it, relatively, where the
-/// answer is one for inputs between them.
+/// The largest relative distance of a result from those for perturbed inputs below and above it, if
+/// it is to count as the result for an input between them.
 const BETWEEN: f64 = 0.01;
 
-/// The largest quotient of two answers for moved inputs that still tell an answer from its double
-/// and its half.
-const TELLING: f64 = 1.5;
+/// The largest quotient of two results for perturbed inputs that still distinguish a result from
+/// its double and its half.
+const DISTINCT: f64 = 1.5;
 
-/// How far answers may move with their inputs.
+/// How far results may move with their inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Conditioning {
     /// Little, or by a step.
@@ -29,7 +29,8 @@ pub(crate) enum Conditioning {
     Ill,
 }
 
-/// One way to move all inputs of a computation by a few roundings; the first way leaves them alone.
+/// One way to perturb all inputs of a computation by a few roundings; the first leaves them as they
+/// are.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Jitter {
     way: u32,
@@ -65,12 +66,12 @@ impl Jitter {
         v.map(|x| self.at_scale(x, scale))
     }
 
-    /// Random numbers moved, but not out of the unit square, and zero not at all.
+    /// Random numbers, perturbed within the unit square; zero stays.
     pub(crate) fn numbers(&mut self, u: DVec2) -> DVec2 {
         u.map(|x| self.relative(x).min(1.0 - 0.25 * f64::from(f32::EPSILON)))
     }
 
-    /// One of two that are both right: the first one where nothing is moved.
+    /// One of two values that are both right; the first where nothing is perturbed.
     pub(crate) fn either<T>(&mut self, first: T, second: T) -> T {
         if self.by(0.0, 1.0) <= 0.0 {
             first
@@ -90,7 +91,7 @@ impl Jitter {
     }
 }
 
-/// A part of an answer of ours: a vector, or a number with zeros.
+/// A part of a result under test: a vector, or a number with zeros.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ours {
     pub(crate) answer: DVec3,
@@ -98,10 +99,10 @@ pub(crate) struct Ours {
     pub(crate) conditioning: Conditioning,
 }
 
-/// Whether `ours` is the truth for inputs as near as rounding moves them: all parts of the answer,
-/// each with its tolerance, for one way to move the inputs. Otherwise each part is that for some
-/// way, or within the range of all ways where that is a narrow one, or a number between the answers
-/// of two ways that are next to it on both sides.
+/// Confirms that `ours` is the true result for inputs within rounding error: all parts, each with
+/// its tolerance, for one perturbation of the inputs. Otherwise each part is the result of some
+/// perturbation, or within the range of all where that is narrow, or a number close between the
+/// results of two perturbations.
 pub(crate) fn confirm(
     ours: &[Ours],
     truth: impl Fn(&mut Jitter) -> Option<Vec<DVec3>>,
@@ -145,7 +146,7 @@ pub(crate) fn confirm(
     Ok(certainty)
 }
 
-/// The least and the largest of the answers for inputs moved in a number of ways.
+/// The least and the largest result over a number of perturbations.
 pub(crate) fn range(ways: u32, answer: impl Fn(&mut Jitter) -> f64) -> [f64; 2] {
     let answers = (0..ways).map(|way| answer(&mut Jitter::new(way)));
     answers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
@@ -153,7 +154,7 @@ pub(crate) fn range(ways: u32, answer: impl Fn(&mut Jitter) -> f64) -> [f64; 2] 
     })
 }
 
-/// Whether inputs determine an answer.
+/// Whether inputs determine a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Certainty {
     /// Up to the tolerances.
@@ -174,8 +175,8 @@ impl Ours {
         (0..3).all(|i| near(self.answer[i], truth[i]))
     }
 
-    /// Whether the answer is a number between two of `truths` that are close to it, and all of them
-    /// are alike but for those of a miss.
+    /// Whether the result is a number close between two of `truths`, and all of them but those of a
+    /// miss are alike.
     fn is_between(&self, truths: impl Iterator<Item = DVec3>) -> bool {
         if self.answer.y != 0.0 || self.answer.z != 0.0 {
             return false;
@@ -192,12 +193,12 @@ impl Ours {
             }
         }
         0.0 < low
-            && high <= TELLING * low
+            && high <= DISTINCT * low
             && ours - below <= BETWEEN * ours
             && above - ours <= BETWEEN * ours
     }
 
-    /// Whether the answer is in the range of all answers, if that says anything.
+    /// Whether the result is in the range of all results, and how certain that makes it.
     fn is_within(&self, low: DVec3, high: DVec3) -> Option<Certainty> {
         let magnitude = low.abs().max(high.abs()).length();
         let slack = DVec3::splat(self.slack(magnitude));
@@ -229,7 +230,7 @@ mod tests {
 
     #[test]
     fn steep_answers_are_confirmed_where_moved_inputs_surround_them() {
-        // A cosine of 1e-5 that rounds by a twentieth, and in every other way misses.
+        // A cosine of 1e-5 that rounds by a twentieth; every other perturbation misses.
         let grazing = |jitter: &mut Jitter| 1.0 / jitter.at_scale(1e-5, 1.0);
         let edge = |jitter: &mut Jitter| match jitter.either(0.0, 1.0) {
             0.0 => 0.0,
@@ -249,7 +250,7 @@ mod tests {
             is_confirmed(1.2, step) && !is_confirmed(1.1, step),
             "a step"
         );
-        // What may be anything confirms nothing.
+        // A range that is too wide confirms nothing.
         let wide = |jitter: &mut Jitter| 1.0 / jitter.at_scale(1e-6, 1.0);
         assert!(!is_confirmed(1.0001e6, wide), "wide");
     }

@@ -1,4 +1,4 @@
-//! What lights answer, in double precision.
+//! The results of lights, in double precision.
 
 mod area;
 mod at_point;

@@ -97,7 +97,7 @@ impl<const N: usize> Answer for [i64; N] {
 
 /// What happens to the answers of one line.
 #[derive(Debug, Default)]
-pub struct Sabotage {
+pub struct FaultInjection {
     /// The names of the answers so far.
     pub(super) names: Vec<&'static str>,
     /// Which of them is changed, and how.
@@ -112,7 +112,7 @@ pub struct Sabotage {
     pub(super) is_undetermined: bool,
 }
 
-impl Sabotage {
+impl FaultInjection {
     /// `answer`, changed if it is the one to change.
     pub(super) fn pass<T: Answer>(&mut self, name: &'static str, answer: T) -> T {
         match self.next(name).and_then(|change| answer.changed(change)) {
@@ -157,13 +157,13 @@ mod tests {
 
     #[test]
     fn only_the_target_changes() {
-        let mut sabotage = Sabotage {
+        let mut faults = FaultInjection {
             target: Some((1, Change::Double)),
-            ..Sabotage::default()
+            ..FaultInjection::default()
         };
-        let answers = ["a", "b", "c"].map(|name| sabotage.pass(name, 0.25f32));
+        let answers = ["a", "b", "c"].map(|name| faults.pass(name, 0.25f32));
         assert_eq!(answers, [0.25, 0.5, 0.25], "the second");
-        assert!(sabotage.is_done, "done");
+        assert!(faults.is_done, "done");
         assert_eq!(0.0f32.changed(Change::Double), Some(0.5), "not zero again");
         assert_eq!(0.0f32.changed(Change::Halve), None, "no difference");
     }
