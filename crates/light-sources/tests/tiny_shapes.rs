@@ -4,7 +4,11 @@
 use light_sources::glam::{Vec2, Vec3};
 use light_sources::light_bounds::LightSampleContext;
 use light_sources::shape::{
-    BilinearPatch, BilinearPatchError, Rectangle, Shape, Triangle, TriangleError,
+    AnyShape, BilinearPatch, BilinearPatchError, Rectangle, Shape, Triangle, TriangleError,
+};
+use light_sources::{
+    Channels, DiffuseEmission, DiffuseEmissionDesc, Image, RadianceAmount, Rgb, SurfaceColor,
+    Texture,
 };
 
 #[test]
@@ -23,6 +27,40 @@ fn samples_of_a_tiny_triangle_have_its_normal_and_area() {
     let corners = [Vec3::ZERO, Vec3::X * 1e-20, Vec3::Y * 1e-20];
     let refused = Triangle::new(corners, Triangle::DEFAULT_UV);
     assert_eq!(refused, Err(TriangleError::Area), "1e-40");
+}
+
+/// However small, a patch shows as much of its image as a large one: the squares of its areas are
+/// below the smallest float.
+#[test]
+fn a_tiny_patch_has_the_mean_of_its_image() {
+    let texels = [1.0, 0.0, 0.25, 0.5].map(|x| [x; 3]);
+    let image = Image::from_f32([2, 2], Channels::Rgb, texels.as_flattened());
+    let texture = Texture::new(image.expect("an image"));
+    let color = SurfaceColor::Image {
+        texture,
+        tint: Vec3::ONE,
+    };
+    let desc = DiffuseEmissionDesc::new(color, RadianceAmount::Radiometric(1.0));
+    let emission = DiffuseEmission::<Rgb>::new(desc, [] as [AnyShape; 0]).expect("an emission");
+    let mean = |size: f32| {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.5],
+        ];
+        let patch = BilinearPatch::new(corners.map(|p| Vec3::from(p) * size)).expect("an area");
+        f64::from(emission.phi(&patch, &()).x) / f64::from(patch.area())
+    };
+    let large = mean(1.0);
+    assert!(large > 0.1, "{large}");
+    for size in [1e-9, 1e-10, 3e-12, 1e-13, 1e-15] {
+        let found = mean(size);
+        assert!(
+            (found / large - 1.0).abs() < 1e-5,
+            "{size}: {found}, {large}"
+        );
+    }
 }
 
 #[test]

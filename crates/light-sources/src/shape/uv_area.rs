@@ -35,7 +35,13 @@ impl UvDensity {
             Self::Sine => sin(core::f32::consts::PI * (uv.y as f32)).max(0.0).into(),
             Self::Length([n, du, dv]) => {
                 let n = n.as_dvec3() + du.as_dvec3() * uv.x + dv.as_dvec3() * uv.y;
-                sqrt(n.length_squared() as f32).into()
+                let length_sq = n.length_squared() as f32;
+                let length = if length_sq >= f32::MIN_POSITIVE {
+                    sqrt(length_sq)
+                } else {
+                    super::tiny_length(n.as_vec3())
+                };
+                length.into()
             }
         }
     }

@@ -1,7 +1,7 @@
 use light_bounds::{LightExtent, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
-use light_sources::{Light, LightRef, LightSet, LightSetBuilder, LightType, PdfCoverage, Rgb};
+use light_sources::{Light, LightRef, LightSet, LightSetBuilder, PdfCoverage, Rgb};
 
 use super::input::Input;
 use super::lights;
@@ -103,10 +103,11 @@ fn check_power(light: &LightRef<'_, Rgb>) {
     assert!(is_valid, "{:?} of {light:?}", light.extent());
 }
 
-/// Whether the power of a surface may be a positive float: by its radiance and a box around it.
+/// Whether the power of a surface, which has a box, may be a positive float: by its radiance and
+/// that box.
 fn has_power(light: &LightRef<'_, Rgb>, l: Vec3) -> bool {
     match light.extent() {
-        LightExtent::Bounded(bounds) if light.light_type() == LightType::Area => {
+        LightExtent::Bounded(bounds) if bounds.bounds.min != bounds.bounds.max => {
             let diagonal = bounds.bounds.diagonal().as_dvec3();
             let most = 40.0 * f64::from(l.max_element()) * diagonal.length_squared();
             most >= f64::from(f32::MIN_POSITIVE)
