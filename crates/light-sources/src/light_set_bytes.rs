@@ -110,15 +110,77 @@ impl Count {
 mod tests {
     use super::*;
     use crate::amount::RadianceAmount;
+    use crate::area_desc::AreaLightDesc;
     use crate::channels::Channels;
-    use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
-    use crate::glam::{Vec2, Vec3};
+    use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
+    use crate::glam::{Affine3A, Vec2, Vec3};
+    use crate::image_infinite::EnvironmentMap;
     use crate::light_desc::LightDesc;
     use crate::light_set_builder::LightSetBuilder;
     use crate::mesh::MeshLightDesc;
+    use crate::portal_infinite::PortalInfiniteLightDesc;
     use crate::rgb::Rgb;
     use crate::scene_sphere::SceneSphere;
+    use crate::shape::ShapeDesc;
     use alloc::vec;
+
+    /// Images of single and of half precision, a mask that multiplies one, a portal with its table.
+    #[test]
+    fn every_image_of_a_set_counts() {
+        let scene = SceneSphere::new(Vec3::ZERO, 2.0).expect("a sphere");
+        let mut builder = LightSetBuilder::<Rgb>::new(scene);
+        let half = half::f16::from_f32(0.5);
+        let texture: Texture = Image::from_f16([8, 8], Channels::Gray, vec![half; 64])
+            .expect("an image")
+            .into();
+        let mask: Texture = Image::from_f32([4, 4], Channels::Gray, vec![0.5; 16])
+            .expect("an image")
+            .into();
+        let tint = Vec3::ONE;
+        let shown = SurfaceColor::Image {
+            texture: texture.clone(),
+            tint,
+        };
+        for color in [SurfaceColor::Uniform(tint), shown] {
+            let is_image = matches!(color, SurfaceColor::Image { .. });
+            let opaque = DiffuseEmissionDesc::new(color, RadianceAmount::default());
+            let emission = DiffuseEmissionDesc {
+                mask: if is_image {
+                    EmissionMask::Alpha(mask.clone().into())
+                } else {
+                    EmissionMask::Opaque
+                },
+                ..opaque
+            };
+            let shape = ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]);
+            let area = LightDesc::Area(AreaLightDesc { shape, emission });
+            builder.add(area).expect("a light");
+            if !is_image {
+                assert_eq!(builder.clone().build().bytes().images, 0, "no image");
+            }
+        }
+        let of_surfaces = builder.clone().build().bytes().images;
+        assert!(
+            of_surfaces > texture.bytes() + mask.bytes(),
+            "both and the means of their product: {of_surfaces}"
+        );
+        let map = Image::from_f32([4, 4], Channels::Gray, vec![1.0; 16]).expect("an image");
+        let portal = PortalInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map: EnvironmentMap::EqualArea(map),
+            amount: RadianceAmount::default(),
+            portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+        };
+        builder
+            .add(LightDesc::PortalInfinite(portal))
+            .expect("a light");
+        let set = builder.build();
+        let rectified = set.lists.portal_infinites[0].rectified();
+        let [width, height] = rectified.size();
+        let sums = width as usize * height as usize * size_of::<u64>();
+        let of_portal = set.bytes().images - of_surfaces;
+        assert_eq!(of_portal, rectified.bytes() + sums, "picture and table");
+    }
 
     #[test]
     fn a_thousand_meshes_hold_their_image_once() {

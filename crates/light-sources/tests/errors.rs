@@ -58,6 +58,13 @@ fn shapes() {
         ),
         (
             ShapeDesc::Rectangle {
+                corner: Vec3::ZERO,
+                edges: [Vec3::X * 1e-20, Vec3::Y * 1e-20],
+            },
+            "rectangle, edges",
+        ),
+        (
+            ShapeDesc::Rectangle {
                 corner: Vec3::NAN,
                 edges: [Vec3::X, Vec3::Y],
             },

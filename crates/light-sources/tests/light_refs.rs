@@ -9,13 +9,23 @@ fn image() -> Image {
     Image::from_f32([2, 2], Channels::Gray, [1.0, 0.5, 0.25, 2.0]).expect("an image")
 }
 
+fn media() -> MediumInterface {
+    MediumInterface {
+        inside: MediumId::new(3),
+        outside: MediumId::new(5),
+    }
+}
+
 /// One light of each kind.
 fn lights() -> LightSet<Rgb> {
     let transform = Affine3A::IDENTITY;
-    let media = MediumInterface::default();
+    let media = media();
     let amount = IntensityAmount::Radiometric(3.0);
     let radiance = RadianceAmount::Radiometric(2.0);
-    let emission = || DiffuseEmissionDesc::new(SurfaceColor::Uniform(Vec3::ONE), radiance);
+    let emission = || DiffuseEmissionDesc {
+        media,
+        ..DiffuseEmissionDesc::new(SurfaceColor::Uniform(Vec3::ONE), radiance)
+    };
     let map = EnvironmentMap::EqualArea(image());
     let descs: [LightDesc<Rgb>; 11] = [
         LightDesc::Point(PointLightDesc {
@@ -100,6 +110,18 @@ fn front() -> SurfacePoint {
         p: Vec3::new(0.25, 0.25, 0.0),
         n: Vec3::Z,
         uv: Vec2::splat(0.25),
+    }
+}
+
+#[test]
+fn lights_are_in_the_media_of_their_descriptions() {
+    for (_, light) in lights().iter() {
+        let expected = if light.bounds().is_some() {
+            media()
+        } else {
+            MediumInterface::default()
+        };
+        assert_eq!(light.media(), expected, "{light:?}");
     }
 }
 

@@ -96,6 +96,40 @@ fn a_cutoff_along_a_hyperbola() {
     }
 }
 
+/// Triangles of a mesh with other surface parameters show other parts of image and mask: each has
+/// the power that it has alone.
+#[test]
+fn triangles_of_a_mesh_with_a_mask_of_its_own() {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
+    let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    let indices = [[0, 1, 2], [0, 2, 3], [1, 2, 3], [0, 1, 2]];
+    let (color, mapping) = ramp();
+    let desc = DiffuseEmissionDesc {
+        mask: EmissionMask::Alpha(saddle()),
+        mapping,
+        ..DiffuseEmissionDesc::new(color, RadianceAmount::Radiometric(1.0))
+    };
+    let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
+    let mut builder = LightSetBuilder::<Rgb>::new(scene);
+    let mesh = MeshLightDesc {
+        positions: corners.into(),
+        indices: indices.into(),
+        uvs: Some(uvs.into()),
+        emission: desc,
+    };
+    builder.add(LightDesc::Mesh(mesh)).expect("a mesh");
+    let set = builder.build();
+    for ((_, light), places) in set.iter().zip(indices) {
+        let of = |i: u32| (corners[i as usize], uvs[i as usize]);
+        let triangle = Triangle::new(places.map(|i| of(i).0), places.map(|i| of(i).1));
+        let triangle = triangle.expect("an area");
+        let alone = emission(ramp(), saddle()).phi(&triangle, &()).x;
+        let found = light.phi(&()).x;
+        assert!(alone > 0.01, "{places:?}: {alone}");
+        assert!((found - alone).abs() < 1e-6, "{places:?}: {found}, {alone}");
+    }
+}
+
 /// The lesser of `s u v` and 1.
 #[test]
 fn values_above_1() {

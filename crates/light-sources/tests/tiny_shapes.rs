@@ -29,6 +29,33 @@ fn samples_of_a_tiny_triangle_have_its_normal_and_area() {
     assert_eq!(refused, Err(TriangleError::Area), "1e-40");
 }
 
+/// A small surface far from the origin, so near to the receiver that the rounding of its places
+/// turns directions: a sample is the place that its direction meets, with the density of a query.
+#[test]
+fn small_surfaces_far_from_the_origin() {
+    let far = Vec3::new(1000.0, 700.0, -900.0);
+    let edges = [Vec3::X * 0.004, Vec3::Y * 0.004];
+    let rectangle = Rectangle::new(far, edges).expect("an area");
+    let corners = [far, far + edges[0], far + edges[1]];
+    let triangle = Triangle::new(corners, Triangle::DEFAULT_UV).expect("an area");
+    let shapes: [AnyShape; 2] = [AnyShape::Rectangle(rectangle), AnyShape::Triangle(triangle)];
+    for shape in shapes {
+        let mut found = 0;
+        for i in 0..100u8 {
+            let u = Vec2::new(f32::from(i % 10) + 0.5, f32::from(i / 10) + 0.5) / 10.0;
+            let to = Vec3::new(0.1, f32::from(i) * 0.003, 0.6);
+            let ctx = LightSampleContext::medium(far + to);
+            let Some(sample) = shape.sample_toward(&ctx, u) else {
+                continue;
+            };
+            let pdf = shape.pdf_toward(&ctx, sample.wi);
+            assert_eq!(sample.pdf, pdf, "{sample:?} of {shape:?}");
+            found += 1;
+        }
+        assert!(found > 50, "most directions meet {shape:?}: {found}");
+    }
+}
+
 /// However small, a patch shows as much of its image as a large one: the squares of its areas are
 /// below the smallest float.
 #[test]
