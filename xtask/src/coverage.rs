@@ -18,8 +18,8 @@ mod report;
 const OTHERS: &str =
     "light-testkit|light-scene|light-sets|light-render|crates/lights/|/tests?/|tests\\.rs";
 
-/// The features that are not on by default and change what the tests run.
-const FEATURES: &str = "light-bvh/rayon,light-samplers/rayon";
+/// The crates with a feature that is not on by default and changes what the tests run.
+const WITH_RAYON: [&str; 2] = ["light-bvh", "light-samplers"];
 
 /// Runs the tests of the core crates, or of those named; prints a table of the crates, and what is
 /// not reached with the reasons.
@@ -59,9 +59,12 @@ pub fn coverage(names: &[String]) -> StepResult {
     };
     // Objects and counts of an earlier run may be of other lines.
     run(&mut command(&["clean", "--workspace"])?)?;
-    let mut tests = command(&["--no-report", "--quiet", "--features", FEATURES])?;
+    let mut tests = command(&["--no-report", "--quiet"])?;
     for name in CRATES.into_iter().filter(|name| is_chosen(name)) {
         tests.args(["--package", name]);
+        if WITH_RAYON.contains(&name) {
+            tests.args(["--features", &format!("{name}/rayon")]);
+        }
     }
     run(&mut tests)?;
     let json = root().join("target/coverage.json");
