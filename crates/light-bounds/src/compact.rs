@@ -168,6 +168,8 @@ mod tests {
             "of what it decodes to"
         );
         assert!(importance > 0.0 && importance != 1.0, "{importance}");
+        let prepared = compact.importance_for(&all, &ImportanceQuery::new(&ctx));
+        assert_eq!(prepared, importance, "prepared");
     }
 
     /// The margin covers any code of the axis, and is at most what an arc cosine near 1 loses by

@@ -143,6 +143,15 @@ fn emissions() {
         said(negative).starts_with("area light, emission: "),
         "negative"
     );
+    for tint in [Vec3::NEG_X, Vec3::NAN] {
+        let texture = image([1, 1], Channels::Rgb, 1.0).into();
+        let color = SurfaceColor::Image { texture, tint };
+        let error = said(DiffuseEmissionDesc::new(color, RadianceAmount::default()));
+        assert!(
+            error.starts_with("area light, emission: "),
+            "{tint}: {error}"
+        );
+    }
     let nan = DiffuseEmissionDesc {
         amount: RadianceAmount::Radiometric(f32::NAN).into(),
         ..emission()

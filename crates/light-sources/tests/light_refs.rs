@@ -125,6 +125,29 @@ fn lights_are_in_the_media_of_their_descriptions() {
     }
 }
 
+/// What rays do not meet, only samples of the light find.
+#[test]
+fn invisible_surfaces_are_found_by_samples_alone() {
+    for (mask, expected) in [
+        (EmissionMask::Opaque, LightType::Area),
+        (EmissionMask::Invisible, LightType::DeltaPosition),
+    ] {
+        let white = SurfaceColor::<Rgb>::Uniform(Vec3::ONE);
+        let emission = DiffuseEmissionDesc {
+            mask,
+            ..DiffuseEmissionDesc::new(white, RadianceAmount::default())
+        };
+        let shape = ShapeDesc::Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]);
+        let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
+        let mut builder = LightSetBuilder::new(scene);
+        let desc = AreaLightDesc { shape, emission };
+        builder.add(LightDesc::Area(desc)).expect("a light");
+        for (_, light) in builder.build().iter() {
+            assert_eq!(light.light_type(), expected, "{light:?}");
+        }
+    }
+}
+
 #[test]
 fn surfaces_alone_have_a_radiance_that_leaves_them() {
     let set = lights();

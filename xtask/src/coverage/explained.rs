@@ -54,7 +54,7 @@ const KNOWN: [Known; 7] = [
         reason: GUARD,
     },
     Known {
-        file: "light-sources/src/texture_integral.rs",
+        file: "light-sources/src/texture_integral/bend_strips.rs",
         line: "return;",
         reason: GUARD,
     },

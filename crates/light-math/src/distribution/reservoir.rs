@@ -94,6 +94,16 @@ mod tests {
     }
 
     #[test]
+    fn the_total_is_that_of_all_weights() {
+        let mut reservoir = WeightedReservoir::new(0.5);
+        assert_eq!(reservoir.total(), 0.0, "none yet");
+        for weight in [0.25, 0.0, 2.0] {
+            reservoir.add((), weight);
+        }
+        assert_eq!(reservoir.total(), 2.25, "of three");
+    }
+
+    #[test]
     fn a_probability_below_the_range_of_floats_is_none() {
         assert_eq!(choose(&[1e30, 1e-30], 0.0), None, "1e-60");
         let least = choose(&[1e30, 1e-6], 0.0).expect("1e-36");
