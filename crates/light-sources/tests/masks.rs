@@ -96,6 +96,19 @@ fn a_cutoff_along_a_hyperbola() {
     }
 }
 
+/// A value that is the cutoff itself emits, also below the normal floats.
+#[test]
+fn a_mask_that_is_its_cutoff_everywhere() {
+    for value in [0.5, 0.3, 1e-39] {
+        let mask = AlphaMask {
+            cutoff: Some(value),
+            ..gray([1, 1], &[value]).into()
+        };
+        let found = mean(&emission(white(), mask), &square());
+        assert_eq!(found, 1.0, "{value}");
+    }
+}
+
 /// Triangles of a mesh with other surface parameters show other parts of image and mask: each has
 /// the power that it has alone.
 #[test]
