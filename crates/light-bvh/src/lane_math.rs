@@ -15,18 +15,16 @@ pub(crate) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// `x` where `keep`, otherwise 0, without a branch.
-#[inline(always)]
-pub(crate) fn masked(x: f32, keep: bool) -> f32 {
-    let mask = if keep { u32::MAX } else { 0 };
-    f32::from_bits(x.to_bits() & mask)
-}
-
 /// All ones or all zeros: a condition of a lane, in as many bits as the numbers that it selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LaneMask(u32);
 
 impl LaneMask {
+    #[inline(always)]
+    pub(crate) const fn when(condition: bool) -> Self {
+        Self(if condition { u32::MAX } else { 0 })
+    }
+
     /// The sign of a number, 1 where it is negative.
     #[inline(always)]
     #[expect(clippy::cast_sign_loss, reason = "all ones is a mask")]
@@ -40,6 +38,16 @@ impl LaneMask {
     }
 
     #[inline(always)]
+    pub(crate) const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    #[inline(always)]
     pub(crate) const fn and_not(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
@@ -48,6 +56,12 @@ impl LaneMask {
     #[inline(always)]
     pub(crate) const fn keep(self, x: f32) -> f32 {
         f32::from_bits(x.to_bits() & self.0)
+    }
+
+    /// 0 where this is set, otherwise `x`.
+    #[inline(always)]
+    pub(crate) const fn clear(self, x: f32) -> f32 {
+        f32::from_bits(x.to_bits() & !self.0)
     }
 
     /// `a` where this is set, otherwise `b`.

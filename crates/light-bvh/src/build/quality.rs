@@ -1,7 +1,7 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::node::spread_code::SpreadCode;
+use crate::node::spread_code::{RAMP_BY_SPREAD, SpreadCode};
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode, decode_power};
 
 /// [`LightBvh::degradation`](crate::LightBvh::degradation) of the tree of `nodes`.
@@ -57,7 +57,8 @@ fn spread_of(nodes: &[WideNode], index: usize, steps: &mut Steps) -> GroupSpread
         axis += w * share;
         offset += o * share;
         let spread = SpreadCode(node.spread[k]).value();
-        emission_sq += (w.length_squared() + o * o + (spread * spread - 1.0)) * share;
+        emission_sq +=
+            (w.length_squared() + o * o + (spread * spread * (1.0 / RAMP_BY_SPREAD) - 1.0)) * share;
         within += groups[k].variance * f64::from(share);
     }
     let scale = 1.0 / f64::from(node.inv_scale);

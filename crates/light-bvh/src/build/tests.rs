@@ -15,7 +15,7 @@ use super::options::{BuildMode, DarkLights, LightBvhOptions};
 use super::quality::degradation;
 use crate::node::light_emission::Shape;
 use crate::node::moments::Moments;
-use crate::node::spread_code::SpreadCode;
+use crate::node::spread_code::{RAMP_BY_SPREAD, SpreadCode};
 use crate::node::wide_node::{WideNode, encode_power};
 
 fn cluster(center: Vec3, power: f32, axis: Vec3) -> Cluster {
@@ -222,9 +222,12 @@ fn degradation_is_the_ratio_of_the_spreads() {
     root.axis[0][0] = 100;
     root.axis[1][1] = 100;
     (root.offset[0], root.offset[1]) = (20, 60);
-    // The root of 1 more than the mean square deviation.
-    let spread = |x: f32| SpreadCode::new(x, false, true).0;
-    (root.spread[0], root.spread[1]) = (spread(10.0), spread(30.0));
+    let spreads = [5.2, 15.6].map(|x| SpreadCode::new(x, false, true));
+    root.spread[..2].copy_from_slice(&spreads.map(|code| code.0));
+    let deviation_sq = spreads.map(|code| {
+        let spread = f64::from(code.value());
+        spread * spread / f64::from(RAMP_BY_SPREAD) - 1.0
+    });
     let mut child = WideNode {
         count: 2,
         gain,
@@ -239,7 +242,8 @@ fn degradation_is_the_ratio_of_the_spreads() {
     let variance = 100.0 * 100.0 + 0.5 * below;
     // Axes (50, 50, 0) and offset 40 on average.
     let common = f64::from(2 * 50 * 50 + 40 * 40);
-    let emission_sq = 0.5 * f64::from(10_000 + 400 + 99) + 0.5 * f64::from(10_000 + 3600 + 899);
+    let [a, b] = deviation_sq;
+    let emission_sq = 0.5 * (10_000.0 + 400.0 + a) + 0.5 * (10_000.0 + 3600.0 + b);
     let disagreement = 2.0 - common / emission_sq;
     let expected = (below / (variance * disagreement.powf(1.25))).sqrt();
     let found = degradation(&[root, child]);

@@ -2,6 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use crate::node::wide_node::WIDTH;
+use crate::query::weights::irradiance;
 
 /// Nodes that a cut may hold.
 pub(crate) const MAX_NODES: usize = 24;
@@ -103,9 +104,7 @@ impl LightCut {
     /// if none of them can contribute.
     #[must_use]
     pub fn irradiance(&self) -> f64 {
-        let inv_unit = f64::from(self.inv_unit);
-        // Heights and intensities are counted twice each.
-        0.25 * f64::from(self.sum) * inv_unit * inv_unit
+        irradiance(self.sum, self.inv_unit)
     }
 
     /// The sum of all weights, to the last digit of the ends.

@@ -2,8 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
-use crate::lane_math::{LaneMask, larger, masked};
-use crate::node::spread_code::BY_SPREAD;
+use crate::lane_math::{LaneMask, larger};
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
 /// axis. Chosen by V: see `docs/light-bvh.md`.
@@ -13,14 +12,12 @@ const RAMP_BY_POSITION: f32 = 11.0;
 /// those in front count although the mean is behind. Chosen by V.
 const GROUP_BY_POSITION: f32 = 400.0;
 
-/// The length of the axis of one light that emits in a step, in codes.
-const UNIT: f32 = 127.0;
-
-/// What is left of `UNIT - offset` for the narrowest cones, whose offset rounds to [`UNIT`].
-const LEAST_CAP: f32 = 0.25;
+/// The length of the axis of one light that emits in a step, 127 codes, and a little more: so that
+/// something is left of `UNIT - offset` for the narrowest cones, whose offset rounds to 127.
+const UNIT: f32 = 127.25;
 
 /// How much more a child counts where its width is its distance. Chosen by V.
-const NEARNESS: f32 = 0.28;
+const NEARNESS: f32 = 0.2;
 
 /// How far what is emitted beyond the edge may differ between two points of a box, over the sum of
 /// its half extents.
@@ -32,28 +29,27 @@ const NEARNESS: f32 = 0.28;
 /// needs 210.
 const BOX_EMISSION: f32 = 297.0;
 
-/// Half the width of the rim of a spot over its spread, which is rounded up: the root of 5 times
-/// [`BY_SPREAD`], 1.16190, and a little more.
-const STEP_EDGE: f32 = 1.162;
-
-/// How far rounding of axis and offset moves the edge of a step, in codes: half the diagonal of a
-/// cube and half a code, 1.3661, and a little more.
-const STEP_ERROR: f32 = 1.4;
+/// How far beyond the mean edge of a spot it may emit, in codes, over its spread.
+///
+/// Half the width of the rim over the spread, which is rounded up, is the root of 5. Rounding of
+/// axis and offset moves the edge by half the diagonal of a cube and half a code, 1.3661, which is
+/// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
+const STEP_EDGE: f32 = 4.87;
 
 impl ChildView {
     /// Whether any light of the child may emit toward the receiver's position. Sound there only:
     /// not for other points of a segment.
     #[inline(always)]
-    pub(crate) fn may_reach(&self) -> bool {
+    pub(crate) fn may_reach(&self) -> LaneMask {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
         let beyond = mx * vx + my * vy + mz * vz + self.offset * self.dist;
         // Round-off is less than 0.001 times the distance, which the codes leave: see their margins.
-        let edge = self.step.keep(STEP_EDGE * self.spread + STEP_ERROR) * self.dist;
+        let edge = (STEP_EDGE * self.spread) * self.dist;
+        let within = LaneMask::when(beyond < BOX_EMISSION * (hx + hy + hz) + edge);
         // The mean of lights that differ proves nothing.
-        let anywhere = self.soft.keep(f32::MAX);
-        (beyond < (BOX_EMISSION * (hx + hy + hz) + edge) + anywhere) | self.both_sides
+        within.or(self.soft).or(self.both_sides)
     }
 
     /// Whether the child is a group of lights none of which emits in a step.
@@ -67,7 +63,7 @@ impl ChildView {
     #[inline(always)]
     pub(crate) fn at_offset(&self, offset: Vec3, least_sq: f32) -> Self {
         let mean = (Vec3::from(self.mean) - offset).to_array();
-        let dist_sq = dist_sq(mean, self.extent, DISTANCE, self.slack * self.slack);
+        let dist_sq = dist_sq(mean, self.extent, DISTANCE);
         let dist_sq = larger(least_sq, dist_sq);
         Self {
             mean,
@@ -80,10 +76,10 @@ impl ChildView {
     /// The importance of the child to a point without a normal.
     #[inline(always)]
     pub(crate) fn fluence(&self) -> f32 {
-        self.weight(2.0 * self.dist, 0.0)
+        self.weight(self.dist, 0.0)
     }
 
-    /// The importance of the child to a point over whose horizon it is at half of `height`. `lift`
+    /// The importance of the child to a point over whose horizon it is at `height`. `lift`
     /// is what the mean of what is above the horizon adds to how far the receiver is beyond the
     /// emission, times the distance.
     ///
@@ -99,14 +95,13 @@ impl ChildView {
         // All of the emission times the distance, which is not divided by before the end.
         let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist + lift;
         let width = hx + hy + hz;
-        let cap = (0.25 * UNIT) * larger(UNIT - self.offset, LEAST_CAP);
+        let cap = (0.25 * UNIT) * (UNIT - self.offset);
         let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
         let by_position = self.step.select(cap, ramp);
         let width_sq = width * width;
-        let variance =
-            by_position * width_sq + BY_SPREAD * (self.spread * self.spread) * self.dist_sq;
+        let variance = by_position * width_sq + (self.spread * self.spread) * self.dist_sq;
         let root = float::sqrt(beyond * beyond + variance);
-        let ramp = root - masked(beyond, !self.both_sides);
+        let ramp = root - self.both_sides.clear(beyond);
         let scale = self.step.select(UNIT * self.dist / root, 1.0);
         let inv_dist_sq = 1.0 / self.dist_sq;
         // One near light may outshine all others of its group.

@@ -9,7 +9,8 @@ use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
 /// `docs/light-bvh.md`.
 pub(crate) const DISTANCE: f32 = 0.09;
 
-/// Round-off of a position, as a share of its distance and of the width of a node.
+/// Round-off of a position, as a share of its distance: of coordinates, and of products with them.
+/// What they round as codes of a node is in the margin of the boxes.
 const ROUND_OFF: f32 = 1e-5;
 
 /// A child of a node as a receiver sees it.
@@ -34,7 +35,7 @@ pub struct ChildView {
     /// Mean emission offset, of `[-127, 127]`: a child that is no step emits about
     /// `power * max(0, dot(axis, w) - offset)` toward a unit vector `w`.
     pub offset: f32,
-    /// Root of 1 more than the mean square deviation of axis and offset.
+    /// Root of the variance of the emission: of axis and offset, and of their codes.
     pub spread: f32,
     /// Whether some light of the child may emit beyond the edge that axis, offset and spread tell:
     /// all but single flat lights and single spots.
@@ -43,7 +44,7 @@ pub struct ChildView {
     /// above the offset, and nothing elsewhere, with an edge as wide as `spread`.
     pub(crate) step: LaneMask,
     /// Whether the child emits alike to both sides, about `power / 2 * |dot(axis, w)|`.
-    pub both_sides: bool,
+    pub(crate) both_sides: LaneMask,
     /// Scale of the emission; 0 for an empty slot.
     pub power: f32,
 }
@@ -95,26 +96,23 @@ impl NodeFrame {
             code * f32::from(node.extent[1][k]),
             code * f32::from(node.extent[2][k]),
         ];
-        let dist_sq = dist_sq(mean, extent, DISTANCE, 1e-4 * code * code);
+        let dist_sq = dist_sq(mean, extent, DISTANCE);
         let dist = float::sqrt(dist_sq);
-        let both_sides = node.offset[k] == BOTH_SIDES;
+        let offset = i32::from(node.offset[k]);
+        let both_sides = LaneMask::when(offset == i32::from(BOTH_SIDES));
         let spread = SpreadCode(node.spread[k]);
         ChildView {
             mean,
             extent,
             dist,
             dist_sq,
-            slack: ROUND_OFF * dist + ROUND_OFF * 256.0 * code,
+            slack: ROUND_OFF * dist,
             axis: [
                 f32::from(node.axis[0][k]),
                 f32::from(node.axis[1][k]),
                 f32::from(node.axis[2][k]),
             ],
-            offset: if both_sides {
-                0.0
-            } else {
-                f32::from(node.offset[k])
-            },
+            offset: both_sides.clear(offset as f32),
             spread: spread.value(),
             soft: spread.soft(),
             step: spread.step(),
@@ -125,12 +123,12 @@ impl NodeFrame {
 }
 
 /// The mean squared distance of a box about `mean` of which `variance` is the share of its squared
-/// width that counts, and a little more.
+/// width that counts. Above 0, because no extent is 0.
 #[inline(always)]
-pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32, more: f32) -> f32 {
+pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32) -> f32 {
     let [x, y, z] = mean;
     let width = extent[0] + extent[1] + extent[2];
-    (x * x + y * y) + (z * z + (variance * (width * width) + more))
+    (x * x + y * y) + (z * z + variance * (width * width))
 }
 
 /// One over the largest power of two that is not above `x`, which is below 2^127.

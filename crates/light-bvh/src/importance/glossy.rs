@@ -78,12 +78,7 @@ impl GlossyReceiver {
         let Self {
             wo, cos_o, alpha, ..
         } = *self;
-        let dist_sq = dist_sq(
-            child.mean,
-            child.extent,
-            DISTANCE,
-            child.slack * child.slack,
-        );
+        let dist_sq = dist_sq(child.mean, child.extent, DISTANCE);
         let inv_dist = 1.0 / float::sqrt(dist_sq);
         let cos_i = smaller(1.0, height * inv_dist);
         // The squared length of the half vector, and of its part along the normal.
@@ -109,7 +104,7 @@ impl Receiver for GlossyReceiver {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
-        let height = 0.5 * self.surface.expected_height(child);
+        let height = self.surface.expected_height(child);
         self.surface.weigh(child, inv_unit) * self.reflected(child, height)
     }
 }
@@ -132,7 +127,7 @@ mod tests {
             spread: 2.0f32.sqrt(),
             soft: LaneMask::of_sign(-1),
             step: LaneMask::of_sign(0),
-            both_sides: false,
+            both_sides: LaneMask::when(false),
             power: 1.0,
         }
     }

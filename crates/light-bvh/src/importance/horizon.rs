@@ -6,29 +6,32 @@ use crate::lane_math::larger;
 
 /// How much of the squared support of a child counts as variance of its height over the horizon.
 /// Chosen by V: see `docs/light-bvh.md`.
-const HEIGHT: f32 = 0.35;
-
-/// How much of the support is taken off the expected height again, for no light is beyond it.
-/// Chosen by V.
-const BEYOND: f32 = 0.14;
+const HEIGHT: f32 = 0.2;
 
 /// The plane through a receiver, with its normal up.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Horizon {
     n: Vec3,
-    abs_n: Vec3,
+    half_n: Vec3,
+    abs_half_n: Vec3,
 }
 
 impl Horizon {
     #[inline(always)]
     pub(crate) fn new(n: Vec3) -> Self {
-        Self { n, abs_n: n.abs() }
+        let half_n = 0.5 * n;
+        Self {
+            n,
+            half_n,
+            abs_half_n: half_n.abs(),
+        }
     }
 
-    /// Mean height over the plane, and by how much the highest point of the box may exceed it.
+    /// Half of the mean height over the plane, and half of that by which the highest point of the
+    /// box may exceed it: the sum of a root and of what is in it is so a mean without a factor.
     #[inline(always)]
-    pub(crate) fn height(&self, child: &ChildView) -> (f32, f32) {
-        let Self { n, abs_n } = self;
+    pub(crate) fn half_height(&self, child: &ChildView) -> (f32, f32) {
+        let (n, abs_n) = (self.half_n, self.abs_half_n);
         let [vx, vy, vz] = child.mean;
         let [hx, hy, hz] = child.extent;
         (
@@ -41,21 +44,21 @@ impl Horizon {
     /// above the horizon counts; 0 of what is no group of ramps.
     ///
     /// Lights that fill their box evenly have that mean half way between the highest point and the
-    /// larger of their mean height and zero: it is raised by half of `support - height`. Height and
-    /// emission so go together: where lights face down, what is above the horizon is what is in
+    /// larger of their mean height and zero: it is raised by half of the support less the height, of
+    /// which the arguments are half. Height and emission so go together: where lights face down, what is above the horizon is what is in
     /// front.
     #[inline(always)]
     pub(crate) fn lift(&self, child: &ChildView, height: f32, support: f32) -> f32 {
         let [mx, my, mz] = child.axis;
         let n = self.n;
         let raised = child.is_ramp_group().keep(larger(0.0, support - height));
-        (0.5 * raised) * (mx * n.x + my * n.y + mz * n.z)
+        raised * (mx * n.x + my * n.y + mz * n.z)
     }
 }
 
-/// About the mean distance from the horizon, up or down, of lights whose height varies as `support`
-/// allows: more than `-height` even where the support just reaches the horizon.
+/// About half of the mean distance from the horizon, up or down, of lights of half the given height
+/// and support: more than `-height` even where the support just reaches the horizon.
 #[inline(always)]
-pub(crate) fn expected_abs(height: f32, support: f32) -> f32 {
-    float::sqrt(height * height + HEIGHT * (support * support)) - BEYOND * support
+pub(crate) fn half_expected_abs(height: f32, support: f32) -> f32 {
+    float::sqrt(height * height + HEIGHT * (support * support))
 }

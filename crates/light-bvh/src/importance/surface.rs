@@ -2,10 +2,10 @@ use light_math::direction;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::importance::horizon::{Horizon, expected_abs};
+use crate::importance::horizon::{Horizon, half_expected_abs};
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
-use crate::lane_math::{larger, masked};
+use crate::lane_math::{LaneMask, larger};
 
 /// A point on a surface that light reaches from the side of its normal only.
 #[derive(Clone, Copy, Debug)]
@@ -31,12 +31,12 @@ impl SurfaceReceiver {
         }
     }
 
-    /// About twice the mean height of the child's lights above the horizon, those below counting as
+    /// About the mean height of the child's lights above the horizon, those below counting as
     /// 0.
     #[inline(always)]
     pub(crate) fn expected_height(&self, child: &ChildView) -> f32 {
-        let (height, support) = self.horizon.height(child);
-        larger(child.slack, height + expected_abs(height, support))
+        let (height, support) = self.horizon.half_height(child);
+        larger(child.slack, height + half_expected_abs(height, support))
     }
 }
 
@@ -48,9 +48,10 @@ impl Receiver for SurfaceReceiver {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
-        let (height, support) = self.horizon.height(child);
-        let lit = (height + support > -child.slack) & child.may_reach();
+        let (height, support) = self.horizon.half_height(child);
+        let above = LaneMask::when(height + support > -child.slack);
         let lift = self.horizon.lift(child, height, support);
-        masked(child.weight(self.expected_height(child), lift), lit)
+        let weight = child.weight(self.expected_height(child), lift);
+        above.and(child.may_reach()).keep(weight)
     }
 }

@@ -2,10 +2,10 @@ use light_math::direction;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::importance::horizon::{Horizon, expected_abs};
+use crate::importance::horizon::{Horizon, half_expected_abs};
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
-use crate::lane_math::{larger, masked};
+use crate::lane_math::larger;
 
 /// A point on a surface that light reaches from both sides.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +40,8 @@ impl Receiver for TwoSidedReceiver {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
-        let (height, support) = self.horizon.height(child);
-        let expected = larger(child.slack, expected_abs(height, support));
-        masked(child.weight(2.0 * expected, 0.0), child.may_reach())
+        let (height, support) = self.horizon.half_height(child);
+        let half = larger(child.slack, half_expected_abs(height, support));
+        child.may_reach().keep(child.weight(2.0 * half, 0.0))
     }
 }

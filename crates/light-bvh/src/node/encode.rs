@@ -78,7 +78,8 @@ impl WideNode {
     /// Mean positions, and boxes around them that hold what they must.
     ///
     /// A difference of two floats is off by half an epsilon of itself, however far from zero they
-    /// are. Twice 255 codes are so known to within 1e-4 of a code, which the margin outweighs.
+    /// are. Twice 255 codes are so known to within 1e-4 of a code, and a receiver rounds a position by
+    /// 2e-4 and a share of its distance: the margin outweighs both.
     #[inline(always)]
     fn set_boxes(&mut self, children: &ChildrenSoa) {
         const MARGIN: f32 = 0.001;
@@ -117,10 +118,18 @@ impl WideNode {
             return;
         }
         let keep = lit.map(|lit| if lit { 0xff } else { 0 });
-        let codes = self.mean.iter_mut().chain(&mut self.extent);
-        for codes in codes.chain([&mut self.spread, &mut self.power]) {
+        let codes = self
+            .mean
+            .iter_mut()
+            .chain([&mut self.spread, &mut self.power]);
+        for codes in codes {
             for k in 0..WIDTH {
                 codes[k] &= keep[k];
+            }
+        }
+        for codes in &mut self.extent {
+            for k in 0..WIDTH {
+                codes[k] = if lit[k] { codes[k] } else { 1 };
             }
         }
         for codes in self.axis.iter_mut().chain([&mut self.offset]) {
@@ -296,7 +305,7 @@ mod tests {
         assert_eq!(node.count, 7, "with the empty slot");
         for k in [3, 7] {
             assert_eq!(node.power[k], 0, "slot {k}");
-            assert_eq!(node.extent.map(|extent| extent[k]), [0; 3], "slot {k}");
+            assert_eq!(node.extent.map(|extent| extent[k]), [1; 3], "slot {k}");
         }
         assert!(node.power[..3].iter().all(|&power| power > 0), "others");
     }

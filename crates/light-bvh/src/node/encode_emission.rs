@@ -2,7 +2,7 @@ use light_math::float;
 
 use crate::lane_math::{larger, low_byte, nearest, smaller};
 use crate::node::children_soa::ChildrenSoa;
-use crate::node::spread_code::{BY_SPREAD, SpreadCode};
+use crate::node::spread_code::{RAMP_BY_SPREAD, SpreadCode};
 use crate::node::wide_node::{BOTH_SIDES, WIDTH, WideNode};
 
 impl WideNode {
@@ -54,8 +54,8 @@ impl WideNode {
             // In codes of the axis, squared.
             let spread_sq = (spreads[k] * inv_units[k]) * (spreads[k] * inv_units[k]);
             let error_sq = step_error_sq(decoded, exact, offsets[k] - offset, children.offset[k]);
-            let ramp = 1.0 + spread_sq;
-            let step = (spread_sq + error_sq) * (1.0 / BY_SPREAD);
+            let ramp = RAMP_BY_SPREAD * (1.0 + spread_sq);
+            let step = spread_sq + error_sq;
             spreads[k] = float::sqrt(if is_step { step } else { ramp });
         }
         for k in 0..WIDTH {

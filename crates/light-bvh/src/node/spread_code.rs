@@ -1,18 +1,23 @@
-//! How far axis and offset of a child vary, and the shape of its emission, in a byte.
+//! How far the emission of a child varies, and its shape, in a byte.
 
 use crate::lane_math::LaneMask;
 
-/// How much of its squared spread and distance counts as variance of a child's emission. Chosen by V
-/// for ramps; the spread of steps is encoded so that it is theirs as well.
-pub(crate) const BY_SPREAD: f32 = 0.27;
+/// How much of the squared deviation of axis and offset, and of 1 more, counts as variance of a
+/// ramp, in codes. Chosen by V.
+#[cfg(feature = "alloc")]
+pub(crate) const RAMP_BY_SPREAD: f32 = 0.27;
+
+/// The least spread: that of one flat light, the root of [`RAMP_BY_SPREAD`].
+pub(crate) const LEAST_SPREAD: f32 = 0.519_615_24;
 
 /// Bit 7: it emits in a step. Bit 6: it is soft, anything but one flat light or one spot. Below: the
-/// spread, of `[1, 240]`, three bits of exponent and three of mantissa.
+/// spread, of `[0.52, 122]`, in steps of at most an eighth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SpreadCode(pub(crate) u8);
 
-/// The bits of the exponent of 1 in an `f32`.
-const ONE: i32 = 127 << 23;
+/// The bits of [`LEAST_SPREAD`]. The next spreads follow in bits 20 and up: three are of the
+/// mantissa.
+const LEAST_BITS: u32 = LEAST_SPREAD.to_bits();
 
 impl SpreadCode {
     /// The code of the least spread that is not below `spread`, or of the largest.
@@ -20,11 +25,12 @@ impl SpreadCode {
     #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
         clippy::cast_sign_loss,
-        reason = "the code is of 0 to 63"
+        reason = "bits of positive floats; the code is of 0 to 63"
     )]
     pub(crate) const fn new(spread: f32, is_step: bool, is_soft: bool) -> Self {
-        let code = (spread.to_bits() as i32 - ONE + 0x000f_ffff) >> 20;
+        let code = (spread.to_bits() as i32 - LEAST_BITS as i32 + 0x000f_ffff) >> 20;
         let code = if code > 0 { code } else { 0 };
         let code = if code < 63 { code } else { 63 };
         Self(code as u8 | (is_step as u8) << 7 | (is_soft as u8) << 6)
@@ -48,9 +54,9 @@ impl SpreadCode {
 
     /// The spread.
     #[inline(always)]
-    #[expect(clippy::cast_sign_loss, reason = "the bits of a positive float")]
+    #[expect(clippy::cast_sign_loss, reason = "6 bits")]
     pub(crate) const fn value(self) -> f32 {
-        f32::from_bits((((self.wide() & 63) << 20) + ONE) as u32)
+        f32::from_bits((((self.wide() & 63) as u32) << 20) + LEAST_BITS)
     }
 }
 
@@ -65,8 +71,8 @@ mod tests {
             let again = SpreadCode::new(code.value(), code.step().is_set(), code.soft().is_set());
             assert_eq!(again, code, "{code:?}");
         }
-        let mut spread = 1.0;
-        while spread < 240.0 {
+        let mut spread = LEAST_SPREAD;
+        while spread < 122.0 {
             let decoded = SpreadCode::new(spread, false, true).value();
             assert!(
                 decoded >= spread && decoded < 1.126 * spread,
@@ -74,11 +80,11 @@ mod tests {
             );
             spread *= 1.01;
         }
-        assert_eq!(SpreadCode::new(0.0, false, false).value(), 1.0, "the least");
-        assert_eq!(
-            SpreadCode::new(1e9, true, true).value(),
-            240.0,
-            "the largest"
-        );
+        let least = SpreadCode::new(0.0, false, false).value();
+        assert_eq!(least, LEAST_SPREAD, "the least");
+        let largest = SpreadCode::new(1e9, true, true).value();
+        assert!((122.0..123.0).contains(&largest), "the largest: {largest}");
+        let least_sq = LEAST_SPREAD * LEAST_SPREAD;
+        assert!((least_sq - RAMP_BY_SPREAD).abs() < 1e-7, "of a flat light");
     }
 }

@@ -22,10 +22,10 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | byte | field | |
 /// | --- | --- | --- |
 /// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
-/// | 48 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights |
+/// | 48 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights, at least 1 |
 /// | 96 | `axis[axis][child]` | mean emission axis, signed |
 /// | 144 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
-/// | 160 | `spread[child]` | bit 7: it is a step; bit 6: it is anything but one flat light or one spot; below, the root of 1 more than the mean square deviation of axis and offset: three bits of exponent and three of mantissa, from 1 to 240 |
+/// | 160 | `spread[child]` | bit 7: it is a step; bit 6: it is anything but one flat light or one spot; below, the deviation of axis and offset, in six bits of which three are the exponent: 0.52 to 122 |
 /// | 176 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
 /// | 192 | `origin` | |
 /// | 204 | `inv_scale` | |
@@ -72,7 +72,7 @@ impl WideNode {
     /// A node without children.
     pub const EMPTY: Self = Self {
         mean: [[0; WIDTH]; 3],
-        extent: [[0; WIDTH]; 3],
+        extent: [[1; WIDTH]; 3],
         axis: [[0; WIDTH]; 3],
         offset: [0; WIDTH],
         spread: [0; WIDTH],

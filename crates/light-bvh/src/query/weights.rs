@@ -60,9 +60,7 @@ impl Weights {
     /// lights of the tree have power 1.
     #[inline(always)]
     pub(crate) fn irradiance(&self, node: &WideNode) -> f64 {
-        let inv_unit = f64::from(self.inv_unit);
-        // Heights and intensities are counted twice each.
-        0.25 * f64::from(self.total) * f64::from(node.gain()) * inv_unit * inv_unit
+        irradiance(self.total, self.inv_unit) * f64::from(node.gain())
     }
 
     /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
@@ -98,6 +96,13 @@ impl Weights {
             inv_unit: frame.inv_unit,
         }
     }
+}
+
+/// The irradiance that a sum of weights means, in whose unit of length `inv_unit` is one.
+pub(crate) fn irradiance(total: f32, inv_unit: f32) -> f64 {
+    let inv_unit = f64::from(inv_unit);
+    // Intensities are counted twice.
+    0.5 * f64::from(total) * inv_unit * inv_unit
 }
 
 /// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor
