@@ -99,6 +99,8 @@ mod scaled_emission;
 mod scene_sphere;
 pub mod shape;
 mod sides;
+#[cfg(feature = "alloc")]
+mod source_table;
 mod spectral;
 mod spectral_emission;
 #[cfg(feature = "alloc")]
@@ -155,7 +157,7 @@ pub use light_desc::{LightDesc, LightDescError};
 pub use light_ref::LightRef;
 pub use light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 #[cfg(feature = "alloc")]
-pub use light_set::{LightSet, SourceId};
+pub use light_set::LightSet;
 #[cfg(feature = "alloc")]
 pub use light_set_builder::LightSetBuilder;
 #[cfg(feature = "alloc")]
@@ -184,6 +186,8 @@ pub use rigid_transform::{RigidTransform, RigidTransformError};
 pub use scaled_emission::EmissionError;
 pub use scene_sphere::{SceneSphere, SceneSphereError};
 pub use sides::Sides;
+#[cfg(feature = "alloc")]
+pub use source_table::SourceId;
 pub use spectral::Spectral;
 pub use spectral_emission::SpectralEmission;
 pub use spot::SpotLight;

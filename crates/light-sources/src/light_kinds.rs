@@ -15,8 +15,8 @@ use crate::spot::SpotLight;
 use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 
-/// Calls the macro `$table` with the kinds in the order of their ids, those at infinity last: the
-/// name of a kind, the list of a set that holds it, and what is in that list. What follows `$table`
+/// Calls the macro `$table` with the kinds, those at infinity last: the name of a kind, the list of
+/// a set that holds it, and what is in that list. What follows `$table`
 /// goes before them.
 macro_rules! light_kinds {
     ($table:ident! $($before:tt)*) => {
@@ -40,29 +40,47 @@ pub(crate) use light_kinds;
 
 macro_rules! kinds_and_lists {
     ($($kind:ident, $list:ident: $stored:ty;)*) => {
-        /// The kinds of light, in the order of their ids; those at infinity come last.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        /// The kinds of light; those at infinity come last.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub(crate) enum LightKind {
             $($kind,)*
         }
 
-        impl LightKind {
-            /// All of them.
-            pub(crate) const ALL: [Self; Self::COUNT] = [$(Self::$kind,)*];
-
-            /// How many there are.
-            pub(crate) const COUNT: usize = [$(stringify!($kind),)*].len();
+        /// A source of light of any kind: one light, or all triangles of a mesh.
+        #[derive(Debug)]
+        pub(crate) enum LightSource<C: ColorModel> {
+            $($kind($stored),)*
         }
 
-        /// The sources of light of a set, by kind: one a light, but one for all triangles of a
-        /// mesh.
+        /// The sources of light of a set, by kind.
         #[derive(Clone, Debug)]
         pub(crate) struct LightLists<C: ColorModel> {
             $(pub(crate) $list: Vec<$stored>,)*
         }
 
+        impl<C: ColorModel> LightSource<C> {
+            pub(crate) const fn kind(&self) -> LightKind {
+                match self {
+                    $(Self::$kind(_) => LightKind::$kind,)*
+                }
+            }
+        }
+
         impl<C: ColorModel> LightLists<C> {
             pub(crate) const EMPTY: Self = Self { $($list: Vec::new(),)* };
+
+            /// The number of sources of a kind.
+            pub(crate) fn len(&self, kind: LightKind) -> usize {
+                match kind {
+                    $(LightKind::$kind => self.$list.len(),)*
+                }
+            }
+
+            pub(crate) fn push(&mut self, source: LightSource<C>) {
+                match source {
+                    $(LightSource::$kind(source) => self.$list.push(source),)*
+                }
+            }
 
             /// Bytes of the lists themselves.
             pub(crate) fn bytes(&self) -> usize {
@@ -73,3 +91,19 @@ macro_rules! kinds_and_lists {
 }
 
 light_kinds!(kinds_and_lists!);
+
+impl LightKind {
+    pub(crate) fn is_infinite(self) -> bool {
+        self >= Self::Distant
+    }
+}
+
+impl<C: ColorModel> LightSource<C> {
+    /// How many lights it is.
+    pub(crate) fn lights(&self) -> usize {
+        match self {
+            Self::Triangle(mesh) => mesh.len(),
+            _ => 1,
+        }
+    }
+}

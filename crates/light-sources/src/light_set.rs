@@ -1,85 +1,101 @@
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::glam::Vec3;
 use crate::light::Light;
-use crate::light_kinds::{LightKind, LightLists};
+use crate::light_desc::LightDescError;
+use crate::light_kinds::{LightKind, LightLists, LightSource};
 use crate::light_ref::LightRef;
-use crate::mesh::MeshLight;
+use crate::scene_sphere::SceneSphere;
 use crate::shape::Triangle;
+use crate::source_table::{SourceId, SourcePlace, SourceTable};
 use light_bounds::{LightExtent, LightId};
-
-/// The last kind that is not at infinity.
-const LAST_BOUNDED: LightKind = LightKind::Triangle;
 
 /// All lights of a scene, by kind. Made by a [`LightSetBuilder`](crate::LightSetBuilder).
 ///
-/// Ids run through the kinds one after the other, through the triangles of each mesh in their
-/// order, and end with the lights at infinity; a [`SourceId`] identifies a description. A
-/// triangle needs no memory here beyond its vertices.
+/// # Ids
+/// A [`SourceId`] counts descriptions, a [`LightId`] lights, both in the order of adding. A mesh
+/// has one light for each triangle, in the order of its triangles; any other description has one.
+/// What is added later moves no id.
+///
+/// A renderer keeps the [`SourceId`] of each emissive mesh. Where a ray hits triangle `k` of it,
+/// [`id_of`](Self::id_of) gives the light, and a light sampler the probability with which light
+/// sampling would have chosen it; [`source_of`](Self::source_of) leads back. The ids of lights at
+/// infinity lie among the others: a ray that leaves the scene meets those of
+/// [`infinite_ids`](Self::infinite_ids).
+///
+/// ```
+/// use light_sources::glam::Vec3;
+/// use light_sources::light_bounds::LightId;
+/// use light_sources::*;
+///
+/// let emission = DiffuseEmissionDesc::new(
+///     SurfaceColor::Uniform(Vec3::ONE),
+///     RadianceAmount::Radiometric(1.0),
+/// );
+/// let mesh = MeshLightDesc {
+///     positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE].into(),
+///     indices: vec![[0, 1, 2], [1, 3, 2]].into(),
+///     uvs: None,
+///     emission,
+/// };
+/// let mut lights = LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 2.0)?);
+/// let first = lights.add(LightDesc::Mesh(mesh.clone()))?;
+/// let second = lights.add(LightDesc::Mesh(mesh))?;
+/// let lights = lights.build();
+///
+/// assert_eq!(lights.id_of(first, 1), Some(LightId(1)));
+/// assert_eq!(lights.id_of(second, 1), Some(LightId(3)));
+/// assert_eq!(lights.source_of(LightId(3)), Some((second, 1)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
     pub(crate) lists: LightLists<C>,
-    /// The first id behind each kind.
-    ends: [u32; LightKind::COUNT],
-    /// How many triangles there are up to and with each mesh.
-    mesh_ends: Vec<u32>,
-    /// The mesh of every [`STRIDE`](Self::STRIDE)th triangle: bounds for the search of the others.
-    mesh_of: Vec<u32>,
-    /// Where each description went: its kind, and how many lights of that kind came before.
-    sources: Vec<(LightKind, u32)>,
+    pub(crate) sources: SourceTable,
+    /// The lights at infinity, in ascending order.
+    infinite: Vec<LightId>,
+    pub(crate) scene: SceneSphere,
 }
 
-/// Identifies a description of a set by the order of adding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct SourceId(pub u32);
-
 impl<C: ColorModel> LightSet<C> {
-    /// Triangles per entry of the table that bounds the search for a mesh.
-    const STRIDE: usize = 64;
-
     /// The set without lights.
-    pub(crate) const fn empty() -> Self {
+    pub(crate) const fn empty(scene: SceneSphere) -> Self {
         Self {
             lists: LightLists::EMPTY,
-            ends: [0; LightKind::COUNT],
-            mesh_ends: Vec::new(),
-            mesh_of: Vec::new(),
-            sources: Vec::new(),
+            sources: SourceTable::EMPTY,
+            infinite: Vec::new(),
+            scene,
         }
     }
 
-    /// Counts the `lights` that the source last added has; `None` where 32 bits do not suffice for
-    /// the ids.
-    pub(crate) fn count_in(&mut self, kind: LightKind, lights: usize) -> Option<SourceId> {
-        let lights = u32::try_from(lights).ok()?;
-        let source = u32::try_from(self.sources.len()).ok()?;
-        self.ends[LightKind::COUNT - 1].checked_add(lights)?;
-        let before = self.ids(kind).len();
-        for end in &mut self.ends[kind as usize..] {
-            *end += lights;
+    /// Adds a source behind all others.
+    pub(crate) fn push(&mut self, source: LightSource<C>) -> Result<SourceId, LightDescError> {
+        let too_many = LightDescError::TooMany;
+        let kind = source.kind();
+        let index = u32::try_from(self.lists.len(kind)).map_err(|_| too_many)?;
+        let first = LightId(self.sources.lights());
+        let id = self
+            .sources
+            .add(SourcePlace { kind, index }, source.lights());
+        let id = id.ok_or(too_many)?;
+        if kind.is_infinite() {
+            self.infinite.push(first);
         }
-        self.sources.push((kind, u32::try_from(before).ok()?));
-        if kind == LightKind::Triangle {
-            let end = self.ids(kind).len();
-            let mesh = self.mesh_ends.len().try_into().ok()?;
-            self.mesh_of.resize(end.div_ceil(Self::STRIDE), mesh);
-            self.mesh_ends.push(end.try_into().ok()?);
-        }
-        Some(SourceId(source))
+        self.lists.push(source);
+        Ok(id)
     }
 
     /// The number of lights; their ids are the smaller numbers.
     #[must_use]
-    pub const fn len(&self) -> usize {
-        self.ends[LightKind::COUNT - 1] as usize
+    pub fn len(&self) -> usize {
+        self.sources.lights() as usize
     }
 
     /// Whether there is no light at all.
     #[must_use]
-    pub const fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
@@ -87,17 +103,18 @@ impl<C: ColorModel> LightSet<C> {
     #[inline]
     #[must_use]
     pub fn get(&self, light: LightId) -> Option<LightRef<'_, C>> {
+        let (source, number) = self.sources.find(light)?;
+        let SourcePlace { kind, index } = self.sources.place(source)?;
+        let index = index as usize;
         // Large sets consist mostly of triangles.
-        match self.triangle_number(light) {
-            Some(number) => Some(LightRef::Triangle(self.triangle(number)?)),
-            None => self.get_other(light),
+        if kind == LightKind::Triangle {
+            return Some(LightRef::Triangle(self.triangle(index, number)?));
         }
+        self.get_other(kind, index)
     }
 
     /// A light other than a triangle.
-    fn get_other(&self, light: LightId) -> Option<LightRef<'_, C>> {
-        let kind = *LightKind::ALL.get(self.ends.iter().filter(|&&end| end <= light.0).count())?;
-        let index = (light.0 - self.ids(kind).start) as usize;
+    fn get_other(&self, kind: LightKind, index: usize) -> Option<LightRef<'_, C>> {
         let lists = &self.lists;
         Some(match kind {
             LightKind::Point => LightRef::Point(&lists.points[index]),
@@ -105,7 +122,7 @@ impl<C: ColorModel> LightSet<C> {
             LightKind::Projection => LightRef::Projection(&lists.projections[index]),
             LightKind::Goniometric => LightRef::Goniometric(&lists.goniometrics[index]),
             LightKind::Area => LightRef::Area(lists.areas[index].light()),
-            LightKind::Triangle => LightRef::Triangle(self.triangle(index)?),
+            LightKind::Triangle => LightRef::Triangle(self.triangle(index, 0)?),
             LightKind::Distant => LightRef::Distant(&lists.distants[index]),
             LightKind::Sun => LightRef::Sun(&lists.suns[index]),
             LightKind::UniformInfinite => {
@@ -122,58 +139,57 @@ impl<C: ColorModel> LightSet<C> {
     #[inline]
     #[must_use]
     pub fn corners(&self, light: LightId) -> Option<&[Vec3; 3]> {
-        let (mesh, index) = self.place(self.triangle_number(light)?)?;
-        mesh.corners(index)
+        let (source, triangle) = self.sources.find(light)?;
+        let SourcePlace { kind, index } = self.sources.place(source)?;
+        if kind != LightKind::Triangle {
+            return None;
+        }
+        self.lists.meshes[index as usize].corners(triangle as usize)
     }
 
-    /// The number of a light among all triangles; `None` if it is none.
+    /// A triangle of a mesh.
     #[inline]
-    fn triangle_number(&self, light: LightId) -> Option<usize> {
-        let triangles = self.ids(LightKind::Triangle);
-        let is_one = triangles.contains(&light.0);
-        is_one.then(|| (light.0 - triangles.start) as usize)
+    fn triangle(&self, mesh: usize, number: u32) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
+        self.lists.meshes[mesh].triangle(number as usize)
     }
 
-    /// The triangle with the given number.
-    #[inline]
-    fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
-        let (mesh, index) = self.place(index)?;
-        mesh.triangle(index)
-    }
-
-    /// The mesh of a triangle, and its number there.
-    #[inline]
-    fn place(&self, index: usize) -> Option<(&MeshLight<C>, usize)> {
-        let block = index / Self::STRIDE;
-        let low = *self.mesh_of.get(block)? as usize;
-        let next = self.mesh_of.get(block + 1);
-        let high = next.map_or(self.mesh_ends.len() - 1, |&mesh| mesh as usize);
-        let between = &self.mesh_ends[low..high];
-        let mesh = low + between.partition_point(|&end| end as usize <= index);
-        let first = mesh.checked_sub(1).map_or(0, |m| self.mesh_ends[m]);
-        Some((&self.lists.meshes[mesh], index - first as usize))
-    }
-
-    /// The id of the first light that a description became: of its only one, or of the first
-    /// triangle of its mesh. Triangle `k` of that mesh has the id that is larger by `k`. `None` for
-    /// an unknown source.
+    /// The id of the first light of a source: of its only one, or of the first triangle of its
+    /// mesh. `None` for an unknown source.
+    ///
+    /// Triangle `k` of the mesh has the id that is larger by `k`; [`id_of`](Self::id_of) checks
+    /// that there is one.
     #[inline]
     #[must_use]
     pub fn first_id(&self, source: SourceId) -> Option<LightId> {
-        let (kind, before) = *self.sources.get(source.0 as usize)?;
-        Some(LightId(self.ids(kind).start + before))
+        Some(LightId(self.sources.ids(source)?.start))
     }
 
-    /// The ids of the lights at infinity, those from one direction included.
+    /// The id of a triangle of a mesh, or of the only light, 0, of another source. `None` for an
+    /// unknown source, or one that has fewer lights.
+    #[inline]
     #[must_use]
-    pub fn infinite_ids(&self) -> impl ExactSizeIterator<Item = LightId> + Clone + use<C> {
-        let first = self.ends[LAST_BOUNDED as usize];
-        (first..self.ends[LightKind::COUNT - 1]).map(LightId)
+    pub fn id_of(&self, source: SourceId, triangle: u32) -> Option<LightId> {
+        let mut ids = self.sources.ids(source)?;
+        ids.nth(triangle as usize).map(LightId)
+    }
+
+    /// The source of a light, and the number of its triangle there, 0 without a mesh. `None` for an
+    /// unknown light.
+    #[inline]
+    #[must_use]
+    pub fn source_of(&self, light: LightId) -> Option<(SourceId, u32)> {
+        self.sources.find(light)
+    }
+
+    /// The ids of the lights at infinity in ascending order, those from one direction included.
+    #[must_use]
+    pub fn infinite_ids(&self) -> impl ExactSizeIterator<Item = LightId> + Clone + use<'_, C> {
+        self.infinite.iter().copied()
     }
 
     /// All lights with their ids.
     pub fn iter(&self) -> impl Iterator<Item = (LightId, LightRef<'_, C>)> {
-        (0..self.ends[LightKind::COUNT - 1])
+        (0..self.sources.lights())
             .map(LightId)
             .filter_map(|id| Some((id, self.get(id)?)))
     }
@@ -194,17 +210,7 @@ impl<C: ColorModel> LightSet<C> {
 
     /// Bytes of the lists themselves.
     pub(crate) fn own_bytes(&self) -> usize {
-        self.lists.bytes()
-            + size_of_val(&*self.mesh_ends)
-            + size_of_val(&*self.mesh_of)
-            + size_of_val(&*self.sources)
-    }
-
-    #[inline]
-    fn ids(&self, kind: LightKind) -> Range<u32> {
-        let kind = kind as usize;
-        let start = if kind == 0 { 0 } else { self.ends[kind - 1] };
-        start..self.ends[kind]
+        self.lists.bytes() + self.sources.bytes() + size_of_val(&*self.infinite)
     }
 }
 

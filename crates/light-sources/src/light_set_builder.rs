@@ -1,18 +1,17 @@
-use alloc::vec::Vec;
-
 use crate::area_desc::AreaSource;
 use crate::color::ColorModel;
 use crate::distant::DistantLight;
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::light_desc::{LightDesc, LightDescError};
-use crate::light_kinds::{LightKind as Kind, LightLists};
-use crate::light_set::{LightSet, SourceId};
+use crate::light_kinds::LightSource;
+use crate::light_set::LightSet;
 use crate::mesh::MeshLight;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
 use crate::projection::ProjectionLight;
 use crate::scene_sphere::SceneSphere;
+use crate::source_table::SourceId;
 use crate::spot::SpotLight;
 use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
@@ -20,7 +19,6 @@ use crate::uniform_infinite::UniformInfiniteLight;
 /// Makes a [`LightSet`] from descriptions, one by one.
 #[derive(Clone, Debug)]
 pub struct LightSetBuilder<C: ColorModel> {
-    scene: SceneSphere,
     set: LightSet<C>,
 }
 
@@ -30,8 +28,7 @@ impl<C: ColorModel> LightSetBuilder<C> {
     #[must_use]
     pub const fn new(scene: SceneSphere) -> Self {
         Self {
-            scene,
-            set: LightSet::empty(),
+            set: LightSet::empty(scene),
         }
     }
 
@@ -41,63 +38,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
     /// # Errors
     /// When the description is invalid; the set is unchanged then.
     pub fn add(&mut self, desc: LightDesc<C>) -> Result<SourceId, LightDescError> {
-        use LightDescError as Error;
-        let scene = self.scene;
-        match desc {
-            LightDesc::Point(desc) => {
-                let light = PointLight::new(desc).map_err(Error::Point)?;
-                self.keep(Kind::Point, 1, light, |lists| &mut lists.points)
-            }
-            LightDesc::Spot(desc) => {
-                let light = SpotLight::new(desc).map_err(Error::Spot)?;
-                self.keep(Kind::Spot, 1, light, |lists| &mut lists.spots)
-            }
-            LightDesc::Projection(desc) => {
-                let light = ProjectionLight::new(desc).map_err(Error::Projection)?;
-                self.keep(Kind::Projection, 1, light, |lists| &mut lists.projections)
-            }
-            LightDesc::Goniometric(desc) => {
-                let light = GoniometricLight::new(desc).map_err(Error::Goniometric)?;
-                self.keep(Kind::Goniometric, 1, light, |lists| &mut lists.goniometrics)
-            }
-            LightDesc::Area(desc) => {
-                let light = AreaSource::new(desc).map_err(Error::Area)?;
-                self.keep(Kind::Area, 1, light, |lists| &mut lists.areas)
-            }
-            LightDesc::Mesh(desc) => {
-                let light = MeshLight::new(desc).map_err(Error::Mesh)?;
-                self.keep(Kind::Triangle, light.len(), light, |lists| {
-                    &mut lists.meshes
-                })
-            }
-            LightDesc::Distant(desc) => {
-                let light = DistantLight::new(desc, scene).map_err(Error::Distant)?;
-                self.keep(Kind::Distant, 1, light, |lists| &mut lists.distants)
-            }
-            LightDesc::Sun(desc) => {
-                let light = SunLight::new(desc, scene).map_err(Error::Sun)?;
-                self.keep(Kind::Sun, 1, light, |lists| &mut lists.suns)
-            }
-            LightDesc::UniformInfinite(desc) => {
-                let light =
-                    UniformInfiniteLight::new(desc, scene).map_err(Error::UniformInfinite)?;
-                self.keep(Kind::UniformInfinite, 1, light, |lists| {
-                    &mut lists.uniform_infinites
-                })
-            }
-            LightDesc::ImageInfinite(desc) => {
-                let light = ImageInfiniteLight::new(desc, scene).map_err(Error::ImageInfinite)?;
-                self.keep(Kind::ImageInfinite, 1, light, |lists| {
-                    &mut lists.image_infinites
-                })
-            }
-            LightDesc::PortalInfinite(desc) => {
-                let light = PortalInfiniteLight::new(desc, scene).map_err(Error::PortalInfinite)?;
-                self.keep(Kind::PortalInfinite, 1, light, |lists| {
-                    &mut lists.portal_infinites
-                })
-            }
-        }
+        let source = LightSource::new(desc, self.set.scene)?;
+        self.set.push(source)
     }
 
     /// The set of all lights that were added.
@@ -105,18 +47,39 @@ impl<C: ColorModel> LightSetBuilder<C> {
     pub fn build(self) -> LightSet<C> {
         self.set
     }
+}
 
-    /// Puts a source that is `lights` lights of a kind into the list of that kind.
-    fn keep<T>(
-        &mut self,
-        kind: Kind,
-        lights: usize,
-        source: T,
-        list: impl FnOnce(&mut LightLists<C>) -> &mut Vec<T>,
-    ) -> Result<SourceId, LightDescError> {
-        let id = self.set.count_in(kind, lights);
-        let id = id.ok_or(LightDescError::TooMany)?;
-        list(&mut self.set.lists).push(source);
-        Ok(id)
+impl<C: ColorModel> LightSource<C> {
+    /// The source that `desc` describes.
+    pub(crate) fn new(desc: LightDesc<C>, scene: SceneSphere) -> Result<Self, LightDescError> {
+        use LightDescError as Error;
+        Ok(match desc {
+            LightDesc::Point(desc) => Self::Point(PointLight::new(desc).map_err(Error::Point)?),
+            LightDesc::Spot(desc) => Self::Spot(SpotLight::new(desc).map_err(Error::Spot)?),
+            LightDesc::Projection(desc) => {
+                Self::Projection(ProjectionLight::new(desc).map_err(Error::Projection)?)
+            }
+            LightDesc::Goniometric(desc) => {
+                Self::Goniometric(GoniometricLight::new(desc).map_err(Error::Goniometric)?)
+            }
+            LightDesc::Area(desc) => Self::Area(AreaSource::new(desc).map_err(Error::Area)?),
+            LightDesc::Mesh(desc) => Self::Triangle(MeshLight::new(desc).map_err(Error::Mesh)?),
+            LightDesc::Distant(desc) => {
+                Self::Distant(DistantLight::new(desc, scene).map_err(Error::Distant)?)
+            }
+            LightDesc::Sun(desc) => Self::Sun(SunLight::new(desc, scene).map_err(Error::Sun)?),
+            LightDesc::UniformInfinite(desc) => {
+                let light = UniformInfiniteLight::new(desc, scene);
+                Self::UniformInfinite(light.map_err(Error::UniformInfinite)?)
+            }
+            LightDesc::ImageInfinite(desc) => {
+                let light = ImageInfiniteLight::new(desc, scene);
+                Self::ImageInfinite(light.map_err(Error::ImageInfinite)?)
+            }
+            LightDesc::PortalInfinite(desc) => {
+                let light = PortalInfiniteLight::new(desc, scene);
+                Self::PortalInfinite(light.map_err(Error::PortalInfinite)?)
+            }
+        })
     }
 }

@@ -113,7 +113,7 @@ fn corners_are_known_beforehand_where_they_follow_each_other() {
 }
 
 #[test]
-fn ids_run_by_kind_and_sources_know_theirs() {
+fn ids_are_in_the_order_of_adding_and_sources_know_theirs() {
     let (set, sources) = set(&[
         sun(),
         mesh(2, 1.0),
@@ -125,21 +125,67 @@ fn ids_run_by_kind_and_sources_know_theirs() {
     let firsts: Vec<_> = sources.iter().filter_map(|&s| set.first_id(s)).collect();
     assert_eq!(
         firsts,
-        [7, 2, 0, 4, 4, 1].map(LightId),
-        "points, triangles, infinite"
+        [0, 1, 3, 4, 4, 7].map(LightId),
+        "in the order of adding"
     );
     assert_eq!(set.len(), 8, "all");
-    assert!(set.infinite_ids().eq([LightId(7)]), "the sun");
+    assert!(set.infinite_ids().eq([LightId(0)]), "the sun");
     let types: Vec<_> = set.iter().map(|(_, light)| light.light_type()).collect();
     let area = LightType::Area;
     let (position, direction) = (LightType::DeltaPosition, LightType::DeltaDirection);
     assert_eq!(
         types,
-        [position, position, area, area, area, area, area, direction],
+        [direction, area, area, position, area, area, area, position],
         "kinds"
     );
     assert!(set.get(LightId(8)).is_none(), "unknown");
     assert!(set.first_id(SourceId(6)).is_none(), "unknown");
+    assert_eq!(set.id_of(SourceId(6), 0), None, "unknown");
+    assert_eq!(set.source_of(LightId(8)), None, "unknown");
+}
+
+#[test]
+fn triangles_and_their_sources_lead_to_each_other() {
+    // Blocks of the search table begin in a mesh, between meshes, and among single lights.
+    let counts = [1, 0, 130, 0, 0, 1, 1, 62, 64, 1, 0, 300, 0];
+    let descs = counts.map(|count| {
+        if count == 1 {
+            point(1.0)
+        } else {
+            mesh(count, 1.0)
+        }
+    });
+    let (mut set, sources) = set(&[&descs[..], &alloc::vec![sun(); 200]].concat());
+    let mut next = 0;
+    for (&source, count) in sources.iter().zip(counts.into_iter().chain([1; 200])) {
+        let count = u32::try_from(count).expect("small");
+        for triangle in 0..count {
+            assert_eq!(
+                set.id_of(source, triangle),
+                Some(LightId(next)),
+                "{source:?}"
+            );
+            assert_eq!(
+                set.source_of(LightId(next)),
+                Some((source, triangle)),
+                "{next}"
+            );
+            next += 1;
+        }
+        assert_eq!(
+            set.id_of(source, count),
+            None,
+            "behind the last of {source:?}"
+        );
+    }
+    assert_eq!(set.len(), next as usize, "all");
+    let before = set.clone();
+    let added = LightSource::new(mesh(2, 1.0), set.scene).and_then(|source| set.push(source));
+    let added = added.expect("one more");
+    assert_eq!(set.first_id(added), Some(LightId(next)), "at the end");
+    for source in sources {
+        assert_eq!(set.first_id(source), before.first_id(source), "as before");
+    }
 }
 
 #[test]

@@ -1,0 +1,90 @@
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use crate::light_kinds::LightKind;
+use light_bounds::LightId;
+
+/// Identifies a description of a set by the order of adding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceId(pub u32);
+
+/// Where a source is stored: its kind, and its index in the list of that kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SourcePlace {
+    pub(crate) kind: LightKind,
+    pub(crate) index: u32,
+}
+
+/// The sources of a set in the order of adding, and the ids of their lights, which run through
+/// them. 12 bytes a source, and 4 for every 64 lights.
+#[derive(Clone, Debug)]
+pub(crate) struct SourceTable {
+    places: Vec<SourcePlace>,
+    /// How many lights there are up to and with each source.
+    ends: Vec<u32>,
+    /// The source of every [`STRIDE`]th light: bounds for the search of the others.
+    source_of: Vec<u32>,
+}
+
+/// Lights per entry of the table that bounds the search for a source.
+const STRIDE: usize = 64;
+
+impl SourceTable {
+    pub(crate) const EMPTY: Self = Self {
+        places: Vec::new(),
+        ends: Vec::new(),
+        source_of: Vec::new(),
+    };
+
+    /// Adds a source of `lights` lights; `None` where 32 bits do not suffice for the ids.
+    pub(crate) fn add(&mut self, place: SourcePlace, lights: usize) -> Option<SourceId> {
+        let source = u32::try_from(self.places.len()).ok()?;
+        let end = self.lights().checked_add(u32::try_from(lights).ok()?)?;
+        self.source_of
+            .resize((end as usize).div_ceil(STRIDE), source);
+        self.ends.push(end);
+        self.places.push(place);
+        Some(SourceId(source))
+    }
+
+    /// The number of lights of all sources.
+    #[inline]
+    pub(crate) fn lights(&self) -> u32 {
+        self.ends.last().copied().unwrap_or(0)
+    }
+
+    /// Where a source is stored.
+    #[inline]
+    pub(crate) fn place(&self, source: SourceId) -> Option<SourcePlace> {
+        self.places.get(source.0 as usize).copied()
+    }
+
+    /// The ids of the lights of a source.
+    #[inline]
+    pub(crate) fn ids(&self, source: SourceId) -> Option<Range<u32>> {
+        let end = *self.ends.get(source.0 as usize)?;
+        let before = source.0.checked_sub(1);
+        Some(before.map_or(0, |source| self.ends[source as usize])..end)
+    }
+
+    /// The source of a light, and the light's number there.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "sources have 32 bits")]
+    pub(crate) fn find(&self, LightId(light): LightId) -> Option<(SourceId, u32)> {
+        if light >= self.lights() {
+            return None;
+        }
+        let block = light as usize / STRIDE;
+        let low = self.source_of[block] as usize;
+        let next = self.source_of.get(block + 1);
+        let high = next.map_or(self.ends.len() - 1, |&source| source as usize);
+        let between = &self.ends[low..high];
+        let source = low + between.partition_point(|&end| end <= light);
+        let first = source.checked_sub(1).map_or(0, |before| self.ends[before]);
+        Some((SourceId(source as u32), light - first))
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.places) + size_of_val(&*self.ends) + size_of_val(&*self.source_of)
+    }
+}
