@@ -46,13 +46,13 @@ impl BvhLightSampler {
     }
 
     /// Refits the tree to lights that moved, turned, or changed their power, in linear time; the
-    /// lights at infinity are replaced.
+    /// lights at infinity are replaced. Allocates nothing unless more of these emit than before.
     ///
     /// # Errors
     /// As for [`LightBvh::refit`]; the sampler is then as it was.
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
         self.tree.refit(lights)?;
-        self.infinite = InfiniteLights::new(lights);
+        self.infinite.replace(lights);
         Ok(())
     }
 

@@ -21,6 +21,13 @@ pub(crate) struct InfiniteLights {
 impl InfiniteLights {
     /// The infinite ones of `lights`.
     pub(crate) fn new(lights: &[LightExtent]) -> Self {
+        let mut infinite = Self::default();
+        infinite.replace(lights);
+        infinite
+    }
+
+    /// Takes the infinite ones of `lights` instead; allocates only if they are more than before.
+    pub(crate) fn replace(&mut self, lights: &[LightExtent]) {
         let infinite = (0..)
             .map(LightId)
             .zip(lights)
@@ -32,9 +39,8 @@ impl InfiniteLights {
             bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
             (id, bounds)
         };
-        Self {
-            lights: infinite.map(with_unit_axis).collect(),
-        }
+        self.lights.clear();
+        self.lights.extend(infinite.map(with_unit_axis));
     }
 
     pub(crate) fn is_empty(&self) -> bool {

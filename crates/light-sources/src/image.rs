@@ -171,6 +171,12 @@ impl Image {
         }
     }
 
+    /// Whether this is a clone of the other image.
+    pub(crate) fn is_clone_of(&self, other: &Self) -> bool {
+        let layout = |image: &Self| (image.address(), image.size, image.channels);
+        layout(self) == layout(other)
+    }
+
     pub(crate) fn extent(&self) -> Vec2 {
         Vec2::new(self.size[0] as f32, self.size[1] as f32)
     }

@@ -1,3 +1,4 @@
+use alloc::sync::Arc;
 use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
@@ -8,18 +9,17 @@ use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
+use crate::image_sky::ImageSky;
 use crate::light::{InfiniteLight, Light};
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
-use crate::mis_compensation::compensate;
 use crate::pdf_coverage::PdfCoverage;
 use crate::resample::equal_area_size;
-use crate::rgb_sum::{RgbSum, single};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scene_sphere::SceneSphere;
 use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
-use light_math::equal_area::{sphere_to_square, square_to_sphere};
+use light_math::equal_area::sphere_to_square;
 use light_math::{DirectionCone, SphereMap};
 
 /// An [`ImageInfiniteLight`] as a user describes it.
@@ -52,13 +52,11 @@ pub enum EnvironmentMap {
 #[derive(Clone, Debug)]
 pub struct ImageInfiniteLight<C> {
     transform: RigidTransform,
-    image: Image,
-    mean: Vec3,
+    /// Shared by clones, and by the light that an update makes of this one.
+    sky: Arc<ImageSky>,
     scale: f32,
     scene: SceneSphere,
     extent: InfiniteBounds,
-    distribution: SphereTable,
-    compensated: SphereTable,
     color: PhantomData<C>,
 }
 
@@ -83,46 +81,72 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         desc: ImageInfiniteLightDesc,
         scene: SceneSphere,
     ) -> Result<Self, ImageInfiniteLightError> {
+        Self::with_sky(desc, scene, |image| Arc::new(ImageSky::new(image)))
+    }
+
+    /// The light that `desc` describes, over the same scene; it shares the tables of this one if
+    /// its picture is a clone.
+    pub(crate) fn updated(
+        &self,
+        desc: ImageInfiniteLightDesc,
+    ) -> Result<Self, ImageInfiniteLightError> {
+        Self::with_sky(desc, self.scene, |image| {
+            if image.is_clone_of(&self.sky.image) {
+                self.sky.clone()
+            } else {
+                Arc::new(ImageSky::new(image))
+            }
+        })
+    }
+
+    fn with_sky(
+        desc: ImageInfiniteLightDesc,
+        scene: SceneSphere,
+        sky: impl FnOnce(Image) -> Arc<ImageSky>,
+    ) -> Result<Self, ImageInfiniteLightError> {
         let scale = desc.amount.scale(C::flux_of_texel(Vec3::ONE));
         let scale = scale.map_err(|_| ImageInfiniteLightError::Amount)?;
         let transform = RigidTransform::new(desc.transform)?;
-        let image = desc.map.into_equal_area()?;
-        let mean = image.mean();
-        if !(scale >= 0.0 && (mean * scale).is_finite()) {
+        let sky = sky(desc.map.into_equal_area_image()?);
+        if !(scale >= 0.0 && (sky.mean * scale).is_finite()) {
             return Err(ImageInfiniteLightError::Amount);
         }
-        let averages = image.averages();
-        let n = image.size()[0];
         Ok(Self {
             transform,
-            extent: extent(&averages, n, scale, &transform),
-            compensated: SphereTable::new(&compensate(&averages), n),
-            distribution: SphereTable::new(&averages, n),
-            image,
-            mean,
+            extent: InfiniteBounds {
+                fluence: 4.0 * PI * scale * sky.average,
+                mean: transform.vector(sky.mean_direction),
+                cone: DirectionCone::WHOLE_SPHERE,
+            },
+            sky,
             scale,
             scene,
             color: PhantomData,
         })
     }
 
-    pub(crate) const fn image(&self) -> &Image {
-        &self.image
+    pub(crate) fn image(&self) -> &Image {
+        &self.sky.image
     }
 
     pub(crate) fn table_bytes(&self) -> usize {
-        self.distribution.bytes() + self.compensated.bytes()
+        self.sky.table_bytes()
+    }
+
+    /// Address of the tables, the same for clones.
+    pub(crate) fn table_address(&self) -> usize {
+        Arc::as_ptr(&self.sky).addr()
     }
 
     fn distribution(&self, coverage: PdfCoverage) -> &SphereTable {
         match coverage {
-            PdfCoverage::Complete => &self.distribution,
-            PdfCoverage::Incomplete => &self.compensated,
+            PdfCoverage::Complete => &self.sky.distribution,
+            PdfCoverage::Incomplete => &self.sky.compensated,
         }
     }
 
     fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
-        C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
+        C::emit_texel(self.sky.image.nearest(uv), wavelengths) * self.scale
     }
 
     /// The point of the map for a direction toward the light.
@@ -138,7 +162,7 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         let factor = 4.0 * PI * self.scene.disk_area() * self.scale;
-        C::emit_texel(self.mean, wavelengths) * factor
+        C::emit_texel(self.sky.mean, wavelengths) * factor
     }
 
     fn sample_li(
@@ -172,7 +196,7 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>> {
-        let SphereSample { uv, w, pdf } = self.distribution.sample(u1)?;
+        let SphereSample { uv, w, pdf } = self.sky.distribution.sample(u1)?;
         let wi = self.transform.vector(w);
         Some(LightLeSample {
             l: self.radiance(uv, wavelengths),
@@ -188,7 +212,7 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         let w = self.transform.inverse_vector(-ray.direction);
         LePdf {
             pos: 1.0 / self.scene.disk_area(),
-            dir: self.distribution.pdf(w),
+            dir: self.sky.distribution.pdf(w),
         }
     }
 
@@ -204,7 +228,16 @@ impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
 }
 
 impl EnvironmentMap {
-    pub(crate) fn into_equal_area(self) -> Result<Image, ImageInfiniteLightError> {
+    /// This map as an equal-area one, resampled if it is another. Lights whose descriptions share
+    /// it do not resample it again.
+    ///
+    /// # Errors
+    /// When an equal-area image is not square, or texels are too bright to be summed.
+    pub fn into_equal_area(self) -> Result<Self, ImageInfiniteLightError> {
+        self.into_equal_area_image().map(Self::EqualArea)
+    }
+
+    pub(crate) fn into_equal_area_image(self) -> Result<Image, ImageInfiniteLightError> {
         match self {
             Self::EqualArea(image) if image.size()[0] != image.size()[1] => {
                 Err(ImageInfiniteLightError::NotSquare)
@@ -217,21 +250,6 @@ impl EnvironmentMap {
                     .map_err(|_| ImageInfiniteLightError::Amount)
             }
         }
-    }
-}
-
-/// The bounds of an image of `n` rows for light samplers.
-fn extent(averages: &[f32], n: u32, scale: f32, transform: &RigidTransform) -> InfiniteBounds {
-    let (mut sum, mut weighted) = (0.0, RgbSum::default());
-    for (i, &average) in (0..).zip(averages) {
-        let texel = Vec2::new((i % n) as f32, (i / n) as f32) + 0.5;
-        sum += f64::from(average);
-        weighted.add(square_to_sphere(texel / n as f32), f64::from(average));
-    }
-    InfiniteBounds {
-        fluence: 4.0 * PI * scale * single(sum / averages.len() as f64),
-        mean: transform.vector(weighted.over(sum)),
-        cone: DirectionCone::WHOLE_SPHERE,
     }
 }
 

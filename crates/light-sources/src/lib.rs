@@ -47,6 +47,8 @@ mod image_error;
 #[cfg(feature = "alloc")]
 mod image_infinite;
 #[cfg(feature = "alloc")]
+mod image_sky;
+#[cfg(feature = "alloc")]
 mod level_quadrature;
 mod light;
 #[cfg(feature = "alloc")]
@@ -62,6 +64,8 @@ mod light_set;
 mod light_set_builder;
 #[cfg(feature = "alloc")]
 mod light_set_bytes;
+#[cfg(feature = "alloc")]
+mod light_set_update;
 mod light_type;
 #[cfg(feature = "alloc")]
 mod mask_share;
@@ -162,6 +166,8 @@ pub use light_set::LightSet;
 pub use light_set_builder::LightSetBuilder;
 #[cfg(feature = "alloc")]
 pub use light_set_bytes::LightSetBytes;
+#[cfg(feature = "alloc")]
+pub use light_set_update::LightUpdateError;
 pub use light_type::LightType;
 #[cfg(feature = "alloc")]
 pub use median_cut::{

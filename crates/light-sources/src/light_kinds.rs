@@ -82,6 +82,13 @@ macro_rules! kinds_and_lists {
                 }
             }
 
+            /// Puts a source in place of one of its kind.
+            pub(crate) fn replace(&mut self, index: usize, source: LightSource<C>) {
+                match source {
+                    $(LightSource::$kind(source) => self.$list[index] = source,)*
+                }
+            }
+
             /// Bytes of the lists themselves.
             pub(crate) fn bytes(&self) -> usize {
                 [$(size_of_val(&*self.$list),)*].into_iter().sum()

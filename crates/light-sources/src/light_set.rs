@@ -197,7 +197,9 @@ impl<C: ColorModel> LightSet<C> {
     /// The extents of all lights, by id, for light samplers.
     #[must_use]
     pub fn extents(&self) -> Vec<LightExtent> {
-        self.iter().map(|(_, light)| light.extent()).collect()
+        let mut extents = Vec::with_capacity(self.len());
+        self.extents_into(&mut extents);
+        extents
     }
 
     /// The powers of all lights in W, by id: the mean over the colour channels or the spectrum.

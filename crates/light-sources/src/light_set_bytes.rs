@@ -59,7 +59,7 @@ impl<C: ColorModel> LightSet<C> {
         }
         for light in &self.lists.image_infinites {
             count.image(light.image());
-            count.bytes.images += light.table_bytes();
+            count.means(light.table_address(), light.table_bytes());
         }
         for light in &self.lists.portal_infinites {
             count.image(light.rectified());
@@ -82,7 +82,7 @@ impl Count {
         }
     }
 
-    /// `bytes` that lie at an address.
+    /// `bytes` of means or tables that lie at an address.
     fn means(&mut self, address: usize, bytes: usize) {
         if self.seen.insert(address) {
             self.bytes.images += bytes;

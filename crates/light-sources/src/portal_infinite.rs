@@ -86,7 +86,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         let scale = scale.map_err(|_| ImageInfiniteLightError::Amount)?;
         let transform =
             RigidTransform::new(desc.transform).map_err(ImageInfiniteLightError::from)?;
-        let sky = desc.map.into_equal_area()?;
+        let sky = desc.map.into_equal_area_image()?;
         let portal = Portal::new(desc.portal)
             .filter(|portal| (1.0 / (portal.area() * LEAST_COSINE)).is_finite())
             .ok_or(PortalInfiniteLightError::Portal)?;

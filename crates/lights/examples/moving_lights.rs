@@ -1,0 +1,165 @@
+//! A lamp walks through a field of 10,000 others under a sky: what a frame has to do.
+//!
+//! `cargo run --release -p lights --example moving_lights` writes `out/moving_lights_0.png` and so
+//! on, and prints how long the lights of each frame took.
+
+use core::error::Error;
+use core::time::Duration;
+use std::time::Instant;
+
+use lights::bounds::{LightExtent, LightSampleContext};
+use lights::glam::{Affine3A, Vec2, Vec3};
+use lights::samplers::{BvhLightSampler, LightSampler};
+use lights::sources::*;
+
+type Result<T> = core::result::Result<T, Box<dyn Error>>;
+
+/// A field of lamps under a sky, one lamp of which moves.
+struct Field {
+    lights: LightSet<Rgb>,
+    moving: SourceId,
+    /// Kept from frame to frame, so that no frame allocates.
+    extents: Vec<LightExtent>,
+    sampler: BvhLightSampler,
+}
+
+fn lamp(position: Vec3, emission: Vec3, watts_per_sr: f32) -> LightDesc<Rgb> {
+    LightDesc::Point(PointLightDesc {
+        position,
+        emission,
+        amount: IntensityAmount::Radiometric(watts_per_sr),
+        media: MediumInterface::default(),
+    })
+}
+
+/// A dim sky with a brighter horizon, `height` rows of a panorama.
+fn sky(height: u32) -> Result<LightDesc<Rgb>> {
+    let row = |y| if y == height / 2 { 0.02 } else { 0.002 };
+    let texels = (0..height).flat_map(|y| (0..2 * height).map(move |_| row(y)));
+    let image = Image::from_f32(
+        [2 * height, height],
+        Channels::Gray,
+        texels.collect::<Vec<f32>>(),
+    )?;
+    Ok(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+        transform: Affine3A::from_rotation_x(-core::f32::consts::FRAC_PI_2),
+        map: EnvironmentMap::LatLong(image),
+        amount: RadianceAmount::default(),
+    }))
+}
+
+impl Field {
+    /// `side * side` lamps a length apart, on the plane y = 0.
+    fn new(side: u16, sky_height: u32) -> Result<Self> {
+        let radius = f32::from(side);
+        let mut lights = LightSetBuilder::new(SceneSphere::new(Vec3::ZERO, radius)?);
+        lights.add(sky(sky_height)?)?;
+        for i in 0..side * side {
+            let at = Vec2::new((i % side).into(), (i / side).into()) - 0.5 * radius;
+            let color = Vec3::new(1.0, 0.6, 0.3);
+            lights.add(lamp(Vec3::new(at.x, 0.2, at.y), color, 0.01))?;
+        }
+        let moving = lights.add(lamp(Vec3::Y, Vec3::ONE, 1.0))?;
+        let lights = lights.build();
+        let extents = lights.extents();
+        Ok(Self {
+            sampler: BvhLightSampler::new(&extents)?,
+            extents,
+            lights,
+            moving,
+        })
+    }
+
+    /// Moves the lamp: the light, the extents, the tree.
+    fn advance(&mut self, position: Vec3) -> Result<Duration> {
+        let start = Instant::now();
+        self.lights
+            .update(self.moving, lamp(position, Vec3::new(0.3, 0.6, 1.0), 4.0))?;
+        self.lights.extents_into(&mut self.extents);
+        self.sampler.refit(&self.extents)?;
+        Ok(start.elapsed())
+    }
+
+    /// Irradiance of the ground at `p`, by `count` lights at `offset` in equal parts of `[0, 1)`.
+    fn irradiance(&self, p: Vec3, count: u16, offset: f32) -> Vec3 {
+        let ctx = LightSampleContext::surface(p, Vec3::Y, Vec3::Y);
+        let one = |i: u16| {
+            let u = (f32::from(i) + offset) / f32::from(count);
+            let choice = self.sampler.sample(&ctx, u.into())?;
+            let u = Vec2::new(u, (f32::from(i) * 0.618 + offset).fract());
+            let light = self.lights.get(choice.light)?;
+            let li = light.sample_li(&ctx, u, &(), PdfCoverage::Complete)?;
+            Some(li.l * li.wi.y.max(0.0) / (li.pdf * choice.pmf * f32::from(count)))
+        };
+        (0..count).filter_map(one).sum()
+    }
+
+    /// The ground from above, 10 units to each side.
+    fn picture(&self, size: u16) -> image::RgbImage {
+        image::RgbImage::from_fn(size.into(), size.into(), |x, y| {
+            let pixel = Vec2::new(x as f32, y as f32);
+            let at = (pixel + 0.5) / f32::from(size) * 20.0 - 10.0;
+            // Neighbours take different offsets, so that noise forms no pattern.
+            let offset = pixel.dot(Vec2::new(0.7549, 0.5698)).fract();
+            let e = self.irradiance(Vec3::new(at.x, 0.0, at.y), 32, offset);
+            // The gamma of a screen.
+            let shown = e.map(|x| 255.0 * x.powf(1.0 / 2.2)).to_array();
+            image::Rgb(shown.map(to_byte))
+        })
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, as a screen does"
+)]
+const fn to_byte(x: f32) -> u8 {
+    x as u8
+}
+
+/// Where the lamp is.
+fn position(frame: u16) -> Vec3 {
+    let angle = f32::from(frame) * 0.3;
+    Vec3::new(8.0 * angle.cos(), 1.5, 8.0 * angle.sin())
+}
+
+fn main() -> Result<()> {
+    let mut field = Field::new(100, 512)?;
+    std::fs::create_dir_all("out")?;
+    for frame in 0..8 {
+        let took = field.advance(position(frame))?;
+        println!(
+            "frame {frame}: lights ready in {:.2} ms",
+            1e3 * took.as_secs_f64()
+        );
+        let file = format!("out/moving_lights_{frame}.png");
+        field.picture(200).save(file)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Under the lamp it is bright, where it was a moment ago no longer; and no sample is left out.
+    #[test]
+    fn the_light_follows_the_lamp() -> Result<()> {
+        let mut field = Field::new(8, 16)?;
+        let ground = |frame| position(frame) * Vec3::new(1.0, 0.0, 1.0);
+        for frame in 1..4 {
+            field.advance(position(frame))?;
+            let [here, before] =
+                [frame, frame - 1].map(|at| field.irradiance(ground(at), 256, 0.5));
+            assert!(here.z > 2.0 * before.z, "{here} here, {before} before");
+            // The lamp's own share is 4 / 1.5^2; other lamps and the sky add a few per cent.
+            let own = 4.0 / (1.5 * 1.5);
+            assert!(
+                (here.z / own - 1.0).abs() < 0.1,
+                "{here}, the lamp alone {own}"
+            );
+        }
+        Ok(())
+    }
+}
