@@ -23,6 +23,14 @@ pub struct AreaLightDesc<C: ColorModel> {
     pub emission: DiffuseEmissionDesc<C>,
 }
 
+impl<C: ColorModel> AreaLightDesc<C> {
+    /// A surface and its emission.
+    #[must_use]
+    pub const fn new(shape: ShapeDesc, emission: DiffuseEmissionDesc<C>) -> Self {
+        Self { shape, emission }
+    }
+}
+
 /// An area light as a set stores it; accessors make a [`DiffuseAreaLight`] of it.
 #[derive(Clone, Debug)]
 pub(crate) struct AreaSource<C: ColorModel> {

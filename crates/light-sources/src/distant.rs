@@ -30,6 +30,18 @@ pub struct DistantLightDesc<C: ColorModel> {
     pub amount: IrradianceAmount,
 }
 
+impl<C: ColorModel> DistantLightDesc<C> {
+    /// A light from `direction`, which points toward it and has any length above 0.
+    #[must_use]
+    pub const fn new(direction: Vec3, emission: C::Emission, amount: IrradianceAmount) -> Self {
+        Self {
+            direction,
+            emission,
+            amount,
+        }
+    }
+}
+
 /// A light that arrives everywhere from one direction.
 ///
 /// Its radiance is a Dirac in direction, `E delta(w - d)`, where `E` is the irradiance of a plane

@@ -34,6 +34,18 @@ pub struct ImageInfiniteLightDesc {
     pub amount: RadianceAmount,
 }
 
+impl ImageInfiniteLightDesc {
+    /// The sky of `map` in light space, its texels in W m^-2 sr^-1.
+    #[must_use]
+    pub fn new(map: EnvironmentMap) -> Self {
+        Self {
+            transform: Affine3A::IDENTITY,
+            map,
+            amount: RadianceAmount::default(),
+        }
+    }
+}
+
 /// An image of all directions, with its map.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

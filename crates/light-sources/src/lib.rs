@@ -54,6 +54,8 @@ mod light;
 #[cfg(feature = "alloc")]
 mod light_desc;
 #[cfg(feature = "alloc")]
+mod light_desc_from;
+#[cfg(feature = "alloc")]
 mod light_kinds;
 #[cfg(feature = "alloc")]
 mod light_ref;

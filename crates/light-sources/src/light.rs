@@ -22,6 +22,10 @@ pub trait Light<C: ColorModel> {
     /// A direction from which the light arrives at `ctx.p`, with its density; `None` if no
     /// light arrives in the direction of `u`. The side of the surface at `ctx` is not tested: a
     /// direction below the horizon is left to the BSDF.
+    ///
+    /// The radiance that a surface reflects is estimated by `bsdf * l * |cos| / (pdf * pmf)`, where
+    /// `cos` is that at the receiver and `pmf` the probability with which the light was chosen. Of
+    /// several choices the sum is divided by their number.
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -36,6 +40,13 @@ pub trait Light<C: ColorModel> {
 
     /// A ray that leaves the light, its origin chosen by `u1` and its direction by `u2`, unless the
     /// light says otherwise.
+    ///
+    /// The power that the ray carries is `l * cos / (pdf.pos * pdf.dir)`, over the probability of
+    /// the light if one was chosen. At a surface, `cos` is the absolute cosine between the ray's
+    /// `direction` and its `normal`, because `pdf.pos` is a density per area of that surface. Where
+    /// `normal` is zero the factor is 1: a light at a point has an intensity, and lights at
+    /// infinity state `pdf.pos` per area across the ray. The mean of that power is
+    /// [`phi`](Self::phi).
     fn sample_le(
         &self,
         u1: Vec2,

@@ -52,7 +52,8 @@ impl EmittedRay {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLeSample<R> {
     /// Emitted radiance along the ray; for a light at a point its intensity, for one from a single
-    /// direction its irradiance.
+    /// direction its irradiance. [`Light::sample_le`](crate::Light::sample_le) says how it is
+    /// weighted.
     pub l: R,
     /// The ray.
     pub ray: EmittedRay,

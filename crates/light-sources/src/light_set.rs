@@ -23,7 +23,7 @@ use light_bounds::{LightExtent, LightId};
 /// [`id_of`](Self::id_of) gives the light, and a light sampler the probability with which light
 /// sampling would have chosen it; [`source_of`](Self::source_of) leads back. The ids of lights at
 /// infinity lie among the others: a ray that leaves the scene meets those of
-/// [`infinite_ids`](Self::infinite_ids).
+/// [`infinite_ids`](Self::infinite_ids). `crates/lights/examples/mis.rs` is that path in full.
 ///
 /// ```
 /// use light_sources::glam::Vec3;
@@ -34,15 +34,11 @@ use light_bounds::{LightExtent, LightId};
 ///     SurfaceColor::Uniform(Vec3::ONE),
 ///     RadianceAmount::Radiometric(1.0),
 /// );
-/// let mesh = MeshLightDesc {
-///     positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE].into(),
-///     indices: vec![[0, 1, 2], [1, 3, 2]].into(),
-///     uvs: None,
-///     emission,
-/// };
+/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
+/// let mesh = MeshLightDesc::new(corners, vec![[0, 1, 2], [1, 3, 2]], emission);
 /// let mut lights = LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 2.0)?);
-/// let first = lights.add(LightDesc::Mesh(mesh.clone()))?;
-/// let second = lights.add(LightDesc::Mesh(mesh))?;
+/// let first = lights.add(mesh.clone())?;
+/// let second = lights.add(mesh)?;
 /// let lights = lights.build();
 ///
 /// assert_eq!(lights.id_of(first, 1), Some(LightId(1)));

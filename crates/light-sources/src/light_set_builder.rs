@@ -32,13 +32,13 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes; the returned source gives its id once the set is
+    /// Adds the light that `desc` describes, a [`LightDesc`] or a description of one kind; the returned source gives its id once the set is
     /// built.
     ///
     /// # Errors
     /// When the description is invalid; the set is unchanged then.
-    pub fn add(&mut self, desc: LightDesc<C>) -> Result<SourceId, LightDescError> {
-        let source = LightSource::new(desc, self.set.scene)?;
+    pub fn add(&mut self, desc: impl Into<LightDesc<C>>) -> Result<SourceId, LightDescError> {
+        let source = LightSource::new(desc.into(), self.set.scene)?;
         self.set.push(source)
     }
 

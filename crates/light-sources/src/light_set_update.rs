@@ -44,12 +44,16 @@ impl<C: ColorModel> LightSet<C> {
     /// # Errors
     /// When the source is unknown, or the description invalid, of another kind, or of another
     /// number of lights; the set is unchanged then.
-    pub fn update(&mut self, source: SourceId, desc: LightDesc<C>) -> Result<(), LightUpdateError> {
+    pub fn update(
+        &mut self,
+        source: SourceId,
+        desc: impl Into<LightDesc<C>>,
+    ) -> Result<(), LightUpdateError> {
         let unknown = LightUpdateError::UnknownSource;
         let SourcePlace { kind, index } = self.sources.place(source).ok_or(unknown)?;
         let expected = self.sources.ids(source).ok_or(unknown)?.len();
         let index = index as usize;
-        let new = match (kind, desc) {
+        let new = match (kind, desc.into()) {
             (LightKind::ImageInfinite, LightDesc::ImageInfinite(desc)) => {
                 let light = self.lists.image_infinites[index].updated(desc);
                 LightSource::ImageInfinite(light.map_err(LightDescError::ImageInfinite)?)

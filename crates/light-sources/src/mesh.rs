@@ -30,6 +30,24 @@ pub struct MeshLightDesc<C: ColorModel> {
     pub emission: DiffuseEmissionDesc<C>,
 }
 
+impl<C: ColorModel> MeshLightDesc<C> {
+    /// A mesh of `positions` in scene space, of which `indices` names three a triangle,
+    /// counter-clockwise on the front, without surface parameters.
+    #[must_use]
+    pub fn new(
+        positions: impl Into<Arc<[Vec3]>>,
+        indices: impl Into<MeshIndices>,
+        emission: DiffuseEmissionDesc<C>,
+    ) -> Self {
+        Self {
+            positions: positions.into(),
+            indices: indices.into(),
+            uvs: None,
+            emission,
+        }
+    }
+}
+
 /// An emissive mesh: one source, whose triangles are area lights with consecutive ids.
 ///
 /// Vertices are shared and the emission is stored once, so that a triangle needs no memory here, or

@@ -30,6 +30,19 @@ pub struct PointLightDesc<C: ColorModel> {
     pub media: MediumInterface,
 }
 
+impl<C: ColorModel> PointLightDesc<C> {
+    /// A light at `position`, in scene units, in vacuum.
+    #[must_use]
+    pub fn new(position: Vec3, emission: C::Emission, amount: IntensityAmount) -> Self {
+        Self {
+            position,
+            emission,
+            amount,
+            media: MediumInterface::default(),
+        }
+    }
+}
+
 /// An isotropic point light.
 ///
 /// # Source

@@ -30,6 +30,27 @@ pub struct SpotLightDesc<C: ColorModel> {
     pub media: MediumInterface,
 }
 
+impl<C: ColorModel> SpotLightDesc<C> {
+    /// A light of even intensity up to the rim of its cone, at `angle` in `(0, pi]` from the axis
+    /// +z of `transform`, in vacuum.
+    #[must_use]
+    pub fn new(
+        transform: Affine3A,
+        angle: f32,
+        emission: C::Emission,
+        amount: IntensityAmount,
+    ) -> Self {
+        Self {
+            transform,
+            angle,
+            falloff_start: angle,
+            emission,
+            amount,
+            media: MediumInterface::default(),
+        }
+    }
+}
+
 /// Why the description of a spot light is invalid; each variant names a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -27,6 +27,14 @@ pub struct UniformInfiniteLightDesc<C: ColorModel> {
     pub amount: RadianceAmount,
 }
 
+impl<C: ColorModel> UniformInfiniteLightDesc<C> {
+    /// A sky of one colour.
+    #[must_use]
+    pub const fn new(emission: C::Emission, amount: RadianceAmount) -> Self {
+        Self { emission, amount }
+    }
+}
+
 /// The same radiance from all directions.
 ///
 /// # Source

@@ -23,17 +23,16 @@ struct Field {
     sampler: BvhLightSampler,
 }
 
-fn lamp(position: Vec3, emission: Vec3, watts_per_sr: f32) -> LightDesc<Rgb> {
-    LightDesc::Point(PointLightDesc {
+fn lamp(position: Vec3, emission: Vec3, watts_per_sr: f32) -> PointLightDesc<Rgb> {
+    PointLightDesc::new(
         position,
         emission,
-        amount: IntensityAmount::Radiometric(watts_per_sr),
-        media: MediumInterface::default(),
-    })
+        IntensityAmount::Radiometric(watts_per_sr),
+    )
 }
 
 /// A dim sky with a brighter horizon, `height` rows of a panorama.
-fn sky(height: u32) -> Result<LightDesc<Rgb>> {
+fn sky(height: u32) -> Result<ImageInfiniteLightDesc> {
     let row = |y| if y == height / 2 { 0.02 } else { 0.002 };
     let texels = (0..height).flat_map(|y| (0..2 * height).map(move |_| row(y)));
     let image = Image::from_f32(
@@ -41,11 +40,10 @@ fn sky(height: u32) -> Result<LightDesc<Rgb>> {
         Channels::Gray,
         texels.collect::<Vec<f32>>(),
     )?;
-    Ok(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+    Ok(ImageInfiniteLightDesc {
         transform: Affine3A::from_rotation_x(-core::f32::consts::FRAC_PI_2),
-        map: EnvironmentMap::LatLong(image),
-        amount: RadianceAmount::default(),
-    }))
+        ..ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image))
+    })
 }
 
 impl Field {
