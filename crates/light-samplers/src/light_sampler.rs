@@ -28,6 +28,9 @@ pub trait LightSampler {
     /// Calls `each` with `count` lights that may light `ctx`, or fewer: one for each of the equal
     /// parts of `[0, 1)`, at the relative position `u` in each part.
     ///
+    /// An estimate is the sum over the choices of what each gives over its pmf, divided by `count`:
+    /// also where fewer came back, since a choice that is left out contributes nothing.
+    ///
     /// A sampler may refine its estimates for several choices; their probabilities are then those
     /// of [`pmf_many`](Self::pmf_many) for the same `count`.
     fn sample_many(
@@ -45,7 +48,8 @@ pub trait LightSampler {
     }
 
     /// Probability that one of the `count` choices of [`sample_many`](Self::sample_many) at `ctx`
-    /// is `light`, on average over them.
+    /// is `light`, on average over them. Multiple importance sampling sets `count` times this, times
+    /// the density of the light, against the density of one sample of another strategy.
     fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
         let _ = count;
         self.pmf(ctx, light)
