@@ -4,57 +4,22 @@ use core::f32::consts::PI;
 use core::fmt;
 use core::marker::PhantomData;
 
-use crate::amount::RadianceAmount;
 use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
-use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
+use crate::image_infinite_desc::ImageInfiniteLightDesc;
 use crate::image_sky::ImageSky;
 use crate::light::{InfiniteLight, Light};
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
-use crate::resample::equal_area_size;
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
 use crate::scene_sphere::SceneSphere;
 use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
+use light_math::DirectionCone;
 use light_math::equal_area::sphere_to_square;
-use light_math::{DirectionCone, SphereMap};
-
-/// An [`ImageInfiniteLight`] as a user describes it.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ImageInfiniteLightDesc {
-    /// From light space to the scene; only its rotation counts.
-    pub transform: Affine3A,
-    /// The picture of the sky.
-    pub map: EnvironmentMap,
-    /// Amount of light, as a factor of the picture.
-    pub amount: RadianceAmount,
-}
-
-impl ImageInfiniteLightDesc {
-    /// The sky of `map` in light space, its texels in W m^-2 sr^-1.
-    #[must_use]
-    pub fn new(map: EnvironmentMap) -> Self {
-        Self {
-            transform: Affine3A::IDENTITY,
-            map,
-            amount: RadianceAmount::default(),
-        }
-    }
-}
-
-/// An image of all directions, with its map.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum EnvironmentMap {
-    /// A square, by [`equal_area`](light_math::equal_area).
-    EqualArea(Image),
-    /// A rectangle, by [`lat_long`](light_math::lat_long); it is resampled into a square once.
-    LatLong(Image),
-}
 
 /// An environment map: radiance from infinitely far away, by direction.
 ///
@@ -239,32 +204,6 @@ impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
     }
 }
 
-impl EnvironmentMap {
-    /// This map as an equal-area one, resampled if it is another. Lights whose descriptions share
-    /// it do not resample it again.
-    ///
-    /// # Errors
-    /// When an equal-area image is not square, or texels are too bright to be summed.
-    pub fn into_equal_area(self) -> Result<Self, ImageInfiniteLightError> {
-        self.into_equal_area_image().map(Self::EqualArea)
-    }
-
-    pub(crate) fn into_equal_area_image(self) -> Result<Image, ImageInfiniteLightError> {
-        match self {
-            Self::EqualArea(image) if image.size()[0] != image.size()[1] => {
-                Err(ImageInfiniteLightError::NotSquare)
-            }
-            Self::EqualArea(image) => Ok(image),
-            Self::LatLong(image) => {
-                let n = equal_area_size(image.size()[1]);
-                image
-                    .resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])
-                    .map_err(|_| ImageInfiniteLightError::Amount)
-            }
-        }
-    }
-}
-
 impl fmt::Display for ImageInfiniteLightError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -286,7 +225,10 @@ impl From<RigidTransformError> for ImageInfiniteLightError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::amount::RadianceAmount;
     use crate::channels::Channels;
+    use crate::glam::Affine3A;
+    use crate::image_infinite_desc::EnvironmentMap;
     use crate::rgb::Rgb;
 
     #[test]

@@ -47,6 +47,8 @@ mod image_error;
 #[cfg(feature = "alloc")]
 mod image_infinite;
 #[cfg(feature = "alloc")]
+mod image_infinite_desc;
+#[cfg(feature = "alloc")]
 mod image_sky;
 #[cfg(feature = "alloc")]
 mod level_quadrature;
@@ -153,9 +155,9 @@ pub use image::Image;
 #[cfg(feature = "alloc")]
 pub use image_error::ImageError;
 #[cfg(feature = "alloc")]
-pub use image_infinite::{
-    EnvironmentMap, ImageInfiniteLight, ImageInfiniteLightDesc, ImageInfiniteLightError,
-};
+pub use image_infinite::{ImageInfiniteLight, ImageInfiniteLightError};
+#[cfg(feature = "alloc")]
+pub use image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc};
 pub use light::{AreaLight, InfiniteLight, Light};
 #[cfg(feature = "alloc")]
 pub use light_desc::{LightDesc, LightDescError};

@@ -4,7 +4,7 @@ use crate::area_desc::AreaLightDesc;
 use crate::color::ColorModel;
 use crate::distant::DistantLightDesc;
 use crate::goniometric::GoniometricLightDesc;
-use crate::image_infinite::ImageInfiniteLightDesc;
+use crate::image_infinite_desc::ImageInfiniteLightDesc;
 use crate::light_desc::LightDesc;
 use crate::mesh::MeshLightDesc;
 use crate::point::PointLightDesc;

@@ -114,7 +114,7 @@ mod tests {
     use crate::channels::Channels;
     use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
     use crate::glam::{Affine3A, Vec2, Vec3};
-    use crate::image_infinite::EnvironmentMap;
+    use crate::image_infinite_desc::EnvironmentMap;
     use crate::light_desc::LightDesc;
     use crate::light_set_builder::LightSetBuilder;
     use crate::mesh::MeshLightDesc;

@@ -5,7 +5,7 @@ use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
 use crate::distant::DistantLightDesc;
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
-use crate::image_infinite::{EnvironmentMap, ImageInfiniteLightDesc};
+use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc};
 use crate::light_ref::LightRef;
 use crate::light_set_builder::LightSetBuilder;
 use crate::medium_interface::MediumInterface;
@@ -97,7 +97,8 @@ fn an_updated_set_is_the_set_that_would_be_built() {
         (4, lamp(Vec3::Z, 0.0)),
     ];
     let (mut updated, mut descs) = (set(&before), before);
-    let mut extents = Vec::new();
+    let mut extents = updated.extents();
+    let buffer = extents.as_ptr();
     for (source, desc) in changes {
         let was = answers(&updated);
         updated
@@ -112,6 +113,7 @@ fn an_updated_set_is_the_set_that_would_be_built() {
             alloc::format!("{:?}", updated.extents()),
             "the buffer holds these extents alone"
         );
+        assert_eq!(extents.as_ptr(), buffer, "no new buffer");
     }
 }
 

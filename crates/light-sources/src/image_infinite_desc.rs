@@ -1,0 +1,66 @@
+use crate::amount::RadianceAmount;
+use crate::glam::Affine3A;
+use crate::image::Image;
+use crate::image_infinite::ImageInfiniteLightError;
+use crate::resample::equal_area_size;
+use light_math::SphereMap;
+
+/// An [`ImageInfiniteLight`](crate::ImageInfiniteLight) as a user describes it.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ImageInfiniteLightDesc {
+    /// From light space to the scene; only its rotation counts.
+    pub transform: Affine3A,
+    /// The picture of the sky.
+    pub map: EnvironmentMap,
+    /// Amount of light, as a factor of the picture.
+    pub amount: RadianceAmount,
+}
+
+impl ImageInfiniteLightDesc {
+    /// The sky of `map` in light space, its texels in W m^-2 sr^-1.
+    #[must_use]
+    pub fn new(map: EnvironmentMap) -> Self {
+        Self {
+            transform: Affine3A::IDENTITY,
+            map,
+            amount: RadianceAmount::default(),
+        }
+    }
+}
+
+/// An image of all directions, with its map.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum EnvironmentMap {
+    /// A square, by [`equal_area`](light_math::equal_area).
+    EqualArea(Image),
+    /// A rectangle, by [`lat_long`](light_math::lat_long); it is resampled into a square once.
+    LatLong(Image),
+}
+
+impl EnvironmentMap {
+    /// This map as an equal-area one, resampled if it is another. Lights whose descriptions share
+    /// it do not resample it again.
+    ///
+    /// # Errors
+    /// When an equal-area image is not square, or texels are too bright to be summed.
+    pub fn into_equal_area(self) -> Result<Self, ImageInfiniteLightError> {
+        self.into_equal_area_image().map(Self::EqualArea)
+    }
+
+    pub(crate) fn into_equal_area_image(self) -> Result<Image, ImageInfiniteLightError> {
+        match self {
+            Self::EqualArea(image) if image.size()[0] != image.size()[1] => {
+                Err(ImageInfiniteLightError::NotSquare)
+            }
+            Self::EqualArea(image) => Ok(image),
+            Self::LatLong(image) => {
+                let n = equal_area_size(image.size()[1]);
+                image
+                    .resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])
+                    .map_err(|_| ImageInfiniteLightError::Amount)
+            }
+        }
+    }
+}
