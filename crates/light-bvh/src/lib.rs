@@ -15,6 +15,8 @@ pub use light_bounds;
 
 #[cfg(feature = "alloc")]
 mod build;
+#[cfg(feature = "bytemuck")]
+mod bytes;
 mod cut;
 mod error;
 mod importance;
@@ -31,6 +33,8 @@ mod validate;
 
 #[cfg(feature = "alloc")]
 pub use build::options::{BuildMode, DarkLights, LightBvhOptions};
+#[cfg(feature = "bytemuck")]
+pub use bytes::{StoredLightBvh, TreeBytesError};
 pub use cut::light_cut::{CutDetail, CutDetailError, LightCut};
 pub use error::LightBvhError;
 pub use importance::child_view::ChildView;

@@ -38,6 +38,7 @@ const _: () = assert!(align_of::<ReferenceNode>() == 32, "one a half line");
 
 impl ReferenceNode {
     /// Lights and nodes are numbered below this.
+    #[cfg(feature = "alloc")]
     pub(crate) const INDEX_LIMIT: u32 = LEAF_BIT;
 
     /// The leaf of `light`, whose id is below 2^31.

@@ -1,0 +1,116 @@
+use core::error::Error;
+use core::fmt;
+
+use crate::node::wide_node::WideNode;
+
+/// The first bytes of every tree.
+const MAGIC: [u8; 8] = *b"LightBvh";
+
+/// The form of the bytes; changes whenever the meaning of a byte of a node does.
+const VERSION: u32 = 1;
+
+/// What precedes the nodes, which so keep their alignment.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C, align(32))]
+pub(super) struct Header {
+    magic: [u8; 8],
+    version: u32,
+    pub(super) nodes: u32,
+    pub(super) order: u32,
+    pub(super) slots: u32,
+    /// The lower and the upper half of the bits of the power of all lights.
+    power: [u32; 2],
+}
+
+/// Bytes of the header.
+pub(super) const HEADER: usize = size_of::<Header>();
+
+const _: () = assert!(HEADER == 32, "no padding");
+
+impl Header {
+    /// The header of a tree with so many nodes, lights in them, and lights in all.
+    #[cfg(feature = "alloc")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "halves of 64 bits; a tree addresses its parts by 32 bits"
+    )]
+    pub(super) const fn new(nodes: usize, order: usize, slots: usize, power: f64) -> Self {
+        let power = power.to_bits();
+        Self {
+            magic: MAGIC,
+            version: VERSION,
+            nodes: nodes as u32,
+            order: order as u32,
+            slots: slots as u32,
+            power: [power as u32, (power >> 32) as u32],
+        }
+    }
+
+    /// The header at the start of `bytes`, at any alignment, if it tells of as many bytes as there
+    /// are.
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, TreeBytesError> {
+        let start = bytes.get(..HEADER).ok_or(TreeBytesError::NoTree)?;
+        let header: Self = bytemuck::pod_read_unaligned(start);
+        if header.magic != MAGIC {
+            return Err(TreeBytesError::NoTree);
+        }
+        if header.version != VERSION {
+            let found = header.version;
+            return Err(TreeBytesError::Version { found });
+        }
+        let expected = header.bytes();
+        if bytes.len() as u64 != expected {
+            return Err(TreeBytesError::Length { expected });
+        }
+        Ok(header)
+    }
+
+    /// Bytes of the whole.
+    fn bytes(&self) -> u64 {
+        let [nodes, order, slots] = [self.nodes, self.order, self.slots].map(u64::from);
+        HEADER as u64 + nodes * size_of::<WideNode>() as u64 + 4 * (order + slots)
+    }
+
+    pub(super) fn power(&self) -> f64 {
+        let [low, high] = self.power.map(u64::from);
+        f64::from_bits(low | high << 32)
+    }
+}
+
+/// Why bytes are no tree that can be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TreeBytesError {
+    /// They do not begin as a tree does.
+    NoTree,
+    /// They are of another version of this crate, or of a machine with another order of bytes.
+    Version {
+        /// The version that they name.
+        found: u32,
+    },
+    /// They are fewer or more than their head tells.
+    Length {
+        /// How many it tells.
+        expected: u64,
+    },
+    /// They do not begin at a multiple of 32, and cannot be used where they are.
+    Alignment,
+    /// The nodes do not refer to each other and to the lights as those of a tree do.
+    Links,
+}
+
+impl fmt::Display for TreeBytesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTree => f.write_str("the bytes do not begin as a tree does"),
+            Self::Version { found } => {
+                write!(f, "the tree has version {found}, expected {VERSION}")
+            }
+            Self::Length { expected } => write!(f, "expected {expected} bytes of a tree"),
+            Self::Alignment => f.write_str("the bytes do not begin at a multiple of 32"),
+            Self::Links => f.write_str("the nodes are no tree of the lights"),
+        }
+    }
+}
+
+impl Error for TreeBytesError {}

@@ -1,0 +1,56 @@
+use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH, WideNode};
+use crate::query::bvh_ref::LightBvhRef;
+
+/// Whether the nodes are one tree with parents before their children, and `order` and `slots` lead
+/// from its leaves to the lights and back. Linear, without memory of its own.
+pub(super) fn are_links_sound(tree: &LightBvhRef<'_>) -> bool {
+    let (nodes, order, slots) = (tree.nodes(), tree.order(), tree.slots());
+    let (mut children, mut lights) = (0, 0);
+    for (index, node) in nodes.iter().enumerate() {
+        if !has_sound_children(tree, index, node) || !is_near_root(nodes, index) {
+            return false;
+        }
+        children += usize::from(node.inner);
+        lights += usize::from(node.count - node.inner);
+    }
+    // Each child names its parent, and each light its place: so none is counted twice.
+    let placed = slots.iter().filter(|&&slot| slot != NOWHERE).count();
+    let is_whole = children == nodes.len().saturating_sub(1);
+    is_whole && lights == order.len() && placed == order.len()
+}
+
+fn has_sound_children(tree: &LightBvhRef<'_>, index: usize, node: &WideNode) -> bool {
+    let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+    if inner > count || count > WIDTH {
+        return false;
+    }
+    let place = |k: usize| WIDTH * index + k;
+    let is_child = |k: usize| {
+        let child = node.child_base as usize + k;
+        let found = tree.nodes().get(child).map(|child| child.parent as usize);
+        child > index && found == Some(place(k))
+    };
+    let is_light = |k: usize| {
+        let entry = node.light_base as usize + k - inner;
+        let light = tree.order().get(entry).map(|&light| light as usize);
+        let slot = light.and_then(|light| tree.slots().get(light));
+        slot.map(|&slot| slot as usize) == Some(place(k))
+    };
+    (0..inner).all(is_child) && (inner..count).all(is_light)
+}
+
+/// Whether the parents of node `index` lead to the root within the levels that a tree may have.
+fn is_near_root(nodes: &[WideNode], index: usize) -> bool {
+    let mut index = index;
+    for _ in 0..MAX_DEPTH {
+        if index == 0 {
+            return nodes[0].parent == NOWHERE;
+        }
+        let parent = nodes[index].parent as usize / WIDTH;
+        if parent >= index {
+            return false;
+        }
+        index = parent;
+    }
+    false
+}

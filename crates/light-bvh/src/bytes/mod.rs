@@ -1,0 +1,10 @@
+//! Trees as bytes: in a file, in flash, or in a buffer of a GPU.
+
+mod header;
+mod links;
+#[cfg(feature = "alloc")]
+mod owned;
+mod stored;
+
+pub use header::TreeBytesError;
+pub use stored::StoredLightBvh;

@@ -1,0 +1,45 @@
+use alloc::vec::Vec;
+
+use crate::bytes::header::{HEADER, Header, TreeBytesError};
+use crate::bytes::stored::StoredLightBvh;
+use crate::light_bvh::LightBvh;
+use crate::node::wide_node::WideNode;
+use crate::query::bvh_ref::LightBvhRef;
+
+impl LightBvh {
+    /// The tree as bytes, for [`StoredLightBvh::from_bytes`] and [`from_bytes`](Self::from_bytes).
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let header = Header::new(
+            self.nodes.len(),
+            self.order.len(),
+            self.slots.len(),
+            self.power,
+        );
+        let mut bytes = Vec::with_capacity(HEADER + self.bytes());
+        bytes.extend_from_slice(bytemuck::bytes_of(&header));
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.nodes));
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.order));
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.slots));
+        bytes
+    }
+
+    /// A copy of the tree in `bytes`, wherever they begin, that can be refitted.
+    ///
+    /// # Errors
+    /// The first thing that is wrong: see [`TreeBytesError`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, TreeBytesError> {
+        let header = Header::read(bytes)?;
+        let (nodes, rest) = bytes[HEADER..].split_at(header.nodes as usize * size_of::<WideNode>());
+        let (order, slots) = rest.split_at(4 * header.order as usize);
+        let tree = Self {
+            nodes: bytemuck::pod_collect_to_vec(nodes),
+            order: bytemuck::pod_collect_to_vec(order),
+            slots: bytemuck::pod_collect_to_vec(slots),
+            power: header.power(),
+        };
+        let view = LightBvhRef::new(&tree.nodes, &tree.order, &tree.slots);
+        StoredLightBvh::checked(view, tree.power)?;
+        Ok(tree)
+    }
+}

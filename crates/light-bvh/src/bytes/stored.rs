@@ -1,0 +1,67 @@
+use light_bounds::LightSampleContext;
+
+use crate::bytes::header::{HEADER, Header, TreeBytesError};
+use crate::bytes::links::are_links_sound;
+use crate::node::wide_node::WideNode;
+use crate::query::bvh_ref::LightBvhRef;
+
+/// A tree that lies in bytes: in a mapped file, in flash, or in a buffer.
+///
+/// 32 bytes of head, the nodes, then the entries of [`LightBvhRef::order`] and
+/// [`LightBvhRef::slots`], as little-endian machines hold them. Nothing is copied.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredLightBvh<'a> {
+    view: LightBvhRef<'a>,
+    power: f64,
+}
+
+impl<'a> StoredLightBvh<'a> {
+    /// The tree in `bytes`, which [`LightBvh::to_bytes`](crate::LightBvh::to_bytes) made and which
+    /// begin at a multiple of 32.
+    ///
+    /// # Errors
+    /// The first thing that is wrong: see [`TreeBytesError`]. Looks at every node and light once;
+    /// what nodes say of their lights is not checked: wrong codes give wrong probabilities, but
+    /// neither a panic nor an endless loop.
+    pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TreeBytesError> {
+        let header = Header::read(bytes)?;
+        let (nodes, rest) = bytes[HEADER..].split_at(header.nodes as usize * size_of::<WideNode>());
+        let (order, slots) = rest.split_at(4 * header.order as usize);
+        let unaligned = |_| TreeBytesError::Alignment;
+        let view = LightBvhRef::new(
+            bytemuck::try_cast_slice(nodes).map_err(unaligned)?,
+            bytemuck::try_cast_slice(order).map_err(unaligned)?,
+            bytemuck::try_cast_slice(slots).map_err(unaligned)?,
+        );
+        Self::checked(view, header.power())
+    }
+
+    /// The tree of `view`, if it is one.
+    pub(super) fn checked(view: LightBvhRef<'a>, power: f64) -> Result<Self, TreeBytesError> {
+        let has_power = power.is_finite() && power >= 0.0;
+        if has_power && are_links_sound(&view) {
+            Ok(Self { view, power })
+        } else {
+            Err(TreeBytesError::Links)
+        }
+    }
+
+    /// What queries need.
+    #[must_use]
+    pub const fn view(&self) -> LightBvhRef<'a> {
+        self.view
+    }
+
+    /// The power of all lights of the tree.
+    #[must_use]
+    pub const fn power(&self) -> f64 {
+        self.power
+    }
+
+    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of the tree; 0 only
+    /// if none of them can contribute.
+    #[must_use]
+    pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
+        self.view.irradiance(ctx) * self.power
+    }
+}
