@@ -32,8 +32,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
         }
     }
 
-    /// Adds the light that `desc` describes, a [`LightDesc`] or a description of one kind; the returned source gives its id once the set is
-    /// built.
+    /// Adds the light that `desc` describes, a [`LightDesc`] or a description of one kind; the
+    /// returned source gives its id once the set is built.
     ///
     /// # Errors
     /// When the description is invalid; the set is unchanged then.

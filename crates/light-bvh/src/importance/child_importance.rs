@@ -24,9 +24,8 @@ const NEARNESS: f32 = 0.2;
 ///
 /// The product with the axis differs by at most its largest component, 127, times that sum, and the
 /// offset's by 127 times a length that is no longer. The mean distance exceeds that of the mean
-/// position by at most 0.3 of the sum, and by a hundredth of a code, a 300th of the least sum: 127
-/// (2 + 0.3 + 0.0034) < 293. An emitter in the corner of a cube, beside a receiver in the cube,
-/// needs 210.
+/// position by at most 0.3 of the sum: 127 (2 + 0.3) < 293. An emitter in the corner of a cube,
+/// beside a receiver in the cube, needs 210.
 const BOX_EMISSION: f32 = 297.0;
 
 /// How far beyond the mean edge of a spot it may emit, in codes, over its spread.
@@ -45,7 +44,8 @@ impl ChildView {
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
         let beyond = mx * vx + my * vy + mz * vz + self.offset * self.dist;
-        // Round-off is less than 0.001 times the distance, which the codes leave: see their margins.
+        // Round-off is less than 0.001 times the distance, which the codes leave: see their
+        // margins.
         let edge = (STEP_EDGE * self.spread) * self.dist;
         let within = LaneMask::when(beyond < BOX_EMISSION * (hx + hy + hz) + edge);
         // The mean of lights that differ proves nothing.
@@ -84,9 +84,9 @@ impl ChildView {
     /// emission, times the distance.
     ///
     /// A ramp emits `max(0, -beyond)`, half of the root less `beyond` where these vary. A step
-    /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by `width`
-    /// a step varies by the solid angle of its cap, `2 pi (1 - cos)`, so that the flux of a beam
-    /// stays about what it is.
+    /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by
+    /// `width` a step varies by the solid angle of its cap, `2 pi (1 - cos)`, so that the flux of
+    /// a beam stays about what it is.
     #[inline(always)]
     pub(crate) fn weight(&self, height: f32, lift: f32) -> f32 {
         let [hx, hy, hz] = self.extent;

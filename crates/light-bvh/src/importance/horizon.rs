@@ -44,9 +44,9 @@ impl Horizon {
     /// above the horizon counts; 0 of what is no group of ramps.
     ///
     /// Lights that fill their box evenly have that mean half way between the highest point and the
-    /// larger of their mean height and zero: it is raised by half of the support less the height, of
-    /// which the arguments are half. Height and emission so go together: where lights face down, what is above the horizon is what is in
-    /// front.
+    /// larger of their mean height and zero: it is raised by half of the support less the height,
+    /// of which the arguments are half. Height and emission so go together: where lights face
+    /// down, what is above the horizon is what is in front.
     #[inline(always)]
     pub(crate) fn lift(&self, child: &ChildView, height: f32, support: f32) -> f32 {
         let [mx, my, mz] = child.axis;

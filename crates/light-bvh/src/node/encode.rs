@@ -78,8 +78,8 @@ impl WideNode {
     /// Mean positions, and boxes around them that hold what they must.
     ///
     /// A difference of two floats is off by half an epsilon of itself, however far from zero they
-    /// are. Twice 255 codes are so known to within 1e-4 of a code, and a receiver rounds a position by
-    /// 2e-4 and a share of its distance: the margin outweighs both.
+    /// are. Twice 255 codes are so known to within 1e-4 of a code, and a receiver rounds a
+    /// position by 2e-4 and a share of its distance: the margin outweighs both.
     #[inline(always)]
     fn set_boxes(&mut self, children: &ChildrenSoa) {
         const MARGIN: f32 = 0.001;

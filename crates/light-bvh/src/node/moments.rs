@@ -73,8 +73,8 @@ impl Moments {
 
     /// What counts as squared spread of a group seen from one place.
     ///
-    /// Of steps that of the offsets and of the directions; of these less where the cones are narrow,
-    /// for few of them matter to one receiver.
+    /// Of steps that of the offsets and of the directions; of these less where the cones are
+    /// narrow, for few of them matter to one receiver.
     pub(crate) fn total_spread_sq(&self) -> f32 {
         match self.shape {
             Shape::Steps => {

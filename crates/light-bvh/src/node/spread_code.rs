@@ -10,8 +10,8 @@ pub(crate) const RAMP_BY_SPREAD: f32 = 0.27;
 /// The least spread: that of one flat light, the root of [`RAMP_BY_SPREAD`].
 pub(crate) const LEAST_SPREAD: f32 = 0.519_615_24;
 
-/// Bit 7: it emits in a step. Bit 6: it is soft, anything but one flat light or one spot. Below: the
-/// spread, of `[0.52, 122]`, in steps of at most an eighth.
+/// Bit 7: it emits in a step. Bit 6: it is soft, anything but one flat light or one spot. Below:
+/// the spread, of `[0.52, 122]`, in steps of at most an eighth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SpreadCode(pub(crate) u8);
 

@@ -12,10 +12,10 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 ///
 /// Lengths are in codes, of which `inv_scale` make a unit. A child's emission toward a unit vector
 /// `w` is a ramp, about `power * max(0, dot(axis, w) - offset)`, or a step, about `power` where
-/// `dot(axis, w) > offset`; both are blurred by its `spread`. The three share a unit, that of a ramp
-/// is folded into `power`, that of a step is 1/127. A child is a step if a light of it has a narrow
-/// cone. The first `inner` children are subtrees, in the nodes
-/// `child_base..`; the others are lights, in the order entries `light_base..`.
+/// `dot(axis, w) > offset`; both are blurred by its `spread`. The three share a unit, that of a
+/// ramp is folded into `power`, that of a step is 1/127. A child is a step if a light of it has a
+/// narrow cone. The first `inner` children are subtrees, in the nodes `child_base..`; the others
+/// are lights, in the order entries `light_base..`.
 ///
 /// Aligned so that none is on more than four cache lines.
 ///
