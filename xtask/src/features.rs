@@ -49,6 +49,7 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     core("light-bounds", "libm,bytemuck,serde"),
     std("light-bounds", "std,bytemuck,serde"),
     core("light-bvh", "libm"),
+    core("light-bvh", "libm,bytemuck"),
     alloc("light-bvh", "libm,alloc,bytemuck"),
     std("light-bvh", "std,rayon"),
     core("light-samplers", "libm"),
@@ -65,7 +66,7 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     alloc("light-photometry", "libm"),
     std("light-photometry", "std"),
     core("lights", "libm"),
-    alloc("lights", "libm,alloc"),
+    alloc("lights", "libm,alloc,bytemuck"),
     std("lights", "std,rayon,serde"),
 ];
 
