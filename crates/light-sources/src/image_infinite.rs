@@ -1,20 +1,18 @@
 use alloc::sync::Arc;
-use core::error::Error;
 use core::f32::consts::PI;
-use core::fmt;
 use core::marker::PhantomData;
 
 use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
-use crate::image_infinite_desc::ImageInfiniteLightDesc;
+use crate::image_infinite_desc::{ImageInfiniteLightDesc, ImageInfiniteLightError};
 use crate::image_sky::ImageSky;
 use crate::light::{InfiniteLight, Light};
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
-use crate::rigid_transform::{RigidTransform, RigidTransformError};
+use crate::rigid_transform::RigidTransform;
 use crate::scene_sphere::SceneSphere;
 use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
@@ -35,18 +33,6 @@ pub struct ImageInfiniteLight<C> {
     scene: SceneSphere,
     extent: InfiniteBounds,
     color: PhantomData<C>,
-}
-
-/// Why the description of an environment light is invalid; each variant names a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ImageInfiniteLightError {
-    /// `transform` is not rigid.
-    Transform(RigidTransformError),
-    /// `map` is an equal-area image that is not square.
-    NotSquare,
-    /// `map` is too bright to be summed, or `amount` negative, not finite, or too large for it.
-    Amount,
 }
 
 impl<C: ColorModel> ImageInfiniteLight<C> {
@@ -201,24 +187,6 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
 impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
     fn le(&self, _origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         self.radiance(self.uv(direction), wavelengths)
-    }
-}
-
-impl fmt::Display for ImageInfiniteLightError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Transform(error) => error.fmt(f),
-            Self::NotSquare => f.write_str("map: an equal-area image must be square"),
-            Self::Amount => f.write_str("amount: must be finite and not negative"),
-        }
-    }
-}
-
-impl Error for ImageInfiniteLightError {}
-
-impl From<RigidTransformError> for ImageInfiniteLightError {
-    fn from(error: RigidTransformError) -> Self {
-        Self::Transform(error)
     }
 }
 

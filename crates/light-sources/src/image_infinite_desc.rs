@@ -1,8 +1,11 @@
+use core::error::Error;
+use core::fmt;
+
 use crate::amount::RadianceAmount;
 use crate::glam::Affine3A;
 use crate::image::Image;
-use crate::image_infinite::ImageInfiniteLightError;
 use crate::resample::equal_area_size;
+use crate::rigid_transform::RigidTransformError;
 use light_math::SphereMap;
 
 /// An [`ImageInfiniteLight`](crate::ImageInfiniteLight) as a user describes it.
@@ -62,5 +65,35 @@ impl EnvironmentMap {
                     .map_err(|_| ImageInfiniteLightError::Amount)
             }
         }
+    }
+}
+
+/// Why the description of an environment light is invalid; each variant names a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImageInfiniteLightError {
+    /// `transform` is not rigid.
+    Transform(RigidTransformError),
+    /// `map` is an equal-area image that is not square.
+    NotSquare,
+    /// `map` is too bright to be summed, or `amount` negative, not finite, or too large for it.
+    Amount,
+}
+
+impl fmt::Display for ImageInfiniteLightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Transform(error) => error.fmt(f),
+            Self::NotSquare => f.write_str("map: an equal-area image must be square"),
+            Self::Amount => f.write_str("amount: must be finite and not negative"),
+        }
+    }
+}
+
+impl Error for ImageInfiniteLightError {}
+
+impl From<RigidTransformError> for ImageInfiniteLightError {
+    fn from(error: RigidTransformError) -> Self {
+        Self::Transform(error)
     }
 }

@@ -155,9 +155,9 @@ pub use image::Image;
 #[cfg(feature = "alloc")]
 pub use image_error::ImageError;
 #[cfg(feature = "alloc")]
-pub use image_infinite::{ImageInfiniteLight, ImageInfiniteLightError};
+pub use image_infinite::ImageInfiniteLight;
 #[cfg(feature = "alloc")]
-pub use image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc};
+pub use image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc, ImageInfiniteLightError};
 pub use light::{AreaLight, InfiniteLight, Light};
 #[cfg(feature = "alloc")]
 pub use light_desc::{LightDesc, LightDescError};
