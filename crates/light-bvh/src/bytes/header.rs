@@ -15,9 +15,9 @@ const VERSION: u32 = 1;
 pub(super) struct Header {
     magic: [u8; 8],
     version: u32,
-    pub(super) nodes: u32,
-    pub(super) order: u32,
-    pub(super) slots: u32,
+    nodes: u32,
+    order: u32,
+    slots: u32,
     /// The lower and the upper half of the bits of the power of all lights.
     power: [u32; 2],
 }
@@ -46,10 +46,12 @@ impl Header {
         }
     }
 
-    /// The header at the start of `bytes`, at any alignment, if it tells of as many bytes as there
-    /// are.
-    pub(super) fn read(bytes: &[u8]) -> Result<Self, TreeBytesError> {
-        let start = bytes.get(..HEADER).ok_or(TreeBytesError::NoTree)?;
+    /// The header at the start of `bytes`, at any alignment, and the nodes, order and slots that
+    /// follow it, if there are as many bytes as it tells.
+    pub(super) fn split(bytes: &[u8]) -> Result<(Self, [&[u8]; 3]), TreeBytesError> {
+        let (start, rest) = bytes
+            .split_at_checked(HEADER)
+            .ok_or(TreeBytesError::NoTree)?;
         let header: Self = bytemuck::pod_read_unaligned(start);
         if header.magic != MAGIC {
             return Err(TreeBytesError::NoTree);
@@ -62,7 +64,9 @@ impl Header {
         if bytes.len() as u64 != expected {
             return Err(TreeBytesError::Length { expected });
         }
-        Ok(header)
+        let (nodes, rest) = rest.split_at(header.nodes as usize * size_of::<WideNode>());
+        let (order, slots) = rest.split_at(4 * header.order as usize);
+        Ok((header, [nodes, order, slots]))
     }
 
     /// Bytes of the whole.

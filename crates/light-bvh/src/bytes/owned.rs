@@ -3,7 +3,6 @@ use alloc::vec::Vec;
 use crate::bytes::header::{HEADER, Header, TreeBytesError};
 use crate::bytes::stored::StoredLightBvh;
 use crate::light_bvh::LightBvh;
-use crate::node::wide_node::WideNode;
 use crate::query::bvh_ref::LightBvhRef;
 
 impl LightBvh {
@@ -29,9 +28,7 @@ impl LightBvh {
     /// # Errors
     /// The first thing that is wrong: see [`TreeBytesError`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, TreeBytesError> {
-        let header = Header::read(bytes)?;
-        let (nodes, rest) = bytes[HEADER..].split_at(header.nodes as usize * size_of::<WideNode>());
-        let (order, slots) = rest.split_at(4 * header.order as usize);
+        let (header, [nodes, order, slots]) = Header::split(bytes)?;
         let tree = Self {
             nodes: bytemuck::pod_collect_to_vec(nodes),
             order: bytemuck::pod_collect_to_vec(order),

@@ -1,8 +1,7 @@
 use light_bounds::LightSampleContext;
 
-use crate::bytes::header::{HEADER, Header, TreeBytesError};
+use crate::bytes::header::{Header, TreeBytesError};
 use crate::bytes::links::are_links_sound;
-use crate::node::wide_node::WideNode;
 use crate::query::bvh_ref::LightBvhRef;
 
 /// A tree that lies in bytes: in a mapped file, in flash, or in a buffer.
@@ -24,9 +23,7 @@ impl<'a> StoredLightBvh<'a> {
     /// what nodes say of their lights is not checked: wrong codes give wrong probabilities, but
     /// neither a panic nor an endless loop.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TreeBytesError> {
-        let header = Header::read(bytes)?;
-        let (nodes, rest) = bytes[HEADER..].split_at(header.nodes as usize * size_of::<WideNode>());
-        let (order, slots) = rest.split_at(4 * header.order as usize);
+        let (header, [nodes, order, slots]) = Header::split(bytes)?;
         let unaligned = |_| TreeBytesError::Alignment;
         let view = LightBvhRef::new(
             bytemuck::try_cast_slice(nodes).map_err(unaligned)?,
