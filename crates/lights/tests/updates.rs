@@ -7,20 +7,13 @@ use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::*;
 
 fn lamp(position: Vec3, intensity: f32) -> LightDesc<Rgb> {
-    LightDesc::Point(PointLightDesc {
-        position,
-        emission: Vec3::ONE,
-        amount: IntensityAmount::Radiometric(intensity),
-        media: MediumInterface::default(),
-    })
+    let amount = IntensityAmount::Radiometric(intensity);
+    PointLightDesc::new(position, Vec3::ONE, amount).into()
 }
 
 fn sun(direction: Vec3, irradiance: f32) -> LightDesc<Rgb> {
-    LightDesc::Distant(DistantLightDesc {
-        direction,
-        emission: Vec3::ONE,
-        amount: IrradianceAmount::Radiometric(irradiance),
-    })
+    let amount = IrradianceAmount::Radiometric(irradiance);
+    DistantLightDesc::new(direction, Vec3::ONE, amount).into()
 }
 
 fn sky(angle: f32) -> LightDesc<Rgb> {

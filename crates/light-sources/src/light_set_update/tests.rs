@@ -8,7 +8,6 @@ use crate::image::Image;
 use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc};
 use crate::light_ref::LightRef;
 use crate::light_set_builder::LightSetBuilder;
-use crate::medium_interface::MediumInterface;
 use crate::mesh::MeshLightDesc;
 use crate::pdf_coverage::PdfCoverage;
 use crate::point::{PointLightDesc, PointLightError};
@@ -18,12 +17,8 @@ use alloc::string::ToString;
 use light_bounds::LightSampleContext;
 
 fn lamp(position: Vec3, intensity: f32) -> LightDesc<Rgb> {
-    LightDesc::Point(PointLightDesc {
-        position,
-        emission: Vec3::ONE,
-        amount: IntensityAmount::Radiometric(intensity),
-        media: MediumInterface::default(),
-    })
+    let amount = IntensityAmount::Radiometric(intensity);
+    PointLightDesc::new(position, Vec3::ONE, amount).into()
 }
 
 fn mesh(triangles: usize, at: Vec3) -> LightDesc<Rgb> {
@@ -37,11 +32,8 @@ fn mesh(triangles: usize, at: Vec3) -> LightDesc<Rgb> {
 }
 
 fn sun(direction: Vec3, irradiance: f32) -> LightDesc<Rgb> {
-    LightDesc::Distant(DistantLightDesc {
-        direction,
-        emission: Vec3::ONE,
-        amount: IrradianceAmount::Radiometric(irradiance),
-    })
+    let amount = IrradianceAmount::Radiometric(irradiance);
+    DistantLightDesc::new(direction, Vec3::ONE, amount).into()
 }
 
 fn sky(image: &Image, angle: f32, radiance: f32) -> LightDesc<Rgb> {
