@@ -18,7 +18,7 @@ impl MaskShare {
         }
     }
 
-    /// The value between `least` and `most` at which the share bends or jumps.
+    /// The value above `least`, up to `most`, at which the share bends or jumps.
     pub(crate) fn bend(self, least: f64, most: f64) -> Option<f64> {
         let bend = match self {
             Self::Linear => return None,
@@ -26,5 +26,23 @@ impl MaskShare {
             Self::Cutoff(bend) => bend,
         };
         (least < bend && bend <= most).then_some(bend)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where all values are on one side of the bend, the share is a polynomial and needs no cut.
+    #[test]
+    fn only_values_on_both_sides_of_a_bend_are_cut() {
+        let found = |share: MaskShare| {
+            let spans = [(0.1, 0.4), (0.1, 0.5), (0.1, 0.9), (0.5, 0.9), (0.6, 0.9)];
+            spans.map(|(least, most)| share.bend(least, most))
+        };
+        let expected = [None, Some(0.5), Some(0.5), None, None];
+        assert_eq!(found(MaskShare::Cutoff(0.5)), expected, "a jump at 0.5");
+        assert_eq!(found(MaskShare::AtMostOne(2.0)), expected, "full at 0.5");
+        assert_eq!(found(MaskShare::Linear), [None; 5], "nowhere");
     }
 }
