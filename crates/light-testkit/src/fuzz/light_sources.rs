@@ -1,6 +1,7 @@
 use light_bounds::{LightExtent, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
+use light_sources::shape::Shape;
 use light_sources::{Light, LightRef, LightSet, LightSetBuilder, PdfCoverage, Rgb};
 
 use super::input::Input;
@@ -103,17 +104,17 @@ fn check_power(light: &LightRef<'_, Rgb>) {
     assert!(is_valid, "{:?} of {light:?}", light.extent());
 }
 
-/// Whether the power of a surface, which has a box, may be a positive float: by its radiance and
-/// that box.
+/// Whether the power of a surface may be a positive float: by its radiance and its area, of which
+/// a needle has little for its length.
 fn has_power(light: &LightRef<'_, Rgb>, l: Vec3) -> bool {
-    match light.extent() {
-        LightExtent::Bounded(bounds) if bounds.bounds.min != bounds.bounds.max => {
-            let diagonal = bounds.bounds.diagonal().as_dvec3();
-            let most = 40.0 * f64::from(l.max_element()) * diagonal.length_squared();
-            most >= f64::from(f32::MIN_POSITIVE)
-        }
-        _ => true,
-    }
+    let area = match light {
+        LightRef::Area(light) => light.shape().area(),
+        LightRef::Triangle(light) => light.shape().area(),
+        _ => return true,
+    };
+    // Both sides.
+    let most = 2.0 * core::f64::consts::PI * f64::from(area) * f64::from(l.max_element());
+    most >= f64::from(f32::MIN_POSITIVE)
 }
 
 /// What arrives, by a sample of the light, has a pmf above zero.
