@@ -86,6 +86,22 @@ impl Region {
         ray.transformed(&self.from_scene)
     }
 
+    /// How far rounding may move points of the scene's ray up to distance `t` from those of
+    /// [`Self::local_ray`], in the region's own space: infinite or NaN where coordinates overflow.
+    #[must_use]
+    pub(crate) fn rounding(&self, ray: &Ray, t: f32) -> Vec3 {
+        /// Halves of `f32::EPSILON`: 2 of a point, 4 of its transform, 4 of the ray's, 3 of a
+        /// distance to a wall, and 16 of the sum of as many distances between walls.
+        const ROUNDINGS: f32 = 2.0 + 4.0 + 4.0 + 3.0 + 16.0;
+        let far = ray.o.abs() + ray.d.abs() * t;
+        let Affine3A {
+            matrix3,
+            translation,
+        } = self.from_scene;
+        let sum = matrix3.abs() * far + Vec3::from(translation.abs());
+        sum * (ROUNDINGS * 0.5 * f32::EPSILON)
+    }
+
     /// The box in the region's own space; `None` where it is unbounded.
     #[must_use]
     pub const fn bounds(&self) -> Option<&Aabb> {
@@ -110,20 +126,24 @@ impl Region {
 }
 
 /// The part of `span` inside `bounds`, by the slab method; a ray parallel to a face counts as
-/// inside while its origin is.
+/// inside while its origin is. `None` where the coordinates of the ray overflow.
 fn slabs(bounds: &Aabb, ray: &Ray, span: Span) -> Option<Span> {
     let (mut t0, mut t1) = (span.t0, span.t1);
     for axis in 0..3 {
         let (o, d) = (ray.o[axis], ray.d[axis]);
         if d == 0.0 {
-            if o < bounds.min[axis] || o > bounds.max[axis] {
+            if !(o >= bounds.min[axis] && o <= bounds.max[axis]) {
                 return None;
             }
             continue;
         }
         let (a, b) = ((bounds.min[axis] - o) / d, (bounds.max[axis] - o) / d);
-        t0 = t0.max(a.min(b));
-        t1 = t1.min(a.max(b));
+        let (near, far) = if a < b { (a, b) } else { (b, a) };
+        if !(near <= far) {
+            return None;
+        }
+        t0 = t0.max(near);
+        t1 = t1.min(far);
     }
     Span::new(t0, t1)
 }
@@ -181,6 +201,23 @@ mod tests {
             Some(Span { t0: 0.0, t1: 1.0 }),
             "begins inside"
         );
+    }
+
+    /// Each entry of the transform is finite, but not the sum of two.
+    #[test]
+    fn a_ray_whose_coordinates_overflow_crosses_nothing() {
+        let cube = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        let turned = Affine3A::from_rotation_z(-core::f32::consts::FRAC_PI_4);
+        let thin = Affine3A::from_scale(Vec3::new(2.2e-39, 100.0, 1.0));
+        let region = Region::new(cube, turned * thin).expect("a box");
+        let (across, beside) = (Vec3::new(0.6, -0.6, 0.53), Vec3::new(3.0, -3.0, 0.1));
+        let along = Vec3::new(3.0, 3.0, 0.1);
+        for (o, d) in [(beside, across), (along, Vec3::Z), (Vec3::ZERO, across)] {
+            let ray = Ray { o, d };
+            let local = region.local_ray(&ray);
+            assert!(!(local.o.is_finite() && local.d.is_finite()), "{local:?}");
+            assert_eq!(region.clip(&ray, ALL), None, "{local:?}");
+        }
     }
 
     #[test]

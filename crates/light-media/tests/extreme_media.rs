@@ -1,9 +1,13 @@
-//! Media whose coefficients are many orders of magnitude apart.
+//! Media whose coefficients are many orders of magnitude apart, and boxes too thin for floats.
 
-use light_media::glam::Vec3;
+use light_media::glam::{Affine3A, Quat, Vec3};
+use light_media::light_math::Aabb;
 use light_media::phase::{Isotropic, Phase};
 use light_media::transmittance::ratio_tracking;
-use light_media::{Homogeneous, Ray, Region, Span, Substance, delta_tracking};
+use light_media::{
+    DensityGrid, Glow, GridMedium, Homogeneous, Medium, Ray, Region, Span, Substance,
+    delta_tracking,
+};
 use light_sources::Rgb;
 
 const RAY: Ray = Ray {
@@ -48,4 +52,89 @@ fn light_that_hardly_ever_scatters_keeps_a_finite_weight() {
         let flight = delta_tracking(&medium, &RAY, SPAN, Vec3::ONE, &(), &mut next_u);
         assert!(flight.weight.is_finite(), "{flight:?} for {first}");
     }
+}
+
+/// The bounds along `ray` hold wherever rounding puts a point, in a box in which only the half
+/// below the middle of one axis is dense. Returns the number of segments, 0 for a ray that crosses
+/// the box in less time than floats tell.
+fn bounds_hold(ray: &Ray, bounds: Aabb, to_scene: Affine3A, axis: usize) -> usize {
+    let mut size = [1; 3];
+    size[axis] = 8;
+    let values = [2.0, 2.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0];
+    let medium = GridMedium::<Rgb, _>::new(
+        Substance::new(Vec3::ONE, Vec3::ONE, Vec3::ZERO).expect("coefficients"),
+        Phase::Isotropic(Isotropic),
+        bounds,
+        to_scene,
+        DensityGrid::new(size, values).expect("a grid"),
+        Glow::uniform(),
+    );
+    let medium = medium.expect("a medium");
+    let far = Span { t0: 0.0, t1: 1e9 };
+    let mut segments = 0;
+    let Some(span) = medium.clip(ray, far) else {
+        return segments;
+    };
+    for segment in medium.majorants(ray, span, &()) {
+        segments += 1;
+        for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let t = segment.span.t0 + share * segment.span.length();
+            let sigma_t = medium.coefficients(ray.at(t), &()).sigma_t().x;
+            let bound = segment.sigma_maj * 1.000_01;
+            assert!(sigma_t <= bound, "{sigma_t} at {t} in {segment:?}");
+        }
+    }
+    segments
+}
+
+/// A ray through it crosses more cells a unit than a float counts.
+#[test]
+fn a_box_just_above_the_smallest_float_is_bounded() {
+    for thickness in [4e-38, 1e-37, 1e-30] {
+        let bounds = Aabb::new(Vec3::ZERO, Vec3::new(thickness, 1.0, 1.0));
+        let ray = Ray {
+            o: Vec3::new(0.0, 0.5, 0.5),
+            d: Vec3::X,
+        };
+        let segments = bounds_hold(&ray, bounds, Affine3A::IDENTITY, 0);
+        assert!(segments > 0, "{thickness}");
+    }
+}
+
+/// All cells of a thin slab are in one unit in the last place of their points.
+#[test]
+fn cells_below_the_rounding_of_their_points_are_bounded() {
+    let turned = Quat::from_rotation_x(0.7);
+    let mut crossed = 0;
+    for far in [0.0, 1.0, 100.0, 1e4] {
+        for thickness in [1.0, 1e-2, 1e-4, 1e-6, 1e-9] {
+            for direction in [Vec3::Z, Vec3::new(1.0, 0.0, 0.1), Vec3::new(0.1, 0.3, -1.0)] {
+                let ray = Ray {
+                    o: Vec3::splat(far),
+                    d: turned * direction.normalize(),
+                };
+                let middle = ray.at(0.5);
+                let to_scene = Affine3A::from_rotation_translation(turned, middle);
+                let half = Vec3::new(4.0, 4.0, 0.5 * thickness);
+                let segments = bounds_hold(&ray, Aabb::new(-half, half), to_scene, 2);
+                crossed += usize::from(segments > 0);
+            }
+        }
+    }
+    assert!(crossed > 40, "{crossed} rays");
+}
+
+/// Where floats resolve the cells, each has a bound of its own.
+#[test]
+fn cells_of_usual_boxes_have_bounds_of_their_own() {
+    let bounds = Aabb::new(Vec3::splat(99.0), Vec3::splat(101.0));
+    let ray = Ray {
+        o: Vec3::new(98.0, 100.1, 100.1),
+        d: Vec3::X,
+    };
+    assert_eq!(
+        bounds_hold(&ray, bounds, Affine3A::IDENTITY, 0),
+        16,
+        "cells"
+    );
 }

@@ -137,7 +137,8 @@ impl<C: ColorModel, S: AsRef<[f32]>> Medium<C> for ColorGridMedium<C, S> {
             Some((a, self.sigma_a.of_ones(wavelengths))),
             Some((s, self.sigma_s.of_ones(wavelengths))),
         ];
-        Majorants::cells(span, layers, &self.region.local_ray(ray))
+        let rounding = self.region.rounding(ray, span.t1);
+        Majorants::cells(span, layers, &self.region.local_ray(ray), rounding)
     }
 }
 

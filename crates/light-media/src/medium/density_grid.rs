@@ -46,25 +46,29 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    fn ramp(size: [u32; 3]) -> DensityGrid<Vec<f32>> {
+    /// Many of the values are 0.
+    fn sparse(size: [u32; 3]) -> DensityGrid<Vec<f32>> {
         let n: u32 = size.iter().product();
-        DensityGrid::new(size, (0..n).map(|i| ((i * 7919) % 101) as f32).collect()).expect("valid")
+        let value = |i| ((i * 7919) % 101) as f32 - 60.0;
+        DensityGrid::new(size, (0..n).map(|i| value(i).max(0.0)).collect()).expect("valid")
     }
 
     #[test]
-    fn coarse_maxima_bound_every_lookup() {
-        for size in [[1, 1, 1], [2, 5, 3], [40, 16, 33]] {
-            let grid = ramp(size);
+    fn coarse_maxima_bound_every_lookup_in_a_cell_and_just_beside_it() {
+        let margin = 0.99 / f32::from(MajorantGrid::MARGINS_PER_CELL);
+        let sizes = [[1, 1, 1], [2, 5, 3], [40, 16, 33], [8, 1, 500], [500, 8, 1]];
+        for size in sizes {
+            let grid = sparse(size);
             for i in 0..20_000u32 {
                 // A low-discrepancy sequence in the cube.
                 let p = (Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5) * i as f32).fract();
-                let cell = (p * MajorantGrid::CELLS as f32)
-                    .to_array()
-                    .map(|x| x as i32);
-                assert!(
-                    grid.lookup(p) <= grid.majorants().get(cell) * 1.000_01,
-                    "size {size:?}, p {p}"
-                );
+                for side in [-margin, 0.0, margin] {
+                    let places = p * MajorantGrid::CELLS as f32 + side;
+                    let places = places.clamp(Vec3::ZERO, Vec3::splat(15.9));
+                    let bound = grid.majorants().get(places.to_array().map(|x| x as i32));
+                    let value = grid.lookup(p);
+                    assert!(value <= bound * 1.000_01, "size {size:?}, p {p}, {side}");
+                }
             }
         }
     }

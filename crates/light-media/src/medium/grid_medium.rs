@@ -70,6 +70,7 @@ impl<C: ColorModel, S: AsRef<[f32]>> Medium<C> for GridMedium<C, S> {
     fn majorants(&self, ray: &Ray, span: Span, wavelengths: &C::Wavelengths) -> Majorants<'_> {
         let max_sigma_t = self.substance.sigma_t(wavelengths).maximum();
         let layers = [Some((self.density.majorants(), max_sigma_t)), None];
-        Majorants::cells(span, layers, &self.region.local_ray(ray))
+        let rounding = self.region.rounding(ray, span.t1);
+        Majorants::cells(span, layers, &self.region.local_ray(ray), rounding)
     }
 }

@@ -39,14 +39,17 @@ impl<'a> Majorants<'a> {
         Self::new(span, max_sigma_t, Walk::Bands(bands))
     }
 
-    /// The cells of coarse grids of maxima over the unit cube, which `unit_ray` crosses: the bound
-    /// is the sum of all layers, each a grid and its factor.
-    pub(super) fn cells(span: Span, layers: [Layer<'a>; 2], unit_ray: &Ray) -> Self {
-        Self::new(
-            span,
-            1.0,
-            Walk::Cells(CellWalk::new(layers, unit_ray, span.t0)),
-        )
+    /// The cells of coarse grids of maxima over the unit cube, which the ray crosses as `unit_ray`:
+    /// the bound is the sum of all layers, each a grid and its factor. Points of the span are off
+    /// by `rounding` in the cube.
+    pub(super) fn cells(
+        span: Span,
+        layers: [Layer<'a>; 2],
+        unit_ray: &Ray,
+        rounding: Vec3,
+    ) -> Self {
+        let walk = CellWalk::new(layers, unit_ray, span.t0, rounding);
+        Self::new(span, 1.0, Walk::Cells(walk))
     }
 
     fn new(span: Span, sigma: f32, walk: Walk<'a>) -> Self {
@@ -89,6 +92,8 @@ pub(super) type Layer<'a> = Option<(&'a MajorantGrid, f32)>;
 #[derive(Clone, Debug)]
 struct CellWalk<'a> {
     layers: [Layer<'a>; 2],
+    /// Cells by which rounding may move a point, on each axis.
+    reach: [i32; 3],
     cell: [i32; 3],
     step: [i32; 3],
     next_t: Vec3,
@@ -97,11 +102,12 @@ struct CellWalk<'a> {
 
 impl<'a> CellWalk<'a> {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to the cells")]
-    fn new(layers: [Layer<'a>; 2], ray: &Ray, t0: f32) -> Self {
+    fn new(layers: [Layer<'a>; 2], ray: &Ray, t0: f32, rounding: Vec3) -> Self {
         let n = MajorantGrid::CELLS as f32;
         let start = ray.at(t0) * n;
         let mut walk = Self {
             layers,
+            reach: (rounding * n).to_array().map(reach),
             cell: [0; 3],
             step: [0; 3],
             next_t: Vec3::INFINITY,
@@ -109,13 +115,14 @@ impl<'a> CellWalk<'a> {
         };
         for axis in 0..3 {
             let cell = start[axis].clamp(0.0, n - 1.0) as i32;
-            let d = ray.d[axis] * n;
             walk.cell[axis] = cell;
+            // In the cube and not in cells, of which a ray may cross more than a float counts.
+            let d = ray.d[axis];
             if d != 0.0 {
                 walk.step[axis] = if d > 0.0 { 1 } else { -1 };
-                let wall = (cell + i32::from(d > 0.0)) as f32;
-                walk.next_t[axis] = (wall - ray.o[axis] * n) / d;
-                walk.delta_t[axis] = 1.0 / d.abs();
+                let wall = (cell + i32::from(d > 0.0)) as f32 / n;
+                walk.next_t[axis] = (wall - ray.o[axis]) / d;
+                walk.delta_t[axis] = 1.0 / n / d.abs();
             }
         }
         walk
@@ -125,7 +132,7 @@ impl<'a> CellWalk<'a> {
     fn step(&mut self) -> (f32, f32) {
         let layers = self.layers.iter().flatten();
         let density = layers
-            .map(|(grid, factor)| grid.get(self.cell) * factor)
+            .map(|(grid, factor)| grid.max_near(self.cell, self.reach) * factor)
             .sum();
         let axis = self.next_t.min_position();
         let end = self.next_t[axis];
@@ -135,6 +142,17 @@ impl<'a> CellWalk<'a> {
         let inside = usize::try_from(self.cell[axis]).is_ok_and(|cell| cell < MajorantGrid::CELLS);
         (density, if inside { end } else { f32::INFINITY })
     }
+}
+
+/// The cells by which a rounding of so many cells may move a point, beyond their margin.
+#[expect(clippy::cast_possible_truncation, reason = "clamped to the cells")]
+fn reach(rounding: f32) -> i32 {
+    if rounding * f32::from(MajorantGrid::MARGINS_PER_CELL) < 1.0 {
+        return 0;
+    }
+    // As far as there are cells if it is no number.
+    let all = MajorantGrid::CELLS as f32;
+    rounding.min(all) as i32 + 1
 }
 
 #[cfg(test)]

@@ -226,18 +226,9 @@ fn check_coefficients(medium: &AnyMedium<Rgb>, ray: &Ray, span: Span) {
                 "{here:?} at {t} of {}",
                 at()
             );
-            // Where a segment ends within rounding error of t, the next one bounds it; and what is
-            // lost in a shorter one than the least is below the rounding of 1.
-            const LEAST: f32 = f32::EPSILON / DENSEST;
-            let rounded = LEAST.max(1e-3 * segment.span.t1);
-            if share == 0.3 && segment.span.length() > rounded {
-                let sigma_t = here.sigma_t().max_element();
-                assert!(
-                    sigma_t <= segment.sigma_maj * 1.01,
-                    "{sigma_t} at {t} in {segment:?} of {}",
-                    at()
-                );
-            }
+            let sigma_t = here.sigma_t().max_element();
+            let is_bounded = sigma_t <= segment.sigma_maj * 1.01;
+            assert!(is_bounded, "{sigma_t} at {t} in {segment:?} of {}", at());
         }
     }
 }

@@ -33,7 +33,7 @@ fn a_walk_has_the_bound_of_the_cell_that_it_is_in() {
         let d = (to - o) * [Vec3::ONE, Vec3::new(1.0, 0.0, 1.0), Vec3::Y][i % 3];
         let (ray, span) = (Ray { o, d }, Span { t0: 0.1, t1: 0.9 });
         let mut t = span.t0;
-        for segment in Majorants::cells(span, layers, &ray) {
+        for segment in Majorants::cells(span, layers, &ray, Vec3::ZERO) {
             assert_eq!(segment.span.t0, t, "{ray:?} without gaps");
             t = segment.span.t1;
             let middle = ray.at(0.5 * (segment.span.t0 + t));
@@ -60,7 +60,8 @@ fn a_walk_ends_with_the_last_cell_of_the_grid() {
     let span = Span { t0: 0.0, t1: 9.0 };
     for (d, last) in [(Vec3::NEG_Z, 0), (Vec3::Z, 15)] {
         let o = Vec3::new(0.5, 0.5, 0.53);
-        let walk = Majorants::cells(span, [Some((&grid, 1.0)), None], &Ray { o, d });
+        let layers = [Some((&grid, 1.0)), None];
+        let walk = Majorants::cells(span, layers, &Ray { o, d }, Vec3::ZERO);
         let segments: Vec<MajorantSegment> = walk.collect();
         assert_eq!(
             segments.len(),
