@@ -33,6 +33,22 @@ impl MaskShare {
 mod tests {
     use super::*;
 
+    #[test]
+    fn shares_of_values() {
+        let of = |share: MaskShare| [0.0, 0.25, 0.5, 2.0].map(|value| share.of(value));
+        assert_eq!(of(MaskShare::Linear), [0.0, 0.25, 0.5, 2.0], "the value");
+        assert_eq!(
+            of(MaskShare::AtMostOne(1.5)),
+            [0.0, 0.375, 0.75, 1.0],
+            "scaled"
+        );
+        assert_eq!(
+            of(MaskShare::Cutoff(0.5)),
+            [0.0, 0.0, 1.0, 1.0],
+            "all or nothing"
+        );
+    }
+
     /// Where all values are on one side of the bend, the share is a polynomial and needs no cut.
     #[test]
     fn only_values_on_both_sides_of_a_bend_are_cut() {

@@ -40,20 +40,117 @@ fn the_area_beside_a_hyperbola() {
             ([[1.0 - c, -c], [-c, -c]], 1.0 - below),
             ([[c, c], [c, c - 1.0]], below),
         ] {
-            // Wherever the texel is.
-            for shift in [0.0, 3.0] {
-                let square = SQUARE.map(|corner| corner.map(|x| x + shift));
+            // Wherever the texel is, and however it lies in the image.
+            let one = DVec2::ONE;
+            for (shift, size) in [(0.0, one), (3.0, one), (3.0, DVec2::new(2.0, 0.5))] {
+                let place = |uv: DVec2| uv * size + shift;
+                let square = polygon(&SQUARE).with_places(place);
                 let level = Level {
-                    start: DVec2::splat(-shift),
-                    ..level(corners)
+                    start: -shift / size,
+                    slope: 1.0 / size,
+                    corners,
                 };
-                let [all, above] = areas(&polygon(&square), &level);
+                let [all, above] = areas(&square, &level);
                 assert!((all - 1.0).abs() < 1e-12, "{c}: {all}");
                 let near = (above - expected).abs() < 1e-7;
                 assert!(near, "{c}: {above}, {expected}");
             }
         }
     }
+}
+
+/// It follows a hyperbola down to where it leaves the polygon, a hundred times farther from its
+/// asymptote than where it enters.
+#[test]
+fn the_area_beside_the_end_of_a_hyperbola() {
+    for c in [0.1f64, 1e-2, 1e-3] {
+        // x (y + c) >= c, from x = 2 c on, where y is 1/2 - c.
+        let rectangle = [[2.0 * c, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0 * c, 1.0]];
+        let below = c * (0.5 / c).ln() - c * (1.0 - 2.0 * c);
+        for size in [DVec2::ONE, DVec2::new(1.0, 5.0)] {
+            let shown = polygon(&rectangle).with_places(|uv| uv * size);
+            let level = Level {
+                slope: 1.0 / size,
+                ..level([[-c, 0.0], [-c, 1.0]])
+            };
+            let [all, above] = areas(&shown, &level);
+            assert!((all - 1.0 + 2.0 * c).abs() < 1e-12, "{c}: {all}");
+            assert!((all - above - below).abs() < 1e-7, "{c}: {above}, {below}");
+        }
+    }
+}
+
+#[test]
+fn a_parabola_has_up_to_two_roots() {
+    let of = |f: fn(f64) -> f64| {
+        let mut found = roots(f(0.0), f(0.5), f(1.0));
+        found.sort_unstable_by(f64::total_cmp);
+        found
+    };
+    for (found, expected) in [
+        (of(|x| (x - 0.25) * (x - 0.625)), [0.25, 0.625]),
+        (of(|x| (x - 0.75) * (x + 2.0)), [0.75, 1.0]),
+        (of(|x| (0.125 - x) * (x - 3.0)), [0.125, 1.0]),
+        (of(|x| x * x + 0.1), [1.0; 2]),
+        (of(|x| x - 0.5), [0.5, 1.0]),
+        (of(|_| 1.0), [1.0; 2]),
+    ] {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{found}, {expected}");
+        }
+    }
+}
+
+/// Without gaps, and no more of them than the bits of the distances.
+#[test]
+fn pieces_fill_an_interval() {
+    for (start, end) in [(0.0, 1.0), (0.25, 0.5), (0.0, 5e-324)] {
+        for pole in [-1.0, -1e-6, start, end, 1.5, f64::INFINITY, f64::NAN] {
+            let mut found = alloc::vec::Vec::new();
+            pieces([start, end], pole, |piece| found.push(piece));
+            found.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+            assert_eq!(found[0][0], start, "{pole}");
+            assert_eq!(found[found.len() - 1][1], end, "{pole}");
+            assert!(found.windows(2).all(|two| two[0][1] == two[1][0]), "{pole}");
+            assert!(found.len() < 40, "{pole}: {}", found.len());
+            let near = |[a, b]: &[f64; 2]| b - a <= 1.001 * ((a - pole).max(pole - b) + 1e-9);
+            assert!(
+                !pole.is_finite() || found.iter().all(near),
+                "{pole}: {found:?}"
+            );
+        }
+    }
+}
+
+/// On both sides of the level, polynomials of degree 3 have their exact integrals.
+#[test]
+fn nodes_are_spread_over_both_sides() {
+    for at in [-1.0, 0.05, 0.33, 0.5, 0.85, 2.0] {
+        for along in [[[-at, 1.0 - at]; 2], [[-at; 2], [1.0 - at; 2]]] {
+            let mut sums = [0.0; 3];
+            each_node(
+                &polygon(&SQUARE),
+                &level(along),
+                |Corner { place, .. }, weight| {
+                    sums[0] += place.x * weight;
+                    sums[1] += place.x.powi(3) * weight;
+                    sums[2] += place.x * place.y * place.y * weight;
+                },
+            );
+            for (sum, expected) in sums.into_iter().zip([1.0 / 2.0, 1.0 / 4.0, 1.0 / 6.0]) {
+                assert!((sum - expected).abs() < 1e-12, "{at}: {sum}, {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn roots_have_the_digits_of_double_precision() {
+    for x in [2.0f64, 1e-9, 0.25, 12345.0, 1e30] {
+        let error = (sqrt(x) / x.sqrt() - 1.0).abs();
+        assert!(error < 1e-14, "{x}: {error}");
+    }
+    assert_eq!(sqrt(0.0), 0.0, "of nothing");
 }
 
 /// A polygon, cut by lines, has the areas of its parts; so have two hyperbolas of a saddle.
@@ -108,9 +205,11 @@ fn surfaces_without_a_place_of_their_own() {
         (all - 2.0).abs() < 1e-12 && (above - 2.0).abs() < 1e-12,
         "y: {all}, {above}"
     );
-    assert_eq!(
-        areas(&shown(|_| DVec2::ZERO), &level),
-        [2.0, 0.0],
-        "a point"
-    );
+    for (place, expected) in [
+        (DVec2::ZERO, [2.0, 0.0]),
+        (DVec2::new(0.75, 0.25), [2.0; 2]),
+    ] {
+        let shown = polygon(&uvs).with_places(|_| place);
+        assert_eq!(areas(&shown, &level), expected, "the point {place}");
+    }
 }
