@@ -236,3 +236,27 @@ impl ShownCell {
 pub(crate) fn single(color: DVec3) -> Vec3 {
     color.as_vec3()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::channels::Channels;
+
+    /// Between neighbouring floats there is no line across.
+    #[test]
+    fn a_rectangle_of_one_rounding_has_no_mean_beside_a_level() {
+        let mask = Image::from_f32([2, 2], Channels::Gray, [0.0, 1.0, 0.0, 1.0]).expect("an image");
+        let shown = Shown {
+            image: None,
+            mask: Some((&mask, MaskShare::Cutoff(0.5))),
+            wrap: [Wrap::Clamp; 2],
+        };
+        let cell = shown.cell([0.5, 0.5]);
+        let low = 0.625;
+        for (high, expected) in [(0.75, 1.0), (low + f64::EPSILON / 2.0, 0.0)] {
+            assert!(low < high, "not empty");
+            let mean = cell.mean([low; 2], [high; 2]);
+            assert_eq!(mean, DVec3::splat(expected), "up to {high}");
+        }
+    }
+}

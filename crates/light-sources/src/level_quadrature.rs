@@ -108,13 +108,12 @@ impl Strip {
             }
             last = corner;
         }
-        let [Some(left), Some(right)] = sides else {
-            return None;
-        };
+        // A closed line crosses the middle as often upwards as downwards.
+        let [left, right] = sides;
         Some(Self {
             axis,
             ends,
-            sides: [left, right],
+            sides: [left?, right?],
         })
     }
 

@@ -23,9 +23,7 @@ pub(super) fn each_strip(
         if !strip.is_empty() {
             each(0.5 * (start + bend), &strip);
         }
+        // Above lies at least the highest corner, between two sides.
         (start, rest) = (bend, above);
-        if rest.is_empty() {
-            return;
-        }
     }
 }

@@ -70,6 +70,19 @@ fn the_whole_texture_has_its_mean() {
     }
 }
 
+/// A shape of a caller may say that its area is 0 everywhere.
+#[test]
+fn a_shape_without_area_shows_nothing() {
+    let nowhere = UvArea::Square(UvDensity::Length([Vec3::ZERO; 3]));
+    for wrap in WRAPS {
+        let mapping = TextureMapping {
+            wrap: [wrap; 2],
+            ..ONCE
+        };
+        assert_eq!(over(&halves(), &mapping, &nowhere), 0.0, "{wrap:?}");
+    }
+}
+
 #[test]
 fn a_triangle_sees_its_part() {
     let part = |uv| over(&halves(), &ONCE, &triangle(uv));
