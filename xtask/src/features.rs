@@ -57,7 +57,7 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     std("light-samplers", "std,rayon"),
     core("light-sources", "libm"),
     alloc("light-sources", "libm,alloc"),
-    std("light-sources", "std"),
+    std("light-sources", "std,rayon"),
     alloc("light-sources", "libm,serde"),
     core("light-media", "libm"),
     alloc("light-media", "libm,alloc"),

@@ -31,4 +31,20 @@ impl Channels {
             }
         }
     }
+
+    /// Calls `each` with the colour of every texel of an interleaved list, read by `number`.
+    #[inline]
+    pub(crate) fn for_each<T>(
+        self,
+        numbers: &[T],
+        number: impl Fn(&T) -> f32,
+        mut each: impl FnMut(Vec3),
+    ) {
+        match self {
+            Self::Gray => numbers.iter().for_each(|x| each(Vec3::splat(number(x)))),
+            Self::Rgb => numbers.chunks_exact(3).for_each(|rgb| {
+                each(Vec3::new(number(&rgb[0]), number(&rgb[1]), number(&rgb[2])));
+            }),
+        }
+    }
 }

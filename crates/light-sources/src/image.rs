@@ -104,8 +104,16 @@ impl Image {
     #[inline]
     #[must_use]
     pub fn nearest(&self, uv: Vec2) -> Vec3 {
+        let [x, y] = self.texel_at(uv);
+        self.texel(x, y)
+    }
+
+    /// Column and row of the texel that holds `uv`, as [`nearest`](Self::nearest) finds it.
+    #[inline]
+    pub(crate) fn texel_at(&self, uv: Vec2) -> [u32; 2] {
         let t = uv * self.extent();
-        self.texel(index(t.x), index(t.y))
+        let [width, height] = self.size;
+        [index(t.x).min(width - 1), index(t.y).min(height - 1)]
     }
 
     /// The colour at `uv`, interpolated between the centres of the four texels around it.
@@ -147,6 +155,18 @@ impl Image {
     pub fn texels(&self) -> impl Iterator<Item = Vec3> + '_ {
         let [width, height] = self.size;
         (0..height).flat_map(move |y| (0..width).map(move |x| self.texel(x, y)))
+    }
+
+    /// Calls `each` with the colour of every texel of row `y`, for whoever reads millions.
+    pub(crate) fn for_each_in_row(&self, y: u32, each: impl FnMut(Vec3)) {
+        let width = self.size[0] as usize * self.channels.count();
+        let numbers = y as usize * width..(y as usize + 1) * width;
+        match &self.texels {
+            Texels::Single(texels) => self.channels.for_each(&texels[numbers], |&x| x, each),
+            Texels::Half(texels) => self
+                .channels
+                .for_each(&texels[numbers], |x| x.to_f32(), each),
+        }
     }
 
     /// The mean colour.

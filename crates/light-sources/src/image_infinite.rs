@@ -6,7 +6,7 @@ use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
-use crate::image_infinite_desc::{ImageInfiniteLightDesc, ImageInfiniteLightError};
+use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc, ImageInfiniteLightError};
 use crate::image_sky::ImageSky;
 use crate::light::{InfiniteLight, Light};
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
@@ -14,10 +14,8 @@ use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
 use crate::rigid_transform::RigidTransform;
 use crate::scene_sphere::SceneSphere;
-use crate::sphere_table::{SphereSample, SphereTable};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
 use light_math::DirectionCone;
-use light_math::equal_area::sphere_to_square;
 
 /// An environment map: radiance from infinitely far away, by direction.
 ///
@@ -44,7 +42,7 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         desc: ImageInfiniteLightDesc,
         scene: SceneSphere,
     ) -> Result<Self, ImageInfiniteLightError> {
-        Self::with_sky(desc, scene, |image| Arc::new(ImageSky::new(image)))
+        Self::with_sky(desc, scene, |map| ImageSky::new(map).map(Arc::new))
     }
 
     /// The light that `desc` describes, over the same scene; it shares the tables of this one if
@@ -53,11 +51,11 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         &self,
         desc: ImageInfiniteLightDesc,
     ) -> Result<Self, ImageInfiniteLightError> {
-        Self::with_sky(desc, self.scene, |image| {
-            if image.is_clone_of(&self.sky.image) {
-                self.sky.clone()
+        Self::with_sky(desc, self.scene, |map| {
+            if self.sky.is_of(&map) {
+                Ok(self.sky.clone())
             } else {
-                Arc::new(ImageSky::new(image))
+                ImageSky::new(map).map(Arc::new)
             }
         })
     }
@@ -65,20 +63,21 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
     fn with_sky(
         desc: ImageInfiniteLightDesc,
         scene: SceneSphere,
-        sky: impl FnOnce(Image) -> Arc<ImageSky>,
+        sky: impl FnOnce(EnvironmentMap) -> Result<Arc<ImageSky>, ImageInfiniteLightError>,
     ) -> Result<Self, ImageInfiniteLightError> {
         let scale = desc.amount.scale(C::flux_of_texel(Vec3::ONE));
         let scale = scale.map_err(|_| ImageInfiniteLightError::Amount)?;
         let transform = RigidTransform::new(desc.transform)?;
-        let sky = sky(desc.map.into_equal_area_image()?);
-        if !(scale >= 0.0 && (sky.mean * scale).is_finite()) {
+        let sky = sky(desc.map)?;
+        let means = &sky.means;
+        if !(scale >= 0.0 && (means.color * scale).is_finite() && means.average.is_finite()) {
             return Err(ImageInfiniteLightError::Amount);
         }
         Ok(Self {
             transform,
             extent: InfiniteBounds {
-                fluence: 4.0 * PI * scale * sky.average,
-                mean: transform.vector(sky.mean_direction),
+                fluence: 4.0 * PI * scale * means.average,
+                mean: transform.vector(means.direction),
                 cone: DirectionCone::WHOLE_SPHERE,
             },
             sky,
@@ -101,20 +100,13 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         Arc::as_ptr(&self.sky).addr()
     }
 
-    fn distribution(&self, coverage: PdfCoverage) -> &SphereTable {
-        match coverage {
-            PdfCoverage::Complete => &self.sky.distribution,
-            PdfCoverage::Incomplete => &self.sky.compensated,
-        }
+    fn radiance(&self, texel: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
+        C::emit_texel(texel, wavelengths) * self.scale
     }
 
-    fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
-        C::emit_texel(self.sky.image.nearest(uv), wavelengths) * self.scale
-    }
-
-    /// The point of the map for a direction toward the light.
-    fn uv(&self, wi: Vec3) -> Vec2 {
-        sphere_to_square(self.transform.inverse_vector(wi))
+    /// The density of the direction `wi` toward the light.
+    fn pdf(&self, wi: Vec3, coverage: PdfCoverage) -> f32 {
+        self.sky.pdf(self.transform.inverse_vector(wi), coverage)
     }
 }
 
@@ -125,7 +117,7 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
         let factor = 4.0 * PI * self.scene.disk_area() * self.scale;
-        C::emit_texel(self.sky.mean, wavelengths) * factor
+        C::emit_texel(self.sky.means.color, wavelengths) * factor
     }
 
     fn sample_li(
@@ -135,21 +127,19 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         wavelengths: &C::Wavelengths,
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<C::Radiance>> {
-        let SphereSample { uv, w, pdf } = self.distribution(coverage).sample(u)?;
-        let wi = self.transform.vector(w);
+        let sample = self.sky.sample(u, coverage, &self.transform)?;
         Some(LightLiSample {
-            l: self.radiance(uv, wavelengths),
-            wi,
-            pdf,
-            p_light: self.scene.beyond(ctx.p, wi),
+            l: self.radiance(sample.texel, wavelengths),
+            wi: sample.wi,
+            pdf: sample.pdf,
+            p_light: self.scene.beyond(ctx.p, sample.wi),
             n_light: Vec3::ZERO,
-            uv,
+            uv: sample.uv,
         })
     }
 
     fn pdf_li(&self, _ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
-        self.distribution(coverage)
-            .pdf(self.transform.inverse_vector(wi))
+        self.pdf(wi, coverage)
     }
 
     /// The direction is chosen by `u1`, the point on a disk of the scene's radius by `u2`.
@@ -159,23 +149,23 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
         u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<LightLeSample<C::Radiance>> {
-        let SphereSample { uv, w, pdf } = self.sky.distribution.sample(u1)?;
-        let wi = self.transform.vector(w);
+        let sample = self
+            .sky
+            .sample(u1, PdfCoverage::Complete, &self.transform)?;
         Some(LightLeSample {
-            l: self.radiance(uv, wavelengths),
-            ray: ray_through_scene(&self.scene, -wi, u2),
+            l: self.radiance(sample.texel, wavelengths),
+            ray: ray_through_scene(&self.scene, -sample.wi, u2),
             pdf: LePdf {
                 pos: 1.0 / self.scene.disk_area(),
-                dir: pdf,
+                dir: sample.pdf,
             },
         })
     }
 
     fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        let w = self.transform.inverse_vector(-ray.direction);
         LePdf {
             pos: 1.0 / self.scene.disk_area(),
-            dir: self.sky.distribution.pdf(w),
+            dir: self.pdf(-ray.direction, PdfCoverage::Complete),
         }
     }
 
@@ -186,7 +176,8 @@ impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
 
 impl<C: ColorModel> InfiniteLight<C> for ImageInfiniteLight<C> {
     fn le(&self, _origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.radiance(self.uv(direction), wavelengths)
+        let texel = self.sky.texel(self.transform.inverse_vector(direction));
+        self.radiance(texel, wavelengths)
     }
 }
 
@@ -196,7 +187,6 @@ mod tests {
     use crate::amount::RadianceAmount;
     use crate::channels::Channels;
     use crate::glam::Affine3A;
-    use crate::image_infinite_desc::EnvironmentMap;
     use crate::rgb::Rgb;
 
     #[test]

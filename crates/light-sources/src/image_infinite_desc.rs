@@ -38,18 +38,28 @@ impl ImageInfiniteLightDesc {
 pub enum EnvironmentMap {
     /// A square, by [`equal_area`](light_math::equal_area).
     EqualArea(Image),
-    /// A rectangle, by [`lat_long`](light_math::lat_long); it is resampled into a square once.
+    /// A rectangle of any shape, by [`lat_long`](light_math::lat_long); its texels are sampled and
+    /// looked up as they are.
     LatLong(Image),
 }
 
 impl EnvironmentMap {
-    /// This map as an equal-area one, resampled if it is another. Lights whose descriptions share
-    /// it do not resample it again.
+    /// This map as an equal-area one, resampled if it is another: the form of pbrt's files, and the
+    /// one that a [`PortalInfiniteLight`](crate::PortalInfiniteLight) reads.
     ///
     /// # Errors
     /// When an equal-area image is not square, or texels are too bright to be summed.
     pub fn into_equal_area(self) -> Result<Self, ImageInfiniteLightError> {
         self.into_equal_area_image().map(Self::EqualArea)
+    }
+
+    /// How the image lies around the sphere.
+    #[must_use]
+    pub const fn sphere_map(&self) -> SphereMap {
+        match self {
+            Self::EqualArea(_) => SphereMap::EqualArea,
+            Self::LatLong(_) => SphereMap::LatLong,
+        }
     }
 
     pub(crate) fn into_equal_area_image(self) -> Result<Image, ImageInfiniteLightError> {

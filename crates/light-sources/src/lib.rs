@@ -34,6 +34,8 @@ mod distant;
 #[cfg(feature = "alloc")]
 mod emission_lobe;
 #[cfg(feature = "alloc")]
+mod equal_area_sky;
+#[cfg(feature = "alloc")]
 mod floor;
 mod flux;
 #[cfg(feature = "alloc")]
@@ -50,6 +52,10 @@ mod image_infinite;
 mod image_infinite_desc;
 #[cfg(feature = "alloc")]
 mod image_sky;
+#[cfg(feature = "alloc")]
+mod lat_long_grid;
+#[cfg(feature = "alloc")]
+mod lat_long_sky;
 #[cfg(feature = "alloc")]
 mod level_quadrature;
 mod light;
@@ -84,6 +90,8 @@ mod mesh;
 mod mesh_indices;
 #[cfg(feature = "alloc")]
 mod mis_compensation;
+#[cfg(feature = "alloc")]
+mod parallel;
 mod pdf_coverage;
 #[cfg(feature = "alloc")]
 mod picture_grid;
@@ -108,6 +116,10 @@ mod scene_sphere;
 pub mod shape;
 mod sides;
 #[cfg(feature = "alloc")]
+mod sky_means;
+#[cfg(feature = "alloc")]
+mod sky_sample;
+#[cfg(feature = "alloc")]
 mod source_table;
 mod spectral;
 mod spectral_emission;
@@ -120,6 +132,8 @@ mod sun_desc;
 mod surface_point;
 #[cfg(feature = "alloc")]
 mod surface_texture;
+#[cfg(feature = "alloc")]
+mod texel_sums;
 #[cfg(feature = "alloc")]
 mod texture;
 #[cfg(feature = "alloc")]

@@ -35,11 +35,11 @@ impl<C: ColorModel> LightSet<C> {
     ///
     /// `crates/lights/examples/moving_lights.rs` animates a lamp so.
     ///
-    /// Costs what the construction of the one source costs. An environment map with the image that
-    /// it had keeps its tables, so that a sky turns or dims at no cost: give the same
-    /// [`EqualArea`](crate::EnvironmentMap::EqualArea) image, a clone of which shares its texels;
-    /// [`into_equal_area`](crate::EnvironmentMap::into_equal_area) makes one. Light samplers learn
-    /// of the change by [`extents_into`](Self::extents_into) and their `refit`.
+    /// Costs what the construction of the one source costs. A sky with the
+    /// [`map`](crate::EnvironmentMap) that it had, lat-long or equal-area, keeps its tables, so
+    /// that it turns or dims at no cost: give a clone of the same image, which shares its texels.
+    /// Light samplers learn of the change by [`extents_into`](Self::extents_into) and their
+    /// `refit`.
     ///
     /// # Errors
     /// When the source is unknown, or the description invalid, of another kind, or of another

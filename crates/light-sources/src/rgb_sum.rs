@@ -12,6 +12,13 @@ impl RgbSum {
         }
     }
 
+    /// Adds another sum, `weight` times.
+    pub(crate) fn add_sum(&mut self, other: &Self, weight: f64) {
+        for (sum, channel) in self.0.iter_mut().zip(other.0) {
+            *sum += weight * channel;
+        }
+    }
+
     /// The sum divided by `total`, rounded to single precision; zero if `total` is
     /// zero.
     pub(crate) fn over(&self, total: f64) -> Vec3 {

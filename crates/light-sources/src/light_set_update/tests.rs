@@ -122,20 +122,24 @@ fn a_sky_that_turns_keeps_its_tables() {
     assert_eq!(changed, Ok(()), "the same kind");
     assert_ne!(tables(&set), first, "another picture");
 
-    let panorama = Image::from_f32([8, 4], Channels::Gray, alloc::vec![1.0; 32]);
-    let map = EnvironmentMap::LatLong(panorama.expect("an image")).into_equal_area();
-    let Ok(EnvironmentMap::EqualArea(square)) = map else {
-        panic!("not equal area: {map:?}");
+    // The same texels by another map are another sky, and are kept as such.
+    let lat_long = |angle, radiance| {
+        LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+            transform: Affine3A::from_rotation_x(angle),
+            map: EnvironmentMap::LatLong(other.clone()),
+            amount: RadianceAmount::Radiometric(radiance),
+        })
     };
-    let first = (
-        set.update(SourceId(0), sky(&square, 0.0, 1.0)),
-        tables(&set),
-    );
-    let turned = (
-        set.update(SourceId(0), sky(&square, 1.0, 1.0)),
-        tables(&set),
-    );
-    assert_eq!(turned, first, "resampled once");
+    let square = tables(&set);
+    let kinds = set.update(SourceId(0), lat_long(0.0, 1.0));
+    assert_eq!(kinds, Ok(()), "the same kind");
+    let first = tables(&set);
+    assert_ne!(first, square, "another map");
+    let was = answers(&set);
+    let turned = set.update(SourceId(0), lat_long(1.0, 2.0));
+    assert_eq!(turned, Ok(()), "the same kind");
+    assert_eq!(tables(&set), first, "shared texels, lat-long");
+    assert_ne!(answers(&set), was, "turned");
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod at_infinity;
 mod at_points;
 mod edges;
 mod extremes;
+mod lat_long;
 mod portals;
 mod powers;
 mod shape_geometry;

@@ -156,22 +156,25 @@ fn goniometric_distributions() {
 fn skies() {
     let mut rng = Rng::new(76);
     for n in [1, 3, 16] {
-        let map = EnvironmentMap::EqualArea(image(&mut rng, [n, n], Channels::Rgb, 1.0));
-        let amount = RadianceAmount::Radiometric(2.0);
-        let transform = tilted();
-        let desc = ImageInfiniteLightDesc {
-            map: map.clone(),
-            transform,
-            amount,
-        };
-        check(&format!("sky of {n}"), LightDesc::ImageInfinite(desc));
-        let desc = PortalInfiniteLightDesc {
-            map,
-            transform,
-            amount,
-            portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
-        };
-        check(&format!("portal of {n}"), LightDesc::PortalInfinite(desc));
+        let square = EnvironmentMap::EqualArea(image(&mut rng, [n, n], Channels::Rgb, 1.0));
+        let panorama = EnvironmentMap::LatLong(image(&mut rng, [2 * n, n], Channels::Rgb, 1.0));
+        for map in [square, panorama] {
+            let amount = RadianceAmount::Radiometric(2.0);
+            let transform = tilted();
+            let desc = ImageInfiniteLightDesc {
+                map: map.clone(),
+                transform,
+                amount,
+            };
+            check(&format!("sky of {n}"), LightDesc::ImageInfinite(desc));
+            let desc = PortalInfiniteLightDesc {
+                map,
+                transform,
+                amount,
+                portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+            };
+            check(&format!("portal of {n}"), LightDesc::PortalInfinite(desc));
+        }
     }
 }
 
