@@ -140,6 +140,13 @@ fn lights() -> Vec<(&'static str, LightDesc<Rgb>)> {
             }),
         ),
         (
+            "image infinite, lat-long",
+            LightDesc::ImageInfinite(ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image(
+                256,
+                Channels::Rgb,
+            )))),
+        ),
+        (
             "portal",
             LightDesc::PortalInfinite(PortalInfiniteLightDesc {
                 map: EnvironmentMap::EqualArea(image(256, Channels::Rgb)),

@@ -9,6 +9,7 @@ use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene};
+use lights::math::SphereMap;
 use lights::math::equal_area::square_to_sphere;
 use lights::sources::{
     Channels, EnvironmentMap, GoniometricLightDesc, Image, ImageInfiniteLightDesc, IntensityAmount,
@@ -212,39 +213,53 @@ fn a_lamp_shines_to_its_front_or_to_both_sides() {
     }
 }
 
-/// A square image of the sky with one texel that is not black.
-fn one_texel(n: u32, x: u32, y: u32, color: Vec3) -> EnvironmentMap {
-    let mut texels = vec![0.0; (n * n * 3) as usize];
-    let first = ((y * n + x) * 3) as usize;
+/// An image of the sky with one texel that is not black.
+fn one_texel(map: SphereMap, size: [u32; 2], [x, y]: [u32; 2], color: Vec3) -> EnvironmentMap {
+    let mut texels = vec![0.0; (size[0] * size[1] * 3) as usize];
+    let first = ((y * size[0] + x) * 3) as usize;
     texels[first..first + 3].copy_from_slice(&color.to_array());
-    EnvironmentMap::EqualArea(Image::from_f32([n, n], Channels::Rgb, texels).expect("n x n"))
+    let image = Image::from_f32(size, Channels::Rgb, texels).expect("an image");
+    match map {
+        SphereMap::EqualArea => EnvironmentMap::EqualArea(image),
+        SphereMap::LatLong => EnvironmentMap::LatLong(image),
+    }
 }
 
 #[test]
 fn a_sky_of_one_texel_gives_its_part_of_the_sphere() {
+    use SphereMap::{EqualArea, LatLong};
     /// Points a side at which the cosine is taken.
     const POINTS: u32 = 64;
     let color = Vec3::new(3.0, 2.0, 1.0);
-    for (n, x, y) in [(4u32, 1u32, 2u32), (8, 6, 1), (2, 0, 1)] {
-        // The texel stands high, and does not lie as the square does.
-        let middle = square_to_sphere((Vec2::new(x as f32, y as f32) + 0.5) / n as f32);
+    for (map, size, [x, y]) in [
+        (EqualArea, [4, 4], [1, 2]),
+        (EqualArea, [8, 8], [6, 1]),
+        (EqualArea, [2, 2], [0, 1]),
+        (LatLong, [8, 4], [7, 2]),
+        (LatLong, [6, 9], [1, 0]),
+    ] {
+        let extent = Vec2::new(size[0] as f32, size[1] as f32);
+        let corner = Vec2::new(x as f32, y as f32);
+        // The texel stands high, and does not lie as the image does.
+        let middle = map.direction((corner + 0.5) / extent);
         let high = Vec3::new(0.5, 0.8, 0.3).normalize();
         let transform = Affine3A::from_quat(Quat::from_rotation_arc(middle, high));
         let mut scene = ground();
         let sky = ImageInfiniteLightDesc {
             transform,
-            map: one_texel(n, x, y, color),
+            map: one_texel(map, size, [x, y], color),
             amount: RadianceAmount::default(),
         };
         scene.lights.push(LightDesc::ImageInfinite(sky));
         let cosines = (0..POINTS * POINTS).map(|i| {
             let within = Vec2::new((i % POINTS) as f32, (i / POINTS) as f32) + 0.5;
-            let uv = (Vec2::new(x as f32, y as f32) + within / POINTS as f32) / n as f32;
-            f64::from(transform.transform_vector3(square_to_sphere(uv)).y.max(0.0))
+            let uv = (corner + within / POINTS as f32) / extent;
+            let cosine = transform.transform_vector3(map.direction(uv)).y.max(0.0);
+            f64::from(cosine * map.solid_angle_per_area(uv))
         });
-        let mean = cosines.sum::<f64>() / f64::from(POINTS * POINTS);
-        let solid_angle = 4.0 / FRAC_1_PI / f64::from(n * n);
-        assert_irradiance(&scene, color.as_dvec3() * solid_angle * mean, &ALL);
+        let parts = POINTS * POINTS * size[0] * size[1];
+        let integral = cosines.sum::<f64>() / f64::from(parts);
+        assert_irradiance(&scene, color.as_dvec3() * integral, &ALL);
     }
 }
 
