@@ -42,8 +42,9 @@ fn tables(c: &mut Criterion) {
     let mut us = squares();
 
     let alias = AliasTable::new(&weights).expect("weights");
+    let mut fractions = Queries::new(Rng::u64);
     group.bench_function("alias table sample", |b| {
-        b.iter(|| alias.sample(f64::from(us.ask().x)));
+        b.iter(|| alias.sample(fractions.ask()));
     });
     let line = PiecewiseConstant1D::new(&weights).expect("weights");
     group.bench_function("piecewise constant 1D sample", |b| {

@@ -6,8 +6,8 @@
 use core::hint::black_box;
 
 use benches::{Queries, queries_of};
-use light_testkit::SamplerCase;
 use light_testkit::light_sets::SetKind;
+use light_testkit::{Rng, SamplerCase};
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use lights::bvh::reference::ReferenceLightBvh;
 use lights::bvh::{LightBvh, LightBvhOptions};
@@ -57,13 +57,11 @@ fn calls<T: Copy>(mut queries: Queries<T>, mut call: impl FnMut(T)) {
 fn alias_sample() {
     let weights: Vec<f32> = (0..LIGHTS).map(|i| (i * 37 % 101) as f32).collect();
     let table = AliasTable::new(&weights).expect("weights");
-    calls(Queries::new(|rng| rng.f64()), |u| {
-        count_alias_sample(&table, u)
-    });
+    calls(Queries::new(Rng::u64), |u| count_alias_sample(&table, u));
 }
 
 #[inline(never)]
-fn count_alias_sample(table: &AliasTable<Vec<lights::math::distribution::AliasBin>>, u: f64) {
+fn count_alias_sample(table: &AliasTable<Vec<lights::math::distribution::AliasBin>>, u: u64) {
     black_box(table.sample(u));
 }
 
@@ -153,7 +151,7 @@ fn sample() {
 }
 
 #[inline(never)]
-fn count_sample(sampler: &BvhLightSampler, ctx: &LightSampleContext, u: f64) {
+fn count_sample(sampler: &BvhLightSampler, ctx: &LightSampleContext, u: u64) {
     black_box(sampler.sample(ctx, u));
 }
 
@@ -165,7 +163,7 @@ fn sample_reference() {
 }
 
 #[inline(never)]
-fn count_sample_reference(sampler: &ReferenceBvhLightSampler, ctx: &LightSampleContext, u: f64) {
+fn count_sample_reference(sampler: &ReferenceBvhLightSampler, ctx: &LightSampleContext, u: u64) {
     black_box(sampler.sample(ctx, u));
 }
 

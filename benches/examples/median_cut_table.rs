@@ -82,7 +82,7 @@ fn image_row(name: &str, sky: &Sky) -> Result<String, Failure> {
         light
             .sample_li(ctx, u, &(), PdfCoverage::Complete)
             .map_or(0.0, |s| {
-                f64::from(luminance(s.l) * s.wi.dot(ctx.ns).max(0.0) / s.pdf)
+                f64::from(luminance(s.l) * cosine(ctx, s.wi) / s.pdf)
             })
     });
     Ok(format!(
@@ -109,12 +109,12 @@ fn median_cut_row(name: &str, sky: &Sky, n: usize) -> Result<String, Failure> {
     let [squared, pyramid] = [lights(squared?)?, lights(pyramid?)?];
     let sampler = PowerLightSampler::new(&set.powers())?;
     let errors = sky.errors(|rng, ctx| {
-        let chosen = sampler.sample(ctx, f64::from(rng.u32()) / 4_294_967_296.0);
+        let chosen = sampler.sample(ctx, rng.u64());
         let chosen = chosen.and_then(|s| set.get(s.light).map(|light| (light, s.pmf)));
         chosen.map_or(0.0, |(light, pmf)| {
             let sample = light.sample_li(ctx, Vec2::ZERO, &(), PdfCoverage::Complete);
             sample.map_or(0.0, |s| {
-                f64::from(luminance(s.l) * s.wi.dot(ctx.ns).max(0.0) / (s.pdf * pmf))
+                f64::from(luminance(s.l) * cosine(ctx, s.wi) / (s.pdf * pmf))
             })
         })
     });
@@ -187,6 +187,11 @@ impl Sky {
         };
         self.exact.iter().map(error).sum::<f64>() / f64::from(NORMALS)
     }
+}
+
+/// What of the light from `wi` arrives at a surface.
+fn cosine(ctx: &LightSampleContext, wi: Vec3) -> f32 {
+    ctx.ns().map_or(1.0, |ns| ns.dot(wi).max(0.0))
 }
 
 fn row(errors: &Errors, bias: &str) -> String {

@@ -39,10 +39,10 @@ impl<T: Copy> Queries<T> {
 
 /// Random contexts among the lights of a set, each with a random number to choose a light by.
 #[must_use]
-pub fn queries_of(set: &SamplerCase) -> Queries<(LightSampleContext, f64)> {
+pub fn queries_of(set: &SamplerCase) -> Queries<(LightSampleContext, u64)> {
     let asked = SamplerCase::new("asked", set.emitters.clone(), 4096, 72);
     let mut contexts = asked.contexts.into_iter().cycle();
-    Queries::new(|rng| (contexts.next().expect("a context"), rng.f64()))
+    Queries::new(|rng| (contexts.next().expect("a context"), rng.u64()))
 }
 
 /// Random points of the unit square.

@@ -1,7 +1,7 @@
 //! Who asks, and what stands between: variance against the light of whole areas.
 
 use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, GroundTruth, ReceiverKind};
+use light_render::bench::{BenchOptions, BenchReceiverKind, GroundTruth};
 use light_sets::SetKind;
 
 use super::measure::{figure, measure, options, set};
@@ -16,12 +16,12 @@ const SETS: [SetKind; 4] = [
 const LIGHTS: u32 = 10_000;
 
 /// Who asks, how many spheres stand between, and the table's words for it.
-const RECEIVERS: [(&str, ReceiverKind, usize); 5] = [
-    ("diffuse", ReceiverKind::Diffuse, 0),
-    ("two-sided", ReceiverKind::TwoSided, 0),
-    ("medium", ReceiverKind::Medium, 0),
-    ("glossy, roughness 0.2", ReceiverKind::Glossy(0.2), 0),
-    ("diffuse behind 64 spheres", ReceiverKind::Diffuse, 64),
+const RECEIVERS: [(&str, BenchReceiverKind, usize); 5] = [
+    ("diffuse", BenchReceiverKind::Diffuse, 0),
+    ("two-sided", BenchReceiverKind::TwoSided, 0),
+    ("medium", BenchReceiverKind::Medium, 0),
+    ("glossy, roughness 0.2", BenchReceiverKind::Glossy(0.2), 0),
+    ("diffuse behind 64 spheres", BenchReceiverKind::Diffuse, 64),
 ];
 
 const HEADER: &str = "\

@@ -2,7 +2,7 @@ use light_math::float::sqrt;
 use light_math::quantize::{QuantizedBox, decode_cos, encode_cos};
 use light_math::{Aabb, OctahedralVector};
 
-use crate::{ImportanceQuery, LightBounds, LightSampleContext};
+use crate::{LightBounds, LightSampleContext};
 
 /// Bits of a cosine's code.
 const COS_BITS: u32 = 15;
@@ -67,13 +67,6 @@ impl CompactLightBounds {
     #[must_use]
     pub fn importance(&self, all: &Aabb, ctx: &LightSampleContext) -> f32 {
         self.decode(all).importance(ctx)
-    }
-
-    /// [`importance`](Self::importance), with the same bits, for a prepared context.
-    #[inline(always)]
-    #[must_use]
-    pub fn importance_for(&self, all: &Aabb, query: &ImportanceQuery) -> f32 {
-        self.decode(all).importance_for(query)
     }
 
     /// Emitted power in W, or in another unit common to all lights.
@@ -168,8 +161,6 @@ mod tests {
             "of what it decodes to"
         );
         assert!(importance > 0.0 && importance != 1.0, "{importance}");
-        let prepared = compact.importance_for(&all, &ImportanceQuery::new(&ctx));
-        assert_eq!(prepared, importance, "prepared");
     }
 
     /// The margin covers any code of the axis, and is at most what an arc cosine near 1 loses by

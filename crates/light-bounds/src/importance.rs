@@ -3,7 +3,7 @@ use light_math::float::{inverse_power_of_two, sqrt};
 use crate::angle::Angle;
 use crate::glam::Vec3;
 use crate::light_bounds::AXIS_TOLERANCE;
-use crate::{ImportanceQuery, LightBounds, LightSampleContext};
+use crate::{LightBounds, LightSampleContext};
 
 /// Least importance where light may arrive, so that contributions too small for a float keep a
 /// positive probability.
@@ -29,7 +29,7 @@ impl LightBounds {
     ///
     /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite
     /// bounds and any context: also at a box centre, on a point light, and at coordinates whose
-    /// squares overflow or underflow. Reads `ctx.p` and `ctx.unit_ns()`. At a surface light counts
+    /// squares overflow or underflow. Reads `ctx.p` and `ctx.ns()`. At a surface light counts
     /// from both sides.
     ///
     /// Costs six square roots, seven at a surface, and no trigonometric function.
@@ -44,13 +44,6 @@ impl LightBounds {
     #[inline(always)]
     #[must_use]
     pub fn importance(&self, ctx: &LightSampleContext) -> f32 {
-        self.importance_for(&ImportanceQuery::new(ctx))
-    }
-
-    /// [`importance`](Self::importance), with the same bits, for a prepared context.
-    #[inline(always)]
-    #[must_use]
-    pub fn importance_for(&self, query: &ImportanceQuery) -> f32 {
         if self.phi == 0.0 {
             return 0.0;
         }
@@ -58,7 +51,7 @@ impl LightBounds {
         // Vector from the centre, and a half box that contains both corners although the centre is
         // rounded; scaled by a power of two so that squares stay in range.
         let center = self.bounds.center();
-        let to_p = query.p - center;
+        let to_p = ctx.p - center;
         let half = (self.bounds.max - center).max(center - self.bounds.min);
         let scale = inverse_power_of_two(to_p.abs().max(half).max_element());
         let (to_p, half) = (to_p * scale, half * scale);
@@ -79,7 +72,7 @@ impl LightBounds {
             if cos_emission < self.cos_theta_e - EDGE_SLACK {
                 return 0.0;
             }
-            let cos_incidence = cos_incidence(query, from_light, subtended);
+            let cos_incidence = cos_incidence(ctx, from_light, subtended);
             cos_emission.max(COS_SLACK) * cos_incidence.max(COS_SLACK)
         } else {
             1.0
@@ -111,8 +104,8 @@ impl LightBounds {
 
 /// Cosine of the least angle between the normal's line and a direction to the box; 1 in a medium.
 #[inline(always)]
-fn cos_incidence(query: &ImportanceQuery, from_light: Vec3, subtended: Angle) -> f32 {
-    let Some(ns) = query.unit_ns else {
+fn cos_incidence(ctx: &LightSampleContext, from_light: Vec3, subtended: Angle) -> f32 {
+    let Some(ns) = ctx.ns() else {
         return 1.0;
     };
     let to_normal = Angle::from_cos(ns.dot(from_light).abs().min(1.0));

@@ -13,17 +13,15 @@ mod emission_lobe;
 mod error;
 mod extent;
 mod importance;
-mod importance_query;
 mod light_bounds;
 mod light_id;
 mod sampled_light;
 
 pub use compact::CompactLightBounds;
-pub use context::{Gloss, LightSampleContext, ReceiverSides};
+pub use context::{Gloss, LightSampleContext, ReceiverKind, ReceiverSides};
 pub use emission_lobe::{EmissionLine, EmissionLobe};
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
-pub use importance_query::ImportanceQuery;
 pub use light_bounds::LightBounds;
 pub use light_id::LightId;
 pub use sampled_light::SampledLight;

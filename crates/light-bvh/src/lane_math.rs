@@ -87,11 +87,9 @@ pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) ->
 
 /// Between the integers of this many bits no fractions fit: adding it rounds to the nearest
 /// integer.
-#[cfg(feature = "alloc")]
 const INTEGERS: f32 = 12_582_912.0;
 
 /// The nearest integer, for numbers below 2^22.
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn nearest(x: f32) -> f32 {
     (x + INTEGERS) - INTEGERS

@@ -38,6 +38,7 @@ pub use bytes::{StoredLightBvh, TreeBytesError};
 pub use cut::light_cut::{CutDetail, CutDetailError, LightCut};
 pub use error::LightBvhError;
 pub use importance::child_view::ChildView;
+pub use importance::context_receiver::ContextReceiver;
 pub use importance::glossy::GlossyReceiver;
 pub use importance::medium::MediumReceiver;
 pub use importance::position::is_far;
@@ -48,6 +49,8 @@ pub use importance::two_sided::TwoSidedReceiver;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;
 pub use node::wide_node::{MAX_DEPTH, WideNode};
+pub use query::bvh_at::LightBvhAt;
 pub use query::bvh_ref::LightBvhRef;
+pub use query::into_receiver::{IntoReceiver, KeptReceiver};
 pub use simd::prefetch_item;
 pub use validate::validate;

@@ -1,7 +1,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightExtent, LightId, SampledLight};
 
 use crate::LightBvhError;
 use crate::build::builder::build;
@@ -11,6 +11,7 @@ use crate::build::{quality, refit};
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::join;
 use crate::query::bvh_ref::LightBvhRef;
+use crate::query::into_receiver::IntoReceiver;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
@@ -21,7 +22,7 @@ pub struct LightBvh {
     pub(crate) nodes: Vec<WideNode>,
     pub(crate) order: Vec<u32>,
     pub(crate) slots: Vec<u32>,
-    pub(crate) power: f64,
+    pub(crate) power: f32,
 }
 
 impl LightBvh {
@@ -59,7 +60,7 @@ impl LightBvh {
             nodes,
             order,
             slots,
-            power: scan.power,
+            power: rounded(scan.power),
         })
     }
 
@@ -81,8 +82,8 @@ impl LightBvh {
             });
         }
         let scan = refit::scan(lights, &self.slots)?;
-        self.power = scan.power;
-        refit::fill(&mut self.nodes, &self.order, lights, self.power);
+        self.power = rounded(scan.power);
+        refit::fill(&mut self.nodes, &self.order, lights, scan.power);
         Ok(())
     }
 
@@ -93,30 +94,24 @@ impl LightBvh {
         LightBvhRef::new(&self.nodes, &self.order, &self.slots)
     }
 
-    /// One light that may light `ctx`; `None` if no light in the tree can.
+    /// One light that may light `receiver`; `None` if no light in the tree can: see
+    /// [`LightBvhRef::sample`].
     #[inline]
     #[must_use]
-    pub fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.view().sample(ctx, u)
+    pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
+        self.view().sample(receiver, u)
     }
 
-    /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
+    /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
     #[inline]
     #[must_use]
-    pub fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.view().pmf(ctx, light)
+    pub fn pmf(&self, receiver: impl IntoReceiver, light: LightId) -> f32 {
+        self.view().pmf(receiver, light)
     }
 
-    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of the tree; 0 only
-    /// if none of them can contribute.
+    /// The power of all lights of the tree; the largest float where it is above that.
     #[must_use]
-    pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
-        self.view().irradiance(ctx) * self.power
-    }
-
-    /// The power of all lights of the tree.
-    #[must_use]
-    pub const fn power(&self) -> f64 {
+    pub const fn power(&self) -> f32 {
         self.power
     }
 
@@ -154,4 +149,9 @@ impl LightBvh {
         }
         deepest
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
+const fn rounded(power: f64) -> f32 {
+    (power as f32).min(f32::MAX)
 }

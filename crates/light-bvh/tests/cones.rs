@@ -6,7 +6,7 @@ use core::f64::consts::PI;
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{
-    LightBounds, LightExtent, LightId, LightSampleContext, ReceiverSides,
+    LightBounds, LightExtent, LightId, LightSampleContext, ReceiverKind, ReceiverSides,
 };
 use light_bvh::{LightBvh, LightBvhOptions};
 use light_testkit::Rng;
@@ -42,8 +42,11 @@ impl Spot {
     /// Whether it shines at the context, by more than what bounds in single precision can tell.
     fn shines_at(&self, ctx: &LightSampleContext) -> bool {
         let away = angle(double(self.axis), between(self.position, ctx.p));
-        let above = angle(double(ctx.ns), between(ctx.p, self.position)).cos();
-        let received = ctx.sides == ReceiverSides::Both || above > GRAZING;
+        let ReceiverKind::Surface { ns, sides, .. } = *ctx.kind() else {
+            panic!("receivers on surfaces only")
+        };
+        let above = angle(double(ns), between(ctx.p, self.position)).cos();
+        let received = sides == ReceiverSides::Both || above > GRAZING;
         received && away.cos() > self.end.cos() + GRAZING
     }
 }

@@ -1,9 +1,10 @@
 //! What a cut says of its choices is what it does.
 #![cfg(feature = "alloc")]
 
+use light_bvh::light_bounds::light_math::fraction::stratum;
 use light_bvh::light_bounds::light_math::glam::Vec3;
 use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh, LightCut};
+use light_bvh::{CutDetail, LightBvh};
 use light_testkit::Rng;
 
 mod support;
@@ -23,7 +24,7 @@ fn tree() -> LightBvh {
     LightBvh::build(&lights).expect("valid lights")
 }
 
-/// Pmfs after another choice sum to its probability, samples have the bits of the query, and light
+/// Pmfs sum to one, samples have the bits of the query, and light
 /// comes as often as its pmf says: halving any of them fails.
 #[test]
 fn a_cut_does_as_its_pmfs_say() {
@@ -35,29 +36,21 @@ fn a_cut_does_as_its_pmfs_say() {
         LightSampleContext::surface(Vec3::splat(0.2), n, n),
         LightSampleContext::segment(Vec3::ZERO, Vec3::ONE),
     ];
-    let mut looked = LightCut::default();
-    for (ctx, before) in contexts.iter().flat_map(|c| [(c, 1.0f32), (c, 0.25)]) {
-        let cut = LightCut::at(&view, ctx, CutDetail::default());
-        looked.rebuild(&view, ctx, CutDetail::default());
-        let pmf = |id| cut.pmf_at(&view, ctx, before, LightId(id));
-        let pmfs: Vec<f32> = (0..COUNT).map(pmf).collect();
+    for ctx in &contexts {
+        let cut = view.cut(ctx, CutDetail::default());
+        let pmfs: Vec<f32> = (0..COUNT).map(|id| cut.pmf(LightId(id))).collect();
         let sum: f64 = pmfs.iter().copied().map(f64::from).sum();
-        assert!((sum - f64::from(before)).abs() < 1e-5, "{sum} of {before}");
-        let us = (0..SAMPLES).map(|i| (f64::from(i) + 0.5) / f64::from(SAMPLES));
+        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
         let mut counts = vec![0u32; COUNT as usize];
-        let mut each = us.clone();
-        let mut check = |chosen: SampledLight| {
+        for i in 0..SAMPLES {
+            let chosen = cut.sample(stratum(i, SAMPLES, 1 << 63)).expect("a light");
             let asked = pmfs[chosen.light.index()];
             assert_eq!(chosen.pmf.to_bits(), asked.to_bits(), "{chosen:?}");
-            let single = cut.sample_at(&view, ctx, before, each.next().expect("a u"));
-            assert_eq!(single, Some(chosen), "one by one");
             counts[chosen.light.index()] += 1;
-        };
-        looked.sample_many_at(&view, ctx, before, us, &mut check);
-        assert_eq!(counts.iter().sum::<u32>(), SAMPLES, "always some light");
+        }
         for (count, pmf) in counts.iter().zip(&pmfs) {
             // Of equally spaced numbers an interval holds its width, but for one at either end.
-            let expected = f64::from(SAMPLES) * f64::from(pmf / before);
+            let expected = f64::from(SAMPLES) * f64::from(*pmf);
             assert!(
                 (f64::from(*count) - expected).abs() < 1.1,
                 "{count} of {expected}"
@@ -66,7 +59,7 @@ fn a_cut_does_as_its_pmfs_say() {
     }
 }
 
-/// Every light owns a part of `[0, 1)`, though the sum of all weights in single precision does not
+/// Every light owns a part of all `u`, though the sum of all weights in single precision does not
 /// know of it.
 #[test]
 fn lights_below_the_precision_of_the_sum_are_chosen() {
@@ -75,11 +68,12 @@ fn lights_below_the_precision_of_the_sum_are_chosen() {
     for powers in [[1.0, 1e-9], [1e-9, 1.0]] {
         let lights = [0, 1].map(|i| lamp(places[i], powers[i]));
         let tree = LightBvh::build(&lights).expect("valid lights");
-        let cut = LightCut::at(&tree.view(), &ctx, CutDetail::default());
+        let view = tree.view();
+        let cut = view.cut(&ctx, CutDetail::default());
         // The faint one comes first, or it comes last.
-        let ends = [1e-12, 1.0 - 1e-12];
-        let is_faint = |chosen: Option<SampledLight>| chosen.expect("a light").pmf < 1e-6;
-        let by_cut = ends.map(|u| is_faint(cut.sample_at(&tree.view(), &ctx, 1.0, u)));
+        let ends = [0, u64::MAX];
+        let is_faint = |chosen: Option<SampledLight>| chosen.expect("a light").pmf < 0.5;
+        let by_cut = ends.map(|u| is_faint(cut.sample(u)));
         let plain = ends.map(|u| is_faint(tree.sample(&ctx, u)));
         for faint in [by_cut, plain] {
             assert_ne!(faint[0], faint[1], "{powers:?}: {faint:?}");

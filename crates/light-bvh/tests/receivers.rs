@@ -1,11 +1,12 @@
 //! A receiver of one's own gets the choices of the context that it stands for, to the bit.
 #![cfg(feature = "alloc")]
 
+use light_bvh::light_bounds::light_math::fraction::stratum;
 use light_bvh::light_bounds::light_math::glam::Vec3;
-use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext, ReceiverSides};
+use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::reference::ReferenceLightBvh;
 use light_bvh::{
-    CutDetail, LightBvh, LightCut, MediumReceiver, Receiver, SegmentReceiver, SurfaceReceiver,
+    CutDetail, LightBvh, MediumReceiver, Receiver, SegmentReceiver, SurfaceReceiver,
     TwoSidedReceiver,
 };
 use light_testkit::Rng;
@@ -23,35 +24,39 @@ fn lamps() -> Vec<LightExtent> {
     lamps.collect()
 }
 
-fn us() -> impl Iterator<Item = f64> {
-    (0..16u8).map(|i| (f64::from(i) + 0.5) / 16.0)
+fn us() -> impl Iterator<Item = u64> {
+    (0..16).map(|i| stratum(i, 16, 1 << 63))
 }
 
 fn assert_alike<R: Receiver>(receiver: &R, ctx: &LightSampleContext) {
     let tree = LightBvh::build(&lamps()).expect("valid lights");
     let view = tree.view();
     let detail = CutDetail::default();
-    let ours = LightCut::new(&view, receiver, detail);
-    let theirs = LightCut::at(&view, ctx, detail);
+    let (ours, theirs) = (view.cut(receiver, detail), view.cut(ctx, detail));
+    let (here, there) = (view.at(receiver), view.at(ctx));
+    assert_eq!(here.irradiance(), there.irradiance(), "{ctx:?}");
     for u in us() {
-        let sample = view.sample_for(receiver, u);
+        let sample = view.sample(receiver, u);
         assert_eq!(sample, view.sample(ctx, u), "{ctx:?} at {u}");
-        let light = sample.expect("lit").light;
-        let pmf = view.pmf_for(receiver, light);
-        assert_eq!(pmf, view.pmf(ctx, light), "{ctx:?} at {u}");
-        let sample = ours.sample(&view, receiver, 0.5, u);
-        assert_eq!(
-            sample,
-            theirs.sample_at(&view, ctx, 0.5, u),
-            "a cut, {ctx:?} at {u}"
-        );
+        assert_eq!(sample, here.sample(u), "kept, {ctx:?} at {u}");
+        assert_eq!(sample, there.sample(u), "kept, {ctx:?} at {u}");
+        let SampledLight { light, pmf, .. } = sample.expect("lit");
+        let pmfs = [
+            view.pmf(receiver, light),
+            view.pmf(ctx, light),
+            here.pmf(light),
+            there.pmf(light),
+        ];
+        assert_eq!(pmfs, [pmf; 4], "{ctx:?} at {u}");
+        let sample = ours.sample(u);
+        assert_eq!(sample, theirs.sample(u), "a cut, {ctx:?} at {u}");
         let sample = sample.expect("lit");
-        let pmf = ours.pmf(&view, receiver, 0.5, sample.light);
-        assert_eq!(pmf, sample.pmf, "a cut, {ctx:?} at {u}");
+        assert_eq!(ours.pmf(sample.light), sample.pmf, "a cut, {ctx:?} at {u}");
     }
     let none = LightId(COUNT);
-    assert_eq!(view.pmf_for(receiver, none), 0.0, "no such light");
-    assert_eq!(ours.pmf(&view, receiver, 1.0, none), 0.0, "no such light");
+    assert_eq!(view.pmf(receiver, none), 0.0, "no such light");
+    assert_eq!(here.pmf(none), 0.0, "no such light");
+    assert_eq!(ours.pmf(none), 0.0, "no such light");
 }
 
 #[test]
@@ -59,10 +64,7 @@ fn receivers_are_their_contexts() {
     let n = Vec3::Z;
     let surface = LightSampleContext::surface(P, n, n);
     assert_alike(&SurfaceReceiver::new(P, n), &surface);
-    let both = LightSampleContext {
-        sides: ReceiverSides::Both,
-        ..surface
-    };
+    let both = LightSampleContext::two_sided(P, n, n);
     assert_alike(&TwoSidedReceiver::new(P, n), &both);
     let medium = LightSampleContext::medium(P);
     assert_alike(&MediumReceiver::new(P), &medium);

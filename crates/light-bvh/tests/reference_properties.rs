@@ -111,14 +111,14 @@ proptest! {
     fn samples_repeat_the_pmf_and_pmfs_are_probabilities(
         lights in prop::collection::vec(light(), 0..40),
         ctx in context(),
-        u in prop::collection::vec(edge_cases::unit_f64(), 8),
+        u in prop::collection::vec(any::<u64>(), 8),
     ) {
         let tree = build(&lights);
         let ids = || (0..).map(LightId).take(lights.len());
         for u in u {
             if let Some(s) = tree.sample(&ctx, u) {
                 prop_assert_eq!(s.pmf.to_bits(), tree.pmf(&ctx, s.light).to_bits());
-                prop_assert!(s.pmf > 0.0 && (0.0..1.0).contains(&s.u), "{:?}", s);
+                prop_assert!(s.pmf > 0.0, "{:?}", s);
             }
             if let Some(s) = tree.sample_emitter(u) {
                 prop_assert_eq!(s.pmf.to_bits(), tree.pmf_emitter(s.light).to_bits());

@@ -8,6 +8,7 @@ use light_math::distribution::{
     AliasBin, AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError,
     Window, WindowedPiecewiseConstant2D,
 };
+use light_math::fraction;
 use light_math::glam::Vec2;
 
 /// Brightness of the lamps of a chain, to pick one in proportion.
@@ -43,7 +44,7 @@ static SKY_IN_PARTS: WindowedPiecewiseConstant2D<[u64; SKY.len()]> =
     };
 
 fn main() -> Result<(), TableError> {
-    let lamp = CHAIN.sample(0.6);
+    let lamp = CHAIN.sample(fraction::from_f64(0.6));
     println!("lamp {} with probability {}", lamp.index, lamp.pmf);
 
     let angle = BY_ANGLE.sample(0.3);

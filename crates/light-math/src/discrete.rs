@@ -1,7 +1,28 @@
-//! Choosing one of a few weights by walking over them.
+//! Choosing one of several weights, with probabilities that are whole parts of 2^16.
+//!
+//! Every positive weight gets at least one part, and the parts of all weights sum to 2^16: the
+//! probabilities sum to exactly 1. Against exact proportion a probability among `n <= 64` weights is
+//! at most a relative `n / 2^16` too small, and at most 2^-16 too large; that of the first positive
+//! weight, which takes the parts that are left over, `(n + 1) / 2^16`. More weights are chosen by
+//! groups of groups, each choice of at most 64.
+//!
+//! A choice takes and leaves a [fraction](crate::fraction) of 2^64. A larger fraction never leads to
+//! an earlier weight, so that stratified fractions choose stratified weights. No step needs more than
+//! 32-bit integers and single precision.
 //!
 //! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) answers in
 //! constant time.
+
+use crate::fraction::divide;
+
+/// The parts that make up probability 1.
+pub const PARTS: u32 = 1 << 16;
+
+/// The probability of one part.
+pub const PART: f32 = 1.0 / 65536.0;
+
+/// The largest number of weights of one choice.
+const GROUP: usize = 64;
 
 /// One of several indices, chosen with probability `pmf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,115 +31,183 @@ pub struct SampledIndex {
     pub index: usize,
     /// Its probability, above 0.
     pub pmf: f32,
-    /// The unused part of `u`, uniform in `[0, 1)` again.
-    pub u: f64,
-}
-
-/// The largest `u` that a random number of 53 bits may have.
-const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
-
-/// `u` forced into `[0, 1)`; 0 for NaN.
-#[inline]
-pub(crate) fn unit(u: f64) -> f64 {
-    if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
+    /// The unused part of `u`, a uniform fraction of 2^64 again.
+    pub u: u64,
 }
 
 /// An index chosen in proportion to `weights`; `None` if no weight is positive.
 ///
-/// `u` is in `[0, 1)`; it is an `f64` because the 24 bits of an `f32` are soon used up where
-/// choices follow one another. A weight that is not a positive finite number counts as 0. Two walks
-/// over the weights.
+/// A weight that is not positive counts as 0; a sum of weights that is infinite makes them alike,
+/// but for the first.
+///
+/// ```
+/// # use light_math::{discrete, fraction};
+/// let chosen = discrete::sample(&[1.0, 0.0, 3.0], fraction::from_f64(0.625)).expect("a weight");
+/// assert_eq!(chosen.index, 2);
+/// assert!((chosen.pmf - 0.75).abs() < 1e-4);
+/// ```
 ///
 /// # Source
-/// `[PBRT4]` 2.3.1, where zero weights at the end need no special case.
+/// `[PBRT4]` 2.3.1, in integers.
 #[inline]
 #[must_use]
-pub fn sample(weights: &[f32], u: f64) -> Option<SampledIndex> {
-    let total = total(weights);
-    let target = unit(u) * total;
-    let mut below = 0.0;
-    let mut chosen = None;
-    for (index, &weight) in weights.iter().enumerate() {
-        let weight = effective(weight);
-        let pmf = probability(weight, total);
-        if !(pmf > 0.0) {
-            continue;
-        }
-        let u = unit((target - below) / weight);
-        chosen = Some(SampledIndex { index, pmf, u });
-        below += weight;
-        if target < below {
-            break;
-        }
-    }
-    chosen
+pub fn sample(weights: &[f32], u: u64) -> Option<SampledIndex> {
+    sample_by(weights.len(), |index| weights[index], u)
 }
 
-/// The probability with which [`sample`] returns `index`; 0 for one that is out of range.
+/// The probability with which [`sample`] returns `index`, with the same bits; 0 for one that is out
+/// of range.
 #[inline]
 #[must_use]
 pub fn pmf(weights: &[f32], index: usize) -> f32 {
-    match weights.get(index) {
-        Some(&weight) => probability(effective(weight), total(weights)),
-        None => 0.0,
+    pmf_by(weights.len(), |index| weights[index], index)
+}
+
+/// [`sample`] of `count` weights, of which `weight(i)` is that of index `i`. Asks for a weight little
+/// more than once.
+#[inline]
+#[must_use]
+pub fn sample_by(count: usize, weight: impl Fn(usize) -> f32, u: u64) -> Option<SampledIndex> {
+    let mut groups = Groups::new(0, count, &weight);
+    let mut chosen = groups.sample(u)?;
+    while groups.len > 1 {
+        groups = groups.open(chosen.index, &weight);
+        let within = groups.sample(chosen.u)?;
+        let pmf = chosen.pmf * within.pmf;
+        chosen = SampledIndex { pmf, ..within };
     }
+    chosen.index += groups.start;
+    Some(chosen)
 }
 
+/// [`pmf`] of `count` weights, of which `weight(i)` is that of index `i`.
 #[inline]
-fn total(weights: &[f32]) -> f64 {
-    weights.iter().map(|&weight| effective(weight)).sum()
+#[must_use]
+pub fn pmf_by(count: usize, weight: impl Fn(usize) -> f32, index: usize) -> f32 {
+    if index >= count {
+        return 0.0;
+    }
+    let mut groups = Groups::new(0, count, &weight);
+    let mut pmf = groups.pmf(index);
+    while groups.len > 1 {
+        let group = (index - groups.start) / groups.len;
+        groups = groups.open(group, &weight);
+        pmf *= groups.pmf(index);
+    }
+    pmf
 }
 
-#[inline]
-fn effective(weight: f32) -> f64 {
-    if weight > 0.0 && weight.is_finite() {
-        f64::from(weight)
+/// The factor from weights that sum to `total`, up to a relative 1e-5, to their parts.
+///
+/// One part is kept back for each of `count` weights, fewer than 2^16.
+#[inline(always)]
+#[must_use]
+pub fn parts_scale(total: f32, count: usize) -> f32 {
+    ((PARTS as usize - count) as f32 / total).min(f32::MAX)
+}
+
+/// The parts of one weight, before those that are left over go to the first positive one: at least
+/// one part for a positive weight, none for any other.
+#[inline(always)]
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast truncates on purpose"
+)]
+pub fn parts_of(weight: f32, scale: f32) -> u32 {
+    if weight > 0.0 {
+        1 + (weight * scale) as u32
     } else {
-        0.0
+        0
     }
 }
 
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "rounds a probability")]
-fn probability(weight: f64, total: f64) -> f32 {
-    if total > 0.0 {
-        (weight / total) as f32
-    } else {
-        0.0
+/// Consecutive indices in groups of equal length, but for the last.
+struct Groups {
+    /// The first index, and the one after the last.
+    start: usize,
+    end: usize,
+    /// Indices in a group.
+    len: usize,
+    /// The sum of the weights of each group.
+    sums: [f32; GROUP],
+    count: usize,
+}
+
+impl Groups {
+    /// The indices `start..end`.
+    #[inline]
+    fn new(start: usize, end: usize, weight: impl Fn(usize) -> f32) -> Self {
+        let len = (end - start).div_ceil(GROUP).max(1);
+        let mut groups = Self {
+            start,
+            end,
+            len,
+            sums: [0.0; GROUP],
+            count: (end - start).div_ceil(len),
+        };
+        for (group, sum) in groups.sums[..groups.count].iter_mut().enumerate() {
+            let first = start + group * len;
+            *sum = total(first, (first + len).min(end), &weight);
+        }
+        groups
     }
+
+    /// The indices of one of the groups.
+    #[inline]
+    fn open(&self, group: usize, weight: impl Fn(usize) -> f32) -> Self {
+        let start = self.start + group * self.len;
+        Self::new(start, (start + self.len).min(self.end), weight)
+    }
+
+    /// The parts of each group in turn.
+    #[inline]
+    fn parts(&self) -> impl Iterator<Item = u32> + use<'_> {
+        let sums = &self.sums[..self.count];
+        let scale = parts_scale(sums.iter().sum(), sums.len());
+        let mut rest = PARTS - sums.iter().map(|&sum| parts_of(sum, scale)).sum::<u32>();
+        sums.iter().map(move |&sum| match parts_of(sum, scale) {
+            0 => 0,
+            parts => parts + core::mem::take(&mut rest),
+        })
+    }
+
+    /// One of the groups.
+    #[inline]
+    fn sample(&self, u: u64) -> Option<SampledIndex> {
+        let mut place = (u >> 48) as u32;
+        for (index, parts) in self.parts().enumerate() {
+            if place < parts {
+                let (pmf, u) = (parts as f32 * PART, divide(place, u << 16, parts));
+                return Some(SampledIndex { index, pmf, u });
+            }
+            place -= parts;
+        }
+        None
+    }
+
+    /// The probability of the group of `index`.
+    #[inline]
+    fn pmf(&self, index: usize) -> f32 {
+        let group = (index - self.start) / self.len;
+        self.parts().nth(group).unwrap_or(0) as f32 * PART
+    }
+}
+
+/// The sum of the positive weights of `start..end`, in blocks, so that a million equal weights lose
+/// nothing that matters.
+#[inline]
+fn total(start: usize, end: usize, weight: impl Fn(usize) -> f32) -> f32 {
+    let positive = |index| {
+        let weight = weight(index);
+        if weight > 0.0 { weight } else { 0.0 }
+    };
+    let blocks = (start..end).step_by(GROUP);
+    blocks
+        .map(|first| (first..(first + GROUP).min(end)).map(positive).sum::<f32>())
+        .sum()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn remaps_u_within_the_chosen_weight() {
-        let s = sample(&[1.0, 0.0, 3.0], 0.625).expect("a positive weight");
-        assert_eq!(
-            (s.index, s.pmf, s.u),
-            (2, 0.75, 0.5),
-            "second positive weight"
-        );
-        let s = sample(&[1.0, 0.0, 3.0], 0.125).expect("a positive weight");
-        assert_eq!((s.index, s.pmf, s.u), (0, 0.25, 0.5), "first");
-    }
-
-    #[test]
-    fn never_returns_a_weight_that_counts_as_zero() {
-        let weights = [0.0, f32::NAN, 2.0, -1.0, f32::INFINITY, 1e-45, 0.0];
-        for u in [0.0, 0.5, LARGEST_U, 1.0, 2.0, f64::NAN] {
-            let s = sample(&weights, u).expect("a positive weight");
-            assert_eq!(s.index, 2, "u = {u}");
-            assert_eq!(s.pmf, pmf(&weights, s.index), "same bits");
-            assert!((0.0..1.0).contains(&s.u), "range of what is left: {}", s.u);
-        }
-    }
-
-    #[test]
-    fn nothing_to_choose() {
-        assert_eq!(sample(&[], 0.5), None, "no weights");
-        assert_eq!(sample(&[0.0, f32::NAN], 0.5), None, "none positive");
-        assert_eq!(pmf(&[1.0], 7), 0.0, "out of range");
-    }
-}
+mod tests;

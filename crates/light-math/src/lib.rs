@@ -20,6 +20,7 @@ pub mod discrete;
 pub mod distribution;
 pub mod equal_area;
 pub mod float;
+pub mod fraction;
 mod frame;
 pub mod lat_long;
 pub mod mis;

@@ -11,6 +11,7 @@ use light_math::distribution::{
     AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError,
     WeightedReservoir, Window, WindowedPiecewiseConstant2D,
 };
+use light_math::fraction;
 use light_math::glam::Vec2;
 use light_math::spectrum::SampledWavelengths;
 use light_math::spectrum::cie::{LAMBDA_MAX, LAMBDA_MIN};
@@ -97,19 +98,20 @@ fn wavelengths_follow_their_densities() {
 }
 
 /// Frequencies against probabilities, and the rest of `u` against the uniform distribution.
-fn check_choice(what: &str, pmf: &[f64], mut choose: impl FnMut(f64) -> SampledIndex) {
+fn check_choice(what: &str, pmf: &[f64], mut choose: impl FnMut(u64) -> SampledIndex) {
     const SAMPLES: u32 = 1 << 16;
     let mut rng = Rng::new(9);
     let mut observed = vec![0; pmf.len()];
     let mut rests = Vec::new();
     for _ in 0..SAMPLES {
-        let chosen = choose(rng.f64());
-        assert!(
-            (f64::from(chosen.pmf) / pmf[chosen.index] - 1.0).abs() < 1e-6,
+        let chosen = choose(rng.u64());
+        assert_eq!(
+            f64::from(chosen.pmf),
+            pmf[chosen.index],
             "{what}: {chosen:?}"
         );
         observed[chosen.index] += 1;
-        rests.push(chosen.u);
+        rests.push(fraction::to_f64(chosen.u));
     }
     let expected: Vec<f64> = pmf.iter().map(|p| p * f64::from(SAMPLES)).collect();
     assert!(
@@ -125,15 +127,20 @@ fn check_choice(what: &str, pmf: &[f64], mut choose: impl FnMut(f64) -> SampledI
 #[test]
 fn choices_follow_their_probabilities() {
     let weights = weights(40);
-    let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
-    let pmf: Vec<f64> = weights.iter().map(|&w| f64::from(w) / total).collect();
+    let pmfs = |pmf: &dyn Fn(usize) -> f32| -> Vec<f64> {
+        (0..weights.len()).map(|i| f64::from(pmf(i))).collect()
+    };
+    let pmf = pmfs(&|i| discrete::pmf(&weights, i));
     check_choice("discrete", &pmf, |u| {
         discrete::sample(&weights, u).expect("weights")
     });
     let table = AliasTable::new(&weights).expect("weights");
+    let pmf = pmfs(&|i| table.pmf(i));
     check_choice("alias table", &pmf, |u| table.sample(u));
+    let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+    let pmf = pmfs(&|i| (f64::from(weights[i]) / total) as f32);
     check_choice("reservoir", &pmf, |u| {
-        let mut reservoir = WeightedReservoir::new(u);
+        let mut reservoir = WeightedReservoir::new(fraction::to_f64(u));
         for (index, &weight) in weights.iter().enumerate() {
             reservoir.add(index, weight);
         }
@@ -141,7 +148,7 @@ fn choices_follow_their_probabilities() {
         SampledIndex {
             index: kept.value,
             pmf: kept.pmf,
-            u: kept.u,
+            u: fraction::from_f64(kept.u),
         }
     });
 }
@@ -154,14 +161,15 @@ fn a_million_weights_get_their_shares() {
         .map(|i| if i % 1000 == 0 { 500.0 } else { 1.0 })
         .collect();
     let table = AliasTable::new(&weights).expect("weights");
-    let mut mass = vec![0.0; COUNT];
+    let mut mass = vec![0; COUNT];
     for (index, bin) in table.bins().iter().enumerate() {
-        mass[index] += f64::from(bin.q) / COUNT as f64;
-        mass[bin.alias as usize] += f64::from(1.0 - bin.q) / COUNT as f64;
+        mass[index] += u64::from(bin.own);
+        mass[bin.alias as usize] += u64::from(discrete::PARTS - bin.own);
     }
+    let all = COUNT as f64 * f64::from(discrete::PARTS);
     for (index, mass) in mass.into_iter().enumerate() {
-        let error = mass / f64::from(table.pmf(index)) - 1.0;
-        assert!(error.abs() < 1e-6, "share of {index} is off by {error}");
+        let pmf = (mass as f64 / all) as f32;
+        assert_eq!(pmf, table.pmf(index), "share of {index}");
     }
 }
 
@@ -223,7 +231,7 @@ proptest! {
     fn samples_have_weight(
         weights in prop::collection::vec(edge_cases::non_negative(), 1..40),
         u in edge_cases::unit_square(),
-        u64 in edge_cases::unit_f64(),
+        u64 in any::<u64>(),
         columns in 1usize..5,
     ) {
         prop_assume!(verdict(&weights).is_none());
@@ -243,24 +251,23 @@ proptest! {
         prop_assert!(AliasTable::from_bins(alias.bins()).is_ok(), "its own bins");
         for s in [alias.sample(u64), discrete::sample(&weights, u64).expect("weights")] {
             prop_assert!(weights[s.index] > 0.0 && s.pmf > 0.0, "choice {s:?}");
-            prop_assert!((0.0..1.0).contains(&s.u), "rest {s:?}");
         }
         let s = discrete::sample(&weights, u64).expect("weights");
         prop_assert_eq!(s.pmf, discrete::pmf(&weights, s.index), "same bits");
-        prop_assert_eq!(alias.pmf(s.index), discrete::pmf(&weights, s.index), "same probability");
     }
 
     #[test]
     fn a_choice_is_where_the_running_sum_passes_u(
         weights in edge_cases::weights(1..20),
-        u in edge_cases::unit_f64(),
+        u in any::<u64>(),
     ) {
         let share = |weights: &[f32]| weights.iter().map(|&w| f64::from(w)).sum::<f64>();
         let total = share(&weights);
         if let Some(s) = discrete::sample(&weights, u) {
             let (low, high) = (share(&weights[..s.index]), share(&weights[..=s.index]));
-            let position = u * total;
-            let rounding = 1e-15 * total;
+            let position = fraction::to_f64(u) * total;
+            // A part a weight is kept back, and all before may be too many or too few.
+            let rounding = (weights.len() + 1) as f64 / f64::from(discrete::PARTS) * total;
             prop_assert!(low - rounding <= position && position <= high + rounding, "{s:?}");
         } else {
             prop_assert!(total == 0.0, "a weight of {weights:?}");

@@ -54,12 +54,12 @@ where
     /// unit of the scattering coefficient: the integral of phase function times radiance, in W m^-2
     /// sr^-1.
     ///
-    /// `u_light` in `[0, 1)` chooses a light, `u` in `[0, 1)^2` the point on it. The estimate is
+    /// `u_light`, a fraction of 2^64, chooses a light, `u` in `[0, 1)^2` the point on it. The estimate is
     /// divided by the probability of the light, and includes occlusion and attenuation.
     pub fn in_scattered(
         &self,
         at: ScatteringPoint,
-        u_light: f64,
+        u_light: u64,
         u: Vec2,
         next_u: &mut impl FnMut() -> f32,
     ) -> C::Radiance {

@@ -1,3 +1,5 @@
+use light_math::fraction;
+
 /// Points of a Latin hypercube: `n` points in `[0, 1)^D`, one in each of the `n` slabs of every
 /// axis.
 ///
@@ -30,35 +32,26 @@ impl LatinHypercube {
         false
     }
 
-    /// Point `index` (taken modulo `n`), to 32 bits below the width of a slab: enough to address
-    /// every light of a large set.
+    /// Point `index` (taken modulo `n`), each coordinate a [fraction] of 2^64: 32 random bits below
+    /// the width of a slab, enough to address every light of a large set.
     #[must_use]
-    pub fn point<const D: usize>(&self, index: u32) -> [f64; D] {
+    pub fn point<const D: usize>(&self, index: u32) -> [u64; D] {
         let index = index % self.n;
         let mut axis = 0u32;
         [(); D].map(|()| {
             axis += 1;
             let key = hash(self.seed ^ hash(axis));
             let slab = permute(index, self.n, key);
-            let jitter = (f64::from(hash(hash(key) ^ index)) + 0.5) / 4_294_967_296.0;
-            (f64::from(slab) + jitter) / f64::from(self.n)
+            let jitter = fraction::from_words(hash(hash(key) ^ index), 1 << 31);
+            fraction::stratum(slab, self.n, jitter)
         })
     }
 
     /// The same point in single precision, still below 1.
     #[must_use]
     pub fn point_f32<const D: usize>(&self, index: u32) -> [f32; D] {
-        self.point(index).map(narrow)
+        self.point(index).map(fraction::to_f32)
     }
-}
-
-/// A number of `[0, 1)` in single precision, still below 1.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds to single precision"
-)]
-pub(crate) fn narrow(u: f64) -> f32 {
-    (u as f32).min(light_math::float::ONE_MINUS_EPSILON)
 }
 
 /// A permutation of `0..n` chosen by `key`, evaluated at `i < n`: rounds of invertible steps on the
@@ -107,8 +100,8 @@ mod tests {
             let mut seen = [[false; 1023]; 3];
             for i in 0..n {
                 for (axis, x) in cube.point::<3>(i).into_iter().enumerate() {
-                    assert!((0.0..1.0).contains(&x), "{x} lies in [0, 1)");
-                    let slab = (x * f64::from(n)) as usize;
+                    let (slab, _) = fraction::choose(n, x);
+                    let slab = slab as usize;
                     assert!(
                         !core::mem::replace(&mut seen[axis][slab], true),
                         "slab {slab} of {n} is hit twice"
@@ -120,7 +113,7 @@ mod tests {
 
     #[test]
     fn axes_and_seeds_differ() {
-        let points: [[f64; 2]; 2] = [1, 2].map(|seed| LatinHypercube::new(16, seed).point(5));
+        let points: [[u64; 2]; 2] = [1, 2].map(|seed| LatinHypercube::new(16, seed).point(5));
         assert_ne!(points[0], points[1], "seeds");
         assert_ne!(points[0][0], points[0][1], "axes");
     }
@@ -148,10 +141,8 @@ mod tests {
     fn each_point_has_a_place_of_its_own_in_its_slab() {
         for seed in 0..16 {
             let cube = LatinHypercube::new(64, seed);
-            let mut places: Vec<f64> = (0..64)
-                .map(|i| (cube.point::<1>(i)[0] * 64.0).fract())
-                .collect();
-            places.sort_by(f64::total_cmp);
+            let mut places: Vec<u64> = (0..64).map(|i| cube.point::<1>(i)[0] << 6).collect();
+            places.sort_unstable();
             places.dedup();
             assert_eq!(places.len(), 64, "seed {seed}");
         }
@@ -167,11 +158,6 @@ mod tests {
         let cube = LatinHypercube::new(7, 5);
         assert_eq!(cube.point::<2>(3), cube.point::<2>(10), "modulo the number");
         assert_ne!(cube.point::<2>(3), cube.point::<2>(4), "others differ");
-        assert_eq!(
-            narrow(1.0 - 1e-12),
-            light_math::float::ONE_MINUS_EPSILON,
-            "below one"
-        );
         assert!(!cube.is_empty(), "never");
     }
 
@@ -185,7 +171,11 @@ mod tests {
             for index in [0, 1, n / 2, n - 1] {
                 let mut rng = Rng::new(u64::from(n));
                 let points: Vec<[f64; 3]> = (0..SEEDS)
-                    .map(|_| LatinHypercube::new(n, rng.u32()).point(index))
+                    .map(|_| {
+                        LatinHypercube::new(n, rng.u32())
+                            .point(index)
+                            .map(fraction::to_f64)
+                    })
                     .collect();
                 for axis in 0..3 {
                     let mut places: Vec<f64> = points.iter().map(|p| p[axis]).collect();

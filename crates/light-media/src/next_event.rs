@@ -7,9 +7,9 @@ use crate::step_size::StepSize;
 use crate::transmittance;
 use crate::truncated_exponential::TruncatedExponential;
 use light_bounds::{LightId, LightSampleContext};
-use light_math::float;
 use light_math::glam::{Vec2, Vec3};
 use light_math::warp::Equiangular;
+use light_math::{float, fraction};
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Light, Radiance};
 
@@ -74,43 +74,39 @@ where
 
         // Scattering, at points for each light.
         let context = LightSampleContext::segment(ray.at(part.t0), ray.d * part.length());
-        let (mut i, u) = (0, f64::from(next_u()));
-        self.sampler
-            .sample_many(&context, u, numbers.len(), &mut |chosen| {
-                let [u_t, u0, u1] = numbers.point_f32(i);
-                i += 1;
-                let (t, pdf) = match self.seen_from(chosen.light, ray, part) {
-                    Some(even) => {
-                        let t = if u_t < 0.5 {
-                            even.sample(2.0 * u_t)
-                        } else {
-                            part.t0 + dying.sample(2.0 * u_t - 1.0)
-                        };
-                        (t, 0.5 * (even.pdf(t) + dying.pdf(t - part.t0)))
-                    }
-                    None => {
-                        let x = dying.sample(u_t);
-                        (part.t0 + x, dying.pdf(x))
-                    }
-                };
-                let at = ScatteringPoint {
-                    p: ray.at(t),
-                    wo: -ray.d,
-                };
-                let here = self.medium.coefficients(at.p, self.wavelengths);
-                if here.sigma_s.is_black() {
-                    return;
+        let choices = self.sampler.at(&context, numbers.len());
+        let u = fraction::from_f32(next_u(), fraction::from_f32(next_u(), 0));
+        for (i, chosen) in (0..).zip(choices.samples(u)) {
+            let [u_t, u0, u1] = numbers.point_f32(i);
+            let (t, pdf) = match self.seen_from(chosen.light, ray, part) {
+                Some(even) => {
+                    let t = if u_t < 0.5 {
+                        even.sample(2.0 * u_t)
+                    } else {
+                        part.t0 + dying.sample(2.0 * u_t - 1.0)
+                    };
+                    (t, 0.5 * (even.pdf(t) + dying.pdf(t - part.t0)))
                 }
-                let scattered = self.scattered_from(chosen.light, at, Vec2::new(u0, u1), next_u);
-                if !scattered.is_black() {
-                    let before = Span { t0: part.t0, t1: t };
-                    sum = sum
-                        + left(before, next_u)
-                            * here.sigma_s
-                            * scattered
-                            * (1.0 / (pdf * chosen.pmf));
+                None => {
+                    let x = dying.sample(u_t);
+                    (part.t0 + x, dying.pdf(x))
                 }
-            });
+            };
+            let at = ScatteringPoint {
+                p: ray.at(t),
+                wo: -ray.d,
+            };
+            let here = self.medium.coefficients(at.p, self.wavelengths);
+            if here.sigma_s.is_black() {
+                continue;
+            }
+            let scattered = self.scattered_from(chosen.light, at, Vec2::new(u0, u1), next_u);
+            if !scattered.is_black() {
+                let before = Span { t0: part.t0, t1: t };
+                let weight = 1.0 / (pdf * chosen.pmf);
+                sum = sum + left(before, next_u) * here.sigma_s * scattered * weight;
+            }
+        }
         VolumeLight {
             l: sum * (1.0 / numbers.len() as f32),
             transmittance,

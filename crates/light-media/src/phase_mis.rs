@@ -25,11 +25,11 @@ pub enum FirstHit {
     Nothing,
 }
 
-/// The random numbers of [`VolumeIntegrator::in_scattered_mis`], each in `[0, 1)`.
+/// The random numbers of [`VolumeIntegrator::in_scattered_mis`]: the points in `[0, 1)^2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringNumbers {
-    /// Chooses the light.
-    pub light: f64,
+    /// Chooses the light: a fraction of 2^64.
+    pub light: u64,
     /// Chooses the point on it.
     pub point: Vec2,
     /// Chooses the direction of the phase function.

@@ -1,9 +1,10 @@
 use crate::emission::VolumeLight;
 use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
-use crate::latin_hypercube::{LatinHypercube, narrow};
+use crate::latin_hypercube::LatinHypercube;
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
 use crate::ray_march::RayMarch;
+use light_math::fraction::to_f32;
 use light_math::glam::Vec2;
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Radiance};
@@ -50,7 +51,7 @@ where
             let here = self.medium.coefficients(at.p, self.wavelengths);
             let [u_light, u0, u1] = triples.point(i);
             let scattered =
-                self.in_scattered(at, u_light, Vec2::new(narrow(u0), narrow(u1)), next_u);
+                self.in_scattered(at, u_light, Vec2::new(to_f32(u0), to_f32(u1)), next_u);
             sum = sum + transmittance * (here.emission + here.sigma_s * scattered);
         }
         VolumeLight {

@@ -101,7 +101,7 @@ fn estimate<S: LightSampler, V: Intersection>(
     [false, true].map(|mis| {
         Estimate::of(samples, || {
             let numbers = ScatteringNumbers {
-                light: rng.f64(),
+                light: rng.u64(),
                 point: rng.vec2(),
                 direction: rng.vec2(),
             };

@@ -118,7 +118,7 @@ fn lights_that_are_not_there_or_shine_elsewhere_scatter_nothing() {
     ] {
         let (lights, sampler) = (lights(desc), UniformLightSampler::new(count));
         let integrator = integrator(&medium, &lights, &sampler, &Untouched);
-        let found = integrator.in_scattered(AT, 0.5, Vec2::splat(0.5), &mut none);
+        let found = integrator.in_scattered(AT, 1 << 63, Vec2::splat(0.5), &mut none);
         assert_eq!(found, Vec3::ZERO, "{what}");
     }
 }

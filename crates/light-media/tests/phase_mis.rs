@@ -5,6 +5,7 @@
 mod ball;
 
 use ball::{Ball, CENTRE, RADIUS};
+use light_math::fraction;
 use light_math::glam::{Affine3A, Vec2, Vec3};
 use light_media::phase::HenyeyGreenstein;
 use light_media::{
@@ -72,7 +73,7 @@ fn both_strategies_have_one_mean_and_together_less_noise() {
         for _ in 0..n {
             let mut pair = || Vec2::new(next_u(), next_u());
             let (point, direction) = (pair(), pair());
-            let light = f64::from(next_u());
+            let light = fraction::from_f32(next_u(), fraction::from_f32(next_u(), 0));
             let numbers = ScatteringNumbers {
                 light,
                 point,

@@ -38,11 +38,7 @@ fn variance_at<S: LightSampler>(
     for (id, light) in world.lights().iter() {
         let sample = light.sample_li(ctx, Vec2::splat(0.5), &(), PdfCoverage::Complete);
         let Some(li) = sample else { continue };
-        let cosine = if ctx.is_medium() {
-            1.0
-        } else {
-            li.wi.dot(ctx.ns)
-        };
+        let cosine = ctx.ns().map_or(1.0, |ns| li.wi.dot(ns));
         let f = f64::from(li.l.element_sum() * cosine / li.pdf);
         if f > 0.0 {
             sum += f;

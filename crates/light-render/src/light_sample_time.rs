@@ -28,7 +28,7 @@ pub(crate) fn light_sample_time<S: LightSampler>(
     let start = Instant::now();
     let mut calls = 0;
     for (call, ctx) in (0..CALLS).zip(contexts.iter().cycle()) {
-        let u = f64::from(call.wrapping_mul(0x9e37_79b9)) / 4_294_967_296.0;
+        let u = u64::from(call).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let light = sampler.sample(ctx, u).and_then(|choice| {
             let light = world.lights().get(choice.light)?;
             light.sample_li(ctx, Vec2::splat(0.5), &(), PdfCoverage::Incomplete)

@@ -5,8 +5,8 @@ use core::str::FromStr;
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
-    PowerLightSamplerError, PreparedChoices, ReferenceBvhLightSampler, UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, LightChoices, LightSampler, PowerLightSampler,
+    PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
 
@@ -182,7 +182,7 @@ macro_rules! for_each_kind {
 
 impl LightSampler for AnyLightSampler {
     #[inline]
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         for_each_kind!(self, sampler => sampler.sample(ctx, u))
     }
 
@@ -192,7 +192,7 @@ impl LightSampler for AnyLightSampler {
     }
 
     #[inline]
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         for_each_kind!(self, sampler => sampler.sample_emitter(u))
     }
 
@@ -202,42 +202,8 @@ impl LightSampler for AnyLightSampler {
     }
 
     #[inline]
-    fn sample_many(
-        &self,
-        ctx: &LightSampleContext,
-        u: f64,
-        count: u32,
-        each: &mut dyn FnMut(SampledLight),
-    ) {
-        for_each_kind!(self, sampler => sampler.sample_many(ctx, u, count, each));
-    }
-
-    #[inline]
-    fn pmf_many(&self, ctx: &LightSampleContext, light: LightId, count: u32) -> f32 {
-        for_each_kind!(self, sampler => sampler.pmf_many(ctx, light, count))
-    }
-
-    #[inline]
-    fn sample_many_prepared(
-        &self,
-        ctx: &LightSampleContext,
-        u: f64,
-        count: u32,
-        prepared: &mut PreparedChoices,
-        each: &mut dyn FnMut(SampledLight),
-    ) {
-        for_each_kind!(self, sampler => sampler.sample_many_prepared(ctx, u, count, prepared, each));
-    }
-
-    #[inline]
-    fn pmf_many_prepared(
-        &self,
-        ctx: &LightSampleContext,
-        light: LightId,
-        count: u32,
-        prepared: &PreparedChoices,
-    ) -> f32 {
-        for_each_kind!(self, sampler => sampler.pmf_many_prepared(ctx, light, count, prepared))
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        for_each_kind!(self, sampler => sampler.at(ctx, count))
     }
 }
 

@@ -1,4 +1,5 @@
 use lights::glam::Vec2;
+use lights::math::fraction;
 
 use crate::{FlightNumbers, sobol};
 
@@ -25,11 +26,11 @@ pub struct CameraNumbers {
     pub lens: Vec2,
 }
 
-/// The numbers for one vertex of a path, each in `[0, 1)`.
+/// The numbers for one vertex of a path, in `[0, 1)` if nothing else is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexNumbers {
-    /// Which light; carries 32 bits, enough to address every light of a large set.
-    pub light: f64,
+    /// Which light: a fraction of 2^64.
+    pub light: u64,
     /// Which of several lights is looked at for its shadow.
     pub shadow: f32,
     /// Whether the path goes on.
@@ -68,7 +69,7 @@ impl SampleStream {
         let [light, _, _, roulette] = self.set(2 * vertex + 1);
         let [u, v, lobe, shadow] = self.set(2 * vertex + 2);
         VertexNumbers {
-            light: f64::from(light) / 4_294_967_296.0,
+            light: fraction::from_words(light, sobol::hash(self.key() ^ vertex)),
             shadow: unit(shadow),
             roulette: unit(roulette),
             lobe: unit(lobe),
@@ -146,15 +147,14 @@ mod tests {
             clippy::cast_sign_loss,
             reason = "the number of a cell"
         )]
-        let cell = |x: f64, n: f64| (x * n) as usize;
+        let cell = |x: f32, n: f32| (x * n) as usize;
         for pixel in 0..8 {
             let mut light = [0; 16];
             let mut cells = [[0; 4]; 4];
             for sample in 0..16 {
                 let v = SampleStream::new(7, (pixel, 0), sample).vertex(2);
-                assert!((0.0..1.0).contains(&v.light), "in range");
-                light[cell(v.light, 16.0)] += 1;
-                let [x, y] = v.direction.to_array().map(f64::from);
+                light[(v.light >> 60) as usize] += 1;
+                let [x, y] = v.direction.to_array();
                 cells[cell(x, 4.0)][cell(y, 4.0)] += 1;
             }
             assert_eq!(light, [1; 16], "one light choice a stratum");

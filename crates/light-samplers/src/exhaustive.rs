@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use light_bounds::{
-    ImportanceQuery, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
-};
+use light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhError;
-use light_math::distribution::WeightedReservoir;
+use light_math::discrete;
 
-use crate::LightSampler;
-use crate::first_choice::{FirstChoice, FirstPmf, share};
+use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
+use crate::{LightChoices, LightSampler};
 
 /// Chooses each light in proportion to its importance, without a hierarchy, in time linear in the
 /// number of lights.
@@ -52,56 +50,60 @@ impl ExhaustiveLightSampler {
         })
     }
 
-    fn choose(&self, u: f64, weight: impl Fn(&LightBounds) -> f32) -> Option<SampledLight> {
+    fn choose(&self, u: u64, weight: impl Fn(&LightBounds) -> f32) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => sample,
+            FirstChoice::Infinite(sample) => Some(sample),
             FirstChoice::Others { pmf, u } => {
-                let mut reservoir = WeightedReservoir::new(u);
-                for (id, bounds) in (0..).map(LightId).zip(&self.bounds) {
-                    let weight = weight(bounds);
-                    reservoir.add((id, weight), weight);
-                }
-                let total = reservoir.total();
-                let sample = reservoir.sample()?;
-                let (light, weight) = sample.value;
+                let weights = |index: usize| weight(&self.bounds[index]);
+                let chosen = discrete::sample_by(self.bounds.len(), weights, u)?;
                 Some(SampledLight {
-                    light,
-                    pmf: pmf * share(f64::from(weight), total),
-                    u: sample.u,
+                    light: id(chosen.index),
+                    pmf: mul_prob(pmf, chosen.pmf),
+                    u: chosen.u,
                 })
             }
         }
     }
 
     fn probability(&self, light: LightId, weight: impl Fn(&LightBounds) -> f32) -> f32 {
-        let pmf = match self.infinite.first_pmf(light) {
-            FirstPmf::Infinite(pmf) => return pmf,
-            FirstPmf::Others(pmf) => pmf,
-        };
-        let Some(bounds) = self.bounds.get(light.index()) else {
-            return 0.0;
-        };
-        let total = self.bounds.iter().map(|b| f64::from(weight(b))).sum();
-        pmf * share(f64::from(weight(bounds)), total)
+        match self.infinite.first_pmf(light) {
+            FirstPmf::Infinite(pmf) => pmf,
+            FirstPmf::Others(pmf) => {
+                let weights = |index: usize| weight(&self.bounds[index]);
+                let within = discrete::pmf_by(self.bounds.len(), weights, light.index());
+                mul_prob(pmf, within)
+            }
+        }
     }
 }
 
 impl LightSampler for ExhaustiveLightSampler {
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        let query = ImportanceQuery::new(ctx);
-        self.choose(u, |bounds| bounds.importance_for(&query))
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.choose(u, |bounds| bounds.importance(ctx))
     }
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        let query = ImportanceQuery::new(ctx);
-        self.probability(light, |bounds| bounds.importance_for(&query))
+        self.probability(light, |bounds| bounds.importance(ctx))
     }
 
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.choose(u, |bounds| bounds.phi)
     }
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
         self.probability(light, |bounds| bounds.phi)
     }
+}
+
+/// The id of the light at `index`.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "ids are 32 bits, so there are no more lights"
+)]
+const fn id(index: usize) -> LightId {
+    LightId(index as u32)
 }

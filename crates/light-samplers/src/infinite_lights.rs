@@ -1,136 +1,172 @@
-use alloc::vec::Vec;
+use core::fmt;
 
 use light_bounds::{
-    InfiniteBounds, LightExtent, LightId, LightSampleContext, ReceiverSides, SampledLight,
+    InfiniteBounds, InfiniteBoundsError, LightExtent, LightId, LightSampleContext, ReceiverKind,
+    ReceiverSides, SampledLight,
 };
 use light_math::glam::Vec3;
-use light_math::{direction, float};
+use light_math::{direction, discrete, float};
 
-use crate::first_choice::{FirstChoice, FirstPmf, share};
+use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
 
 /// Least cosine while any light may arrive, and the rounding margin of the test that none arrives.
 const SLACK: f32 = 1e-5;
 
-/// The lights at infinity.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct InfiniteLights {
-    /// In ascending order of ids, without lights of zero fluence.
-    lights: Vec<(LightId, InfiniteBounds)>,
+/// The place of the tree among the weights of the first choice; the lights at infinity follow.
+const TREE: usize = 0;
+
+/// A light at infinity, as a sampler stores it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InfiniteLight {
+    /// Its id.
+    pub light: LightId,
+    /// Its bounds.
+    pub bounds: InfiniteBounds,
 }
 
-impl InfiniteLights {
-    /// The infinite ones of `lights`.
-    pub(crate) fn new(lights: &[LightExtent]) -> Self {
-        let mut infinite = Self::default();
-        infinite.replace(lights);
-        infinite
+/// The lights at infinity in ascending order of ids.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct InfiniteLights<'a> {
+    lights: &'a [InfiniteLight],
+}
+
+/// The infinite ones of `lights` that emit, by id.
+#[cfg(feature = "alloc")]
+pub(crate) fn emitting(lights: &[LightExtent]) -> impl Iterator<Item = InfiniteLight> + use<'_> {
+    let infinite = (0..)
+        .map(LightId)
+        .zip(lights)
+        .filter_map(|(id, extent)| Some((id, *extent.infinite()?)));
+    let emitting = infinite.filter(|(_, bounds)| bounds.fluence > 0.0);
+    // Valid bounds have an axis of about length one: too rough for the test against the horizon.
+    emitting.map(|(light, mut bounds)| {
+        bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
+        InfiniteLight { light, bounds }
+    })
+}
+
+impl<'a> InfiniteLights<'a> {
+    /// Of lights that were stored before.
+    pub(crate) fn new(lights: &'a [InfiniteLight]) -> Result<Self, InfiniteLightsError> {
+        if !lights.is_sorted_by(|a, b| a.light < b.light) {
+            return Err(InfiniteLightsError::Order);
+        }
+        for &InfiniteLight { light, bounds } in lights {
+            let bad = |error| InfiniteLightsError::Bounds { light, error };
+            bounds.validate().map_err(bad)?;
+        }
+        Ok(Self { lights })
     }
 
-    /// Takes the infinite ones of `lights` instead; allocates only if they are more than before.
-    pub(crate) fn replace(&mut self, lights: &[LightExtent]) {
-        let infinite = (0..)
-            .map(LightId)
-            .zip(lights)
-            .filter_map(|(id, extent)| Some((id, *extent.infinite()?)))
-            .filter(|(_, bounds)| bounds.fluence > 0.0);
-        // Valid bounds have an axis of about length one: too rough for the test against the
-        // horizon.
-        let with_unit_axis = |(id, mut bounds): (LightId, InfiniteBounds)| {
-            bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
-            (id, bounds)
-        };
-        self.lights.clear();
-        self.lights.extend(infinite.map(with_unit_axis));
+    /// Of lights that are in order, with valid bounds.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn of_valid(lights: &'a [InfiniteLight]) -> Self {
+        Self { lights }
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
+    pub(crate) const fn lights(&self) -> &'a [InfiniteLight] {
+        self.lights
+    }
+
+    pub(crate) const fn is_empty(&self) -> bool {
         self.lights.is_empty()
     }
 
-    /// The bounds of `light`, if it is at infinity.
-    fn get(&self, light: LightId) -> Option<&InfiniteBounds> {
-        let at = self.lights.binary_search_by_key(&light, |(id, _)| *id);
-        at.ok().map(|index| &self.lights[index].1)
-    }
-
-    /// The choice between these and the lights of a tree, whose weight is `in_tree`.
+    /// The choice between these and the lights of a tree, whose weight is `in_tree`; `None` if
+    /// nothing has weight.
+    #[inline]
     pub(crate) fn first(
         &self,
-        u: f64,
-        in_tree: f64,
-        weight: impl Fn(&InfiniteBounds) -> f64,
-    ) -> FirstChoice {
-        let total = in_tree + self.total(&weight);
-        let target = u * total;
-        if target < in_tree {
-            return FirstChoice::Others {
-                pmf: share(in_tree, total),
-                u: SampledLight::clamp_u(target / in_tree),
-            };
-        }
-        let pmf = |weight| share(weight, total);
-        FirstChoice::Infinite(self.choose(target - in_tree, &weight, pmf))
+        u: u64,
+        in_tree: f32,
+        weight: impl Fn(&InfiniteBounds) -> f32,
+    ) -> Option<FirstChoice> {
+        let chosen = discrete::sample_by(self.count(), self.weights(in_tree, weight), u)?;
+        let (pmf, u) = (chosen.pmf, chosen.u);
+        Some(match chosen.index.checked_sub(TREE + 1) {
+            None => FirstChoice::Others { pmf, u },
+            Some(index) => {
+                let light = self.lights[index].light;
+                FirstChoice::Infinite(SampledLight { light, pmf, u })
+            }
+        })
     }
 
     /// The probability of the first choice that leads to `light`.
+    #[inline]
     pub(crate) fn first_pmf(
         &self,
         light: LightId,
-        in_tree: f64,
-        weight: impl Fn(&InfiniteBounds) -> f64,
+        in_tree: f32,
+        weight: impl Fn(&InfiniteBounds) -> f32,
     ) -> FirstPmf {
-        let total = in_tree + self.total(&weight);
-        match self.get(light) {
-            Some(bounds) => FirstPmf::Infinite(share(weight(bounds), total)),
-            None => FirstPmf::Others(share(in_tree, total)),
+        let index = self
+            .lights
+            .binary_search_by_key(&light, |light| light.light);
+        let weights = self.weights(in_tree, weight);
+        let pmf = |index| discrete::pmf_by(self.count(), &weights, index);
+        match index {
+            Ok(index) => FirstPmf::Infinite(pmf(TREE + 1 + index)),
+            Err(_) => FirstPmf::Others(pmf(TREE)),
         }
     }
 
-    /// The sum of `weight` over all lights.
-    fn total(&self, weight: impl Fn(&InfiniteBounds) -> f64) -> f64 {
-        self.lights.iter().map(|(_, bounds)| weight(bounds)).sum()
+    /// Of the tree and these.
+    const fn count(&self) -> usize {
+        TREE + 1 + self.lights.len()
     }
 
-    /// The light whose interval of `[0, total)` contains `target`, with the same probability as
-    /// `pmf`.
-    fn choose(
+    /// The weights of the tree and of these.
+    fn weights(
         &self,
-        target: f64,
-        weight: impl Fn(&InfiniteBounds) -> f64,
-        pmf: impl Fn(f64) -> f32,
-    ) -> Option<SampledLight> {
-        let mut below = 0.0;
-        let mut chosen = None;
-        for (light, bounds) in &self.lights {
-            let weight = weight(bounds);
-            if weight > 0.0 {
-                chosen = Some((*light, below, weight));
-                if target < below + weight {
-                    break;
-                }
-                below += weight;
-            }
+        in_tree: f32,
+        weight: impl Fn(&InfiniteBounds) -> f32,
+    ) -> impl Fn(usize) -> f32 {
+        let lights = self.lights;
+        move |index| match index.checked_sub(TREE + 1) {
+            None => in_tree,
+            Some(index) => weight(&lights[index].bounds),
         }
-        let (light, start, weight) = chosen?;
-        Some(SampledLight {
-            light,
-            pmf: pmf(weight),
-            u: SampledLight::clamp_u((target - start) / weight),
-        })
     }
 }
+
+/// Why lights at infinity cannot be sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InfiniteLightsError {
+    /// They are not in ascending order of their ids.
+    Order,
+    /// The bounds of a light are not valid.
+    Bounds {
+        /// Which light.
+        light: LightId,
+        /// Why.
+        error: InfiniteBoundsError,
+    },
+}
+
+impl fmt::Display for InfiniteLightsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Order => f.write_str("lights at infinity: not in ascending order of ids"),
+            Self::Bounds { light, error } => write!(f, "light {}: {error}", light.0),
+        }
+    }
+}
+
+impl core::error::Error for InfiniteLightsError {}
 
 /// Estimated irradiance at `ctx` from a light at infinity; 0 only if all of it is below the
 /// horizon.
-pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f64 {
-    f64::from(bounds.fluence) * f64::from(mean_cosine(bounds, ctx))
+pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
+    mul_prob(bounds.fluence, mean_cosine(bounds, ctx))
 }
 
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
-    let Some(ns) = ctx.unit_ns() else {
+    let ReceiverKind::Surface { ns, sides, .. } = *ctx.kind() else {
         return 1.0;
     };
-    if ctx.sides == ReceiverSides::Both {
+    if sides == ReceiverSides::Both {
         let height = ns.dot(bounds.mean).abs();
         return height
             .max(0.5 * float::safe_sqrt(1.0 - bounds.mean.length_squared()))
@@ -150,5 +186,5 @@ fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
     expected.max(SLACK)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "alloc"))]
 mod tests;

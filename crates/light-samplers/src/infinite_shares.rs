@@ -1,9 +1,9 @@
 use alloc::vec::Vec;
 
 use light_bounds::{LightExtent, LightId, SampledLight};
+use light_math::fraction;
 
 use crate::first_choice::{FirstChoice, FirstPmf};
-use crate::uniform::choose_uniformly;
 
 /// The first choice: each light at infinity has one share, all lights with a position share one.
 ///
@@ -43,14 +43,17 @@ impl InfiniteShares {
 
     /// The first choice; `None` if there is no light at all.
     #[inline]
-    pub(crate) fn choose(&self, u: f64) -> Option<FirstChoice> {
-        let (share, u) = choose_uniformly(self.shares, u)?;
+    pub(crate) fn choose(&self, u: u64) -> Option<FirstChoice> {
+        if self.shares == 0 {
+            return None;
+        }
+        let (share, u) = fraction::choose(self.shares, u);
         Some(match self.lights.get(share as usize) {
-            Some(&light) => FirstChoice::Infinite(Some(SampledLight {
+            Some(&light) => FirstChoice::Infinite(SampledLight {
                 light,
                 pmf: self.pmf_share(),
                 u,
-            })),
+            }),
             None => FirstChoice::Others {
                 pmf: self.pmf_share(),
                 u,

@@ -11,34 +11,32 @@ pub use light_bounds::SampledLight;
 
 #[cfg(feature = "alloc")]
 mod bvh;
-#[cfg(feature = "alloc")]
-mod bvh_cut;
+mod bvh_choices;
+mod bvh_ref;
 #[cfg(feature = "alloc")]
 mod exhaustive;
-#[cfg(feature = "alloc")]
 mod first_choice;
-#[cfg(feature = "alloc")]
 mod infinite_lights;
 #[cfg(feature = "alloc")]
 mod infinite_shares;
+mod light_choices;
 mod light_sampler;
 #[cfg(feature = "alloc")]
 mod power;
-mod prepared_choices;
 #[cfg(feature = "alloc")]
 mod reference_bvh;
 mod uniform;
 
 #[cfg(feature = "alloc")]
 pub use bvh::BvhLightSampler;
-#[cfg(feature = "alloc")]
-pub use bvh_cut::BvhLightCut;
+pub use bvh_ref::BvhLightSamplerRef;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
+pub use infinite_lights::{InfiniteLight, InfiniteLightsError};
+pub use light_choices::LightChoices;
 pub use light_sampler::LightSampler;
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};
-pub use prepared_choices::PreparedChoices;
 #[cfg(feature = "alloc")]
 pub use reference_bvh::ReferenceBvhLightSampler;
 pub use uniform::UniformLightSampler;

@@ -4,15 +4,12 @@ use core::fmt;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_math::distribution::{AliasBin, AliasTable, TableError};
 
-use crate::{LightSampler, UniformLightSampler};
-
-/// Least weight of a light with power, as a share of the total: its probability must not round to
-/// zero.
-const LEAST_SHARE: f64 = 2.0 * f32::MIN_POSITIVE as f64;
+use crate::{LightChoices, LightSampler, UniformLightSampler};
 
 /// Chooses each light in proportion to its power.
 ///
-/// 12 bytes a light; a query takes constant time. The baseline for scenes in which every light
+/// 12 bytes a light; a query takes constant time. Of `n` lights each one with power has at least a
+/// probability of `2^-16 / n`. The baseline for scenes in which every light
 /// reaches every point. Lights without power are never chosen, unless no light has power.
 #[derive(Clone, Debug)]
 pub struct PowerLightSampler {
@@ -40,7 +37,7 @@ impl PowerLightSampler {
                 return Err(PowerLightSamplerError::BadPower { light });
             }
         }
-        let choice = match AliasTable::new(&lifted(powers)) {
+        let choice = match AliasTable::new(powers) {
             Ok(table) => Choice::ByPower(table),
             Err(TableError::Empty | TableError::AllZero) => {
                 Choice::Uniform(UniformLightSampler::new(count))
@@ -51,18 +48,9 @@ impl PowerLightSampler {
     }
 }
 
-/// The powers; positive ones are raised to at least [`LEAST_SHARE`] of the total.
-#[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
-fn lifted(powers: &[f32]) -> Vec<f32> {
-    let total: f64 = powers.iter().map(|&power| f64::from(power)).sum();
-    let least = (LEAST_SHARE * total) as f32;
-    let lift = |&power: &f32| if power > 0.0 { power.max(least) } else { 0.0 };
-    powers.iter().map(lift).collect()
-}
-
 impl LightSampler for PowerLightSampler {
     #[inline]
-    fn sample(&self, _: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, _: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.sample_emitter(u)
     }
 
@@ -72,11 +60,16 @@ impl LightSampler for PowerLightSampler {
     }
 
     #[inline]
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the table is no longer than ids are numerous"
     )]
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         match &self.choice {
             Choice::ByPower(table) => {
                 let sample = table.sample(u);
@@ -133,7 +126,11 @@ mod tests {
     fn in_proportion_to_power() {
         let sampler = PowerLightSampler::new(&[1.0, 0.0, 3.0]).expect("powers");
         let pmfs = [0, 1, 2, 3].map(|i| sampler.pmf_emitter(LightId(i)));
-        assert_eq!(pmfs, [0.25, 0.0, 0.75, 0.0], "the last is unknown");
+        assert_eq!((pmfs[1], pmfs[3]), (0.0, 0.0), "dark, and unknown");
+        // Probabilities are multiples of this, and one a light is given in advance.
+        let part = 1.0 / (3.0 * 65536.0);
+        assert!((pmfs[0] - 0.25).abs() <= 2.0 * part, "{pmfs:?}");
+        assert!((pmfs[2] - 0.75).abs() <= 2.0 * part, "{pmfs:?}");
     }
 
     #[test]
@@ -141,7 +138,7 @@ mod tests {
         let sampler = PowerLightSampler::new(&[0.0; 4]).expect("powers");
         assert_eq!(sampler.pmf_emitter(LightId(3)), 0.25, "each alike");
         let empty = PowerLightSampler::new(&[]).expect("no power is wrong");
-        assert_eq!(empty.sample_emitter(0.5), None, "no light");
+        assert_eq!(empty.sample_emitter(1 << 63), None, "no light");
     }
 
     #[test]

@@ -2,9 +2,9 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhError;
 use light_bvh::reference::ReferenceLightBvh;
 
-use crate::LightSampler;
 use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
+use crate::{LightChoices, LightSampler};
 
 /// The light hierarchy as published: lights at infinity and the reference tree share one uniform
 /// choice.
@@ -47,11 +47,11 @@ impl ReferenceBvhLightSampler {
     #[inline]
     fn choose(
         &self,
-        u: f64,
-        in_tree: impl FnOnce(&ReferenceLightBvh, f64) -> Option<SampledLight>,
+        u: u64,
+        in_tree: impl FnOnce(&ReferenceLightBvh, u64) -> Option<SampledLight>,
     ) -> Option<SampledLight> {
         match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => sample,
+            FirstChoice::Infinite(sample) => Some(sample),
             FirstChoice::Others { pmf, u } => {
                 let sample = in_tree(&self.tree, u)?;
                 let pmf = pmf * sample.pmf;
@@ -70,7 +70,7 @@ impl ReferenceBvhLightSampler {
 }
 
 impl LightSampler for ReferenceBvhLightSampler {
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.choose(u, |tree, u| tree.sample(ctx, u))
     }
 
@@ -78,7 +78,11 @@ impl LightSampler for ReferenceBvhLightSampler {
         self.probability(light, |tree| tree.pmf(ctx, light))
     }
 
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.choose(u, ReferenceLightBvh::sample_emitter)
     }
 

@@ -1,6 +1,7 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_math::fraction;
 
-use crate::LightSampler;
+use crate::{LightChoices, LightSampler};
 
 /// Chooses all lights with equal probability.
 ///
@@ -21,7 +22,7 @@ impl UniformLightSampler {
 
 impl LightSampler for UniformLightSampler {
     #[inline]
-    fn sample(&self, _: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, _: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.sample_emitter(u)
     }
 
@@ -31,8 +32,16 @@ impl LightSampler for UniformLightSampler {
     }
 
     #[inline]
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
-        let (index, u) = choose_uniformly(self.count, u)?;
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    #[inline]
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        if self.count == 0 {
+            return None;
+        }
+        let (index, u) = fraction::choose(self.count, u);
         let light = LightId(index);
         Some(SampledLight {
             light,
@@ -51,22 +60,6 @@ impl LightSampler for UniformLightSampler {
     }
 }
 
-/// One of the numbers `0..count`, with equal probability, and the unused part of `u`; `None` if
-/// `count` is 0.
-#[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast truncates on purpose and saturates; min keeps the index below the count"
-)]
-pub(crate) fn choose_uniformly(count: u32, u: f64) -> Option<(u32, f64)> {
-    let last = count.checked_sub(1)?;
-    let scaled = u * f64::from(count);
-    let index = (scaled as u32).min(last);
-    let rest = SampledLight::clamp_u(scaled - f64::from(index));
-    Some((index, rest))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,20 +67,20 @@ mod tests {
     #[test]
     fn no_lights_no_choice() {
         let sampler = UniformLightSampler::new(0);
-        assert_eq!(sampler.sample_emitter(0.5), None, "nothing to choose");
+        assert_eq!(sampler.sample_emitter(1 << 63), None, "nothing to choose");
         assert_eq!(sampler.pmf_emitter(LightId(0)), 0.0, "unknown light");
     }
 
     #[test]
     fn shares_are_equal_and_u_is_stretched() {
         let sampler = UniformLightSampler::new(4);
-        let sample = sampler.sample_emitter(0.625).expect("four lights");
+        let sample = sampler.sample_emitter(5 << 61).expect("four lights");
         assert_eq!(
             sample,
             SampledLight {
                 light: LightId(2),
                 pmf: 0.25,
-                u: 0.5
+                u: 1 << 63
             },
             "the middle of the third quarter"
         );
@@ -95,12 +88,10 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_of_u_and_nonsense_stay_in_range() {
+    fn both_ends_of_u_are_lights() {
         let sampler = UniformLightSampler::new(u32::MAX);
-        for u in [0.0, SampledLight::MAX_U, 2.0, f64::NAN] {
-            let sample = sampler.sample_emitter(u).expect("there are lights");
-            assert!(sample.light.0 < u32::MAX, "known light for {u}");
-            assert!((0.0..1.0).contains(&sample.u), "rest in range for {u}");
-        }
+        let light = |u| sampler.sample_emitter(u).map(|sample| sample.light.0);
+        assert_eq!(light(0), Some(0), "the first");
+        assert_eq!(light(u64::MAX), Some(u32::MAX - 1), "the last");
     }
 }

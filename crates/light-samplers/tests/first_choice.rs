@@ -9,7 +9,7 @@ use lamp_over_floor::{floor, lamp};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId};
-use light_samplers::{BvhLightSampler, LightSampler, PreparedChoices};
+use light_samplers::{BvhLightSampler, BvhLightSamplerRef, LightSampler, SampledLight};
 
 fn lights(phi: f32, radiance: f32) -> [LightExtent; 2] {
     let sky = LightExtent::Infinite(InfiniteBounds::uniform(radiance));
@@ -21,7 +21,7 @@ fn pmfs(sampler: &BvhLightSampler) -> [[u32; 2]; 3] {
     let ids = [0, 1].map(LightId);
     [
         ids.map(|id| sampler.pmf(&floor(), id).to_bits()),
-        ids.map(|id| sampler.pmf_many(&floor(), id, 4).to_bits()),
+        ids.map(|id| sampler.at(&floor(), 4).pmf(id).to_bits()),
         ids.map(|id| sampler.pmf_emitter(id).to_bits()),
     ]
 }
@@ -38,25 +38,53 @@ fn a_refit_knows_the_new_sky_and_the_new_power() {
 }
 
 #[test]
-fn what_was_looked_at_gives_the_bits_of_a_new_look() {
+fn samples_have_the_bits_of_their_queries() {
     let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
     for count in [1, 2, 5] {
-        let mut prepared = PreparedChoices::default();
-        let mut chosen = Vec::new();
-        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| chosen.push(s));
+        let here = sampler.at(&floor(), count);
+        let again = sampler.at(&floor(), count);
         for id in [0, 1].map(LightId) {
-            let looked = sampler.pmf_many_prepared(&floor(), id, count, &prepared);
-            assert_eq!(
-                looked,
-                sampler.pmf_many(&floor(), id, count),
-                "{id:?} of {count}"
-            );
-            assert!(looked > 0.1 && looked < 0.9, "both count: {looked}");
+            let pmf = here.pmf(id);
+            assert_eq!(pmf, again.pmf(id), "{id:?} of {count}");
+            assert!(pmf > 0.1 && pmf < 0.9, "both count: {pmf}");
         }
-        for sample in chosen {
-            let pmf = sampler.pmf_many(&floor(), sample.light, count);
-            assert_eq!(sample.pmf, pmf, "{sample:?} of {count}");
+        let samples: Vec<SampledLight> = here.samples(1 << 62).collect();
+        assert_eq!(samples.len(), count as usize, "each choice finds a light");
+        assert!(
+            samples.iter().copied().eq(again.samples(1 << 62)),
+            "{count} choices"
+        );
+        for sample in samples {
+            assert_eq!(sample.pmf, here.pmf(sample.light), "{sample:?} of {count}");
         }
+    }
+}
+
+/// The sampler on borrowed memory, from parts that could lie in flash.
+#[test]
+fn a_borrowed_sampler_is_the_sampler() {
+    let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
+    let view = sampler.view();
+    let (tree, power) = (sampler.tree().view(), sampler.tree().power());
+    let stored = view.infinite_lights().to_vec();
+    let borrowed = BvhLightSamplerRef::new(tree, power, &stored).expect("one sky");
+    for id in [0, 1].map(LightId) {
+        assert_eq!(
+            borrowed.pmf(&floor(), id),
+            sampler.pmf(&floor(), id),
+            "{id:?}"
+        );
+        assert_eq!(borrowed.pmf_emitter(id), sampler.pmf_emitter(id), "{id:?}");
+    }
+    for u in [0, 1 << 62, 1 << 63, u64::MAX] {
+        assert_eq!(
+            borrowed.sample(&floor(), u),
+            sampler.sample(&floor(), u),
+            "{u}"
+        );
+        assert_eq!(borrowed.sample_emitter(u), sampler.sample_emitter(u), "{u}");
+        let (ours, theirs) = (borrowed.at(&floor(), 3), sampler.at(&floor(), 3));
+        assert!(ours.samples(u).eq(theirs.samples(u)), "{u}");
     }
 }
 
@@ -66,7 +94,8 @@ fn probabilities_of_several_choices_add_up() {
     for (phi, radiance) in [(10.0, 0.5), (10.0, 0.0), (0.0, 0.5)] {
         let sampler = BvhLightSampler::new(&lights(phi, radiance)).expect("valid lights");
         for count in [1, 2, 7] {
-            let pmf = |id| f64::from(sampler.pmf_many(&floor(), LightId(id), count));
+            let here = sampler.at(&floor(), count);
+            let pmf = |id| f64::from(here.pmf(LightId(id)));
             assert!(
                 (pmf(0) + pmf(1) - 1.0).abs() < 1e-6,
                 "{count}: {} {}",
@@ -74,21 +103,6 @@ fn probabilities_of_several_choices_add_up() {
                 pmf(1)
             );
         }
-    }
-}
-
-#[test]
-fn several_choices_without_a_kept_look_are_the_same_choices() {
-    let sampler = BvhLightSampler::new(&lights(10.0, 0.5)).expect("valid lights");
-    for count in [1, 2, 5] {
-        let (mut looking, mut plain) = (Vec::new(), Vec::new());
-        let mut prepared = PreparedChoices::default();
-        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| {
-            looking.push(s)
-        });
-        sampler.sample_many(&floor(), 0.3, count, &mut |s| plain.push(s));
-        assert_eq!(plain.len(), count as usize, "each choice finds a light");
-        assert_eq!(plain, looking, "{count} choices");
     }
 }
 
@@ -110,10 +124,7 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
     let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
     let mut differ = 0;
     for id in (0..200).map(LightId) {
-        let pmf = |count| {
-            let prepared = PreparedChoices::default();
-            sampler.pmf_many_prepared(&floor(), id, count, &prepared)
-        };
+        let pmf = |count| sampler.at(&floor(), count).pmf(id);
         let one = sampler.pmf(&floor(), id);
         assert_eq!(pmf(1).to_bits(), one.to_bits(), "{id:?}");
         differ += usize::from(pmf(16) != one);
@@ -121,18 +132,13 @@ fn the_pmf_of_one_choice_is_that_of_a_single_sample() {
     assert!(differ > 100, "a cut of 16 differs for {differ} lights");
 }
 
-/// Prepared choices give the probabilities of the choices that filled them.
 #[test]
 fn many_lamps_have_the_pmf_of_their_choices() {
     let sampler = BvhLightSampler::new(&many_lamps()).expect("valid lights");
     for count in [1, 2, 3, 16] {
-        let (mut chosen, mut prepared) = (Vec::new(), PreparedChoices::default());
-        sampler.sample_many_prepared(&floor(), 0.3, count, &mut prepared, &mut |s| chosen.push(s));
-        for sample in chosen {
-            let looked = sampler.pmf_many_prepared(&floor(), sample.light, count, &prepared);
-            assert_eq!(sample.pmf, looked, "{sample:?} of {count}, by the prepared");
-            let pmf = sampler.pmf_many(&floor(), sample.light, count);
-            assert_eq!(sample.pmf, pmf, "{sample:?} of {count}");
+        let here = sampler.at(&floor(), count);
+        for sample in here.samples(1 << 62) {
+            assert_eq!(sample.pmf, here.pmf(sample.light), "{sample:?} of {count}");
         }
     }
 }

@@ -6,11 +6,12 @@
 mod lamp_over_floor;
 
 use lamp_over_floor::{floor, lamp};
-use light_bvh::{CutDetail, LightBvhOptions};
+use light_bvh::LightBvhOptions;
 use light_samplers::light_bounds::glam::Vec3;
+use light_samplers::light_bounds::light_math::fraction::{stratum, to_f64};
 use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId, SampledLight};
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 
@@ -55,32 +56,22 @@ fn check_choices(
     name: &str,
     expected: [f64; 3],
     pmf: impl Fn(LightId) -> f32,
-    sample: impl Fn(f64) -> Option<SampledLight>,
+    sample: impl Fn(u64) -> Option<SampledLight>,
 ) {
     const DRAWS: u32 = 4000;
-    let samples = (0..DRAWS).filter_map(|i| sample((f64::from(i) + 0.5) / f64::from(DRAWS)));
+    let samples = (0..DRAWS).filter_map(|i| sample(stratum(i, DRAWS, 1 << 63)));
     check_samples(name, expected, pmf, &samples.collect::<Vec<_>>(), DRAWS);
 }
 
-/// The same for several choices of one call, with and without what the sampler keeps of it.
+/// The same for several choices at once.
 fn check_many(name: &str, sampler: &impl LightSampler, count: u32, expected: [f64; 3]) {
     const CALLS: u32 = 1000;
     let name = format!("{name}, {count} choices");
-    let (mut samples, mut looking) = (Vec::new(), Vec::new());
-    let mut prepared = PreparedChoices::default();
-    for i in 0..CALLS {
-        let u = (f64::from(i) + 0.5) / f64::from(CALLS);
-        sampler.sample_many(&floor(), u, count, &mut |sample| samples.push(sample));
-        let each = &mut |sample| looking.push(sample);
-        sampler.sample_many_prepared(&floor(), u, count, &mut prepared, each);
-    }
-    assert_eq!(samples, looking, "{name}");
-    let pmf = |id| sampler.pmf_many(&floor(), id, count);
-    for id in IDS {
-        let looked = sampler.pmf_many_prepared(&floor(), id, count, &prepared);
-        assert_eq!(looked, pmf(id), "{name}: {id:?}");
-    }
-    check_samples(&name, expected, pmf, &samples, CALLS * count);
+    let here = sampler.at(&floor(), count);
+    assert_eq!(here.count(), count, "{name}");
+    let us = (0..CALLS).map(|i| stratum(i, CALLS, 1 << 63));
+    let samples: Vec<SampledLight> = us.flat_map(|u| here.samples(u)).collect();
+    check_samples(&name, expected, |id| here.pmf(id), &samples, CALLS * count);
 }
 
 fn check_samples(
@@ -103,7 +94,7 @@ fn check_samples(
             .filter(|sample| sample.light == id)
             .map(|sample| {
                 assert_eq!(sample.pmf, pmf(id), "{name}: {sample:?}");
-                sample.u
+                to_f64(sample.u)
             })
             .collect();
         let n = rests.len() as f64;
@@ -172,17 +163,4 @@ fn lamps_alone() {
     check("reference", &reference, shares, shares);
     let exhaustive = ExhaustiveLightSampler::new(&lights).expect("valid lights");
     check("exhaustive", &exhaustive, shares, shares);
-}
-
-#[test]
-fn a_cut_that_is_kept_has_the_same_probabilities() {
-    let sampler = BvhLightSampler::new(&lights()).expect("valid lights");
-    let cut = sampler.cut(&floor(), CutDetail::default());
-    let expected = IDS.map(|id| f64::from(sampler.pmf_many(&floor(), id, 4)));
-    check_choices("cut", expected, |id| cut.pmf(id), |u| cut.sample(u));
-    let mut samples = Vec::new();
-    for i in 0..1000 {
-        cut.sample_many((f64::from(i) + 0.5) / 1000.0, 4, &mut |s| samples.push(s));
-    }
-    check_samples("cut", expected, |id| cut.pmf(id), &samples, 4000);
 }

@@ -1,9 +1,10 @@
 //! Every sampler of this crate obeys the laws of light samplers.
 
-use light_bvh::{CutDetail, LightBvhOptions};
+use light_bvh::LightBvhOptions;
+use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
+    BvhLightSampler, ExhaustiveLightSampler, LightChoices, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 use light_testkit::SamplerCase;
@@ -58,7 +59,10 @@ light_testkit::sampler_laws! {
     mod bvh_two_sided {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
-            |ctx| LightSampleContext::two_sided(ctx.p, ctx.n, ctx.ns),
+            |ctx| match (ctx.n(), ctx.ns()) {
+                (Some(n), Some(ns)) => LightSampleContext::two_sided(ctx.p, n, ns),
+                _ => *ctx,
+            },
         )
     }
 
@@ -67,7 +71,8 @@ light_testkit::sampler_laws! {
         |set| Asked(
             BvhLightSampler::new(&set.extents()).expect("valid bounds"),
             |ctx| {
-                let wo = (ctx.n + 0.9 * ctx.n.any_orthonormal_vector()).normalize();
+                let n = ctx.n().unwrap_or(Vec3::Z);
+                let wo = (n + 0.9 * n.any_orthonormal_vector()).normalize();
                 ctx.with_gloss(Gloss { wo, alpha: 0.1, diffuse: 0.0 })
             },
         )
@@ -98,24 +103,23 @@ fn exchanged(set: &SamplerCase) -> Vec<LightExtent> {
     extents.iter().map(other).collect()
 }
 
-/// Several choices of one call, with the probabilities of the prepared choices.
+/// Single choices by the rule of several.
 struct OfCut(BvhLightSampler);
 
 impl LightSampler for OfCut {
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        self.0.cut(ctx, CutDetail::default()).sample(u)
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.0.at(ctx, 2).sample(u)
     }
 
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        let mut prepared = PreparedChoices::default();
-        self.0
-            .sample_many_prepared(ctx, 0.0, 2, &mut prepared, &mut |_| ());
-        let pmf = self.0.pmf_many_prepared(ctx, light, 2, &prepared);
-        assert_eq!(pmf, self.0.pmf_many(ctx, light, 2), "the same prepared");
-        pmf
+        self.0.at(ctx, 2).pmf(light)
     }
 
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.0.sample_emitter(u)
     }
 
@@ -128,7 +132,7 @@ impl LightSampler for OfCut {
 struct Asked<S>(S, fn(&LightSampleContext) -> LightSampleContext);
 
 impl<S: LightSampler> LightSampler for Asked<S> {
-    fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.0.sample(&self.1(ctx), u)
     }
 
@@ -136,7 +140,11 @@ impl<S: LightSampler> LightSampler for Asked<S> {
         self.0.pmf(&self.1(ctx), light)
     }
 
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        self.0.at(&self.1(ctx), count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.0.sample_emitter(u)
     }
 

@@ -36,9 +36,7 @@ impl Emitter {
                 let in_beam = -dot(wi, real3(axis)) > f64::from(cos_beam);
                 f64::from(if in_beam { beam } else { stray })
             }),
-            Self::Sky { radiance } => {
-                f64::from(radiance) * if ctx.is_medium() { 4.0 * PI } else { PI }
-            }
+            Self::Sky { radiance } => f64::from(radiance) * ctx.ns().map_or(4.0 * PI, |_| PI),
             Self::Sun { wi, irradiance } => f64::from(irradiance) * cosine(ctx, real3(wi)),
         }
     }
@@ -70,11 +68,7 @@ fn received_from(ctx: &LightSampleContext, p: Vec3, emitted: impl Fn(Real3) -> f
 
 /// The cosine at a one-sided receiver; 1 in a medium.
 fn cosine(ctx: &LightSampleContext, wi: Real3) -> f64 {
-    if ctx.is_medium() {
-        1.0
-    } else {
-        above_grazing(dot(real3(ctx.ns), wi))
-    }
+    ctx.ns().map_or(1.0, |ns| above_grazing(dot(real3(ns), wi)))
 }
 
 fn above_grazing(cos: f64) -> f64 {

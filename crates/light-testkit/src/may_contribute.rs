@@ -1,4 +1,6 @@
-use light_bounds::{InfiniteBounds, LightBounds, LightExtent, LightSampleContext, ReceiverSides};
+use light_bounds::{
+    InfiniteBounds, LightBounds, LightExtent, LightSampleContext, ReceiverKind, ReceiverSides,
+};
 use light_math::glam::Vec3;
 
 use crate::real3::{Real3, dot, length, normalize, real3, sub};
@@ -16,21 +18,30 @@ const ALONG: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// without a place gets nothing, and neither does one that is so far away that its irradiance is no
 /// positive `f32`.
 #[must_use]
-pub fn may_contribute(extent: &LightExtent, ctx: &LightSampleContext) -> bool {
-    if !(ctx.p.is_finite() && ctx.segment.is_finite()) {
+pub fn may_contribute(light: &LightExtent, ctx: &LightSampleContext) -> bool {
+    if !(ctx.p.is_finite() && extent(ctx).is_finite()) {
         return false;
     }
-    match extent {
+    match light {
         LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) => bounded(bounds, ctx),
         LightExtent::Infinite(bounds) => infinite(bounds, ctx),
     }
 }
 
-/// The direction of the receiver's normal; `None` where light counts from all sides, as it does for
-/// a normal that has no direction.
-fn normal(ctx: &LightSampleContext) -> Option<Real3> {
-    let has_direction = ctx.ns.is_finite() && ctx.ns != Vec3::ZERO;
-    (has_direction && ctx.segment == Vec3::ZERO).then(|| normalize(real3(ctx.ns)))
+/// From the origin of the receiver to its other end.
+fn extent(ctx: &LightSampleContext) -> Vec3 {
+    match *ctx.kind() {
+        ReceiverKind::Segment { extent, .. } => extent,
+        _ => Vec3::ZERO,
+    }
+}
+
+/// The receiver's normal and sides; `None` where light counts from all sides.
+fn normal(ctx: &LightSampleContext) -> Option<(Real3, ReceiverSides)> {
+    match *ctx.kind() {
+        ReceiverKind::Surface { ns, sides, .. } => Some((normalize(real3(ns)), sides)),
+        _ => None,
+    }
 }
 
 fn bounded(light: &LightBounds, ctx: &LightSampleContext) -> bool {
@@ -54,9 +65,9 @@ fn bounded(light: &LightBounds, ctx: &LightSampleContext) -> bool {
 
 /// The points at which the light is received.
 fn receivers(ctx: &LightSampleContext) -> impl Iterator<Item = Real3> {
-    let (p, along) = (real3(ctx.p), real3(ctx.segment));
+    let (p, along) = (real3(ctx.p), real3(extent(ctx)));
     let at = move |t: f64| [0, 1, 2].map(|k| p[k] + t * along[k]);
-    let count = if ctx.segment == Vec3::ZERO {
+    let count = if extent(ctx) == Vec3::ZERO {
         1
     } else {
         ALONG.len()
@@ -66,11 +77,11 @@ fn receivers(ctx: &LightSampleContext) -> impl Iterator<Item = Real3> {
 
 /// Whether light from the direction `wi` arrives at the receiver's side.
 fn is_lit_from(ctx: &LightSampleContext, wi: Real3) -> bool {
-    let Some(ns) = normal(ctx) else {
+    let Some((ns, sides)) = normal(ctx) else {
         return true;
     };
     let cos = dot(ns, wi);
-    match ctx.sides {
+    match sides {
         ReceiverSides::Front => cos > MARGIN,
         ReceiverSides::Both => cos.abs() > MARGIN,
     }
@@ -88,11 +99,11 @@ fn infinite(light: &InfiniteBounds, ctx: &LightSampleContext) -> bool {
     if light.fluence <= f32::MIN_POSITIVE || light.cone.is_empty() {
         return false;
     }
-    let Some(ns) = normal(ctx).filter(|_| !light.cone.is_whole_sphere()) else {
+    let Some((ns, sides)) = normal(ctx).filter(|_| !light.cone.is_whole_sphere()) else {
         return true;
     };
     let cos = dot(ns, normalize(real3(light.cone.w))).clamp(-1.0, 1.0);
-    let cos = match ctx.sides {
+    let cos = match sides {
         ReceiverSides::Front => cos,
         ReceiverSides::Both => cos.abs(),
     };

@@ -18,6 +18,11 @@ impl Rng {
         self.0.next_u32()
     }
 
+    /// 64 random bits: a fraction of 2^64.
+    pub fn u64(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
     /// A multiple of 2^-24 in `[0, 1)`.
     pub fn f32(&mut self) -> f32 {
         (self.u32() >> 8) as f32 * (1.0 / 16_777_216.0)
@@ -25,7 +30,7 @@ impl Rng {
 
     /// A multiple of 2^-53 in `[0, 1)`.
     pub fn f64(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+        (self.u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 
     /// A number in `[low, high)`.

@@ -1,21 +1,18 @@
 //! Each law of samplers finds the fault that it tests for.
-#![allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast truncates on purpose, as in the sampler that is broken here"
-)]
 
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
 use light_bounds::{LightId, LightSampleContext, SampledLight};
-use light_samplers::LightSampler;
+use light_math::fraction;
+use light_samplers::{LightChoices, LightSampler};
 use light_testkit::SamplerCase;
 use light_testkit::laws::sampler::{
     contributing_lights_can_be_chosen, frequencies_match_and_u_stays_uniform,
     invalid_queries_do_not_panic, pmfs_and_none_sum_to_one, sampled_pmf_is_the_queried_pmf,
     unknown_lights_have_no_pmf,
 };
+use light_testkit::laws::several_choices_follow_their_pmf;
 
 /// A uniform choice with one fault.
 struct Broken {
@@ -33,7 +30,7 @@ enum Fault {
 }
 
 impl LightSampler for Broken {
-    fn sample(&self, _: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    fn sample(&self, _: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.sample_emitter(u)
     }
 
@@ -41,13 +38,14 @@ impl LightSampler for Broken {
         self.pmf_emitter(light)
     }
 
-    fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
-        let last = self.count.checked_sub(1)?;
-        let scaled = u.clamp(0.0, SampledLight::MAX_U) * f64::from(self.count);
-        let light = LightId((scaled as u32).min(last));
-        let rest = (scaled - f64::from(light.0)).min(SampledLight::MAX_U);
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        let (light, rest) = fraction::choose(self.count, u);
         Some(SampledLight {
-            light,
+            light: LightId(light),
             pmf: 1.0 / self.count as f32,
             u: if self.fault == Fault::SameU { u } else { rest },
         })
@@ -82,6 +80,7 @@ fn laws_hold_for_a_right_sampler() {
         unknown_lights_have_no_pmf,
         frequencies_match_and_u_stays_uniform,
         invalid_queries_do_not_panic,
+        several_choices_follow_their_pmf,
     ] {
         assert!(holds(law, Fault::None), "a law fails");
     }
@@ -89,12 +88,14 @@ fn laws_hold_for_a_right_sampler() {
 
 #[test]
 fn each_law_finds_its_fault() {
-    let cases: [(Law, Fault); 5] = [
+    let cases: [(Law, Fault); 7] = [
         (sampled_pmf_is_the_queried_pmf, Fault::HalfPmf),
         (pmfs_and_none_sum_to_one, Fault::HalfPmf),
         (contributing_lights_can_be_chosen, Fault::NeverTheLast),
         (unknown_lights_have_no_pmf, Fault::KnowsAll),
         (frequencies_match_and_u_stays_uniform, Fault::SameU),
+        (several_choices_follow_their_pmf, Fault::HalfPmf),
+        (several_choices_follow_their_pmf, Fault::SameU),
     ];
     for (i, (law, fault)) in cases.into_iter().enumerate() {
         assert!(!holds(law, fault), "case {i} goes unseen");

@@ -9,9 +9,9 @@ use core::f32::consts::FRAC_1_PI;
 
 use lights::bounds::{LightId, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
-use lights::math::Frame;
 use lights::math::mis::balance;
 use lights::math::warp::cosine_hemisphere as bsdf;
+use lights::math::{Frame, fraction};
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::shape::{Shape, Triangle};
 use lights::sources::*;
@@ -27,9 +27,9 @@ struct Scene {
     triangles: Vec<Triangle>,
 }
 
-/// The random numbers of one estimate, all in `[0, 1)`.
+/// The random numbers of one estimate: a fraction of 2^64, and points of `[0, 1)^2`.
 struct Uniforms {
-    choice: f64,
+    choice: u64,
     light: Vec2,
     bsdf: Vec2,
 }
@@ -142,7 +142,7 @@ fn uniforms(i: u32) -> Uniforms {
     let part = |k: i32| (f64::from(i) * 1.134_724_138_401_519_5_f64.powi(-k)).fract();
     let pair = |k: i32| Vec2::new(part(k) as f32, part(k + 1) as f32);
     Uniforms {
-        choice: part(1),
+        choice: fraction::from_f64(part(1)),
         light: pair(2).min(Vec2::splat(1.0 - f32::EPSILON)),
         bsdf: pair(4).min(Vec2::splat(1.0 - f32::EPSILON)),
     }

@@ -7,8 +7,9 @@ use core::error::Error;
 use core::time::Duration;
 use std::time::Instant;
 
-use lights::bounds::{LightExtent, LightSampleContext};
+use lights::bounds::{LightExtent, LightSampleContext, SampledLight};
 use lights::glam::{Affine3A, Vec2, Vec3};
+use lights::math::fraction;
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::*;
 
@@ -81,15 +82,16 @@ impl Field {
     /// Irradiance of the ground at `p`, by `count` lights at `offset` in equal parts of `[0, 1)`.
     fn irradiance(&self, p: Vec3, count: u16, offset: f32) -> Vec3 {
         let ctx = LightSampleContext::surface(p, Vec3::Y, Vec3::Y);
-        let one = |i: u16| {
+        let here = self.sampler.at(&ctx, count.into());
+        let from = |(i, choice): (u16, SampledLight)| {
             let u = (f32::from(i) + offset) / f32::from(count);
-            let choice = self.sampler.sample(&ctx, u.into())?;
             let u = Vec2::new(u, (f32::from(i) * 0.618 + offset).fract());
             let light = self.lights.get(choice.light)?;
             let li = light.sample_li(&ctx, u, &(), PdfCoverage::Complete)?;
             Some(li.l * li.wi.y.max(0.0) / (li.pdf * choice.pmf * f32::from(count)))
         };
-        (0..count).filter_map(one).sum()
+        let choices = here.samples(fraction::from_f32(offset, 0));
+        (0..).zip(choices).filter_map(from).sum()
     }
 
     /// The ground from above, 10 units to each side.

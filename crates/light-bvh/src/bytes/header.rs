@@ -7,7 +7,7 @@ use crate::node::wide_node::WideNode;
 const MAGIC: [u8; 8] = *b"LightBvh";
 
 /// The form of the bytes; changes whenever the meaning of a byte of a node does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What precedes the nodes, which so keep their alignment.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -18,8 +18,9 @@ pub(super) struct Header {
     nodes: u32,
     order: u32,
     slots: u32,
-    /// The lower and the upper half of the bits of the power of all lights.
-    power: [u32; 2],
+    /// The power of all lights.
+    power: f32,
+    reserved: u32,
 }
 
 /// Bytes of the header.
@@ -32,17 +33,17 @@ impl Header {
     #[cfg(feature = "alloc")]
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "halves of 64 bits; a tree addresses its parts by 32 bits"
+        reason = "a tree addresses its parts by 32 bits"
     )]
-    pub(super) const fn new(nodes: usize, order: usize, slots: usize, power: f64) -> Self {
-        let power = power.to_bits();
+    pub(super) const fn new(nodes: usize, order: usize, slots: usize, power: f32) -> Self {
         Self {
             magic: MAGIC,
             version: VERSION,
             nodes: nodes as u32,
             order: order as u32,
             slots: slots as u32,
-            power: [power as u32, (power >> 32) as u32],
+            power,
+            reserved: 0,
         }
     }
 
@@ -75,9 +76,8 @@ impl Header {
         HEADER as u64 + nodes * size_of::<WideNode>() as u64 + 4 * (order + slots)
     }
 
-    pub(super) fn power(&self) -> f64 {
-        let [low, high] = self.power.map(u64::from);
-        f64::from_bits(low | high << 32)
+    pub(super) const fn power(&self) -> f32 {
+        self.power
     }
 }
 

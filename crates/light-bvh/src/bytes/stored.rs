@@ -1,5 +1,3 @@
-use light_bounds::LightSampleContext;
-
 use crate::bytes::header::{Header, TreeBytesError};
 use crate::bytes::links::are_links_sound;
 use crate::query::bvh_ref::LightBvhRef;
@@ -11,7 +9,7 @@ use crate::query::bvh_ref::LightBvhRef;
 #[derive(Clone, Copy, Debug)]
 pub struct StoredLightBvh<'a> {
     view: LightBvhRef<'a>,
-    power: f64,
+    power: f32,
 }
 
 impl<'a> StoredLightBvh<'a> {
@@ -34,7 +32,7 @@ impl<'a> StoredLightBvh<'a> {
     }
 
     /// The tree of `view`, if it is one.
-    pub(super) fn checked(view: LightBvhRef<'a>, power: f64) -> Result<Self, TreeBytesError> {
+    pub(super) fn checked(view: LightBvhRef<'a>, power: f32) -> Result<Self, TreeBytesError> {
         let has_power = power.is_finite() && power >= 0.0;
         if has_power && are_links_sound(&view) {
             Ok(Self { view, power })
@@ -51,14 +49,7 @@ impl<'a> StoredLightBvh<'a> {
 
     /// The power of all lights of the tree.
     #[must_use]
-    pub const fn power(&self) -> f64 {
+    pub const fn power(&self) -> f32 {
         self.power
-    }
-
-    /// About the irradiance at `ctx`, or in a medium the fluence, by all lights of the tree; 0 only
-    /// if none of them can contribute.
-    #[must_use]
-    pub fn irradiance(&self, ctx: &LightSampleContext) -> f64 {
-        self.view.irradiance(ctx) * self.power
     }
 }

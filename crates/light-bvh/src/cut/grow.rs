@@ -1,14 +1,14 @@
 //! How a [`LightCut`] is grown.
 
-use light_bounds::LightSampleContext;
+use light_math::discrete::{PARTS, parts_of, parts_scale};
 use light_math::glam::Vec4;
 
-use crate::cut::light_cut::{CutDetail, LightCut, MAX_NODES};
+use crate::cut::light_cut::{CutDetail, CutNodes, LightCut, MAX_NODES};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::{Query, QueryFor};
-use crate::query::select::{mul_prob, to_f32};
+use crate::query::into_receiver::{IntoReceiver, Query, QueryFor};
+use crate::query::select::mul_prob;
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
@@ -16,36 +16,31 @@ use crate::simd::dispatch;
 /// than 2^30, weights lose their proportion and keep their sign.
 const MAX_ZOOM: f32 = 1_073_741_824.0;
 
-impl LightCut {
-    /// The cut of `tree` for `ctx`.
+impl<'a> LightBvhRef<'a> {
+    /// A cut through the tree for `receiver`, for several choices there.
+    #[inline]
     #[must_use]
-    pub fn at(tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) -> Self {
-        let mut cut = Self::EMPTY;
-        cut.rebuild(tree, ctx, detail);
-        cut
-    }
-
-    /// Becomes the cut of `tree` for `ctx`, in the same place: [`at`](Self::at) without a copy.
-    pub fn rebuild(&mut self, tree: &LightBvhRef<'_>, ctx: &LightSampleContext, detail: CutDetail) {
-        let into = self;
-        dispatch(QueryFor(ctx, Grow { tree, detail, into }));
-    }
-
-    /// The cut of `tree` for `receiver`.
-    #[must_use]
-    pub fn new<R: Receiver>(tree: &LightBvhRef<'_>, receiver: &R, detail: CutDetail) -> Self {
-        let mut cut = Self::EMPTY;
-        let into = &mut cut;
-        dispatch(QueryFor(receiver, Grow { tree, detail, into }));
+    pub fn cut<A: IntoReceiver>(&self, receiver: A, detail: CutDetail) -> LightCut<'a, A::Kept> {
+        let mut cut = LightCut {
+            tree: *self,
+            receiver: receiver.keep(),
+            grown: CutNodes::NONE,
+        };
+        let grow = Grow {
+            tree: self,
+            detail,
+            into: &mut cut.grown,
+        };
+        dispatch(QueryFor(&cut.receiver, grow));
         cut
     }
 }
 
-/// [`LightCut::rebuild`]: whatever the cut held is gone.
-pub(crate) struct Grow<'a, 'b> {
-    pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) detail: CutDetail,
-    pub(crate) into: &'b mut LightCut,
+/// [`LightBvhRef::cut`].
+struct Grow<'a, 'b> {
+    tree: &'b LightBvhRef<'a>,
+    detail: CutDetail,
+    into: &'b mut CutNodes,
 }
 
 impl Query for Grow<'_, '_> {
@@ -59,10 +54,7 @@ impl Query for Grow<'_, '_> {
             into: cut,
         } = self;
         let mut count = usize::from(!tree.is_empty());
-        cut.nodes[0] = 0;
         let mut limit = 0.0;
-        let mut end = 0.0;
-        cut.sum = 0.0;
         let mut index = 0;
         // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
         while index < count {
@@ -98,16 +90,35 @@ impl Query for Grow<'_, '_> {
                     };
                 }
             }
-            cut.sum += total(lanes);
-            end += precise_total(&lanes);
             cut.weights[index] = lanes;
-            cut.ends[index] = end;
-            cut.about[index] = to_f32(end);
+            cut.totals[index] = total(lanes);
+            cut.sum += cut.totals[index];
             index += 1;
         }
         cut.count = index;
-        cut.ends[index..].fill(f64::INFINITY);
-        cut.about[index..].fill(f32::INFINITY);
+        cut.share_parts();
+    }
+}
+
+impl CutNodes {
+    /// Shares the parts of the choice between the nodes, by [`discrete`](light_math::discrete)'s
+    /// rule.
+    #[inline(always)]
+    pub(crate) fn share_parts(&mut self) {
+        let scale = parts_scale(self.sum, MAX_NODES);
+        let mut parts = [0; MAX_NODES];
+        for (parts, &total) in parts.iter_mut().zip(&self.totals[..self.count]) {
+            *parts = parts_of(total, scale);
+        }
+        // What is left over goes to the first with any weight.
+        let mut left_over = PARTS.saturating_sub(parts.iter().sum());
+        let mut end = 0;
+        for (place, parts) in self.ends[..self.count].iter_mut().zip(parts) {
+            if parts > 0 {
+                end += parts + core::mem::take(&mut left_over);
+            }
+            *place = end;
+        }
     }
 }
 
@@ -125,20 +136,6 @@ fn open_weights(weights: &[f32; WIDTH], angular_size_sq: &[f32; WIDTH], inner: u
         };
     }
     open_weights
-}
-
-/// The sum of all lanes in double precision, in pairs.
-#[inline(always)]
-fn precise_total(lanes: &[f32; WIDTH]) -> f64 {
-    let mut sums = lanes.map(f64::from);
-    let mut half = WIDTH / 2;
-    while half > 0 {
-        for k in 0..half {
-            sums[k] += sums[k + half];
-        }
-        half /= 2;
-    }
-    sums[0]
 }
 
 /// Bit `k` says whether number `k` is above `limit`.

@@ -1,8 +1,12 @@
 use core::error::Error;
 use core::fmt;
 
+use light_math::discrete::PARTS;
+
+use crate::importance::context_receiver::ContextReceiver;
 use crate::node::wide_node::WIDTH;
-use crate::query::weights::irradiance;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::query::weights::{Weights, irradiance};
 
 /// Nodes that a cut may hold.
 pub(crate) const MAX_NODES: usize = 24;
@@ -61,57 +65,71 @@ impl Default for CutDetail {
 /// light is chosen.
 ///
 /// A pure function of tree, receiver and [`CutDetail`] that allocates nothing. It pays when several
-/// lights are chosen for the same receiver, each by a part of one stratified `u`. At most 24 nodes,
-/// about 2 KB.
+/// lights are chosen for the same receiver, each by a part of one stratified `u`. Its probabilities
+/// are its own: closer to the lights' contributions than those of the tree. At most 24 nodes, about
+/// 2 KB.
 #[derive(Clone, Copy, Debug)]
-pub struct LightCut {
-    /// The nodes that are in the cut, each with the weights of those children that are not; and
-    /// room to note all children of one.
+pub struct LightCut<'a, R = ContextReceiver> {
+    pub(crate) tree: LightBvhRef<'a>,
+    pub(crate) receiver: R,
+    pub(crate) grown: CutNodes,
+}
+
+/// The nodes of a cut, each with the weights of those children that are not in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CutNodes {
+    /// With room to note all children of one.
     pub(crate) nodes: [u32; MAX_NODES + WIDTH],
     pub(crate) weights: [[f32; WIDTH]; MAX_NODES],
-    /// Sums of the weights of all nodes up to each; infinite beyond the last. In double precision,
-    /// so that a node of any weight above 2^-53 of the whole owns a part of it.
-    pub(crate) ends: [f64; MAX_NODES],
-    /// The same in single precision, to search in.
-    pub(crate) about: [f32; MAX_NODES],
-    /// The sum of all weights, added in single precision.
+    /// The sum of the weights of each node.
+    pub(crate) totals: [f32; MAX_NODES],
+    /// Where the parts of each node end; all parts beyond the last.
+    pub(crate) ends: [u32; MAX_NODES],
+    /// The sum of all weights.
     pub(crate) sum: f32,
     pub(crate) count: usize,
     /// One over the root's unit of length, in which the weights are.
     pub(crate) inv_unit: f32,
 }
 
-impl Default for LightCut {
-    /// A cut in which there is no light.
-    fn default() -> Self {
-        Self::EMPTY
+impl<R> LightCut<'_, R> {
+    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only
+    /// if none of them can contribute.
+    #[must_use]
+    pub fn irradiance(&self) -> f32 {
+        irradiance(self.grown.sum, self.grown.inv_unit, 1.0)
     }
 }
 
-impl LightCut {
+impl CutNodes {
     /// No node.
-    pub(crate) const EMPTY: Self = Self {
+    pub(crate) const NONE: Self = Self {
         nodes: [0; MAX_NODES + WIDTH],
         weights: [[0.0; WIDTH]; MAX_NODES],
-        ends: [f64::INFINITY; MAX_NODES],
-        about: [f32::INFINITY; MAX_NODES],
+        totals: [0.0; MAX_NODES],
+        ends: [PARTS; MAX_NODES],
         sum: 0.0,
         count: 0,
         inv_unit: 1.0,
     };
 
-    /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only
-    /// if none of them can contribute.
-    #[must_use]
-    pub fn irradiance(&self) -> f64 {
-        irradiance(self.sum, self.inv_unit)
+    /// The weights of one of the nodes.
+    #[inline(always)]
+    pub(crate) fn weights(&self, index: usize) -> Weights {
+        Weights {
+            lanes: self.weights[index],
+            total: self.totals[index],
+            inv_unit: self.inv_unit,
+        }
     }
 
-    /// The sum of all weights, to the last digit of the ends.
+    /// Where the parts of one of the nodes begin, and how many they are.
     #[inline(always)]
-    pub(crate) fn total(&self) -> f64 {
-        self.count
-            .checked_sub(1)
-            .map_or(0.0, |last| self.ends[last])
+    pub(crate) fn parts(&self, index: usize) -> (u32, u32) {
+        let start = match index {
+            0 => 0,
+            _ => self.ends[index - 1],
+        };
+        (start, self.ends[index] - start)
     }
 }

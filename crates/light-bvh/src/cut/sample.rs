@@ -1,275 +1,123 @@
 //! How a [`LightCut`] is sampled.
 
-use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightId, SampledLight};
+use light_math::discrete::PART;
+use light_math::fraction::divide;
 
-use crate::cut::light_cut::LightCut;
+use crate::cut::light_cut::{CutNodes, LightCut};
 use crate::importance::receiver::Receiver;
-use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::{Query, QueryFor};
-use crate::query::select::{mul_prob, pick, share, to_f32};
+use crate::query::ascent::KnownPmfs;
+use crate::query::into_receiver::{KeptReceiver, Query, QueryFor};
+use crate::query::select::mul_prob;
 use crate::simd::dispatch;
 
-impl LightCut {
-    /// One light that may light `ctx`, which has to be the one of the cut, as has the tree; `None`
-    /// if no light in the tree can.
-    ///
-    /// `pmf` is the probability of another choice that led here, 1 if there was none. For `k`
-    /// lights, call with `(i + u) / k` for `i` of `0..k`.
+impl<R: KeptReceiver> LightCut<'_, R> {
+    /// One light that may light the receiver; `None` if no light in the tree can. For `k` lights,
+    /// call it with `u` of [each of `k` strata](light_math::fraction::stratum).
     #[inline]
     #[must_use]
-    pub fn sample_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let cut = self;
-        dispatch(QueryFor(ctx, Sample { cut, tree, pmf, u }))
+    pub fn sample(&self, u: u64) -> Option<SampledLight> {
+        dispatch(QueryFor(&self.receiver, Sample { cut: self, u }))
     }
 
-    /// Calls `each` with what [`sample_at`](Self::sample_at) gives for each of `us`, in their
-    /// order: faster than one by one.
-    #[inline]
-    pub fn sample_many_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        us: impl IntoIterator<Item = f64>,
-        each: impl FnMut(SampledLight),
-    ) {
-        let sample = SampleMany {
-            cut: self,
-            tree,
-            pmf,
-            us,
-            each,
-        };
-        dispatch(QueryFor(ctx, sample));
-    }
-
-    /// Probability of `light` by [`sample_at`](Self::sample_at), to the bit.
+    /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
     #[inline]
     #[must_use]
-    pub fn pmf_at(
-        &self,
-        tree: &LightBvhRef<'_>,
-        ctx: &LightSampleContext,
-        pmf: f32,
-        light: LightId,
-    ) -> f32 {
-        dispatch(QueryFor(
-            ctx,
-            Probability {
-                cut: self,
-                tree,
-                pmf,
-                light,
-            },
-        ))
-    }
-
-    /// [`sample_at`](Self::sample_at) for the `receiver` of the cut.
-    #[inline]
-    #[must_use]
-    pub fn sample<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let cut = self;
-        dispatch(QueryFor(receiver, Sample { cut, tree, pmf, u }))
-    }
-
-    /// [`pmf_at`](Self::pmf_at) for the `receiver` of the cut.
-    #[inline]
-    #[must_use]
-    pub fn pmf<R: Receiver>(
-        &self,
-        tree: &LightBvhRef<'_>,
-        receiver: &R,
-        pmf: f32,
-        light: LightId,
-    ) -> f32 {
-        dispatch(QueryFor(
-            receiver,
-            Probability {
-                cut: self,
-                tree,
-                pmf,
-                light,
-            },
-        ))
+    pub fn pmf(&self, light: LightId) -> f32 {
+        dispatch(QueryFor(&self.receiver, Probability { cut: self, light }))
     }
 }
 
-/// [`LightCut::sample_at`].
-pub(crate) struct Sample<'a, 'b> {
-    pub(crate) cut: &'b LightCut,
-    pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) pmf: f32,
-    pub(crate) u: f64,
+/// [`LightCut::sample`].
+struct Sample<'a, 'b, K> {
+    cut: &'b LightCut<'a, K>,
+    u: u64,
 }
 
-impl Query for Sample<'_, '_> {
+impl<K> Query for Sample<'_, '_, K> {
     type Output = Option<SampledLight>;
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-        self.cut.choose(receiver, self.tree, self.pmf, self.u)
-    }
-}
-
-/// [`LightCut::sample_many_at`].
-pub(crate) struct SampleMany<'a, 'b, U, F> {
-    pub(crate) cut: &'b LightCut,
-    pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) pmf: f32,
-    pub(crate) us: U,
-    pub(crate) each: F,
-}
-
-impl<U: IntoIterator<Item = f64>, F: FnMut(SampledLight)> Query for SampleMany<'_, '_, U, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<R: Receiver>(self, receiver: &R) {
-        let Self { cut, tree, pmf, .. } = self;
-        let mut each = self.each;
-        for u in self.us {
-            if let Some(sample) = cut.choose(receiver, tree, pmf, u) {
-                each(sample);
-            }
+        let LightCut { tree, grown, .. } = self.cut;
+        if !(grown.sum > 0.0) {
+            return None;
         }
+        let place = (self.u >> 48) as u32;
+        // All are compared, for a search that stops could not be foretold.
+        let index: u32 = grown.ends.iter().map(|&end| u32::from(end <= place)).sum();
+        let index = index as usize;
+        let node = *grown.nodes.get(index)?;
+        let (start, parts) = grown.parts(index);
+        let u = divide(place - start, self.u << 16, parts);
+        let choice = grown.weights(index).choose(u)?;
+        tree.descend_from(receiver, node, parts as f32 * PART, &choice)
     }
 }
 
-/// [`LightCut::pmf_at`].
-pub(crate) struct Probability<'a, 'b> {
-    pub(crate) cut: &'b LightCut,
-    pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) pmf: f32,
-    pub(crate) light: LightId,
+/// [`LightCut::pmf`].
+struct Probability<'a, 'b, K> {
+    cut: &'b LightCut<'a, K>,
+    light: LightId,
 }
 
-impl Query for Probability<'_, '_> {
+impl<K> Query for Probability<'_, '_, K> {
     type Output = f32;
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> f32 {
-        let Self { cut, pmf, .. } = self;
-        self.tree.ascend(receiver, 0.0, self.light, |node, child| {
-            let at = cut.nodes[..cut.count]
-                .iter()
-                .position(|&n| n as usize == node)?;
-            Some(mul_prob(pmf, share(cut.weights[at][child], cut.sum)))
-        })
+        let LightCut { tree, grown, .. } = self.cut;
+        tree.ascend(receiver, self.light, grown)
     }
 }
 
-impl LightCut {
+impl KnownPmfs for CutNodes {
     #[inline(always)]
-    fn choose<R: Receiver>(
-        &self,
-        receiver: &R,
-        tree: &LightBvhRef<'_>,
-        pmf: f32,
-        u: f64,
-    ) -> Option<SampledLight> {
-        let total = self.total();
-        if !(total > 0.0) {
-            return None;
-        }
-        let target = u * total;
-        let (index, within) = self.node_at(target)?;
-        let (child, u) = pick(&self.weights[index], |_| within, to_f32(within))?;
-        let pmf = mul_prob(pmf, share(self.weights[index][child], self.sum));
-        tree.descend_from(receiver, self.nodes[index], child, pmf, u)
-    }
-
-    /// The node that `target`, from 0 to the sum of the weights, falls on, and how far into it.
-    #[inline(always)]
-    fn node_at(&self, target: f64) -> Option<(usize, f64)> {
-        // All are compared, for a search that stops could not be foretold; in single precision,
-        // which is right but for the nearest of misses.
-        let about = to_f32(target);
-        let guess: u32 = self.about.iter().map(|&end| u32::from(end <= about)).sum();
-        let guess = guess as usize;
-        let start = |index: usize| match index {
-            0 => 0.0,
-            _ => self.ends[index - 1],
-        };
-        let is_right =
-            (guess < self.count) && (start(guess) <= target) && (target < self.ends[guess]);
-        let index = if is_right {
-            guess
-        } else {
-            self.search(target)?
-        };
-        Some((index, target - start(index)))
-    }
-
-    /// The same by binary search; the last node with any weight takes a target that rounding puts
-    /// beyond the sum.
-    #[cold]
-    fn search(&self, target: f64) -> Option<usize> {
-        let ends = self.ends.get(..self.count)?;
-        let index = ends.partition_point(|&end| end <= target);
-        if index < ends.len() {
-            return Some(index);
-        }
-        Some(ends.partition_point(|&end| end < self.total()))
+    fn pmf(&self, node: usize, child: usize) -> Option<f32> {
+        let nodes = &self.nodes[..self.count];
+        let index = nodes.iter().position(|&n| n as usize == node)?;
+        let (_, parts) = self.parts(index);
+        let within = self.weights(index).probability(child);
+        Some(mul_prob(parts as f32 * PART, within))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cut::light_cut::MAX_NODES;
+    use light_math::discrete;
 
-    /// A cut of nodes whose weights end at `ends`.
-    fn cut(ends: &[f64]) -> LightCut {
-        let mut cut = LightCut::default();
-        cut.ends[..ends.len()].copy_from_slice(ends);
-        cut.about = cut.ends.map(to_f32);
-        cut.count = ends.len();
+    /// Nodes of a cut of the given sums of weights.
+    fn cut(totals: &[f32]) -> CutNodes {
+        let mut cut = CutNodes::NONE;
+        cut.totals[..totals.len()].copy_from_slice(totals);
+        cut.sum = totals.iter().sum();
+        cut.count = totals.len();
+        cut.share_parts();
         cut
     }
 
     #[test]
-    fn the_last_node_with_any_weight_takes_what_rounding_leaves() {
-        let cut = cut(&[1.0, 3.0, 3.0, 3.0]);
-        assert_eq!(cut.node_at(0.0), Some((0, 0.0)), "the first");
-        assert_eq!(cut.node_at(1.0), Some((1, 0.0)), "where the first ends");
-        assert_eq!(cut.node_at(2.5), Some((1, 1.5)), "within the second");
-        assert_eq!(cut.node_at(3.0), Some((1, 2.0)), "at the end");
-        assert_eq!(cut.search(3.5), Some(1), "beyond the end");
-    }
-
-    #[test]
-    fn a_node_of_any_weight_has_its_part() {
-        let cut = cut(&[1.0, 1.0 + 1e-9, 1.0 + 2e-9, 2.0]);
-        assert_eq!(
-            cut.node_at(1.0 + 0.5e-9).map(|n| n.0),
-            Some(1),
-            "a billionth"
-        );
-        assert_eq!(cut.node_at(1.0 + 1.5e-9).map(|n| n.0), Some(2), "the next");
-        assert_eq!(cut.node_at(1.0 + 2.5e-9).map(|n| n.0), Some(3), "beyond");
-    }
-
-    /// Rounded to single precision the target is at the end of a node that it is still within.
-    #[test]
-    fn a_target_just_below_an_end_is_within_its_node() {
-        let cut = cut(&[1.0, 2.0, 4.0]);
-        for end in [1.0f64, 2.0, 4.0] {
-            let target = end * (1.0 - f64::EPSILON);
-            let (index, within) = cut.node_at(target).expect("a node");
-            let start = [0.0, 1.0, 2.0][index];
-            assert_eq!(cut.ends[index], end, "{target}");
-            assert_eq!(within, target - start, "{target}");
+    fn nodes_share_the_parts() {
+        for totals in [
+            &[1.0, 0.0, 3.0][..],
+            &[0.0, 1e-30, 0.0, 1e30, 1.0],
+            &[1.0; MAX_NODES],
+            &[0.0, 2.0],
+        ] {
+            let cut = cut(totals);
+            let mut from = 0;
+            for (index, &total) in totals.iter().enumerate() {
+                let (start, parts) = cut.parts(index);
+                assert_eq!(start, from, "{index} of {totals:?}");
+                assert_eq!(parts > 0, total > 0.0, "{index} of {totals:?}: {parts}");
+                let pmf = f64::from(parts as f32 * PART);
+                let near = f64::from(discrete::pmf(totals, index));
+                assert!((pmf - near).abs() < 25.0 / 65536.0, "{index}: {pmf} {near}");
+                from = start + parts;
+            }
+            assert_eq!(from, discrete::PARTS, "all of {totals:?}");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod child_importance;
 pub(crate) mod child_view;
+pub(crate) mod context_receiver;
 pub(crate) mod glossy;
 mod horizon;
 pub(crate) mod medium;

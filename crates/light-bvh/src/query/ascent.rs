@@ -7,10 +7,27 @@ use crate::query::into_receiver::Query;
 use crate::query::select::mul_prob;
 use crate::query::weights::Weights;
 
-/// [`LightBvhRef::pmf_after`].
+/// The probabilities that a way up does not have to compute.
+///
+/// Implementations are `#[inline(always)]`, as closures cannot be: the caller chooses the vectors.
+pub(crate) trait KnownPmfs {
+    /// The probability of a child of a node, with all choices that lead there.
+    fn pmf(&self, node: usize, child: usize) -> Option<f32>;
+}
+
+/// No probability is known: the way leads up to the root.
+struct NothingKnown;
+
+impl KnownPmfs for NothingKnown {
+    #[inline(always)]
+    fn pmf(&self, _: usize, _: usize) -> Option<f32> {
+        None
+    }
+}
+
+/// [`LightBvhRef::pmf`].
 pub(crate) struct Ascent<'a, 'b> {
     pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) pmf: f32,
     pub(crate) light: LightId,
 }
 
@@ -19,33 +36,31 @@ impl Query for Ascent<'_, '_> {
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-        let nothing = |_, _| None;
-        self.tree.ascend(receiver, self.pmf, self.light, nothing)
+        self.tree.ascend(receiver, self.light, &NothingKnown)
     }
 }
 
 impl LightBvhRef<'_> {
-    /// The probability of `light`, where the root has the probability `pmf`. The way up ends at the
-    /// first child (node, slot) whose probability `known` returns.
+    /// The probability of `light`. The way up ends at the root, or at the first child whose
+    /// probability is `known`.
     #[inline(always)]
     pub(crate) fn ascend<R: Receiver>(
         &self,
         receiver: &R,
-        pmf: f32,
         light: LightId,
-        known: impl Fn(usize, usize) -> Option<f32>,
+        known: &impl KnownPmfs,
     ) -> f32 {
         let mut shares = [0.0; MAX_DEPTH];
         let mut slot = self.slot(light);
         if slot == NOWHERE {
             return 0.0;
         }
-        let (mut pmf, mut levels) = (pmf, 0);
+        let (mut pmf, mut levels) = (1.0, 0);
         // Up along the parents: which nodes to visit does not depend on what they weigh, so their
         // latencies overlap.
         while slot != NOWHERE {
             let (index, child) = (slot as usize / WIDTH, slot as usize % WIDTH);
-            if let Some(known) = known(index, child) {
+            if let Some(known) = known.pmf(index, child) {
                 pmf = known;
                 break;
             }

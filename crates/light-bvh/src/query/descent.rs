@@ -4,17 +4,16 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
-use crate::query::select::mul_prob;
+use crate::query::select::{Choice, mul_prob};
 use crate::query::weights::Weights;
 
 /// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
 
-/// [`LightBvhRef::sample_after`].
+/// [`LightBvhRef::sample`].
 pub(crate) struct Descent<'a, 'b> {
     pub(crate) tree: &'b LightBvhRef<'a>,
-    pub(crate) pmf: f32,
-    pub(crate) u: f64,
+    pub(crate) u: u64,
 }
 
 impl Query for Descent<'_, '_> {
@@ -22,19 +21,19 @@ impl Query for Descent<'_, '_> {
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-        self.tree.descend(receiver, 0, self.pmf, self.u)
+        self.tree.descend(receiver, 0, 1.0, self.u)
     }
 }
 
 impl LightBvhRef<'_> {
     /// From `node`, which was reached with probability `pmf`, down to a light.
     #[inline(always)]
-    pub(crate) fn descend<R: Receiver>(
+    fn descend<R: Receiver>(
         &self,
         receiver: &R,
         node: usize,
         pmf: f32,
-        u: f64,
+        u: u64,
     ) -> Option<SampledLight> {
         let (mut index, mut pmf, mut u) = (node, pmf, u);
         for level in 0..MAX_DEPTH {
@@ -53,17 +52,19 @@ impl LightBvhRef<'_> {
         None
     }
 
-    /// From a child of `node`, which was reached with probability `pmf`, down to a light.
+    /// From the `choice` of a child of `node`, which was reached with probability `pmf`, down to a
+    /// light.
     #[inline(always)]
     pub(crate) fn descend_from<R: Receiver>(
         &self,
         receiver: &R,
         node: u32,
-        child: usize,
         pmf: f32,
-        u: f64,
+        choice: &Choice,
     ) -> Option<SampledLight> {
-        match self.child(self.nodes().get(node as usize)?, child)? {
+        let pmf = mul_prob(pmf, choice.probability);
+        let u = choice.u;
+        match self.child(self.nodes().get(node as usize)?, choice.child)? {
             Child::Light(light) => Some(SampledLight { light, pmf, u }),
             Child::Node(child) => self.descend(receiver, child, pmf, u),
         }

@@ -1,17 +1,12 @@
-use light_bounds::{LightSampleContext, ReceiverSides};
-use light_math::glam::Vec3;
+use light_bounds::LightSampleContext;
 
-use crate::importance::glossy::GlossyReceiver;
-use crate::importance::medium::MediumReceiver;
-use crate::importance::position::is_far;
+use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::receiver::Receiver;
-use crate::importance::segment::SegmentReceiver;
-use crate::importance::surface::SurfaceReceiver;
-use crate::importance::two_sided::TwoSidedReceiver;
 use crate::simd::VectorWork;
 
 /// A computation over a tree that is compiled for each kind of receiver.
-pub(crate) trait Query {
+#[expect(unnameable_types, reason = "nobody else writes queries")]
+pub trait Query {
     type Output;
 
     /// Runs it for `receiver`. Every implementation is `#[inline(always)]`: its caller chooses the
@@ -19,46 +14,66 @@ pub(crate) trait Query {
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output;
 }
 
-/// A receiver, or what becomes one.
-pub(crate) trait IntoReceiver {
-    /// Runs `query` for the receiver that this becomes.
-    fn run<Q: Query>(self, query: Q) -> Q::Output;
+/// What a query of a tree takes as its receiver: a reference to a [`LightSampleContext`] or to a
+/// [`Receiver`].
+pub trait IntoReceiver: Copy {
+    /// The receiver by value, prepared for several queries.
+    type Kept: KeptReceiver;
+
+    /// Prepares it.
+    fn keep(self) -> Self::Kept;
 }
 
-impl<R: Receiver> IntoReceiver for &R {
+/// A receiver that queries keep: a [`Receiver`] or a [`ContextReceiver`].
+pub trait KeptReceiver: Copy {
+    /// Runs `query` for this receiver.
+    #[doc(hidden)]
+    fn run<Q: Query>(&self, query: Q) -> Q::Output;
+}
+
+impl<R: Receiver> KeptReceiver for R {
     #[inline(always)]
-    fn run<Q: Query>(self, query: Q) -> Q::Output {
+    fn run<Q: Query>(&self, query: Q) -> Q::Output {
         query.run(self)
     }
 }
 
-/// A ray segment, a point in a medium, or a point on a surface by its shading normal.
-impl IntoReceiver for &LightSampleContext {
+impl KeptReceiver for ContextReceiver {
     #[inline(always)]
-    fn run<Q: Query>(self, query: Q) -> Q::Output {
-        if self.segment != Vec3::ZERO {
-            return query.run(&SegmentReceiver::new(self.p, self.segment));
+    fn run<Q: Query>(&self, query: Q) -> Q::Output {
+        match self {
+            Self::Surface(receiver) => query.run(receiver),
+            Self::Glossy(receiver) => query.run(receiver),
+            Self::TwoSided(receiver) => query.run(receiver),
+            Self::Medium(receiver) => query.run(receiver),
+            Self::Segment(receiver) => query.run(receiver),
         }
-        // Where coordinates were clamped, directions to lights mean nothing.
-        let normal = self.unit_ns().filter(|_| !is_far(self.p));
-        let Some(ns) = normal else {
-            return query.run(&MediumReceiver::new(self.p));
-        };
-        match (self.sides, &self.gloss) {
-            (ReceiverSides::Front, None) => query.run(&SurfaceReceiver::facing(self.p, ns)),
-            (ReceiverSides::Front, Some(gloss)) => {
-                query.run(&GlossyReceiver::facing(self.p, ns, gloss))
-            }
-            (ReceiverSides::Both, _) => query.run(&TwoSidedReceiver::facing(self.p, ns)),
-        }
+    }
+}
+
+impl<R: KeptReceiver> IntoReceiver for &R {
+    type Kept = R;
+
+    #[inline(always)]
+    fn keep(self) -> R {
+        *self
+    }
+}
+
+impl IntoReceiver for &LightSampleContext {
+    type Kept = ContextReceiver;
+
+    #[inline(always)]
+    fn keep(self) -> ContextReceiver {
+        self.into()
     }
 }
 
 /// A query and for whom it is run.
 #[cfg_attr(test, derive(Clone, Copy))]
-pub(crate) struct QueryFor<A, Q>(pub(crate) A, pub(crate) Q);
+pub(crate) struct QueryFor<'a, R, Q>(pub(crate) &'a R, pub(crate) Q);
 
-impl<A: IntoReceiver, Q: Query> VectorWork for QueryFor<A, Q> {
+impl<R: KeptReceiver, Q: Query> VectorWork for QueryFor<'_, R, Q> {
     type Output = Q::Output;
 
     #[inline(always)]
@@ -74,6 +89,7 @@ mod tests {
     use crate::importance::position::FAR;
     use light_bounds::{LightBounds, LightExtent, LightId};
     use light_math::Aabb;
+    use light_math::glam::Vec3;
 
     /// Beyond the reach of the tree a point is taken to be nearer. A light that is above its
     /// horizon may seem to be below it then, so that the normal does not count.

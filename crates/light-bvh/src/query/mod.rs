@@ -1,6 +1,7 @@
 //! How a light is chosen, and how its probability is found.
 
 pub(crate) mod ascent;
+pub(crate) mod bvh_at;
 pub(crate) mod bvh_ref;
 pub(crate) mod descent;
 pub(crate) mod into_receiver;
@@ -9,4 +10,3 @@ pub(crate) mod select;
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
 mod vector_width_tests;
 pub(crate) mod weights;
-mod with_infinite;

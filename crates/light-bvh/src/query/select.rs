@@ -1,113 +1,143 @@
-use light_bounds::SampledLight;
+use light_math::discrete::{PART, PARTS, parts_scale};
+use light_math::fraction::divide;
 use light_math::glam::{Vec4, Vec4Swizzles};
 
+use crate::lane_math::{LaneMask, nearest};
 use crate::node::wide_node::WIDTH;
-use crate::query::weights::Weights;
+use crate::query::weights::{Weights, total};
+
+/// All parts, as a number that lanes can be compared with.
+const ALL: f32 = PARTS as f32;
+
+/// How many parts are left over on average.
+const LEFT_OVER: f32 = 0.5 * WIDTH as f32;
 
 /// A child chosen in proportion to its weight.
 pub(crate) struct Choice {
     pub(crate) child: usize,
     pub(crate) probability: f32,
     /// The unused part of `u`.
-    pub(crate) u: f64,
+    pub(crate) u: u64,
 }
 
+/// Choices by [`discrete`](light_math::discrete)'s rule, for all children of a node together.
 impl Weights {
-    /// The child that `u` of `[0, 1)` falls on; `None` if no child can contribute.
+    /// The child that `u` falls on; `None` if no child can contribute.
     #[inline(always)]
-    pub(crate) fn choose(&self, u: f64) -> Option<Choice> {
+    pub(crate) fn choose(&self, u: u64) -> Option<Choice> {
         if !(self.total > 0.0) {
             return None;
         }
-        let (child, u) = pick(&self.lanes, |sum| u * sum, to_f32(u) * self.total)?;
+        let place = (u >> 48) as f32;
+        // Running sums of the weights guess the child without waiting for the division that makes
+        // them parts: the processor goes on down the tree meanwhile.
+        let guess = ended(&ends(&self.lanes), (place - LEFT_OVER) * self.total / ALL);
+        let parts = self.parts();
+        let ends = ends(&parts);
+        let left_over = ALL - ends[WIDTH - 1];
+        // What is left over belongs to the first child and comes before its own parts.
+        let within = place.max(left_over) - left_over;
+        let start = |child: usize| ends[child] - parts[child];
+        let is_right = (start(guess) <= within) & (within < ends[guess]);
+        let child = if is_right {
+            guess
+        } else {
+            search(&ends, within)
+        };
+        let (into, parts) = if start(child) == 0.0 {
+            (place, parts[child] + left_over)
+        } else {
+            (within - start(child), parts[child])
+        };
         Some(Choice {
             child,
-            probability: share(self.lanes[child], self.total),
-            u,
+            probability: parts * PART,
+            u: divide(to_u32(into), u << 16, to_u32(parts)),
         })
     }
 
     /// Probability of [`choose`](Self::choose)-ing `child`.
     #[inline(always)]
     pub(crate) fn probability(&self, child: usize) -> f32 {
-        share(self.lanes[child & (WIDTH - 1)], self.total)
+        if !(self.total > 0.0) {
+            return 0.0;
+        }
+        let child = child & (WIDTH - 1);
+        if child > 0 && self.lanes[0] > 0.0 {
+            return PART * parts_of(self.lanes[child], self.scale());
+        }
+        let parts = self.parts();
+        let is_first = parts.iter().position(|&parts| parts > 0.0) == Some(child);
+        if is_first {
+            PART * (ALL - (total(parts) - parts[child]))
+        } else {
+            PART * parts[child]
+        }
+    }
+
+    /// The parts of each child, before those that are left over go to the first.
+    #[inline(always)]
+    fn parts(&self) -> [f32; WIDTH] {
+        let scale = self.scale();
+        let mut parts = [0.0; WIDTH];
+        for (parts, &weight) in parts.iter_mut().zip(&self.lanes) {
+            *parts = parts_of(weight, scale);
+        }
+        parts
+    }
+
+    #[inline(always)]
+    fn scale(&self) -> f32 {
+        parts_scale(self.total, WIDTH)
     }
 }
 
-/// The child that `target` of the sum of the weights, from 0 to that sum, falls on, and how far
-/// into it as a part of 1.
-///
-/// In double precision: 24 bits cannot address the lights below children whose weights differ much,
-/// and a sum in single precision may end before the last child begins. Sums in single precision
-/// guess the child; a search follows only where the guess is wrong.
+/// [`discrete::parts_of`](light_math::discrete::parts_of), as the compiler vectorises it.
 #[inline(always)]
-pub(crate) fn pick(
-    lanes: &[f32; WIDTH],
-    target: impl FnOnce(f64) -> f64,
-    about: f32,
-) -> Option<(usize, f64)> {
-    let starts = starts(lanes);
-    let target = target(starts[WIDTH]);
-    let guess = guess(lanes, about);
-    let is_right = (starts[guess] <= target) & (target < starts[guess + 1]);
-    let child = if is_right {
-        guess
-    } else {
-        search(lanes, &starts, target)?
-    };
-    let rest = (target - starts[child]) / f64::from(lanes[child]);
-    Some((child, rest.clamp(0.0, SampledLight::MAX_U)))
+fn parts_of(weight: f32, scale: f32) -> f32 {
+    let x = weight * scale;
+    let nearest = nearest(x);
+    let parts = nearest + LaneMask::when(nearest <= x).keep(1.0);
+    LaneMask::when(weight > 0.0).keep(parts)
 }
 
-/// Where each child begins, and the end of the last.
+/// Running sums: exact for parts.
 #[inline(always)]
-fn starts(lanes: &[f32; WIDTH]) -> [f64; WIDTH + 1] {
-    let mut starts = [0.0; WIDTH + 1];
-    for k in 0..WIDTH {
-        starts[k + 1] = starts[k] + f64::from(lanes[k]);
-    }
-    starts
-}
-
-/// How many children end before `about`, in single precision.
-#[inline(always)]
-fn guess(lanes: &[f32; WIDTH], about: f32) -> usize {
-    let about = Vec4::splat(about);
+fn ends(lanes: &[f32; WIDTH]) -> [f32; WIDTH] {
+    let mut ends = [0.0; WIDTH];
     let mut before = Vec4::ZERO;
-    let mut ended = 0;
     for first in (0..WIDTH).step_by(4) {
         let x = Vec4::from_slice(&lanes[first..]);
         let pairs = x + Vec4::new(0.0, x.x, x.y, x.z);
-        let ends = before + (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y));
-        ended |= ends.cmple(about).bitmask() << first;
-        before = ends.wwww();
+        let four = before + (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y));
+        four.write_to_slice(&mut ends[first..]);
+        before = four.wwww();
+    }
+    ends
+}
+
+/// How many children end at or before `place`, at most all but one.
+#[inline(always)]
+fn ended(ends: &[f32; WIDTH], place: f32) -> usize {
+    let place = Vec4::splat(place);
+    let mut ended = 0;
+    for first in (0..WIDTH).step_by(4) {
+        let four = Vec4::from_slice(&ends[first..]);
+        ended |= four.cmple(place).bitmask() << first;
     }
     (ended.trailing_ones() as usize).min(WIDTH - 1)
 }
 
-/// `x` rounded to single precision.
-#[expect(clippy::cast_possible_truncation, reason = "the rounding is intended")]
-#[inline(always)]
-pub(crate) const fn to_f32(x: f64) -> f32 {
-    x as f32
-}
-
-/// The last child with any weight that begins before `target`: it also takes a target that rounding
-/// puts beyond the sum.
+/// The child whose parts `within` falls on.
 #[cold]
-fn search(lanes: &[f32; WIDTH], starts: &[f64; WIDTH + 1], target: f64) -> Option<usize> {
-    let begins = |&child: &usize| lanes[child] > 0.0 && starts[child] <= target;
-    (0..WIDTH).rev().find(begins)
+fn search(ends: &[f32; WIDTH], within: f32) -> usize {
+    ended(ends, within)
 }
 
-/// `weight / total`: 0 only if the weight is.
+/// A whole number below 2^23, without the tests of a cast.
 #[inline(always)]
-pub(crate) fn share(weight: f32, total: f32) -> f32 {
-    if weight > 0.0 {
-        (weight / total).max(f32::MIN_POSITIVE)
-    } else {
-        0.0
-    }
+const fn to_u32(whole: f32) -> u32 {
+    (whole + 8_388_608.0).to_bits() & 0x7f_ffff
 }
 
 /// The probability of two choices in turn, which never vanishes by rounding alone.
@@ -123,55 +153,60 @@ pub(crate) fn mul_prob(a: f32, b: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use light_math::discrete;
+    use light_math::fraction::stratum;
 
-    /// Children of the given weights, and empty slots.
-    fn lanes(weights: &[f32]) -> [f32; WIDTH] {
-        core::array::from_fn(|k| weights.get(k).copied().unwrap_or(0.0))
+    /// The weights of the first children, 0 for the others.
+    fn weights(some: &[f32]) -> Weights {
+        let lanes = core::array::from_fn(|k| some.get(k).copied().unwrap_or(0.0));
+        Weights {
+            lanes,
+            total: total(lanes),
+            inv_unit: 1.0,
+        }
     }
 
-    #[test]
-    fn guesses_change_nothing() {
-        let lanes = lanes(&[
+    const SETS: [&[f32]; 7] = [
+        &[
             0.0, 1e-7, 3.0, 0.0, 1e-9, 1e9, 1e-3, 0.0, 0.0, 7.0, 0.0, 1e3,
-        ]);
-        let total: f64 = lanes.iter().map(|&w| f64::from(w)).sum();
-        for i in 0..=1000 {
-            for near in [0.0, 3.0, 3.001, 1e9, total] {
-                let target = near + (f64::from(i) - 500.0) * 1e-9;
-                if target >= 0.0 {
-                    let found = pick(&lanes, |_| target, to_f32(target)).map(|(child, _)| child);
-                    assert_eq!(found, search(&lanes, &starts(&lanes), target), "{target}");
-                }
+        ],
+        &[1.0; WIDTH],
+        &[1e-30, 1e30],
+        &[0.0, 0.0, 1e-45],
+        &[3e38, 1e38, 1.0],
+        &[1.0, 2.0, 0.0, 4.0],
+        &[1e-38, 2e-38, 3e-38, 0.0, 1e-39],
+    ];
+
+    #[test]
+    fn all_lanes_together_choose_as_one_by_one() {
+        for set in SETS {
+            let weights = weights(set);
+            let strata = 1 << 14;
+            for i in 0..strata {
+                let u = stratum(i, strata, 0x1234_5678_9abc_def0);
+                let ours = weights.choose(u).expect("a weight");
+                let one_by_one = discrete::sample(&weights.lanes, u).expect("a weight");
+                assert_eq!(
+                    (ours.child, ours.probability, ours.u),
+                    (one_by_one.index, one_by_one.pmf, one_by_one.u),
+                    "{set:?}, {u}"
+                );
+            }
+            for child in 0..WIDTH {
+                let pmf = discrete::pmf(&weights.lanes, child);
+                assert_eq!(weights.probability(child), pmf, "{set:?}, {child}");
             }
         }
-        assert!(
-            pick(&[0.0; WIDTH], |_| 0.0, 0.0).is_none(),
-            "no weight at all"
-        );
     }
 
     #[test]
-    fn what_is_left_of_u_is_how_far_into_the_child_it_falls() {
-        let lanes = lanes(&[1.0, 0.0, 2.0, 4.0, 0.0, 0.0, 1.0]);
-        assert_eq!(
-            pick(&lanes, |_| 0.0, to_f32(0.0)),
-            Some((0, 0.0)),
-            "the first"
-        );
-        assert_eq!(
-            pick(&lanes, |_| 1.0, to_f32(1.0)),
-            Some((2, 0.0)),
-            "begins where the first ends"
-        );
-        assert_eq!(
-            pick(&lanes, |_| 4.0, to_f32(4.0)),
-            Some((3, 0.25)),
-            "a quarter of the way"
-        );
-        assert_eq!(
-            pick(&lanes, |_| 8.0, to_f32(8.0)),
-            Some((6, SampledLight::MAX_U)),
-            "beyond the end"
-        );
+    fn no_weight_no_choice() {
+        let none = weights(&[]);
+        assert!(none.choose(0).is_none(), "no weight at all");
+        assert_eq!(none.probability(0), 0.0, "nor a probability");
+        let not_a_number = weights(&[f32::NAN]);
+        assert!(not_a_number.choose(0).is_none(), "of another's arrays");
+        assert_eq!(not_a_number.probability(0), 0.0, "nor a probability");
     }
 }

@@ -18,6 +18,13 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
+    /// Of a tree without lights.
+    pub(crate) const NONE: Self = Self {
+        lanes: [0.0; WIDTH],
+        total: 0.0,
+        inv_unit: 1.0,
+    };
+
     /// The weights of the children of `node` for `receiver`.
     #[inline(always)]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
@@ -59,8 +66,8 @@ impl Weights {
     /// About the irradiance by the lights of `node`, of which these are the weights, where all
     /// lights of the tree have power 1.
     #[inline(always)]
-    pub(crate) fn irradiance(&self, node: &WideNode) -> f64 {
-        irradiance(self.total, self.inv_unit) * f64::from(node.gain())
+    pub(crate) fn irradiance(&self, node: &WideNode) -> f32 {
+        irradiance(self.total, self.inv_unit, node.gain())
     }
 
     /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
@@ -98,11 +105,15 @@ impl Weights {
     }
 }
 
-/// The irradiance that a sum of weights means, in whose unit of length `inv_unit` is one.
-pub(crate) fn irradiance(total: f32, inv_unit: f32) -> f64 {
-    let inv_unit = f64::from(inv_unit);
+/// The irradiance that a sum of weights means, in whose unit of length `inv_unit` is one, times
+/// `gain`: a normal number, or 0 where the sum is.
+pub(crate) fn irradiance(total: f32, inv_unit: f32, gain: f32) -> f32 {
+    if !(total > 0.0) {
+        return 0.0;
+    }
     // Intensities are counted twice.
-    0.5 * f64::from(total) * inv_unit * inv_unit
+    let irradiance = (0.5 * total * inv_unit) * (gain * inv_unit);
+    irradiance.clamp(f32::MIN_POSITIVE, f32::MAX)
 }
 
 /// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor

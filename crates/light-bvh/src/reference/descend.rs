@@ -1,11 +1,12 @@
-use light_bounds::{CompactLightBounds, ImportanceQuery, LightSampleContext, SampledLight};
+use light_bounds::{CompactLightBounds, LightSampleContext, SampledLight};
+use light_math::fraction;
 
 use super::fork::Fork;
 use super::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
 
 impl ReferenceLightBvhRef<'_> {
-    /// One light that may light `ctx`, chosen in proportion to importance at every fork, for `u` in
-    /// `[0, 1)`.
+    /// One light that may light `ctx`, chosen in proportion to importance at every fork, for `u`, a
+    /// fraction of 2^64 of which the upper 53 bits count.
     ///
     /// `None` where the walk ends above lights none of which can contribute: bounds tighten on the
     /// way down.
@@ -13,22 +14,17 @@ impl ReferenceLightBvhRef<'_> {
     /// # Source
     /// `[PBRT4]`, section 12.6.3.
     #[must_use]
-    pub fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
-        let query = ImportanceQuery::new(ctx);
-        self.descend(u, |bounds| bounds.importance_for(self.bounds, &query))
+    pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.descend(u, |bounds| bounds.importance(self.bounds, ctx))
     }
 
-    /// One light in proportion to its power, for `u` in `[0, 1)`; `None` if the tree is empty.
+    /// One light in proportion to its power; `None` if the tree is empty.
     #[must_use]
-    pub fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    pub fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.descend(u, power_weight)
     }
 
-    fn descend(
-        &self,
-        mut u: f64,
-        weight: impl Fn(&CompactLightBounds) -> f32,
-    ) -> Option<SampledLight> {
+    fn descend(&self, u: u64, weight: impl Fn(&CompactLightBounds) -> f32) -> Option<SampledLight> {
         let mut index = 0;
         let mut node = self.nodes.first()?;
         // Any other node was weighed before the walk went there.
@@ -36,10 +32,11 @@ impl ReferenceLightBvhRef<'_> {
             return None;
         }
         let mut pmf = 1.0;
+        let mut u = fraction::to_f64(u);
         loop {
             match node.link() {
                 Link::Leaf(light) => {
-                    let pmf = above_zero(pmf);
+                    let (pmf, u) = (above_zero(pmf), fraction::from_f64(u));
                     return Some(SampledLight { light, pmf, u });
                 }
                 Link::Interior { second_child } => {

@@ -1,6 +1,7 @@
-use light_bounds::SampledLight;
-
 use super::Side;
+
+/// The largest `f64` below one: the upper end of `u`, which lies in `[0, 1)`.
+const MAX_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// The choice between two children: in proportion to their weights, in sampling and in asking
 /// alike.
@@ -32,11 +33,11 @@ impl Fork {
             (Side::Second, (x - first) / second)
         } else if self.first > 0.0 {
             // u is so near to 1 that the product was rounded up.
-            (Side::First, SampledLight::MAX_U)
+            (Side::First, MAX_U)
         } else {
             return None;
         };
-        Some((side, SampledLight::clamp_u(rest)))
+        Some((side, rest.clamp(0.0, MAX_U)))
     }
 
     /// Probability of `side`; 0 only if its weight is 0.

@@ -56,7 +56,7 @@ impl ReferenceLightBvh {
     /// See [`ReferenceLightBvhRef::sample`].
     #[inline]
     #[must_use]
-    pub fn sample(&self, ctx: &LightSampleContext, u: f64) -> Option<SampledLight> {
+    pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.view().sample(ctx, u)
     }
 
@@ -70,7 +70,7 @@ impl ReferenceLightBvh {
     /// See [`ReferenceLightBvhRef::sample_emitter`].
     #[inline]
     #[must_use]
-    pub fn sample_emitter(&self, u: f64) -> Option<SampledLight> {
+    pub fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         self.view().sample_emitter(u)
     }
 

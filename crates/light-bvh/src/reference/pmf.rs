@@ -1,4 +1,4 @@
-use light_bounds::{CompactLightBounds, ImportanceQuery, LightId, LightSampleContext};
+use light_bounds::{CompactLightBounds, LightId, LightSampleContext};
 
 use super::descend::{above_zero, child_index, power_weight};
 use super::{BitTrail, Link, ReferenceLightBvhRef};
@@ -8,8 +8,7 @@ impl ReferenceLightBvhRef<'_> {
     /// a light that is not in the tree.
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        let query = ImportanceQuery::new(ctx);
-        self.follow(light, |bounds| bounds.importance_for(self.bounds, &query))
+        self.follow(light, |bounds| bounds.importance(self.bounds, ctx))
     }
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the same bits.

@@ -8,6 +8,7 @@ use std::cell::RefCell;
 
 use super::bounds::Margins;
 use crate::oracle::cone::importance;
+use crate::oracle::parts::probability;
 use crate::oracle::range;
 
 /// In how many ways inputs are moved.
@@ -139,12 +140,20 @@ impl<'a> Importances<'a> {
         self.tree.nodes()[index].bounds().decode(self.tree.bounds())
     }
 
-    /// The probabilities of `light` among all, each in proportion to its importance.
-    pub(super) fn pmf_among(&self, light: LightId) -> Range {
+    /// The probabilities of `light` among all, each in exact proportion to its importance.
+    pub(super) fn proportion_among(&self, light: LightId) -> Range {
         let others = (0..self.lights.len()).filter(|&i| i != light.index());
         let others = others.map(|i| self.of_light(i));
         let others = others.fold(Range::exactly(0.0), Range::plus);
         self.of_light(light.index()).share_beside(others)
+    }
+
+    /// The probabilities of `light` among all, each in whole parts.
+    pub(super) fn pmf_among(&self, light: LightId) -> Range {
+        let all = (0..self.lights.len()).map(|i| self.of_light(i));
+        let all: Vec<_> = all.map(|range| [range.low, range.high]).collect();
+        let [low, high] = probability(&all, light.index());
+        Range { low, high }
     }
 
     /// The probabilities of `light` in the tree.

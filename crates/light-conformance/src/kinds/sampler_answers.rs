@@ -1,10 +1,13 @@
 use lights::bounds::{LightExtent, LightId, LightSampleContext};
+use lights::math::fraction;
 use lights::math::glam::Vec3;
 use lights::samplers::LightSampler;
 
+use super::alias_table::{self, WHOLE_PARTS};
 use super::pmf_range::{Importances, Range};
 use super::sampler_set::Set;
 use crate::oracle::Certainty;
+use crate::oracle::parts::{PARTS, alias_parts, choose};
 use crate::{Findings, Malformed, Rule, Tolerance};
 
 const NO_POWER: Rule = Rule {
@@ -30,6 +33,9 @@ const EDGE_OF_U: Rule = Rule {
     reason: "by the reference's importance u falls on the other side of a choice; ours is a choice \
              in double precision",
 };
+
+/// The most lights of one choice of the exhaustive sampler.
+const MOST_IN_A_CHOICE: usize = 64;
 
 /// Which sampler is asked, and by whom.
 pub(super) struct Query<'a> {
@@ -88,7 +94,13 @@ impl<'a> Query<'a> {
     }
 
     pub(super) fn compare_pmf(&self, light: LightId, theirs: f32, findings: &mut Findings) {
-        let ours = findings.ours("pmf", self.sampler().pmf(&self.context(), light));
+        let ours = self.sampler().pmf(&self.context(), light);
+        if self.sampler == Sampler::Power {
+            let (powers, index) = (&self.set.powers, light.index());
+            let exact = alias_parts(powers);
+            return alias_table::compare_pmf(powers, &exact, index, ours, theirs, findings);
+        }
+        let ours = findings.ours("pmf", ours);
         let by_importance = matches!(self.sampler, Sampler::Bvh | Sampler::Exhaustive);
         let extent = self.set.extents.get(light.index());
         let bounded = extent.and_then(LightExtent::bounded);
@@ -110,8 +122,15 @@ impl<'a> Query<'a> {
                 });
                 if theirs.is_nan() {
                     findings.exempt(&NOT_A_NUMBER);
-                } else if !Tolerance::GENERAL.accepts(ours, theirs) {
+                } else if !self.proportion(light).holds(theirs) {
                     findings.exempt(&IMPORTANCE);
+                } else if !Tolerance::GENERAL.accepts(ours, theirs) {
+                    let is_exhaustive = self.sampler == Sampler::Exhaustive;
+                    findings.exempt(if is_exhaustive {
+                        &WHOLE_PARTS
+                    } else {
+                        &IMPORTANCE
+                    });
                 }
             }
             _ => {
@@ -123,11 +142,23 @@ impl<'a> Query<'a> {
 
     /// The probabilities of a bounded light; all infinite ones together count as one more.
     fn range(&self, light: LightId) -> Range {
-        let share = Range::exactly(1.0 / (self.infinite().count() + 1) as f64);
-        share.times(match self.sampler {
+        self.share().times(match self.sampler {
             Sampler::Bvh => self.importances.pmf_in_tree(light),
             _ => self.importances.pmf_among(light),
         })
+    }
+
+    /// The same without whole parts, as the reference computes it.
+    fn proportion(&self, light: LightId) -> Range {
+        self.share().times(match self.sampler {
+            Sampler::Bvh => self.importances.pmf_in_tree(light),
+            _ => self.importances.proportion_among(light),
+        })
+    }
+
+    /// The probability of all bounded lights together.
+    fn share(&self) -> Range {
+        Range::exactly(1.0 / (self.infinite().count() + 1) as f64)
     }
 
     fn infinite(&self) -> impl Iterator<Item = usize> {
@@ -138,20 +169,23 @@ impl<'a> Query<'a> {
     /// Whether the light, or none (-1), that `u` chooses is right.
     pub(super) fn compare_choice(&self, u: f64, theirs: i64, findings: &mut Findings) {
         let ctx = self.context();
-        let sample = self.sampler().sample(&ctx, u);
+        let fraction = fraction::from_f64(u);
+        let sample = self.sampler().sample(&ctx, fraction);
         if let Some(sample) = sample {
             let own = findings.ours("pmf of the sample", sample.pmf);
             let asked = self.sampler().pmf(&ctx, sample.light);
-            findings.near("pmf of the sample", own, asked, Tolerance::GENERAL);
+            findings.equal("pmf of the sample", own, asked);
             findings.settled(Certainty::Determined);
         }
-        // An alias table's layout is its builder's, and the reference's exhaustive choice depends
-        // on a hash.
-        if matches!(self.sampler, Sampler::Power | Sampler::Exhaustive) {
-            return;
-        }
+        let is_one_choice = self.set.extents.len() <= MOST_IN_A_CHOICE;
+        let choices = match self.sampler {
+            // An alias table's layout is its builder's.
+            Sampler::Power => return,
+            Sampler::Exhaustive if is_one_choice => vec![self.choice_by_parts(fraction)],
+            Sampler::Exhaustive => return,
+            Sampler::Uniform | Sampler::Bvh => self.choices(u),
+        };
         let ours = findings.ours("choice", sample.map_or(-1, |s| i64::from(s.light.0)));
-        let choices = self.choices(u);
         findings.check(choices.contains(&ours), || {
             format!("choice by {u}: {ours}, reference {theirs}, exact {choices:?}")
         });
@@ -160,9 +194,33 @@ impl<'a> Query<'a> {
         } else {
             Certainty::Undetermined
         });
-        if ours != theirs {
+        // The reference's exhaustive choice depends on a hash.
+        if ours != theirs && self.sampler != Sampler::Exhaustive {
             findings.exempt(&EDGE_OF_U);
         }
+    }
+
+    /// The light, or none (-1), that `u` chooses of so few that one choice is enough: in integers,
+    /// by the parts that our probabilities are.
+    fn choice_by_parts(&self, u: u64) -> i64 {
+        let infinite: Vec<_> = self.infinite().collect();
+        let has_others = self.set.extents.len() > infinite.len();
+        let slots = infinite.len() + usize::from(has_others);
+        let scaled = u128::from(u) * slots as u128;
+        if let Some(&light) = infinite.get((scaled >> 64) as usize) {
+            return light as i64;
+        }
+        let parts = |(index, extent): (usize, &LightExtent)| {
+            extent.bounded().map_or(0, |_| {
+                let pmf = self
+                    .set
+                    .exhaustive
+                    .pmf(&self.context(), LightId(index as u32));
+                (f64::from(pmf) * (slots as i64 * PARTS) as f64).round() as i64
+            })
+        };
+        let parts: Vec<_> = self.set.extents.iter().enumerate().map(parts).collect();
+        choose(&parts, scaled as u64).map_or(-1, |(light, _)| light as i64)
     }
 
     /// All choices that rounding leaves open.

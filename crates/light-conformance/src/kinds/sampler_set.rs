@@ -9,6 +9,7 @@ use crate::{Case, Malformed};
 /// The samplers of a set of lights.
 pub(super) struct Set {
     pub(super) extents: Vec<LightExtent>,
+    pub(super) powers: Vec<f32>,
     pub(super) uniform: UniformLightSampler,
     pub(super) power: PowerLightSampler,
     pub(super) bvh: ReferenceBvhLightSampler,
@@ -33,6 +34,7 @@ impl Set {
             exhaustive: ExhaustiveLightSampler::new(&extents)
                 .map_err(|e| Malformed(e.to_string()))?,
             extents,
+            powers,
         })
     }
 }

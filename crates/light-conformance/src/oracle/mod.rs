@@ -10,6 +10,7 @@ pub(super) mod cone;
 pub(super) mod equal_area;
 mod jitter;
 pub(super) mod lights;
+pub(super) mod parts;
 mod spherical_rectangle;
 mod spherical_triangle;
 pub(super) mod subtended;

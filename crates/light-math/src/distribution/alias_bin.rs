@@ -4,8 +4,8 @@
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct AliasBin {
-    /// The part of the bin that belongs to its own index, in `[0, 1]`.
-    pub q: f32,
+    /// How many of the 2^16 parts of the bin belong to its own index.
+    pub own: u32,
     /// The index to which the rest of the bin belongs.
     pub alias: u32,
     /// The probability of the bin's own index.

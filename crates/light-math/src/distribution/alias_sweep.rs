@@ -1,89 +1,128 @@
 use super::alias_bin::AliasBin;
 use super::error::{TableError, check_len, positive_total};
+use crate::discrete::PARTS;
 
-/// Fills `bins` by one sweep with a cursor over the weights below the mean and one over those above
-/// it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds probabilities; indices were checked to fit"
-)]
+/// The parts of a bin.
+const BIN: u64 = PARTS as u64;
+
+/// Fills `bins` by one sweep with a cursor over the indices of at most a bin and one over the
+/// others.
 pub(super) const fn fill(weights: &[f32], bins: &mut [AliasBin]) -> Result<(), TableError> {
     let total = match positive_total(weights) {
         Ok(total) => total,
         Err(error) => return Err(error),
     };
-    let len = weights.len();
-    if let Err(error) = check_len(len, bins.len()) {
+    if let Err(error) = check_len(weights.len(), bins.len()) {
         return Err(error);
     }
-    if len as u64 > u32::MAX as u64 {
+    if weights.len() as u64 > u32::MAX as u64 {
         return Err(TableError::TooLarge);
     }
-    let mut index = 0;
-    while index < len {
-        let pmf = (weights[index] as f64 / total) as f32;
-        let alias = index as u32;
-        bins[index] = AliasBin { q: 1.0, alias, pmf };
+    share_parts(weights, total, bins);
+    sweep(bins);
+    Ok(())
+}
+
+/// Stores in each bin the parts of its index: a whole number, at least 1 for a positive weight, and
+/// as many as there are parts in all bins together. The sign of the probability marks those of more
+/// than a bin until the sweep ends.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast truncates on purpose; probabilities are rounded"
+)]
+const fn share_parts(weights: &[f32], total: f64, bins: &mut [AliasBin]) {
+    let all = bins.len() as u64 * BIN;
+    let (mut positive, mut index) = (0, 0);
+    while index < weights.len() {
+        positive += (weights[index] > 0.0) as u64;
         index += 1;
     }
-
-    let share = Share { weights, total };
-    let mut light = share.next_light(0, bins);
-    let mut heavy = share.next_heavy(0, bins);
-    if heavy == len {
-        return Ok(());
-    }
-    let mut following = share.next_heavy(heavy + 1, bins);
-    let mut rest = share.of(heavy, bins);
-    loop {
-        if light < len && (rest > 1.0 || following == len) {
-            // The heavy weight fills up the bin of a light one.
-            let own = share.of(light, bins);
-            bins[light].q = own as f32;
-            bins[light].alias = heavy as u32;
-            rest -= 1.0 - own;
-            light = share.next_light(light + 1, bins);
-        } else if following < len && rest <= 1.0 {
-            // What is left of it has become light itself: the following one fills up its bin.
-            bins[heavy].q = rest as f32;
-            bins[heavy].alias = following as u32;
-            rest += share.of(following, bins) - 1.0;
-            heavy = following;
-            following = share.next_heavy(heavy + 1, bins);
-        } else {
-            // Rounding alone is left over.
-            return Ok(());
+    // Running sums are rounded, so that no error adds up; the last one is `total` to the bit.
+    let (mut sum, mut given, mut index) = (0.0, 0, 0);
+    while index < weights.len() {
+        let mut parts = 0;
+        if weights[index] > 0.0 {
+            sum += weights[index] as f64;
+            let up_to = (sum / total * (all - positive) as f64 + 0.5) as u64;
+            parts = 1 + up_to - given;
+            given = up_to;
         }
+        set_parts(&mut bins[index], parts);
+        let pmf = (parts as f64 / all as f64) as f32;
+        bins[index].pmf = if parts > BIN { -pmf } else { pmf };
+        index += 1;
     }
 }
 
-/// Weights in units of their mean.
-struct Share<'a> {
-    weights: &'a [f32],
-    total: f64,
+/// Until the sweep settles a bin, both its words hold the parts of its index: 48 bits at the most.
+#[expect(clippy::cast_possible_truncation, reason = "splits a word")]
+const fn set_parts(bin: &mut AliasBin, parts: u64) {
+    bin.own = parts as u32;
+    bin.alias = (parts >> 32) as u32;
 }
 
-impl Share<'_> {
-    /// A weight over the mean; 0 if its probability has vanished by rounding.
-    const fn of(&self, index: usize, bins: &[AliasBin]) -> f64 {
-        if bins[index].pmf > 0.0 {
-            self.weights[index] as f64 * (self.weights.len() as f64 / self.total)
+const fn parts(bin: &AliasBin) -> u64 {
+    (bin.alias as u64) << 32 | bin.own as u64
+}
+
+/// Settles all bins: the indices of more than a bin fill up those of less.
+///
+/// Nothing rounds, so that the parts come out even.
+const fn sweep(bins: &mut [AliasBin]) {
+    let mut light = next_light(bins, 0);
+    let mut heavy = next_heavy(bins, 0);
+    while heavy < bins.len() {
+        let mut rest = parts(&bins[heavy]);
+        while rest > BIN && light < bins.len() {
+            let own = parts(&bins[light]);
+            settle(bins, light, own, heavy);
+            rest -= BIN - own;
+            light = next_light(bins, light + 1);
+        }
+        // What is left of it has become light itself: the following one fills up its bin.
+        let following = next_heavy(bins, heavy + 1);
+        if following < bins.len() {
+            let lent = BIN - rest;
+            settle(bins, heavy, rest, following);
+            let left = parts(&bins[following]) - lent;
+            set_parts(&mut bins[following], left);
         } else {
-            0.0
+            settle(bins, heavy, BIN, heavy);
         }
+        heavy = following;
     }
+    while light < bins.len() {
+        settle(bins, light, BIN, light);
+        light = next_light(bins, light + 1);
+    }
+    let mut index = 0;
+    while index < bins.len() {
+        bins[index].pmf = bins[index].pmf.abs();
+        index += 1;
+    }
+}
 
-    const fn next_light(&self, mut index: usize, bins: &[AliasBin]) -> usize {
-        while index < self.weights.len() && self.of(index, bins) > 1.0 {
-            index += 1;
-        }
-        index
-    }
+/// Gives the bin of `index` its `own` parts; the others belong to `alias`.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "indices were checked to fit, and a bin has 2^16 parts"
+)]
+const fn settle(bins: &mut [AliasBin], index: usize, own: u64, alias: usize) {
+    bins[index].own = own as u32;
+    bins[index].alias = alias as u32;
+}
 
-    const fn next_heavy(&self, mut index: usize, bins: &[AliasBin]) -> usize {
-        while index < self.weights.len() && self.of(index, bins) <= 1.0 {
-            index += 1;
-        }
-        index
+const fn next_light(bins: &[AliasBin], mut index: usize) -> usize {
+    while index < bins.len() && bins[index].pmf < 0.0 {
+        index += 1;
     }
+    index
+}
+
+const fn next_heavy(bins: &[AliasBin], mut index: usize) -> usize {
+    while index < bins.len() && !(bins[index].pmf < 0.0) {
+        index += 1;
+    }
+    index
 }

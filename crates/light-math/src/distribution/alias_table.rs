@@ -4,17 +4,22 @@ use alloc::{vec, vec::Vec};
 use super::TableError;
 use super::alias_bin::AliasBin;
 use super::alias_sweep::fill;
-use crate::discrete::{SampledIndex, unit};
+use crate::discrete::{PARTS, SampledIndex};
+use crate::fraction;
 
 /// Indices in proportion to weights, in constant time however many there are.
 ///
 /// `S` lends the bins: `Vec<AliasBin>`, `&[AliasBin]`, `[AliasBin; N]`. A sample reads two bins.
 ///
+/// Probabilities are whole multiples of `2^-16 / n` for `n` weights, at least one for a positive
+/// weight: exactly those with which the bins are chosen, rounded to an `f32` only to be stated.
+///
 /// ```
-/// # use light_math::distribution::AliasTable;
+/// # use light_math::{distribution::AliasTable, fraction};
 /// let table = AliasTable::new(&[1.0, 0.0, 3.0])?;
-/// let chosen = table.sample(0.9);
-/// assert_eq!((chosen.index, chosen.pmf), (2, 0.75));
+/// let chosen = table.sample(fraction::from_f64(0.9));
+/// assert_eq!(chosen.index, 2);
+/// assert!((chosen.pmf - 0.75).abs() < 1e-5);
 /// # Ok::<(), light_math::distribution::TableError>(())
 /// ```
 ///
@@ -45,7 +50,7 @@ impl<const N: usize> AliasTable<[AliasBin; N]> {
     /// As for [`new`](AliasTable::new).
     pub const fn in_array(weights: &[f32; N]) -> Result<Self, TableError> {
         const EMPTY: AliasBin = AliasBin {
-            q: 0.0,
+            own: 0,
             alias: 0,
             pmf: 0.0,
         };
@@ -82,9 +87,9 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
         let is_valid = |bin: &AliasBin| {
             let rest_is_reachable = slice
                 .get(bin.alias as usize)
-                .is_some_and(|other| bin.q == 1.0 || other.pmf > 0.0);
-            let own_is_reachable = bin.q == 0.0 || bin.pmf > 0.0;
-            let in_range = (0.0..=1.0).contains(&bin.q) && (0.0..=1.0).contains(&bin.pmf);
+                .is_some_and(|other| bin.own == PARTS || other.pmf > 0.0);
+            let own_is_reachable = bin.own == 0 || bin.pmf > 0.0;
+            let in_range = bin.own <= PARTS && (0.0..=1.0).contains(&bin.pmf);
             in_range && own_is_reachable && rest_is_reachable
         };
         if slice.iter().all(is_valid) {
@@ -94,33 +99,27 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
         }
     }
 
-    /// An index chosen by `u` in `[0, 1)`, with what is left of `u`.
-    ///
-    /// `u` is an `f64`: the 24 bits of an `f32` cannot address a million bins, much less a place
-    /// within one.
+    /// An index chosen by `u`, a fraction of 2^64, with what is left of `u`.
     #[inline]
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the integer part of a product below the number of bins"
+        reason = "a table has less than 2^32 bins; the upper 16 bits"
     )]
-    pub fn sample(&self, u: f64) -> SampledIndex {
+    pub fn sample(&self, u: u64) -> SampledIndex {
         let bins = self.bins.as_ref();
-        let scaled = unit(u) * bins.len() as f64;
-        let own = (scaled as usize).min(bins.len() - 1);
-        let place = scaled - own as f64;
-        let bin = &bins[own];
-        let q = f64::from(bin.q);
-        let (index, u) = if place < q {
-            (own, place / q)
+        let (bin, u) = fraction::choose(bins.len() as u32, u);
+        let place = (u >> 48) as u32;
+        let AliasBin { own, alias, .. } = bins[bin as usize];
+        let (index, place, parts) = if place < own {
+            (bin as usize, place, own)
         } else {
-            (bin.alias as usize, (place - q) / (1.0 - q))
+            (alias as usize, place - own, PARTS - own)
         };
         SampledIndex {
             index,
             pmf: bins[index].pmf,
-            u: unit(u),
+            u: fraction::divide(place, u << 16, parts),
         }
     }
 
@@ -143,14 +142,14 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
 mod tests {
     use super::*;
 
-    /// The probability of each index that the bins really give.
-    fn realised(bins: &[AliasBin]) -> Vec<f64> {
-        let mut mass = vec![0.0; bins.len()];
+    /// The parts that the bins really give each index.
+    fn given(bins: &[AliasBin]) -> Vec<u64> {
+        let mut parts = vec![0; bins.len()];
         for (index, bin) in bins.iter().enumerate() {
-            mass[index] += f64::from(bin.q) / bins.len() as f64;
-            mass[bin.alias as usize] += (1.0 - f64::from(bin.q)) / bins.len() as f64;
+            parts[index] += u64::from(bin.own);
+            parts[bin.alias as usize] += u64::from(PARTS - bin.own);
         }
-        mass
+        parts
     }
 
     #[test]
@@ -159,18 +158,31 @@ mod tests {
         let wild: Vec<f32> = (0..1000u16)
             .map(|i| ((i * 37 % 101) as f32 - 50.0).exp2())
             .collect();
-        // Each of the bins that feed an index rounds its share to an f32.
+        let falling: Vec<f32> = ramp.iter().rev().copied().collect();
         for weights in [
             &ramp[..],
             &wild[..],
+            &falling[..],
             &[5.0],
             &[0.0, 0.0, 1.0, 0.0],
             &[f32::MAX, 1e-45],
+            &[1e-45, f32::MAX],
         ] {
             let table = AliasTable::new(weights).expect("valid weights");
-            for (index, mass) in realised(table.bins()).into_iter().enumerate() {
-                let pmf = f64::from(table.pmf(index));
-                assert!((mass - pmf).abs() <= 1e-6 * pmf, "{index}: {mass} {pmf}");
+            let all = weights.len() as f64 * f64::from(PARTS);
+            let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+            for (index, parts) in given(table.bins()).into_iter().enumerate() {
+                let weight = weights[index];
+                assert_eq!(parts > 0, weight > 0.0, "{index}: {parts}");
+                let error = f64::from(table.pmf(index)) / (parts as f64 / all).max(1e-30) - 1.0;
+                assert!(parts == 0 || error.abs() < 6e-8, "{index}: {error}");
+                let exact = f64::from(weight) / total * all;
+                // One for each positive weight, the others in proportion, and one by rounding.
+                let low = exact * (1.0 - 1.0 / f64::from(PARTS)) - 1.0;
+                assert!(
+                    (low..=exact + 2.0).contains(&(parts as f64)),
+                    "{parts} {exact}"
+                );
             }
             AliasTable::from_bins(table.bins()).expect("its own bins are well-formed");
         }
@@ -180,10 +192,11 @@ mod tests {
     fn a_million_weights_are_all_reached_and_u_is_left_over() {
         let weights = vec![1.0; 1_000_000];
         let table = AliasTable::new(&weights).expect("valid weights");
-        for index in [0, 1, 499_999, 999_998, 999_999] {
-            let s = table.sample((index as f64 + 0.25) / 1e6);
-            assert_eq!(s.index, index, "every bin is its own");
-            assert!((s.u - 0.25).abs() < 1e-6, "what is left: {}", s.u);
+        for index in [0u32, 1, 499_999, 999_998, 999_999] {
+            let s = table.sample(fraction::stratum(index, 1_000_000, 1 << 62));
+            assert_eq!(s.index, index as usize, "every bin is its own");
+            let u = fraction::to_f64(s.u);
+            assert!((u - 0.25).abs() < 1e-6, "what is left: {u}");
         }
     }
 
@@ -191,11 +204,8 @@ mod tests {
     fn zero_weights_are_never_returned() {
         let table = AliasTable::new(&[0.0, 1.0, 0.0, 0.1, 0.0]).expect("valid weights");
         for i in 0..=1000 {
-            let s = table.sample(f64::from(i) / 1000.0);
-            assert!(
-                s.pmf > 0.0 && (0.0..1.0).contains(&s.u),
-                "sample {i}: {s:?}"
-            );
+            let s = table.sample(fraction::stratum(i, 1001, 1 << 63));
+            assert!(s.pmf > 0.0, "sample {i}: {s:?}");
         }
         assert_eq!(table.pmf(9), 0.0, "out of range");
     }
@@ -233,7 +243,7 @@ mod tests {
             "no bins"
         );
         let stray = AliasBin {
-            q: 0.5,
+            own: PARTS / 2,
             alias: 1,
             pmf: 1.0,
         };

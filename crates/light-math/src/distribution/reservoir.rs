@@ -1,4 +1,11 @@
-use crate::discrete::unit;
+/// The largest `u` that a random number of 53 bits may have.
+const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
+
+/// `u` forced into `[0, 1)`; 0 for NaN.
+#[inline]
+pub(super) fn unit(u: f64) -> f64 {
+    if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
+}
 
 /// One of a stream of values, chosen in proportion to weights that are known one at a time.
 ///

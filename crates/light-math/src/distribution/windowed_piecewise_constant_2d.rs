@@ -1,8 +1,8 @@
 use super::piecewise_constant_2d::Sample2D;
+use super::reservoir::unit;
 use super::span::{Span, texel};
 use super::summed_area_table::SummedAreaTable;
 use super::window::Window;
-use crate::discrete::unit;
 use crate::float::{next_down, next_up};
 use glam::Vec2;
 

@@ -8,7 +8,7 @@ use light_math::glam::{Affine3A, Vec2, Vec3};
 use light_media::{
     Homogeneous, Region, ScatteringPoint, Span, StepSize, Visibility, VolumeIntegrator,
 };
-use light_samplers::LightSampler;
+use light_samplers::{LightChoices, LightSampler};
 use light_sources::{
     LightDesc, LightSetBuilder, RadianceAmount, Rgb, SceneSphere, UniformInfiniteLightDesc,
 };
@@ -20,7 +20,7 @@ use super::{NothingInTheWay, RAY, TWO, lights, medium};
 struct Recorder(RefCell<Vec<LightSampleContext>>);
 
 impl LightSampler for Recorder {
-    fn sample(&self, ctx: &LightSampleContext, _u: f64) -> Option<SampledLight> {
+    fn sample(&self, ctx: &LightSampleContext, _u: u64) -> Option<SampledLight> {
         self.0.borrow_mut().push(*ctx);
         None
     }
@@ -29,7 +29,11 @@ impl LightSampler for Recorder {
         0.0
     }
 
-    fn sample_emitter(&self, _u: f64) -> Option<SampledLight> {
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, _u: u64) -> Option<SampledLight> {
         None
     }
 

@@ -1,10 +1,9 @@
 use lights::bounds::{LightId, LightSampleContext};
-use rand_core::SeedableRng;
+use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use super::timing::unit;
 
 /// How many pmf queries the sums may take in all.
 const SUM_BUDGET: usize = 4_000_000;
@@ -43,7 +42,7 @@ pub(super) fn check(candidate: &Candidate, contexts: &[LightSampleContext]) -> L
     let mut rng = Pcg64Mcg::seed_from_u64(0x1A35);
     for ctx in contexts {
         for _ in 0..SAMPLES {
-            let Some(sample) = sampler.sample(ctx, unit(&mut rng)) else {
+            let Some(sample) = sampler.sample(ctx, rng.next_u64()) else {
                 none += 1;
                 continue;
             };

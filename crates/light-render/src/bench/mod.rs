@@ -20,7 +20,7 @@ mod variance;
 
 pub use ground_truth::GroundTruth;
 pub use laws::Laws;
-pub use receiver::ReceiverKind;
+pub use receiver::BenchReceiverKind;
 pub use refits::{RefitRow, refits};
 pub use row::BenchRow;
 pub use timing::QueryTime;
@@ -49,7 +49,7 @@ pub struct BenchOptions {
     /// What counts as the contribution of a light.
     pub ground_truth: GroundTruth,
     /// The kind of receiver.
-    pub receiver: ReceiverKind,
+    pub receiver: BenchReceiverKind,
     /// Occluding spheres, unknown to the samplers.
     pub occluders: usize,
 }
@@ -64,7 +64,7 @@ impl Default for BenchOptions {
             var_points: None,
             threads: 1,
             ground_truth: GroundTruth::default(),
-            receiver: ReceiverKind::default(),
+            receiver: BenchReceiverKind::default(),
             occluders: 0,
         }
     }

@@ -1,9 +1,8 @@
 use light_sets::BenchSet;
 use lights::glam::DVec3;
-use rand_core::SeedableRng;
+use lights::math::fraction::to_f64;
+use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-
-use super::timing::unit;
 
 /// Share of the set's box that all spheres together have as volume.
 const FILLING: f64 = 0.1;
@@ -29,7 +28,14 @@ impl Occluders {
         let radius = (volume * 0.75 * core::f64::consts::FRAC_1_PI).cbrt();
         Self {
             spheres: (0..count)
-                .map(|_| low + size * DVec3::new(unit(&mut rng), unit(&mut rng), unit(&mut rng)))
+                .map(|_| {
+                    low + size
+                        * DVec3::new(
+                            to_f64(rng.next_u64()),
+                            to_f64(rng.next_u64()),
+                            to_f64(rng.next_u64()),
+                        )
+                })
                 .collect(),
             radius_sq: radius * radius,
         }

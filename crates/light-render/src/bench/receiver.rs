@@ -9,7 +9,7 @@ const GLOSSY_DIFFUSE: f32 = 0.5;
 
 /// The kind of receiver at the points of a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum ReceiverKind {
+pub enum BenchReceiverKind {
     /// A diffuse surface, lit from the front.
     #[default]
     Diffuse,
@@ -27,10 +27,10 @@ pub enum ReceiverKind {
 pub(super) struct BenchReceiver {
     pub(super) at: SetPoint,
     pub(super) ctx: LightSampleContext,
-    kind: ReceiverKind,
+    kind: BenchReceiverKind,
 }
 
-impl ReceiverKind {
+impl BenchReceiverKind {
     /// The receiver at the point of the given index.
     pub(super) fn receiver_at(self, index: usize, at: SetPoint) -> BenchReceiver {
         let ctx = match self {
@@ -58,11 +58,11 @@ impl BenchReceiver {
     pub(super) fn response(&self, wi: DVec3) -> f64 {
         let cos = self.at.n.as_dvec3().dot(wi);
         match self.kind {
-            ReceiverKind::Diffuse => cos.max(0.0),
-            ReceiverKind::TwoSided => cos.abs(),
-            ReceiverKind::Medium => 1.0,
-            ReceiverKind::Glossy(_) if cos <= 0.0 => 0.0,
-            ReceiverKind::Glossy(_) => self.ctx.gloss.map_or(0.0, |gloss| {
+            BenchReceiverKind::Diffuse => cos.max(0.0),
+            BenchReceiverKind::TwoSided => cos.abs(),
+            BenchReceiverKind::Medium => 1.0,
+            BenchReceiverKind::Glossy(_) if cos <= 0.0 => 0.0,
+            BenchReceiverKind::Glossy(_) => self.ctx.gloss().map_or(0.0, |gloss| {
                 let n = self.at.n.as_dvec3();
                 let diffuse = f64::from(gloss.diffuse) * core::f64::consts::FRAC_1_PI;
                 (diffuse + (1.0 - f64::from(gloss.diffuse)) * microfacets(&gloss, n, wi)) * cos
@@ -103,7 +103,7 @@ fn view(index: usize, n: Vec3) -> Vec3 {
         .as_vec3()
 }
 
-impl FromStr for ReceiverKind {
+impl FromStr for BenchReceiverKind {
     type Err = &'static str;
 
     fn from_str(s: &str) -> Result<Self, Self::Err> {
@@ -132,10 +132,18 @@ mod tests {
 
     #[test]
     fn names_and_roughness_are_read() {
-        assert_eq!("two-sided".parse(), Ok(ReceiverKind::TwoSided), "a name");
-        assert_eq!("glossy:0.3".parse(), Ok(ReceiverKind::Glossy(0.3)), "lobe");
+        assert_eq!(
+            "two-sided".parse(),
+            Ok(BenchReceiverKind::TwoSided),
+            "a name"
+        );
+        assert_eq!(
+            "glossy:0.3".parse(),
+            Ok(BenchReceiverKind::Glossy(0.3)),
+            "lobe"
+        );
         for bad in ["glossy", "glossy:0", "glossy:x", "glossy:NaN", "wet"] {
-            assert!(bad.parse::<ReceiverKind>().is_err(), "{bad}");
+            assert!(bad.parse::<BenchReceiverKind>().is_err(), "{bad}");
         }
     }
 

@@ -3,13 +3,13 @@ use core::fmt;
 use light_sets::BenchSet;
 use lights::glam::Vec3;
 use lights::math::Aabb;
-use rand_core::SeedableRng;
+use lights::math::fraction::to_f64;
+use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::{Value, json};
 
 use super::candidate::Candidate;
 use super::query::Query;
-use super::timing::unit;
 use super::variance::{self, Variance};
 use super::{BenchOptions, extents};
 use crate::{AnyLightSamplerError, SamplerKind};
@@ -106,7 +106,7 @@ fn mean_distance(set: &BenchSet) -> f32 {
 
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
 fn direction(rng: &mut Pcg64Mcg) -> Vec3 {
-    let mut within = || 2.0 * unit(rng) as f32 - 1.0;
+    let mut within = || 2.0 * to_f64(rng.next_u64()) as f32 - 1.0;
     loop {
         let v = Vec3::new(within(), within(), within());
         if (0.01..=1.0).contains(&v.length_squared()) {

@@ -12,7 +12,7 @@ use super::candidate::Candidate;
 const MIN_PASSES: usize = 9;
 
 /// Increment of `u` between passes: the fraction of the golden ratio, which keeps passes apart.
-const TURN: f64 = 0.618_033_988_749_895;
+const TURN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Queries that are timed together.
 const RUN: usize = 64;
@@ -39,7 +39,7 @@ pub(super) fn queries(
     k: u32,
 ) -> Vec<QueryTime> {
     let mut rng = Pcg64Mcg::seed_from_u64(0x7131);
-    let mut us: Vec<f64> = contexts.iter().map(|_| unit(&mut rng)).collect();
+    let mut us: Vec<u64> = contexts.iter().map(|_| rng.next_u64()).collect();
     let plans: Vec<Plan> = candidates
         .iter()
         .map(|candidate| Plan::new(candidate, contexts, &us, &mut rng))
@@ -51,22 +51,22 @@ pub(super) fn queries(
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
         // Each pass uses other `u`, so that the caches do not hold the nodes of the last one.
-        us.iter_mut().for_each(|u| *u = (*u + TURN).fract());
+        us.iter_mut().for_each(|u| *u = u.wrapping_add(TURN));
         for ((candidate, plan), time) in candidates.iter().zip(&plans).zip(&mut times) {
             let asked: Vec<_> = contexts.iter().zip(&us).collect();
             time.sample.pass(&asked, |(ctx, u)| {
                 if k == 1 {
                     black_box(candidate.sampler().sample(ctx, **u));
                 } else {
-                    candidate.sampler().sample_many(ctx, **u, k, &mut |sample| {
+                    for sample in candidate.sampler().at(ctx, k).samples(**u) {
                         black_box(sample);
-                    });
+                    }
                 }
             });
             let pmf = |(ctx, light): &(LightSampleContext, LightId)| {
                 black_box(match k {
                     1 => candidate.sampler().pmf(ctx, *light),
-                    _ => candidate.sampler().pmf_many(ctx, *light, k),
+                    _ => candidate.sampler().at(ctx, k).pmf(*light),
                 });
             };
             time.pmf.pass(&plan.picked, pmf);
@@ -118,11 +118,6 @@ impl Fastest {
     }
 }
 
-/// Uniform in `[0, 1)` with 53 bits.
-pub(super) fn unit(rng: &mut Pcg64Mcg) -> f64 {
-    (rng.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
-}
-
 /// The kind of pmf query.
 struct Plan {
     picked: Vec<(LightSampleContext, LightId)>,
@@ -133,7 +128,7 @@ impl Plan {
     fn new(
         candidate: &Candidate,
         contexts: &[LightSampleContext],
-        us: &[f64],
+        us: &[u64],
         rng: &mut Pcg64Mcg,
     ) -> Self {
         let lights = u64::try_from(candidate.n_lights().max(1)).unwrap_or(u64::MAX);

@@ -1,13 +1,12 @@
 use light_sets::BenchSet;
 use lights::bounds::LightId;
-use rand_core::SeedableRng;
+use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::query::Query;
 use super::statistics::Summary;
-use super::timing::unit;
 
 /// Calls of `k` samples that the variance at one point is estimated from.
 const CALLS: usize = 16;
@@ -89,14 +88,13 @@ pub(super) fn repeated(
                 .sum();
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
+            let here = candidate.sampler().at(&receiver.ctx, k);
             for _ in 0..CALLS {
                 let mut mean = 0.0;
-                candidate
-                    .sampler()
-                    .sample_many(&receiver.ctx, unit(&mut rng), k, &mut |sample| {
-                        let f = query.contribution(&set.lights[sample.light.index()], receiver);
-                        mean += f / f64::from(sample.pmf) / f64::from(k);
-                    });
+                for sample in here.samples(rng.next_u64()) {
+                    let f = query.contribution(&set.lights[sample.light.index()], receiver);
+                    mean += f / f64::from(sample.pmf) / f64::from(k);
+                }
                 squares += (mean - total) * (mean - total) / CALLS as f64;
             }
             AtPoint {

@@ -3,7 +3,9 @@ use core::str::FromStr;
 use std::path::PathBuf;
 
 use crate::SamplerKind;
-use crate::bench::{BenchOptions, BenchRow, GroundTruth, ReceiverKind, RefitRow, bench, refits};
+use crate::bench::{
+    BenchOptions, BenchReceiverKind, BenchRow, GroundTruth, RefitRow, bench, refits,
+};
 use clap::Args;
 use light_sets::{BenchSet, SetKind};
 use serde_json::Value;
@@ -63,7 +65,7 @@ pub(crate) struct BenchArgs {
     /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half
     /// microfacets.
     #[arg(long, default_value = "diffuse")]
-    receiver: ReceiverKind,
+    receiver: BenchReceiverKind,
     /// Spheres that block light, a tenth of the set's volume together; at most 65536.
     #[arg(
         long,

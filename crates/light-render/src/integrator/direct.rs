@@ -2,33 +2,19 @@ use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::bvh::prefetch_item;
 use lights::glam::{Vec2, Vec3};
 use lights::math::distribution::WeightedReservoir;
-use lights::samplers::{LightSampler, PreparedChoices};
+use lights::samplers::{LightChoices, LightSampler};
 use lights::sources::{Light, LightType};
 
 use super::chosen_lights::ChosenLights;
 use super::{Estimator, Traced};
 use crate::{SampleStream, VertexNumbers, World};
 
-/// How lights were chosen at a vertex. It is kept while the path goes on: a light that the next ray
+/// How lights are chosen at a vertex. It is kept while the path goes on: a light that the next ray
 /// finds is weighted by the density of these choices.
-#[derive(Clone, Debug)]
-pub(super) struct LightQuery {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightQuery<'a> {
     ctx: LightSampleContext,
-    /// How many lights were chosen at once; not 0.
-    count: u32,
-    /// Results of the sampler for `ctx` and `count`.
-    prepared: PreparedChoices,
-}
-
-impl Default for LightQuery {
-    /// The query of one light at the origin, without prepared results.
-    fn default() -> Self {
-        Self {
-            ctx: LightSampleContext::medium(Vec3::ZERO),
-            count: 1,
-            prepared: PreparedChoices::default(),
-        }
-    }
+    choices: LightChoices<'a>,
 }
 
 /// Next-event estimation: direct light by the lights that a sampler chooses.
@@ -93,28 +79,24 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         }
     }
 
-    /// Chooses `count` lights at `ctx`, prefetches their data, and overwrites `query` with the
-    /// choice.
+    /// The choice of `count` lights at `ctx`.
     #[inline]
-    pub(super) fn choose(
-        &self,
-        ctx: LightSampleContext,
-        count: u32,
-        numbers: &VertexNumbers,
-        query: &mut LightQuery,
-    ) -> ChosenLights {
+    pub(super) fn query(&self, ctx: LightSampleContext, count: u32) -> LightQuery<'a> {
+        let choices = self.sampler.at(&ctx, count);
+        LightQuery { ctx, choices }
+    }
+
+    /// Chooses the lights of `query`, and prefetches their data.
+    #[inline]
+    pub(super) fn choose(&self, query: &LightQuery<'_>, numbers: &VertexNumbers) -> ChosenLights {
         let lights = self.world.lights();
         let mut chosen = ChosenLights::default();
-        let mut each = |choice: SampledLight| {
+        for choice in query.choices.samples(numbers.light) {
             if let Some(corners) = lights.corners(choice.light) {
                 prefetch_item(corners);
             }
             chosen.push(choice);
-        };
-        (query.ctx, query.count) = (ctx, count);
-        let prepared = &mut query.prepared;
-        self.sampler
-            .sample_many_prepared(&ctx, numbers.light, count, prepared, &mut each);
+        }
         chosen
     }
 
@@ -126,7 +108,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     #[inline]
     pub(super) fn sample<V: Scatters>(
         &self,
-        query: &LightQuery,
+        query: &LightQuery<'_>,
         chosen: &ChosenLights,
         vertex: &Vertex<'_, V>,
         numbers: &VertexNumbers,
@@ -137,7 +119,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         // Resampling: a candidate is tested with a probability in proportion to its contribution.
         let mut candidates = WeightedReservoir::new(numbers.shadow.into());
         for (number, choice) in (0..).zip(chosen.iter()) {
-            let point = stream.light_point(vertex.number, number, query.count);
+            let point = stream.light_point(vertex.number, number, query.choices.count());
             if let Some(candidate) = unshadowed(world, estimator, query, vertex, choice, point) {
                 candidates.add(candidate, candidate.radiance.element_sum());
             }
@@ -155,17 +137,12 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     /// The density of light samples, in sr^-1, that the choices of `query` have in the direction
     /// `wi` toward `light`: the expected number of samples per solid angle.
     #[inline]
-    pub(super) fn density(&self, query: &LightQuery, light: LightId, wi: Vec3) -> f32 {
-        let LightQuery {
-            ctx,
-            count,
-            prepared,
-        } = query;
+    pub(super) fn density(&self, query: &LightQuery<'_>, light: LightId, wi: Vec3) -> f32 {
+        let LightQuery { ctx, choices } = query;
         let Some(source) = self.world.lights().get(light) else {
             return 0.0;
         };
-        let pmf = self.sampler.pmf_many_prepared(ctx, light, *count, prepared);
-        let pmf = *count as f32 * pmf;
+        let pmf = choices.count() as f32 * choices.pmf(light);
         if pmf > 0.0 {
             pmf * source.pdf_li(ctx, wi, self.estimator.coverage())
         } else {
@@ -180,7 +157,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
 fn unshadowed<V: Scatters>(
     world: &World,
     estimator: Estimator,
-    query: &LightQuery,
+    query: &LightQuery<'_>,
     vertex: &Vertex<'_, V>,
     choice: SampledLight,
     u_point: Vec2,
@@ -196,7 +173,7 @@ fn unshadowed<V: Scatters>(
     if scattered == Vec3::ZERO {
         return None;
     }
-    let density = query.count as f32 * choice.pmf * sample.pdf;
+    let density = query.choices.count() as f32 * choice.pmf * sample.pdf;
     let kind = light.light_type();
     let weight = if kind.is_delta() {
         1.0
@@ -216,5 +193,6 @@ fn unshadowed<V: Scatters>(
 /// light either.
 #[inline]
 fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
-    (p_light - ctx.p).dot(ctx.n).abs() < ctx.n.abs().dot(ctx.p_error)
+    ctx.n()
+        .is_some_and(|n| (p_light - ctx.p).dot(n).abs() < n.abs().dot(ctx.p_error))
 }

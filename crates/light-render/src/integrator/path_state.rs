@@ -30,7 +30,7 @@ pub(super) struct PathState<'a, S> {
     pub(super) throughput: Vec3,
     direct: DirectLight<'a, S>,
     /// The light query of the vertex that the current segment leaves.
-    query: LightQuery,
+    query: Option<LightQuery<'a>>,
     /// Density in sr^-1 of the direction of the current segment; `None` for camera rays and Dirac
     /// scattering, where light samples cannot find the same light.
     pdf: Option<f32>,
@@ -49,7 +49,7 @@ impl<'a, S: LightSampler> PathState<'a, S> {
             traced: Traced::default(),
             throughput: Vec3::ONE,
             direct: DirectLight::new(world, sampler, settings.estimator),
-            query: LightQuery::default(),
+            query: None,
             pdf: None,
             count: settings.first_choices(world),
         }
@@ -89,14 +89,15 @@ impl<'a, S: LightSampler> PathState<'a, S> {
         let is_dirac = vertex.is_dirac();
         let chosen = if !is_dirac && self.direct.estimator.samples_lights() {
             let ctx = vertex.light_context(self.direct.world, wo);
-            let query = &mut self.query;
-            Some(self.direct.choose(ctx, self.count, &numbers, query))
+            let query = self.query.insert(self.direct.query(ctx, self.count));
+            let chosen = self.direct.choose(query, &numbers);
+            Some((&*query, chosen))
         } else {
             None
         };
         // Before the lights are read, which the choice has prefetched.
         let sample = vertex.sample(wo, numbers.lobe, numbers.direction);
-        if let Some(chosen) = &chosen {
+        if let Some((query, chosen)) = &chosen {
             let at = Vertex {
                 scattering: vertex,
                 wo,
@@ -104,7 +105,7 @@ impl<'a, S: LightSampler> PathState<'a, S> {
             };
             let lit = self
                 .direct
-                .sample(&self.query, chosen, &at, &numbers, stream, arrived);
+                .sample(query, chosen, &at, &numbers, stream, arrived);
             self.traced.radiance += self.throughput * lit.radiance;
             self.traced.rays += lit.rays;
         }
@@ -127,10 +128,10 @@ impl<'a, S: LightSampler> PathState<'a, S> {
     /// The weight of the light `light` that the current segment finds in the direction `wi`.
     #[inline]
     fn light_weight(&self, light: LightId, wi: Vec3) -> f32 {
-        let Some(pdf) = self.pdf else {
+        let (Some(pdf), Some(query)) = (self.pdf, &self.query) else {
             return 1.0;
         };
-        let density = || self.direct.density(&self.query, light, wi);
+        let density = || self.direct.density(query, light, wi);
         self.direct.estimator.bsdf_weight(pdf, density)
     }
 }

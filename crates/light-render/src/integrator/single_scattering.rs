@@ -5,7 +5,7 @@ use lights::media::{Span, StepSize, Visibility, VolumeIntegrator, VolumeLight};
 use lights::samplers::LightSampler;
 use lights::sources::{LightType, Rgb};
 
-use super::direct::{DirectLight, LightQuery, Vertex};
+use super::direct::{DirectLight, Vertex};
 use super::path_state::PathVertex;
 use super::sky::sky;
 use super::transmittance::transmittance;
@@ -46,14 +46,14 @@ pub(crate) fn trace_single_scattering<S: LightSampler>(
             if !vertex.is_dirac() {
                 let ctx = vertex.light_context(world, wo);
                 let count = settings.first_choices(world);
-                let mut query = LightQuery::default();
+                let query = direct.query(ctx, count);
                 let at = Vertex {
                     scattering: &vertex,
                     wo,
                     number: 0,
                 };
                 let numbers = stream.vertex(0);
-                let chosen = direct.choose(ctx, count, &numbers, &mut query);
+                let chosen = direct.choose(&query, &numbers);
                 let lit = direct.sample(&query, &chosen, &at, &numbers, stream, |light| {
                     let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
                     let target = is_near.then_some(light.p_light);

@@ -1,4 +1,6 @@
 use super::*;
+use alloc::vec::Vec;
+use light_math::fraction;
 
 fn floor() -> LightSampleContext {
     LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
@@ -7,7 +9,7 @@ fn floor() -> LightSampleContext {
 #[test]
 fn a_uniform_sky_gives_pi_times_its_radiance() {
     let e = irradiance(&InfiniteBounds::uniform(2.0), &floor());
-    assert!((e - core::f64::consts::TAU).abs() < 1e-5, "{e}");
+    assert!((e - core::f32::consts::TAU).abs() < 1e-5, "{e}");
 }
 
 #[test]
@@ -73,49 +75,75 @@ fn narrow_cones_count_to_their_edge() {
     }
 }
 
-/// A tree of weight 2, and lights of fluence 1, 2 and 5.
-#[test]
-fn each_choice_has_its_share_of_u() {
-    let lights = [1.0, 0.0, 2.0, 5.0].map(|fluence| {
+/// Lights of fluence 1, 2 and 5, and one that is dark.
+fn sky() -> [LightExtent; 4] {
+    [1.0, 0.0, 2.0, 5.0].map(|fluence| {
         LightExtent::Infinite(InfiniteBounds {
             fluence,
             ..InfiniteBounds::uniform(1.0)
         })
-    });
-    let sky = InfiniteLights::new(&lights);
-    let fluence = |bounds: &InfiniteBounds| f64::from(bounds.fluence);
+    })
+}
+
+/// Beside a tree of weight 2.
+#[test]
+fn each_choice_has_its_share_of_u() {
+    let lights: Vec<InfiniteLight> = emitting(&sky()).collect();
+    let sky = InfiniteLights::new(&lights).expect("in order");
+    let fluence = |bounds: &InfiniteBounds| bounds.fluence;
+    // Of four weights at most five parts of 2^16 go elsewhere.
+    const PARTS: f32 = 5.0 / 65536.0;
     for (u, light, pmf, rest) in [
         (0.1, None, 0.2, 0.5),
         (0.25, Some(0), 0.1, 0.5),
         (0.35, Some(2), 0.2, 0.25),
         (0.75, Some(3), 0.5, 0.5),
         (0.999, Some(3), 0.5, 0.998),
-        // What rounding leaves beyond the end.
-        (1.0, Some(3), 0.5, SampledLight::MAX_U),
     ] {
-        let (chosen, chosen_pmf, chosen_u) = match sky.first(u, 2.0, fluence) {
+        let first = sky.first(fraction::from_f64(u), 2.0, fluence);
+        let (chosen, chosen_pmf, chosen_u) = match first.expect("a light") {
             FirstChoice::Others { pmf, u } => (None, pmf, u),
-            FirstChoice::Infinite(choice) => {
-                let SampledLight { light, pmf, u } = choice.expect("a light");
-                (Some(light.0), pmf, u)
-            }
+            FirstChoice::Infinite(light) => (Some(light.light.0), light.pmf, light.u),
         };
-        assert_eq!((chosen, chosen_pmf), (light, pmf), "{u}");
-        assert!((chosen_u - rest).abs() < 1e-9, "{u}: {chosen_u} is left");
+        assert_eq!(chosen, light, "{u}");
+        assert!((chosen_pmf - pmf).abs() <= PARTS, "{u}: {chosen_pmf}");
+        let chosen_u = fraction::to_f32(chosen_u);
+        assert!(
+            (chosen_u - rest).abs() < 20.0 * PARTS,
+            "{u}: {chosen_u} is left"
+        );
     }
     let pmf = |light| match sky.first_pmf(LightId(light), 2.0, fluence) {
         FirstPmf::Others(pmf) => -pmf,
         FirstPmf::Infinite(pmf) => pmf,
     };
     // A light without fluence is none of these.
-    assert_eq!([0, 1, 2, 3].map(pmf), [0.1, -0.2, 0.2, 0.5], "pmfs");
+    for (light, expected) in [(0, 0.1), (1, -0.2), (2, 0.2), (3, 0.5)] {
+        let found = pmf(light);
+        assert!((found - expected).abs() <= PARTS, "{light}: {found}");
+    }
 }
 
 #[test]
-fn only_what_has_no_weight_has_no_share() {
-    assert_eq!(share(0.0, 5.0), 0.0, "none");
-    assert_eq!(share(1.0, 4.0), 0.25, "a quarter");
-    assert_eq!(share(1e-30, 1e30), f32::MIN_POSITIVE, "never nothing");
+fn lights_out_of_order_or_without_valid_bounds_are_refused() {
+    let lights: Vec<InfiniteLight> = emitting(&sky()).collect();
+    let swapped = [lights[1], lights[0]];
+    let error = InfiniteLights::new(&swapped).map(|_| ());
+    assert_eq!(error, Err(InfiniteLightsError::Order), "swapped");
+    let twice = [lights[0], lights[0]];
+    let error = InfiniteLights::new(&twice).map(|_| ());
+    assert_eq!(error, Err(InfiniteLightsError::Order), "twice");
+    let mut bad = lights[0];
+    bad.bounds.fluence = f32::NAN;
+    let error = InfiniteLights::new(core::slice::from_ref(&bad)).expect_err("no fluence");
+    let is_named = matches!(
+        error,
+        InfiniteLightsError::Bounds {
+            light: LightId(0),
+            ..
+        }
+    );
+    assert!(is_named, "{error}");
 }
 
 /// On a two-sided surface a light counts by its distance from the horizon, or by its spread.

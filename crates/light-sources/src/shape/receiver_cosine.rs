@@ -29,7 +29,7 @@ impl ReceiverCosine {
     #[inline]
     pub(super) fn toward(ctx: &LightSampleContext, directions: [Vec3; 4]) -> Self {
         let cosine = |ns: Vec3| directions.map(|w| w.dot(ns).abs().max(SMALLEST));
-        Self(ctx.unit_ns().map(cosine))
+        Self(ctx.ns().map(cosine))
     }
 
     /// The mean cosine over the square, 1 in a medium.

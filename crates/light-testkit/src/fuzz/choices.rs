@@ -1,4 +1,5 @@
 use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+use light_math::fraction;
 
 use crate::may_contribute::may_contribute;
 
@@ -17,7 +18,7 @@ const GRID: u32 = 128;
 pub(super) enum Share {
     /// One interval, as wide as the pmf.
     Interval,
-    /// Several, as of a reservoir or of an alias table.
+    /// Several, as of an alias table.
     Scattered,
 }
 
@@ -25,7 +26,7 @@ pub(super) enum Share {
 pub(super) struct Choice<'a> {
     /// Name of the query, for messages.
     pub(super) name: &'a str,
-    pub(super) sample: &'a dyn Fn(f64) -> Option<SampledLight>,
+    pub(super) sample: &'a dyn Fn(u64) -> Option<SampledLight>,
     pub(super) pmf: &'a dyn Fn(LightId) -> f32,
     /// How many lights there are.
     pub(super) count: u32,
@@ -34,9 +35,8 @@ pub(super) struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// Checks the sample at `u`: its light is known, its pmf has the bits of the queried one, and
-    /// the unused part of `u` is in `[0, 1)`.
-    pub(super) fn checked(&self, u: f64) -> Option<SampledLight> {
+    /// Checks the sample at `u`: its light is known, and its pmf has the bits of the queried one.
+    pub(super) fn checked(&self, u: u64) -> Option<SampledLight> {
         let chosen = (self.sample)(u)?;
         let asked = (self.pmf)(chosen.light);
         let name = self.name;
@@ -50,7 +50,7 @@ impl Choice<'_> {
             "{name}: {chosen:?} at {u}, but the queried pmf is {asked}"
         );
         assert!(
-            chosen.pmf > 0.0 && chosen.pmf <= 1.0 && (0.0..1.0).contains(&chosen.u),
+            chosen.pmf > 0.0 && chosen.pmf <= 1.0,
             "{name}: {chosen:?} at {u} is out of range"
         );
         Some(chosen)
@@ -82,10 +82,10 @@ impl Choice<'_> {
     ///
     /// So the pmfs and the probability of `None` sum to one: a grid of `u` meets each interval that
     /// is wider than its step.
-    pub(super) fn shares_fill_the_unit(&self, us: &[f64]) {
+    pub(super) fn shares_fill_the_unit(&self, us: &[u64]) {
         let (sum, name) = (self.sum(), self.name);
         let mut found: Vec<Interval> = Vec::new();
-        let mut is_some = |u: f64| {
+        let mut is_some = |u: u64| {
             let chosen = self.checked(u);
             if let Some(chosen) = &chosen {
                 if self.share == Share::Interval {
@@ -94,11 +94,11 @@ impl Choice<'_> {
             }
             chosen.is_some()
         };
-        for u in [0.0, SampledLight::MAX_U].iter().chain(us) {
+        for u in [0, u64::MAX].iter().chain(us) {
             is_some(*u);
         }
         let step = 1.0 / f64::from(GRID);
-        let none = (0..GRID).filter(|i| !is_some((f64::from(*i) + 0.5) * step));
+        let none = (0..GRID).filter(|i| !is_some(fraction::stratum(*i, GRID, 1 << 63)));
         let none = none.count() as f64 * step;
         for id in (0..self.count).map(LightId) {
             let pmf = f64::from((self.pmf)(id));
@@ -144,9 +144,9 @@ struct Interval {
 
 impl Interval {
     /// By the place that `u` has in it.
-    fn of(u: f64, chosen: &SampledLight) -> Self {
+    fn of(u: u64, chosen: &SampledLight) -> Self {
         let pmf = f64::from(chosen.pmf);
-        let start = u - chosen.u * pmf;
+        let start = fraction::to_f64(u) - fraction::to_f64(chosen.u) * pmf;
         Self {
             light: chosen.light,
             start,
@@ -173,4 +173,58 @@ fn add(found: &mut Vec<Interval>, new: Interval, name: &str) {
         assert!(overlap <= GAP, "{name}: {new:?} and {old:?} overlap");
     }
     found.push(new);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::panic::AssertUnwindSafe;
+    use std::panic::catch_unwind;
+
+    /// Whether a choice of three lights passes, of which `change` makes another.
+    fn passes(change: impl Fn(u64, SampledLight) -> Option<SampledLight>) -> bool {
+        let sample = |u| {
+            let (light, rest) = fraction::choose(3, u);
+            let chosen = SampledLight {
+                light: LightId(light),
+                pmf: 1.0 / 3.0,
+                u: rest,
+            };
+            change(u, chosen)
+        };
+        let choice = Choice {
+            name: "thirds",
+            sample: &sample,
+            pmf: &|light| if light.0 < 3 { 1.0 / 3.0 } else { 0.0 },
+            count: 3,
+            share: Share::Interval,
+        };
+        let check = || choice.shares_fill_the_unit(&[1 << 62]);
+        catch_unwind(AssertUnwindSafe(check)).is_ok()
+    }
+
+    #[test]
+    fn faults_are_found() {
+        assert!(passes(|_, chosen| Some(chosen)), "a right choice");
+        assert!(
+            !passes(|u, chosen| Some(SampledLight { u, ..chosen })),
+            "the same u is left"
+        );
+        assert!(
+            !passes(|_, chosen| Some(SampledLight {
+                pmf: 0.33,
+                ..chosen
+            })),
+            "another pmf than the queried one"
+        );
+        assert!(
+            !passes(|_, chosen| (chosen.light.0 < 2).then_some(chosen)),
+            "none in place of the last"
+        );
+        let light = LightId(0);
+        assert!(
+            !passes(|_, chosen| Some(SampledLight { light, ..chosen })),
+            "always the first"
+        );
+    }
 }

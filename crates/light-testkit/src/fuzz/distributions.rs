@@ -1,9 +1,9 @@
-use light_math::discrete;
 use light_math::distribution::{
     AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, Window,
     WindowedPiecewiseConstant2D,
 };
 use light_math::glam::Vec2;
+use light_math::{discrete, fraction};
 
 use super::input::Input;
 
@@ -14,11 +14,11 @@ const MAX_CELLS: usize = 64;
 pub(super) fn distributions(data: &[u8]) {
     let mut input = Input::new(data);
     let us = [
-        input.unit(),
-        input.unit(),
-        input.unit(),
-        0.0,
-        light_math::float::ONE_MINUS_EPSILON,
+        input.fraction(),
+        input.fraction(),
+        input.fraction(),
+        0,
+        u64::MAX,
     ];
     let width = usize::from(input.byte() % 8 + 1);
     let corners = [input.unit(), input.unit(), input.unit(), input.unit()];
@@ -27,44 +27,71 @@ pub(super) fn distributions(data: &[u8]) {
         weights.push(input.f32());
     }
     check_discrete(&weights, &us);
+    check_alias_table(&weights, &us);
+    let us = us.map(fraction::to_f32);
     check_1d(&weights, &us);
     let height = weights.len() / width;
     check_2d(&weights[..width * height], [width, height], &us, corners);
 }
 
-fn check_discrete(weights: &[f32], us: &[f32]) {
-    let valid: Vec<f32> = weights
-        .iter()
-        .map(|w| if *w >= 0.0 && w.is_finite() { *w } else { 0.0 })
+/// So few weights are shared out by one choice: each owns as many parts of 2^16 as its probability
+/// says, in their order, and what is left of `u` is its place among them, rounded down.
+fn check_discrete(weights: &[f32], us: &[u64]) {
+    let pmfs: Vec<f32> = (0..weights.len())
+        .map(|i| discrete::pmf(weights, i))
         .collect();
-    for &u in us {
-        if let Some(chosen) = discrete::sample(&valid, f64::from(u)) {
-            let asked = discrete::pmf(&valid, chosen.index);
-            assert_eq!(
-                chosen.pmf.to_bits(),
-                asked.to_bits(),
-                "{chosen:?} of {valid:?}"
-            );
-            assert!(
-                valid[chosen.index] > 0.0,
-                "{chosen:?} of {valid:?} has no weight"
-            );
-        }
+    let parts: Vec<u128> = pmfs
+        .iter()
+        .map(|&pmf| (pmf * discrete::PARTS as f32) as u128)
+        .collect();
+    for (&weight, &pmf) in weights.iter().zip(&pmfs) {
+        assert_eq!(pmf > 0.0, weight > 0.0, "{pmf} for {weight} of {weights:?}");
     }
-    if let Ok(table) = AliasTable::new(weights) {
-        for &u in us {
-            let chosen = table.sample(f64::from(u));
-            let asked = table.pmf(chosen.index);
-            assert_eq!(
-                chosen.pmf.to_bits(),
-                asked.to_bits(),
-                "{chosen:?} of {weights:?}"
-            );
-            assert!(
-                chosen.pmf > 0.0 && (0.0..1.0).contains(&chosen.u),
-                "{chosen:?} of {weights:?}"
-            );
-        }
+    let is_some = weights.iter().any(|&w| w > 0.0);
+    let sum: f64 = pmfs.iter().map(|&pmf| f64::from(pmf)).sum();
+    let all = f64::from(u8::from(is_some));
+    assert_eq!(sum, all, "pmfs of {weights:?}: {pmfs:?}");
+    for &u in us {
+        let chosen = discrete::sample(weights, u);
+        assert_eq!(chosen.is_some(), is_some, "{u} of {weights:?}");
+        let Some(chosen) = chosen else { continue };
+        let own = parts[chosen.index];
+        let start = parts[..chosen.index].iter().sum::<u128>() << 48;
+        let place = u128::from(u).checked_sub(start).map(|place| place << 16);
+        let rest = u128::from(chosen.u);
+        assert!(
+            place.is_some_and(|place| (rest * own..(rest + 1) * own).contains(&place))
+                && chosen.pmf.to_bits() == pmfs[chosen.index].to_bits(),
+            "{chosen:?} for {u} of {weights:?}, which have {pmfs:?}"
+        );
+    }
+}
+
+/// The parts of the bins that lead to an index are its probability.
+fn check_alias_table(weights: &[f32], us: &[u64]) {
+    let Ok(table) = AliasTable::new(weights) else {
+        return;
+    };
+    let mut parts = vec![0; weights.len()];
+    for (index, bin) in table.bins().iter().enumerate() {
+        parts[index] += bin.own;
+        parts[bin.alias as usize] += discrete::PARTS - bin.own;
+    }
+    let all = weights.len() as f64 * f64::from(discrete::PARTS);
+    for (index, (&parts, &weight)) in parts.iter().zip(weights).enumerate() {
+        let pmf = table.pmf(index);
+        assert!(
+            pmf == (f64::from(parts) / all) as f32 && (parts > 0) == (weight > 0.0),
+            "{pmf} for {parts} parts of {index} of {weights:?}"
+        );
+    }
+    for &u in us {
+        let chosen = table.sample(u);
+        let asked = table.pmf(chosen.index);
+        assert!(
+            chosen.pmf.to_bits() == asked.to_bits() && chosen.pmf > 0.0,
+            "{chosen:?} for {u}, asked {asked}, of {weights:?}"
+        );
     }
 }
 

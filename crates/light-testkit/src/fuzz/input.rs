@@ -3,7 +3,7 @@ use light_bounds::{
     EmissionLobe, Gloss, InfiniteBounds, LightBounds, LightExtent, LightSampleContext,
 };
 use light_math::glam::Vec3;
-use light_math::{Aabb, DirectionCone};
+use light_math::{Aabb, DirectionCone, fraction};
 
 /// Values read from the bytes of the fuzzer; zeros when they run out.
 pub(super) struct Input<'a> {
@@ -191,6 +191,12 @@ impl<'a> Input<'a> {
     /// A random number in `[0, 1)`.
     pub(super) fn unit(&mut self) -> f32 {
         (self.u32() >> 8) as f32 / 16_777_216.0
+    }
+
+    /// A random number of 64 bits, of which the upper 24 are those of [`unit`](Self::unit).
+    pub(super) fn fraction(&mut self) -> u64 {
+        let high = self.u32();
+        fraction::from_words(high, high.wrapping_mul(0x9e37_79b9))
     }
 
     /// A cosine.

@@ -1,4 +1,4 @@
-use light_bounds::{LightExtent, LightSampleContext};
+use light_bounds::{LightExtent, LightSampleContext, ReceiverKind};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
 use light_sources::shape::Shape;
@@ -82,15 +82,14 @@ fn point(input: &mut Input<'_>) -> Vec2 {
     Vec2::new(u(), u())
 }
 
-/// Near enough, with unit normals or none: the laws hold for these receivers only.
+/// Near enough: the laws hold for these receivers only.
 fn is_somewhere(ctx: &LightSampleContext) -> bool {
-    let is_normal = |n: Vec3| n == Vec3::ZERO || n.is_normalized();
     let is_near = |v: Vec3| v.abs().max_element() <= FAR;
-    is_near(ctx.p)
-        && is_near(ctx.segment)
-        && ctx.p_error.max_element() <= 1.0
-        && is_normal(ctx.n)
-        && is_normal(ctx.ns)
+    let is_short = match *ctx.kind() {
+        ReceiverKind::Segment { extent, .. } => is_near(extent),
+        _ => true,
+    };
+    is_near(ctx.p) && is_short && ctx.p_error.max_element() <= 1.0
 }
 
 fn check_power(light: &LightRef<'_, Rgb>) {
@@ -126,7 +125,7 @@ fn check_samplers(set: &LightSet<Rgb>, contexts: &[LightSampleContext], us: &[Ve
         for (id, light) in set.iter() {
             let arrives = us.iter().find_map(|&u| {
                 let sample = light.sample_li(ctx, u, &(), PdfCoverage::Complete)?;
-                let above = ctx.is_medium() || ctx.ns.dot(sample.wi) > 1e-4;
+                let above = ctx.ns().is_none_or(|ns| ns.dot(sample.wi) > 1e-4);
                 // A contribution that is not a positive float counts as none.
                 let irradiance = sample.l.max_element() / sample.pdf;
                 let is_light = irradiance > 1e-30 && has_power(&light, sample.l);

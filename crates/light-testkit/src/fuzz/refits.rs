@@ -13,8 +13,8 @@ const MAX_LIGHTS: usize = 24;
 /// Changes of the lights that one input may hold.
 const MAX_STEPS: usize = 3;
 
-/// How far shares of lights at infinity, and of all others together, may be from each other: they
-/// follow from powers in double precision.
+/// How far the share of all lights of a tree may be from that of another's: the probabilities that
+/// add up to it are rounded.
 const SHARE_ROUNDING: f64 = 2e-5;
 
 /// The largest coordinate that the default tree takes.
@@ -35,7 +35,7 @@ pub fn refits(data: &[u8]) {
     let mut input = Input::new(data);
     let options = options(&mut input);
     let contexts = [input.receiver()];
-    let us = [f64::from(input.unit())];
+    let us = [input.fraction()];
     let count = input.below(MAX_LIGHTS) + 1;
     let first: Vec<LightExtent> = (0..count).map(|_| input.scene_extent()).collect();
     let mut tree = BvhLightSampler::with(&first, &options).expect("valid lights");
@@ -132,7 +132,7 @@ fn compare(
     lights: &[LightExtent],
     options: &LightBvhOptions,
     contexts: &[LightSampleContext],
-    us: &[f64],
+    us: &[u64],
 ) {
     let rebuilt = BvhLightSampler::with(lights, options).expect("valid lights");
     check(
@@ -143,17 +143,17 @@ fn compare(
         us,
     );
     let powers = [refit, &rebuilt].map(|sampler| sampler.tree().power());
-    assert!(
-        (powers[0] - powers[1]).abs() <= 1e-9 * powers[1],
-        "{powers:?} after a refit and of a rebuilt tree"
+    assert_eq!(
+        powers[0], powers[1],
+        "after a refit and of a rebuilt tree: {lights:?}"
     );
     let [mut tree_of_refit, mut tree_of_rebuilt] = [0.0; 2];
     for (id, light) in (0..).map(LightId).zip(lights) {
         let [a, b] = [refit, &rebuilt].map(|sampler| f64::from(sampler.pmf_emitter(id)));
         if light.infinite().is_some() {
-            assert!(
-                (a - b).abs() <= SHARE_ROUNDING * b,
-                "{id:?} emits with {a} after a refit, {b} when rebuilt: {light:?} of {lights:?}"
+            assert_eq!(
+                a, b,
+                "{id:?} emits after a refit and when rebuilt: {light:?} of {lights:?}"
             );
         } else {
             tree_of_refit += a;
@@ -171,7 +171,7 @@ fn answers(
     sampler: &BvhLightSampler,
     lights: &[LightExtent],
     ctx: &LightSampleContext,
-) -> (u64, Vec<[u32; 2]>) {
+) -> (u32, Vec<[u32; 2]>) {
     let ids = (0..lights.len() as u32).map(LightId);
     let pmfs = ids.map(|id| [sampler.pmf(ctx, id), sampler.pmf_emitter(id)].map(f32::to_bits));
     (sampler.tree().power().to_bits(), pmfs.collect())

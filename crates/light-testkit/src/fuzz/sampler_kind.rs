@@ -1,13 +1,10 @@
-use core::cell::RefCell;
-
-use light_bounds::{LightExtent, LightId, LightSampleContext};
-use light_math::glam::Vec3;
-use light_samplers::{LightSampler, PreparedChoices};
+use light_bounds::{LightExtent, LightId, LightSampleContext, ReceiverKind};
+use light_math::fraction::stratum;
+use light_samplers::LightSampler;
 
 use super::choices::{Choice, Share};
-use crate::may_contribute;
 
-/// How many lights are chosen at once: one by itself, and several by a cut.
+/// How many lights are chosen at a receiver: one by itself, and several by a cut.
 const COUNTS: [u32; 2] = [1, 3];
 
 /// What a light emits.
@@ -62,7 +59,7 @@ pub(super) fn check(
     sampler: &impl LightSampler,
     lights: &[LightExtent],
     contexts: &[LightSampleContext],
-    us: &[f64],
+    us: &[u64],
 ) {
     let (count, name, share) = (lights.len() as u32, kind.name, kind.share);
     Choice {
@@ -79,7 +76,6 @@ pub(super) fn check(
             "{name}: {id:?} emits and is never chosen to: {light:?}"
         );
     }
-    let prepared = RefCell::new(PreparedChoices::default());
     for ctx in contexts {
         let choice = Choice {
             name: &format!("{name} at {ctx:?}"),
@@ -91,75 +87,56 @@ pub(super) fn check(
         choice.shares_fill_the_unit(us);
         choice.contributing_lights_are_possible(lights, &received(kind, ctx));
         for k in COUNTS {
-            check_many(kind, sampler, lights, ctx, us, k, &prepared);
+            check_several(kind, sampler, lights, ctx, us, k);
         }
     }
 }
 
 /// The context for which the sampler chooses.
 fn received(kind: Kind, ctx: &LightSampleContext) -> LightSampleContext {
-    match kind.segments {
-        Segments::Whole => *ctx,
-        Segments::Start => LightSampleContext {
-            segment: Vec3::ZERO,
-            ..*ctx
-        },
+    match (kind.segments, ctx.kind()) {
+        (Segments::Start, ReceiverKind::Segment { .. }) => {
+            LightSampleContext::medium(ctx.p).with_error(ctx.p_error)
+        }
+        _ => *ctx,
     }
 }
 
-/// `k` choices at once, and their pmfs with and without prepared choices.
-fn check_many(
+/// `k` choices at one receiver: one in each stratum, all with the same pmfs, which are those of
+/// single choices if `k` is one.
+fn check_several(
     kind: Kind,
     sampler: &impl LightSampler,
     lights: &[LightExtent],
     ctx: &LightSampleContext,
-    us: &[f64],
+    us: &[u64],
     k: u32,
-    prepared: &RefCell<PreparedChoices>,
 ) {
-    let name = kind.name;
-    let received = received(kind, ctx);
+    let here = sampler.at(ctx, k);
+    let choice = Choice {
+        name: &format!("{}: {k} choices at {ctx:?}", kind.name),
+        sample: &|u| here.sample(u),
+        pmf: &|light| here.pmf(light),
+        count: lights.len() as u32,
+        share: kind.share,
+    };
+    choice.shares_fill_the_unit(us);
+    choice.contributing_lights_are_possible(lights, &received(kind, ctx));
+    let name = choice.name;
+    assert_eq!(here.count(), k, "{name}");
+    let again = sampler.at(ctx, k);
     for &u in us {
-        let mut plain = Vec::new();
-        sampler.sample_many(ctx, u, k, &mut |light| plain.push(light));
-        let mut looked = Vec::new();
-        let prepared = &mut *prepared.borrow_mut();
-        sampler.sample_many_prepared(ctx, u, k, prepared, &mut |light| looked.push(light));
-        assert_eq!(
-            plain, looked,
-            "{name}: {k} lights with a prepared at {ctx:?}"
-        );
-        assert!(
-            plain.len() <= k as usize,
-            "{name}: more than {k} at {ctx:?}"
-        );
-        for chosen in &plain {
-            let asked = sampler.pmf_many(ctx, chosen.light, k);
-            assert!(
-                chosen.pmf.to_bits() == asked.to_bits()
-                    && chosen.pmf > 0.0
-                    && (0.0..1.0).contains(&chosen.u),
-                "{name}: {chosen:?} of {k}, but the queried pmf is {asked} at {ctx:?}"
-            );
+        let one_by_one = (0..k).filter_map(|i| choice.checked(stratum(i, k, u)));
+        assert!(here.samples(u).eq(one_by_one), "{name}: by strata of {u}");
+        assert!(again.samples(u).eq(here.samples(u)), "{name}: again by {u}");
+        if k == 1 {
+            assert_eq!(here.sample(u), sampler.sample(ctx, u), "{name}: by {u}");
         }
-        let mut sum = 0.0;
-        for (id, light) in (0..).map(LightId).zip(lights) {
-            let pmf = sampler.pmf_many(ctx, id, k);
-            let with_look = sampler.pmf_many_prepared(ctx, id, k, prepared);
-            let without = sampler.pmf_many_prepared(ctx, id, k, &PreparedChoices::default());
-            assert!(
-                pmf.to_bits() == with_look.to_bits() && pmf.to_bits() == without.to_bits(),
-                "{name}: {pmf}, {with_look} and {without} of {id:?} and {k} at {ctx:?}"
-            );
-            assert!(
-                pmf > 0.0 || !may_contribute(light, &received),
-                "{name}: {id:?} may contribute and has pmf {pmf} of {k}: {light:?} at {ctx:?}"
-            );
-            sum += f64::from(pmf);
+    }
+    if k == 1 {
+        for id in (0..choice.count).map(LightId) {
+            let pmfs = [here.pmf(id), sampler.pmf(ctx, id)].map(f32::to_bits);
+            assert_eq!(pmfs[0], pmfs[1], "{name}: {id:?}");
         }
-        assert!(
-            sum <= 1.0 + 2e-5,
-            "{name}: pmfs of {k} sum to {sum} at {ctx:?}"
-        );
     }
 }

@@ -1,6 +1,7 @@
 //! The laws of light samplers, each a function of a sampler and of the lights it was built from.
 
 use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_math::fraction;
 use light_samplers::LightSampler;
 
 use crate::{Rng, SamplerCase, chi_squared, edge_cases, kolmogorov_smirnov_uniform};
@@ -12,7 +13,7 @@ fn queries(set: &SamplerCase) -> impl Iterator<Item = Query> {
     set.contexts.iter().copied().map(Some).chain([None])
 }
 
-fn sample(sampler: &impl LightSampler, query: &Query, u: f64) -> Option<SampledLight> {
+fn sample(sampler: &impl LightSampler, query: &Query, u: u64) -> Option<SampledLight> {
     match query {
         Some(ctx) => sampler.sample(ctx, u),
         None => sampler.sample_emitter(u),
@@ -26,17 +27,16 @@ fn pmf(sampler: &impl LightSampler, query: &Query, light: LightId) -> f32 {
     }
 }
 
-/// A sample is of a light of the set, its pmf has the bits of the queried pmf, and the rest of `u`
-/// is in `[0, 1)`.
+/// A sample is of a light of the set, and its pmf has the bits of the queried pmf.
 ///
 /// # Panics
 /// If the law does not hold.
 pub fn sampled_pmf_is_the_queried_pmf(set: &SamplerCase, sampler: &impl LightSampler) {
     let mut rng = Rng::new(31);
     for query in queries(set) {
-        let edges = edge_cases::EDGES_OF_U.map(f64::from);
-        let random: Vec<f64> = (0..256).map(|_| rng.f64()).collect();
-        for u in edges.into_iter().chain([SampledLight::MAX_U]).chain(random) {
+        let edges = edge_cases::EDGES_OF_U.map(|u| fraction::from_f32(u, 0));
+        let random: Vec<u64> = (0..256).map(|_| rng.u64()).collect();
+        for u in edges.into_iter().chain([u64::MAX]).chain(random) {
             let Some(chosen) = sample(sampler, &query, u) else {
                 continue;
             };
@@ -52,7 +52,7 @@ pub fn sampled_pmf_is_the_queried_pmf(set: &SamplerCase, sampler: &impl LightSam
                 "{name}: {chosen:?}, but the queried pmf is {asked} at u = {u}, {query:?}"
             );
             assert!(
-                chosen.pmf > 0.0 && chosen.pmf <= 1.0 && (0.0..1.0).contains(&chosen.u),
+                chosen.pmf > 0.0 && chosen.pmf <= 1.0,
                 "{name}: {chosen:?} is out of range at u = {u}, {query:?}"
             );
         }
@@ -75,7 +75,7 @@ pub fn pmfs_and_none_sum_to_one(set: &SamplerCase, sampler: &impl LightSampler) 
             .sum();
         let none = (0..STRATA)
             .filter(|&i| {
-                let u = (f64::from(i) + rng.f64()) / f64::from(STRATA);
+                let u = fraction::stratum(i, STRATA, rng.u64());
                 sample(sampler, &query, u).is_none()
             })
             .count();
@@ -154,8 +154,8 @@ pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl L
         let mut rests = vec![Vec::new(); set.emitters.len()];
         let mut none = 0;
         for _ in 0..DRAWS {
-            match sample(sampler, query, rng.f64()) {
-                Some(chosen) => rests[chosen.light.index()].push(chosen.u),
+            match sample(sampler, query, rng.u64()) {
+                Some(chosen) => rests[chosen.light.index()].push(fraction::to_f64(chosen.u)),
                 None => none += 1,
             }
         }
@@ -186,7 +186,7 @@ pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl L
     }
 }
 
-/// Invalid `u` and contexts give a valid choice or `None`, and never a panic.
+/// Invalid contexts give a valid choice or `None`, and never a panic.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -208,18 +208,9 @@ pub fn invalid_queries_do_not_panic(set: &SamplerCase, sampler: &impl LightSampl
     }
     contexts.extend(set.contexts.first());
     for ctx in &contexts {
-        for u in [
-            0.0,
-            0.5,
-            SampledLight::MAX_U,
-            1.0,
-            -1.0,
-            f64::NAN,
-            f64::INFINITY,
-        ] {
+        for u in [0, 1 << 63, u64::MAX] {
             let chosen = sampler.sample(ctx, u);
-            let known = chosen
-                .is_none_or(|c| c.light.index() < set.emitters.len() && (0.0..1.0).contains(&c.u));
+            let known = chosen.is_none_or(|c| c.light.index() < set.emitters.len());
             assert!(known, "{}: {chosen:?} for u = {u} at {ctx:?}", set.name);
         }
         for id in set.ids() {

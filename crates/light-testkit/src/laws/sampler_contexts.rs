@@ -1,6 +1,7 @@
 //! The laws of light samplers for contexts that are invalid.
 
-use light_bounds::{Gloss, LightSampleContext, ReceiverSides, SampledLight};
+use light_bounds::{Gloss, LightSampleContext};
+use light_math::fraction;
 use light_math::glam::Vec3;
 use light_samplers::LightSampler;
 
@@ -26,34 +27,20 @@ const LENGTHS: [f32; 12] = [
 /// Contexts like `ctx` with numbers of every kind in each of their fields.
 #[must_use]
 pub fn invalid_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
-    let LightSampleContext { p, ns, .. } = *ctx;
-    let up = ns.normalize_or(Vec3::new(0.48, 0.6, 0.64));
+    let p = ctx.p;
+    let up = ctx.ns().unwrap_or(Vec3::new(0.48, 0.6, 0.64));
     let surface = LightSampleContext::surface(p, up, up);
     let mut all = Vec::new();
     for x in LENGTHS {
-        for sides in [ReceiverSides::Front, ReceiverSides::Both] {
+        for on_surface in [LightSampleContext::surface, LightSampleContext::two_sided] {
             let leaning = Vec3::new(x, -0.2, 0.3);
-            let odd = [up * x, leaning].map(|ns| LightSampleContext {
-                ns,
-                sides,
-                ..surface
-            });
-            all.extend(odd);
-            all.push(LightSampleContext {
-                p: p * x,
-                sides,
-                ..surface
-            });
+            all.extend([up * x, leaning].map(|ns| on_surface(p, up, ns)));
+            all.push(on_surface(p, up * x, up * -x));
+            all.push(on_surface(p * x, up, up));
         }
         all.push(LightSampleContext::medium(Vec3::new(p.x, x, -x)));
         for way in [up, -up, Vec3::X] {
             all.push(LightSampleContext::segment(p, way * x));
-            // A surface that is a segment as well.
-            all.push(LightSampleContext {
-                segment: way * x,
-                ns: up * x,
-                ..surface
-            });
         }
         all.push(LightSampleContext::segment(p * x, up));
         let smooth = Gloss {
@@ -96,8 +83,7 @@ pub fn invalid_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
     all
 }
 
-/// At any context the pmfs are a distribution, sampled and queried pmfs have the same bits, and the
-/// unused part of `u` is in `[0, 1)`.
+/// At any context the pmfs are a distribution, and sampled and queried pmfs have the same bits.
 ///
 /// # Panics
 /// If the law does not hold.
@@ -119,8 +105,8 @@ pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) 
         });
         let sum: f64 = pmfs.sum();
         let rng = &mut rng;
-        let inside = (0..STRATA).map(|i| (f64::from(i) + rng.f64()) / f64::from(STRATA));
-        let edges = [0.0, SampledLight::MAX_U];
+        let inside = (0..STRATA).map(|i| fraction::stratum(i, STRATA, rng.u64()));
+        let edges = [0, u64::MAX];
         let mut none = 0;
         for (i, u) in (0..).zip(inside.chain(edges)) {
             let Some(chosen) = sampler.sample(&ctx, u) else {
@@ -128,9 +114,7 @@ pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) 
                 continue;
             };
             let asked = sampler.pmf(&ctx, chosen.light);
-            let sound = chosen.pmf.to_bits() == asked.to_bits()
-                && chosen.pmf > 0.0
-                && (0.0..1.0).contains(&chosen.u);
+            let sound = chosen.pmf.to_bits() == asked.to_bits() && chosen.pmf > 0.0;
             assert!(
                 sound,
                 "{name}: {chosen:?}, asked {asked}, at u = {u}, {ctx:?}"
@@ -159,17 +143,11 @@ pub fn contributing_lights_can_be_chosen_whatever_the_normal(
 ) {
     for ctx in &set.contexts {
         for length in LENGTHS {
-            let odd = LightSampleContext {
-                ns: ctx.ns * length,
-                ..*ctx
-            };
-            let unit = match odd.unit_ns() {
-                Some(ns) => LightSampleContext { ns, ..*ctx },
-                None => LightSampleContext::medium(ctx.p),
-            };
+            let Some(ns) = ctx.ns() else { continue };
+            let odd = LightSampleContext::surface(ctx.p, ns * length, ns * length);
             for (id, emitter) in set.ids().zip(&set.emitters) {
                 assert!(
-                    sampler.pmf(&odd, id) > 0.0 || emitter.contribution(&unit) == 0.0,
+                    sampler.pmf(&odd, id) > 0.0 || emitter.contribution(&odd) == 0.0,
                     "{}: {id:?} is never chosen at {odd:?}: {emitter:?}",
                     set.name
                 );

@@ -1,13 +1,14 @@
 use light_bounds::LightSampleContext;
-use light_samplers::{LightSampler, PreparedChoices};
+use light_math::fraction;
+use light_samplers::LightSampler;
 
 use crate::{Rng, SamplerCase, chi_squared, kolmogorov_smirnov_uniform};
 
-/// Several choices of one call carry the bits of `pmf_many`, which adds up to one at most, fall on
-/// lights as often as their pmf, and leave a uniform rest of `u` for each of them; prepared
-/// choices give the same pmfs.
+/// Several choices at one context carry the bits of their queried pmfs, which add up to one at most
+/// and are the same whenever they are prepared; they fall on lights as often as their pmf, and leave
+/// a uniform rest of `u` for each of them.
 ///
-/// Choices of one call are stratified, so counts vary less than independent ones: the test errs on
+/// They are stratified, so counts vary less than independent ones: the test errs on
 /// the safe side.
 ///
 /// # Panics
@@ -33,26 +34,19 @@ fn check(
 ) {
     const ENOUGH_FOR_U: usize = 200;
     let at = format!("{}: {count} choices at {ctx:?}", set.name);
-    let pmfs: Vec<f32> = set
-        .ids()
-        .map(|id| sampler.pmf_many(ctx, id, count))
-        .collect();
-    let mut prepared = PreparedChoices::default();
+    let here = sampler.at(ctx, count);
+    let pmfs: Vec<f32> = set.ids().map(|id| here.pmf(id)).collect();
     let mut rests = vec![Vec::new(); pmfs.len()];
     for _ in 0..calls {
-        sampler.sample_many_prepared(ctx, rng.f64(), count, &mut prepared, &mut |chosen| {
+        for chosen in here.samples(rng.u64()) {
             let pmf = pmfs[chosen.light.index()];
             assert_eq!(chosen.pmf.to_bits(), pmf.to_bits(), "{at}: {chosen:?}");
-            rests[chosen.light.index()].push(chosen.u);
-        });
+            rests[chosen.light.index()].push(fraction::to_f64(chosen.u));
+        }
     }
+    let again = sampler.at(ctx, count);
     for (id, pmf) in set.ids().zip(&pmfs) {
-        let kept = sampler.pmf_many_prepared(ctx, id, count, &prepared);
-        assert_eq!(
-            kept.to_bits(),
-            pmf.to_bits(),
-            "{at}: {id:?} by the prepared"
-        );
+        assert_eq!(again.pmf(id).to_bits(), pmf.to_bits(), "{at}: {id:?} again");
     }
 
     let draws = f64::from(calls * count);

@@ -1,8 +1,9 @@
 use light_bounds::{LightSampleContext, SampledLight};
 use light_bvh::LightBvhOptions;
+use light_math::fraction;
 use light_math::glam::Vec3;
 use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler, PreparedChoices,
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
 
@@ -15,11 +16,16 @@ use crate::{Emitter, Rng, SamplerCase};
 /// Choices for one receiver, one by one.
 const SINGLE: u32 = 8;
 
-/// Choices for one receiver at once.
+/// Choices for one receiver together.
 const SEVERAL: [u32; 3] = [2, 4, 8];
 
 /// `None` results that are allowed for each choice that is compared.
 const MOST_NONE: u64 = 8;
+
+/// The least probability of which the place in its interval of `u` is tested, and how far that may
+/// be off: probabilities are rounded at each level.
+const LEAST_PMF: f64 = 1e-9;
+const PLACE_ERROR: f64 = 1e-4;
 
 /// Above so many lights a sampler that looks at all of them is left out.
 const FEW: usize = 64;
@@ -106,7 +112,6 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
     let mut rng = Rng::new(seed);
     let mut row = Row::default();
     let (low, high) = set.set.corners();
-    let mut prepared = PreparedChoices::default();
     let mut turn = 0;
     // Where few lights can be chosen, nearly all results are `None`.
     while row.samples < count && row.none < MOST_NONE * count {
@@ -126,11 +131,14 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
             row: &mut row,
         };
         for _ in 0..SINGLE {
-            query.single(rng.f64());
+            query.single(rng.u64());
         }
-        query.emitter(rng.f64());
+        if *name != "power" {
+            query.middle(rng.u64());
+        }
+        query.emitter(rng.u64());
         let k = SEVERAL[rng.below(SEVERAL.len())];
-        query.several(rng.f64(), k, &mut prepared);
+        query.several(rng.u64(), k);
     }
     row
 }
@@ -145,37 +153,66 @@ struct SoakQuery<'a> {
 }
 
 impl SoakQuery<'_> {
-    fn single(&mut self, u: f64) {
+    fn single(&mut self, u: u64) {
         let chosen = self.sampler.sample(self.ctx, u);
         let pmf = |chosen: &SampledLight| self.sampler.pmf(self.ctx, chosen.light);
         let pmf = chosen.as_ref().map(pmf);
         self.note(chosen, pmf, "", u);
     }
 
-    fn emitter(&mut self, u: f64) {
+    /// What is left of `u` says where the interval of its light begins: the middle of that leads to
+    /// the same light, and leaves a half. An alias table has no such intervals.
+    fn middle(&mut self, u: u64) {
+        let Some(chosen) = self.sampler.sample(self.ctx, u) else {
+            return;
+        };
+        let pmf = f64::from(chosen.pmf);
+        if pmf < LEAST_PMF {
+            return;
+        }
+        let start = fraction::to_f64(u) - pmf * fraction::to_f64(chosen.u);
+        let middle = fraction::from_f64(start + 0.5 * pmf);
+        let again = self.sampler.sample(self.ctx, middle);
+        let is_half = |u| (fraction::to_f64(u) - 0.5).abs() <= PLACE_ERROR;
+        let holds = again.is_some_and(|again| again.light == chosen.light && is_half(again.u));
+        let fault = || {
+            let (name, ctx) = (self.name, self.ctx);
+            format!("{name}, u = {u}: {chosen:?}, in the middle, {middle}: {again:?}, at {ctx:?}")
+        };
+        let fault = (!holds).then(fault);
+        self.row.count(fault);
+    }
+
+    fn emitter(&mut self, u: u64) {
         let chosen = self.sampler.sample_emitter(u);
         let pmf = |chosen: &SampledLight| self.sampler.pmf_emitter(chosen.light);
         let pmf = chosen.as_ref().map(pmf);
         self.note(chosen, pmf, "emitter, ", u);
     }
 
-    /// Checks all choices by the prepared ones, and the last also by a query without them.
-    fn several(&mut self, u: f64, k: u32, prepared: &mut PreparedChoices) {
-        let mut all = Vec::with_capacity(k as usize);
+    /// Checks all choices by what is known at the context, and the last also by what is computed
+    /// there again.
+    fn several(&mut self, u: u64, k: u32) {
         let sampler = self.sampler;
-        sampler.sample_many_prepared(self.ctx, u, k, prepared, &mut |light| all.push(light));
-        for &chosen in &all {
-            let pmf = sampler.pmf_many_prepared(self.ctx, chosen.light, k, prepared);
-            self.note(Some(chosen), Some(pmf), "of several, prepared, ", u);
+        let here = sampler.at(self.ctx, k);
+        let (mut last, mut count) = (None, 0);
+        for chosen in here.samples(u) {
+            self.note(
+                Some(chosen),
+                Some(here.pmf(chosen.light)),
+                "of several, ",
+                u,
+            );
+            (last, count) = (Some(chosen), count + 1);
         }
-        if let Some(&last) = all.last() {
-            let pmf = sampler.pmf_many(self.ctx, last.light, k);
-            self.note(Some(last), Some(pmf), "of several, ", u);
+        if let Some(last) = last {
+            let pmf = sampler.at(self.ctx, k).pmf(last.light);
+            self.note(Some(last), Some(pmf), "of several, again, ", u);
         }
-        self.row.none += u64::from(k) - all.len() as u64;
+        self.row.none += u64::from(k) - count;
     }
 
-    fn note(&mut self, chosen: Option<SampledLight>, pmf: Option<f32>, how: &str, u: f64) {
+    fn note(&mut self, chosen: Option<SampledLight>, pmf: Option<f32>, how: &str, u: u64) {
         let (Some(chosen), Some(pmf)) = (chosen, pmf) else {
             self.row.none += 1;
             return;
@@ -183,7 +220,6 @@ impl SoakQuery<'_> {
         let holds = chosen.pmf.to_bits() == pmf.to_bits()
             && chosen.pmf > 0.0
             && chosen.pmf <= 1.0
-            && (0.0..1.0).contains(&chosen.u)
             && chosen.light.0 < self.known;
         let fault = || {
             let (name, ctx) = (self.name, self.ctx);
@@ -191,5 +227,70 @@ impl SoakQuery<'_> {
         };
         let fault = (!holds).then(fault);
         self.row.count(fault);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use light_bounds::LightId;
+    use light_samplers::LightChoices;
+
+    /// A uniform choice of four lights that leaves the same `u`, or states another pmf.
+    #[derive(Clone, Copy, PartialEq)]
+    enum Broken {
+        Right,
+        SameU,
+        OtherPmf,
+    }
+
+    impl LightSampler for Broken {
+        fn sample(&self, _: &LightSampleContext, u: u64) -> Option<SampledLight> {
+            self.sample_emitter(u)
+        }
+
+        fn pmf(&self, _: &LightSampleContext, light: LightId) -> f32 {
+            self.pmf_emitter(light)
+        }
+
+        fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+            LightChoices::one_by_one(self, ctx, count)
+        }
+
+        fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+            let (light, rest) = fraction::choose(4, u);
+            Some(SampledLight {
+                light: LightId(light),
+                pmf: 0.25,
+                u: if *self == Self::SameU { u } else { rest },
+            })
+        }
+
+        fn pmf_emitter(&self, _: LightId) -> f32 {
+            if *self == Self::OtherPmf { 0.2 } else { 0.25 }
+        }
+    }
+
+    #[test]
+    fn faults_are_counted() {
+        let ctx = LightSampleContext::medium(Vec3::ZERO);
+        let mismatches = |sampler: Broken| {
+            let mut row = Row::default();
+            let mut query = SoakQuery {
+                name: "broken",
+                sampler: &sampler,
+                known: 4,
+                ctx: &ctx,
+                row: &mut row,
+            };
+            query.single(1 << 60);
+            query.emitter(1 << 60);
+            query.middle(1 << 60);
+            query.several(1 << 60, 2);
+            (row.samples, row.mismatches)
+        };
+        assert_eq!(mismatches(Broken::Right), (6, 0), "none");
+        assert_eq!(mismatches(Broken::SameU), (6, 1), "the middle");
+        assert_eq!(mismatches(Broken::OtherPmf), (6, 5), "all but the middle");
     }
 }

@@ -18,7 +18,7 @@ pub fn bounds_hold<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>) {
             let Some(sample) = case.li(ctx, rng.vec2(), PdfCoverage::Complete) else {
                 continue;
             };
-            let above = ctx.is_medium() || ctx.ns.dot(sample.wi) > 1e-4;
+            let above = ctx.ns().is_none_or(|ns| ns.dot(sample.wi) > 1e-4);
             if !(sample.l > 0.0 && above) {
                 continue;
             }

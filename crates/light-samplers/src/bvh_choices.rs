@@ -1,0 +1,102 @@
+use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
+use light_bvh::{CutDetail, LightBvhAt, LightCut};
+
+use crate::BvhLightSamplerRef;
+use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::infinite_lights::{InfiniteLights, irradiance};
+
+/// The least number of choices for which a cut is faster than single choices.
+const FEWEST_OF_CUT: u32 = 2;
+
+/// What the default hierarchy and its lights at infinity know at one context.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BvhChoices<'a> {
+    infinite: InfiniteLights<'a>,
+    ctx: LightSampleContext,
+    /// Estimated irradiance from the lights of the tree; not needed without lights at infinity.
+    in_tree: f32,
+    tree: TreeChoices<'a>,
+}
+
+#[derive(Clone, Copy, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a box needs an allocator, and choices are made in place"
+)]
+enum TreeChoices<'a> {
+    /// Each from the root.
+    Single(LightBvhAt<'a>),
+    /// From groups that were opened before.
+    Cut(LightCut<'a>),
+}
+
+impl<'a> BvhChoices<'a> {
+    /// For `count` choices by `sampler` at `ctx`.
+    #[inline]
+    pub(crate) fn new(
+        sampler: &BvhLightSamplerRef<'a>,
+        ctx: &LightSampleContext,
+        count: u32,
+    ) -> Self {
+        let tree = if count < FEWEST_OF_CUT {
+            TreeChoices::Single(sampler.tree.at(ctx))
+        } else {
+            TreeChoices::Cut(sampler.tree.cut(ctx, CutDetail::default()))
+        };
+        let of_unit_power = match &tree {
+            TreeChoices::Single(tree) => tree.irradiance(),
+            TreeChoices::Cut(tree) => tree.irradiance(),
+        };
+        Self {
+            infinite: sampler.infinite,
+            ctx: *ctx,
+            in_tree: mul_prob(of_unit_power, sampler.power).min(f32::MAX),
+            tree,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn sample(&self, u: u64) -> Option<SampledLight> {
+        if self.infinite.is_empty() {
+            return self.tree.sample(u);
+        }
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+        match self.infinite.first(u, self.in_tree, weight)? {
+            FirstChoice::Infinite(light) => Some(light),
+            FirstChoice::Others { pmf, u } => self.tree.sample(u).map(|light| SampledLight {
+                pmf: mul_prob(pmf, light.pmf),
+                ..light
+            }),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn pmf(&self, light: LightId) -> f32 {
+        if self.infinite.is_empty() {
+            return self.tree.pmf(light);
+        }
+        let weight = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+        match self.infinite.first_pmf(light, self.in_tree, weight) {
+            FirstPmf::Infinite(pmf) => pmf,
+            FirstPmf::Others(pmf) => mul_prob(pmf, self.tree.pmf(light)),
+        }
+    }
+}
+
+impl TreeChoices<'_> {
+    #[inline]
+    fn sample(&self, u: u64) -> Option<SampledLight> {
+        match self {
+            Self::Single(tree) => tree.sample(u),
+            Self::Cut(tree) => tree.sample(u),
+        }
+    }
+
+    #[inline]
+    fn pmf(&self, light: LightId) -> f32 {
+        match self {
+            Self::Single(tree) => tree.pmf(light),
+            Self::Cut(tree) => tree.pmf(light),
+        }
+    }
+}

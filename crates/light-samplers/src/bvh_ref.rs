@@ -1,0 +1,103 @@
+use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
+use light_bvh::LightBvhRef;
+
+use crate::bvh_choices::BvhChoices;
+use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::infinite_lights::{InfiniteLight, InfiniteLights, InfiniteLightsError};
+use crate::{LightChoices, LightSampler};
+
+/// [`BvhLightSampler`](crate::BvhLightSampler) on borrowed memory, for a tree in flash, in a mapped
+/// file or in a buffer; needs no allocator.
+#[derive(Clone, Copy, Debug)]
+pub struct BvhLightSamplerRef<'a> {
+    pub(crate) tree: LightBvhRef<'a>,
+    pub(crate) power: f32,
+    pub(crate) infinite: InfiniteLights<'a>,
+}
+
+impl<'a> BvhLightSamplerRef<'a> {
+    /// A sampler of the lights of `tree`, whose power is `power`, and of lights at infinity in
+    /// ascending order of their ids, none of which is in the tree.
+    ///
+    /// # Errors
+    /// If the lights at infinity are not in order, or have no valid bounds. Whether they are in the
+    /// tree is not looked at: they are never chosen from it.
+    pub fn new(
+        tree: LightBvhRef<'a>,
+        power: f32,
+        infinite: &'a [InfiniteLight],
+    ) -> Result<Self, InfiniteLightsError> {
+        Ok(Self {
+            tree,
+            power,
+            infinite: InfiniteLights::new(infinite)?,
+        })
+    }
+
+    /// The tree of the lights with a position.
+    #[must_use]
+    pub const fn tree(&self) -> LightBvhRef<'a> {
+        self.tree
+    }
+
+    /// The lights at infinity that emit, in ascending order of their ids.
+    #[must_use]
+    pub const fn infinite_lights(&self) -> &'a [InfiniteLight] {
+        self.infinite.lights()
+    }
+
+    /// [`LightSampler::at`], for as long as the memory is borrowed.
+    #[inline]
+    #[must_use]
+    pub fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::bvh(BvhChoices::new(self, ctx, count), count)
+    }
+}
+
+impl LightSampler for BvhLightSamplerRef<'_> {
+    #[inline]
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        if self.infinite.is_empty() {
+            self.tree.sample(ctx, u)
+        } else {
+            BvhChoices::new(self, ctx, 1).sample(u)
+        }
+    }
+
+    #[inline]
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        if self.infinite.is_empty() {
+            self.tree.pmf(ctx, light)
+        } else {
+            BvhChoices::new(self, ctx, 1).pmf(light)
+        }
+    }
+
+    #[inline]
+    fn at<'b>(&'b self, ctx: &LightSampleContext, count: u32) -> LightChoices<'b> {
+        self.choices_at(ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        match self.infinite.first(u, self.power, fluence)? {
+            FirstChoice::Infinite(light) => Some(light),
+            FirstChoice::Others { pmf, u } => {
+                self.tree.sample_emitter(u).map(|light| SampledLight {
+                    pmf: mul_prob(pmf, light.pmf),
+                    ..light
+                })
+            }
+        }
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        match self.infinite.first_pmf(light, self.power, fluence) {
+            FirstPmf::Infinite(pmf) => pmf,
+            FirstPmf::Others(pmf) => mul_prob(pmf, self.tree.pmf_emitter(light)),
+        }
+    }
+}
+
+fn fluence(bounds: &InfiniteBounds) -> f32 {
+    bounds.fluence
+}
