@@ -81,6 +81,27 @@ fn the_area_beside_the_end_of_a_hyperbola() {
 }
 
 #[test]
+fn at_the_pole_nothing_changes_along_the_other_axis() {
+    for corners in [
+        [[0.5, -2.0], [3.0, 0.25]],
+        [[-1.0, 4.0], [0.75, -0.5]],
+        [[0.0, 3.0], [0.5, 1.0]],
+    ] {
+        let level = Level {
+            start: DVec2::new(0.25, -1.5),
+            slope: DVec2::new(3.0, -0.5),
+            corners,
+        };
+        let x = level.pole(Axis::X);
+        let change = level.at(DVec2::new(x, 0.0)) - level.at(DVec2::new(x, 1.0));
+        assert!(change.abs() < 1e-12, "x = {x}: {change}");
+        let y = level.pole(Axis::Y);
+        let change = level.at(DVec2::new(0.0, y)) - level.at(DVec2::new(1.0, y));
+        assert!(change.abs() < 1e-12, "y = {y}: {change}");
+    }
+}
+
+#[test]
 fn a_parabola_has_up_to_two_roots() {
     let of = |f: fn(f64) -> f64| {
         let mut found = roots(f(0.0), f(0.5), f(1.0));
@@ -88,7 +109,7 @@ fn a_parabola_has_up_to_two_roots() {
         found
     };
     for (found, expected) in [
-        (of(|x| (x - 0.25) * (x - 0.625)), [0.25, 0.625]),
+        (of(|x| 3.0 * (x - 0.25) * (x - 0.625)), [0.25, 0.625]),
         (of(|x| (x - 0.75) * (x + 2.0)), [0.75, 1.0]),
         (of(|x| (0.125 - x) * (x - 3.0)), [0.125, 1.0]),
         (of(|x| x * x + 0.1), [1.0; 2]),
@@ -204,6 +225,11 @@ fn surfaces_without_a_place_of_their_own() {
     assert!(
         (all - 2.0).abs() < 1e-12 && (above - 2.0).abs() < 1e-12,
         "y: {all}, {above}"
+    );
+    let [all, above] = areas(&shown(|uv| DVec2::new(0.5, uv.y)), &level);
+    assert!(
+        (all - 2.0).abs() < 1e-12 && (above - 2.0).abs() < 1e-12,
+        "on the level itself: {all}, {above}"
     );
     for (place, expected) in [
         (DVec2::ZERO, [2.0, 0.0]),
