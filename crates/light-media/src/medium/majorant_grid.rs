@@ -47,13 +47,15 @@ impl MajorantGrid {
         if reach == [0; 3] {
             return self.get(cell);
         }
-        let [xs, ys, zs] = [0, 1, 2].map(|i: usize| cell[i] - reach[i]..=cell[i] + reach[i]);
+        let inside = |i: i32| usize::try_from(i).unwrap_or(0).min(Self::CELLS);
+        let [xs, ys, zs] =
+            [0, 1, 2].map(|i: usize| inside(cell[i] - reach[i])..inside(cell[i] + reach[i] + 1));
         let mut most = 0.0f32;
         for z in zs {
             for y in ys.clone() {
-                for x in xs.clone() {
-                    most = most.max(self.get([x, y, z]));
-                }
+                let row = (z * Self::CELLS + y) * Self::CELLS;
+                let row = &self.maxima[row + xs.start..row + xs.end];
+                most = row.iter().copied().fold(most, f32::max);
             }
         }
         most
