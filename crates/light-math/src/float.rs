@@ -4,6 +4,12 @@
 //! (feature `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on
 //! every platform. Only the square root is everywhere the same anyway. Angles are radians.
 
+/// Only compiled where `lib.rs` refuses to: its error is then the only one.
+#[cfg(not(any(feature = "std", feature = "libm")))]
+const fn without_backend(_: &[f32]) -> f32 {
+    f32::NAN
+}
+
 macro_rules! forward {
     ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $std:ident, $libm:ident;)+) => {$(
         $(#[$doc])*
@@ -14,9 +20,13 @@ macro_rules! forward {
             {
                 libm::$libm($($arg),+)
             }
-            #[cfg(not(feature = "libm"))]
+            #[cfg(all(feature = "std", not(feature = "libm")))]
             {
                 f32::$std($($arg),+)
+            }
+            #[cfg(not(any(feature = "std", feature = "libm")))]
+            {
+                without_backend(&[$($arg),+])
             }
         }
     )+};
@@ -60,13 +70,17 @@ forward! {
 #[inline]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {
-    #[cfg(any(feature = "std", not(feature = "libm")))]
+    #[cfg(feature = "std")]
     {
         f32::sqrt(x)
     }
     #[cfg(all(feature = "libm", not(feature = "std")))]
     {
         libm::sqrtf(x)
+    }
+    #[cfg(not(any(feature = "std", feature = "libm")))]
+    {
+        without_backend(&[x])
     }
 }
 
@@ -78,9 +92,13 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     {
         libm::sincosf(x)
     }
-    #[cfg(not(feature = "libm"))]
+    #[cfg(all(feature = "std", not(feature = "libm")))]
     {
         f32::sin_cos(x)
+    }
+    #[cfg(not(any(feature = "std", feature = "libm")))]
+    {
+        (without_backend(&[x]), without_backend(&[x]))
     }
 }
 
