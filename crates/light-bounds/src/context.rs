@@ -1,3 +1,4 @@
+use crate::LightGroups;
 use crate::glam::Vec3;
 use light_math::direction;
 
@@ -13,6 +14,8 @@ pub struct LightSampleContext {
     /// Half widths of the box around `p` in which the exact point lies: the rounding error of the
     /// intersection.
     pub p_error: Vec3,
+    /// The groups of the lights that are asked for.
+    pub groups: LightGroups,
     kind: ReceiverKind,
 }
 
@@ -118,6 +121,13 @@ impl LightSampleContext {
         Self { p_error, ..self }
     }
 
+    /// The same context for the lights of some groups only.
+    #[inline]
+    #[must_use]
+    pub const fn with_groups(self, groups: LightGroups) -> Self {
+        Self { groups, ..self }
+    }
+
     /// The same context on a glossy surface; unchanged in a medium.
     ///
     /// Values outside of their domain are moved into it, not a number to 1; without a direction to
@@ -194,6 +204,7 @@ impl LightSampleContext {
         Self {
             p,
             p_error: Vec3::ZERO,
+            groups: LightGroups::ALL,
             kind,
         }
     }

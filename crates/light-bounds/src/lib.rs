@@ -15,6 +15,7 @@ mod error;
 mod extent;
 mod importance;
 mod light_bounds;
+mod light_groups;
 mod light_id;
 mod sampled_light;
 
@@ -24,5 +25,6 @@ pub use emission_lobe::{EmissionLine, EmissionLobe};
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
 pub use light_bounds::LightBounds;
+pub use light_groups::LightGroups;
 pub use light_id::LightId;
 pub use sampled_light::SampledLight;

@@ -1,7 +1,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::{LightExtent, LightId, SampledLight};
+use light_bounds::{LightExtent, LightGroups, LightId, SampledLight};
 
 use crate::LightBvhError;
 use crate::build::builder::build;
@@ -23,6 +23,8 @@ pub struct LightBvh {
     pub(crate) order: Vec<u32>,
     pub(crate) slots: Vec<u32>,
     pub(crate) power: f32,
+    /// The groups of the lights of each child of each node; empty if all lights are in all groups.
+    pub(crate) groups: Vec<[LightGroups; WIDTH]>,
 }
 
 impl LightBvh {
@@ -61,6 +63,7 @@ impl LightBvh {
             order,
             slots,
             power: rounded(scan.power),
+            groups: Vec::new(),
         })
     }
 
@@ -91,7 +94,44 @@ impl LightBvh {
     #[inline]
     #[must_use]
     pub fn view(&self) -> LightBvhRef<'_> {
-        LightBvhRef::new(&self.nodes, &self.order, &self.slots)
+        LightBvhRef::new(&self.nodes, &self.order, &self.slots).with_groups(&self.groups)
+    }
+
+    /// Sets the groups of all lights, one entry for each in the order of ids. They stay through
+    /// refits. 64 bytes a node, and a few instructions a node for contexts that ask for some groups.
+    ///
+    /// # Errors
+    /// [`LightBvhError::OtherLights`] if these are not as many as the lights.
+    pub fn set_groups(&mut self, groups: &[LightGroups]) -> Result<(), LightBvhError> {
+        if groups.len() != self.slots.len() {
+            return Err(LightBvhError::OtherLights {
+                expected: self.slots.len(),
+            });
+        }
+        let mut of_nodes = vec![[LightGroups::NONE; WIDTH]; self.nodes.len()];
+        for (&slot, &groups) in self.slots.iter().zip(groups) {
+            if slot != NOWHERE {
+                of_nodes[slot as usize / WIDTH][slot as usize % WIDTH] = groups;
+            }
+        }
+        // Parents come before their children.
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if node.parent != NOWHERE {
+                let all = of_nodes[index]
+                    .iter()
+                    .fold(LightGroups::NONE, |a, &b| a | b);
+                of_nodes[node.parent as usize / WIDTH][node.parent as usize % WIDTH] = all;
+            }
+        }
+        self.groups = of_nodes;
+        Ok(())
+    }
+
+    /// The groups of the lights of each child of each node; empty before
+    /// [`set_groups`](Self::set_groups).
+    #[must_use]
+    pub fn groups(&self) -> &[[LightGroups; WIDTH]] {
+        &self.groups
     }
 
     /// One light that may light `receiver`; `None` if no light in the tree can: see
@@ -131,7 +171,8 @@ impl LightBvh {
     /// Bytes that queries may touch.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.order) + size_of_val(&*self.slots)
+        let tree = size_of_val(&*self.nodes) + size_of_val(&*self.order);
+        tree + size_of_val(&*self.slots) + size_of_val(&*self.groups)
     }
 
     /// Levels of nodes, at most [`MAX_DEPTH`](crate::node::wide_node::MAX_DEPTH).

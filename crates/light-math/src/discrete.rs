@@ -37,8 +37,7 @@ pub struct SampledIndex {
 
 /// An index chosen in proportion to `weights`; `None` if no weight is positive.
 ///
-/// A weight that is not positive counts as 0; a sum of weights that is infinite makes them alike,
-/// but for the first.
+/// A weight that is not positive counts as 0, an infinite one as the largest float.
 ///
 /// ```
 /// # use light_math::{discrete, fraction};
@@ -165,7 +164,13 @@ impl Groups {
     #[inline]
     fn parts(&self) -> impl Iterator<Item = u32> + use<'_> {
         let sums = &self.sums[..self.count];
-        let scale = parts_scale(sums.iter().sum(), sums.len());
+        let mut scale = parts_scale(sums.iter().sum(), sums.len());
+        if scale == 0.0 {
+            // The sum overflows.
+            const UNIT: f32 = 1.0 / 128.0;
+            let total = sums.iter().map(|sum| sum * UNIT).sum();
+            scale = parts_scale(total, sums.len()) * UNIT;
+        }
         let mut rest = PARTS - sums.iter().map(|&sum| parts_of(sum, scale)).sum::<u32>();
         sums.iter().map(move |&sum| match parts_of(sum, scale) {
             0 => 0,
@@ -204,9 +209,10 @@ fn total(start: usize, end: usize, weight: impl Fn(usize) -> f32) -> f32 {
         if weight > 0.0 { weight } else { 0.0 }
     };
     let blocks = (start..end).step_by(GROUP);
-    blocks
+    let sum: f32 = blocks
         .map(|first| (first..(first + GROUP).min(end)).map(positive).sum::<f32>())
-        .sum()
+        .sum();
+    sum.min(f32::MAX)
 }
 
 #[cfg(test)]

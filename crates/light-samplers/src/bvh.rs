@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightExtent, LightGroups, LightId, LightSampleContext, SampledLight};
 use light_bvh::{LightBvh, LightBvhError, LightBvhOptions};
 
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, emitting};
@@ -16,6 +16,8 @@ use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
 pub struct BvhLightSampler {
     tree: LightBvh,
     infinite: Vec<InfiniteLight>,
+    /// Of all lights by id; empty if all are in all groups.
+    groups: Vec<LightGroups>,
 }
 
 impl BvhLightSampler {
@@ -34,7 +36,8 @@ impl BvhLightSampler {
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         Ok(Self {
             tree: LightBvh::build_with(lights, options)?,
-            infinite: emitting(lights).collect(),
+            infinite: emitting(lights, &[]).collect(),
+            groups: Vec::new(),
         })
     }
 
@@ -46,7 +49,22 @@ impl BvhLightSampler {
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
         self.tree.refit(lights)?;
         self.infinite.clear();
-        self.infinite.extend(emitting(lights));
+        self.infinite.extend(emitting(lights, &self.groups));
+        Ok(())
+    }
+
+    /// Sets the groups of all lights, one entry for each in the order of ids: contexts then choose
+    /// among the lights of the [groups](LightSampleContext::with_groups) that they ask for. Refits
+    /// keep them.
+    ///
+    /// # Errors
+    /// As for [`LightBvh::set_groups`]; the sampler is then as it was.
+    pub fn set_groups(&mut self, groups: Vec<LightGroups>) -> Result<(), LightBvhError> {
+        self.tree.set_groups(&groups)?;
+        for light in &mut self.infinite {
+            light.groups = groups[light.light.index()];
+        }
+        self.groups = groups;
         Ok(())
     }
 

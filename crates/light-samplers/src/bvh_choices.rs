@@ -1,9 +1,9 @@
-use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvhAt, LightCut};
 
 use crate::BvhLightSamplerRef;
 use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
-use crate::infinite_lights::{InfiniteLights, irradiance};
+use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 
 /// The least number of choices for which a cut is faster than single choices.
 const FEWEST_OF_CUT: u32 = 2;
@@ -60,7 +60,7 @@ impl<'a> BvhChoices<'a> {
         if self.infinite.is_empty() {
             return self.tree.sample(u);
         }
-        let weight = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+        let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
         match self.infinite.first(u, self.in_tree, weight)? {
             FirstChoice::Infinite(light) => Some(light),
             FirstChoice::Others { pmf, u } => self.tree.sample(u).map(|light| SampledLight {
@@ -75,7 +75,7 @@ impl<'a> BvhChoices<'a> {
         if self.infinite.is_empty() {
             return self.tree.pmf(light);
         }
-        let weight = |bounds: &InfiniteBounds| irradiance(bounds, &self.ctx);
+        let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
         match self.infinite.first_pmf(light, self.in_tree, weight) {
             FirstPmf::Infinite(pmf) => pmf,
             FirstPmf::Others(pmf) => mul_prob(pmf, self.tree.pmf(light)),

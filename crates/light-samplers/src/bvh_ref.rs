@@ -1,4 +1,4 @@
-use light_bounds::{InfiniteBounds, LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhRef;
 
 use crate::bvh_choices::BvhChoices;
@@ -98,6 +98,6 @@ impl LightSampler for BvhLightSamplerRef<'_> {
     }
 }
 
-fn fluence(bounds: &InfiniteBounds) -> f32 {
-    bounds.fluence
+const fn fluence(light: &InfiniteLight) -> f32 {
+    light.bounds.fluence
 }

@@ -1,8 +1,8 @@
 use core::fmt;
 
 use light_bounds::{
-    InfiniteBounds, InfiniteBoundsError, LightExtent, LightId, LightSampleContext, ReceiverKind,
-    ReceiverSides, SampledLight,
+    InfiniteBounds, InfiniteBoundsError, LightExtent, LightGroups, LightId, LightSampleContext,
+    ReceiverKind, ReceiverSides, SampledLight,
 };
 use light_math::glam::Vec3;
 use light_math::{direction, discrete, float};
@@ -22,6 +22,8 @@ pub struct InfiniteLight {
     pub light: LightId,
     /// Its bounds.
     pub bounds: InfiniteBounds,
+    /// Its groups.
+    pub groups: LightGroups,
 }
 
 /// The lights at infinity in ascending order of ids.
@@ -31,8 +33,13 @@ pub(crate) struct InfiniteLights<'a> {
 }
 
 /// The infinite ones of `lights` that emit, by id.
+///
+/// Lights beyond the end of `groups` are in all groups.
 #[cfg(feature = "alloc")]
-pub(crate) fn emitting(lights: &[LightExtent]) -> impl Iterator<Item = InfiniteLight> + use<'_> {
+pub(crate) fn emitting<'a>(
+    lights: &'a [LightExtent],
+    groups: &'a [LightGroups],
+) -> impl Iterator<Item = InfiniteLight> + use<'a> {
     let infinite = (0..)
         .map(LightId)
         .zip(lights)
@@ -41,7 +48,12 @@ pub(crate) fn emitting(lights: &[LightExtent]) -> impl Iterator<Item = InfiniteL
     // Valid bounds have an axis of about length one: too rough for the test against the horizon.
     emitting.map(|(light, mut bounds)| {
         bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
-        InfiniteLight { light, bounds }
+        let groups = groups.get(light.index()).copied().unwrap_or_default();
+        InfiniteLight {
+            light,
+            bounds,
+            groups,
+        }
     })
 }
 
@@ -51,7 +63,7 @@ impl<'a> InfiniteLights<'a> {
         if !lights.is_sorted_by(|a, b| a.light < b.light) {
             return Err(InfiniteLightsError::Order);
         }
-        for &InfiniteLight { light, bounds } in lights {
+        for &InfiniteLight { light, bounds, .. } in lights {
             let bad = |error| InfiniteLightsError::Bounds { light, error };
             bounds.validate().map_err(bad)?;
         }
@@ -79,7 +91,7 @@ impl<'a> InfiniteLights<'a> {
         &self,
         u: u64,
         in_tree: f32,
-        weight: impl Fn(&InfiniteBounds) -> f32,
+        weight: impl Fn(&InfiniteLight) -> f32,
     ) -> Option<FirstChoice> {
         let chosen = discrete::sample_by(self.count(), self.weights(in_tree, weight), u)?;
         let (pmf, u) = (chosen.pmf, chosen.u);
@@ -98,7 +110,7 @@ impl<'a> InfiniteLights<'a> {
         &self,
         light: LightId,
         in_tree: f32,
-        weight: impl Fn(&InfiniteBounds) -> f32,
+        weight: impl Fn(&InfiniteLight) -> f32,
     ) -> FirstPmf {
         let index = self
             .lights
@@ -120,12 +132,12 @@ impl<'a> InfiniteLights<'a> {
     fn weights(
         &self,
         in_tree: f32,
-        weight: impl Fn(&InfiniteBounds) -> f32,
+        weight: impl Fn(&InfiniteLight) -> f32,
     ) -> impl Fn(usize) -> f32 {
         let lights = self.lights;
         move |index| match index.checked_sub(TREE + 1) {
             None => in_tree,
-            Some(index) => weight(&lights[index].bounds),
+            Some(index) => weight(&lights[index]),
         }
     }
 }
@@ -157,9 +169,13 @@ impl fmt::Display for InfiniteLightsError {
 impl core::error::Error for InfiniteLightsError {}
 
 /// Estimated irradiance at `ctx` from a light at infinity; 0 only if all of it is below the
-/// horizon.
-pub(crate) fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
-    mul_prob(bounds.fluence, mean_cosine(bounds, ctx))
+/// horizon, or if it is not asked for.
+pub(crate) fn irradiance(light: &InfiniteLight, ctx: &LightSampleContext) -> f32 {
+    if light.groups.is_wanted(ctx.groups) {
+        mul_prob(light.bounds.fluence, mean_cosine(&light.bounds, ctx))
+    } else {
+        0.0
+    }
 }
 
 fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {

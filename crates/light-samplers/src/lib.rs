@@ -17,6 +17,7 @@ mod bvh_ref;
 #[cfg(feature = "alloc")]
 mod exhaustive;
 mod first_choice;
+mod grouped;
 mod infinite_lights;
 #[cfg(feature = "alloc")]
 mod infinite_shares;
@@ -33,6 +34,7 @@ pub use bvh::BvhLightSampler;
 pub use bvh_ref::BvhLightSamplerRef;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
+pub use grouped::GroupedLightSampler;
 pub use infinite_lights::{InfiniteLight, InfiniteLightsError};
 pub use light_choices::LightChoices;
 pub use light_sampler::LightSampler;

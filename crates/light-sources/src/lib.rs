@@ -76,6 +76,8 @@ mod light_set_builder;
 #[cfg(feature = "alloc")]
 mod light_set_bytes;
 #[cfg(feature = "alloc")]
+mod light_set_groups;
+#[cfg(feature = "alloc")]
 mod light_set_update;
 mod light_type;
 #[cfg(feature = "alloc")]

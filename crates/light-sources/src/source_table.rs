@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::light_kinds::LightKind;
-use light_bounds::LightId;
+use light_bounds::{LightGroups, LightId};
 
 /// Identifies a description of a set by the order of adding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -24,6 +24,8 @@ pub(crate) struct SourceTable {
     ends: Vec<u32>,
     /// The source of every [`STRIDE`]th light: bounds for the search of the others.
     source_of: Vec<u32>,
+    /// The groups of the first sources; the others are in all groups.
+    groups: Vec<LightGroups>,
 }
 
 /// Lights per entry of the table that bounds the search for a source.
@@ -34,6 +36,7 @@ impl SourceTable {
         places: Vec::new(),
         ends: Vec::new(),
         source_of: Vec::new(),
+        groups: Vec::new(),
     };
 
     /// Adds a source of `lights` lights; `None` where 32 bits do not suffice for the ids.
@@ -84,7 +87,25 @@ impl SourceTable {
         Some((SourceId(source as u32), light - first))
     }
 
+    /// Sets the groups of a source; `None` for an unknown one.
+    pub(crate) fn set_groups(&mut self, source: SourceId, groups: LightGroups) -> Option<()> {
+        let index = source.0 as usize;
+        self.places.get(index)?;
+        if self.groups.len() <= index {
+            self.groups.resize(index + 1, LightGroups::ALL);
+        }
+        self.groups[index] = groups;
+        Some(())
+    }
+
+    /// The ids and the groups of the sources that may not be in all groups.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (Range<u32>, LightGroups)> {
+        let sources = (0..).map(SourceId).zip(&self.groups);
+        sources.filter_map(|(source, &groups)| Some((self.ids(source)?, groups)))
+    }
+
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.places) + size_of_val(&*self.ends) + size_of_val(&*self.source_of)
+        let places = size_of_val(&*self.places) + size_of_val(&*self.ends);
+        places + size_of_val(&*self.source_of) + size_of_val(&*self.groups)
     }
 }

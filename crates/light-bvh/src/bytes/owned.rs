@@ -34,6 +34,7 @@ impl LightBvh {
             order: bytemuck::pod_collect_to_vec(order),
             slots: bytemuck::pod_collect_to_vec(slots),
             power: header.power(),
+            groups: Vec::new(),
         };
         let view = LightBvhRef::new(&tree.nodes, &tree.order, &tree.slots);
         StoredLightBvh::checked(view, tree.power)?;

@@ -22,12 +22,12 @@ impl<'a> LightBvhRef<'a> {
     #[must_use]
     pub fn cut<A: IntoReceiver>(&self, receiver: A, detail: CutDetail) -> LightCut<'a, A::Kept> {
         let mut cut = LightCut {
-            tree: *self,
+            tree: self.wanting(receiver.groups()),
             receiver: receiver.keep(),
             grown: CutNodes::NONE,
         };
         let grow = Grow {
-            tree: self,
+            tree: &cut.tree,
             detail,
             into: &mut cut.grown,
         };
@@ -61,7 +61,8 @@ impl Query for Grow<'_, '_> {
             let Some(node) = tree.nodes().get(cut.nodes[index] as usize) else {
                 break;
             };
-            let (weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
+            let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
+            tree.leave_out(cut.nodes[index] as usize, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }

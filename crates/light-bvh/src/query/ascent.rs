@@ -5,7 +5,6 @@ use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
 use crate::query::select::mul_prob;
-use crate::query::weights::Weights;
 
 /// The probabilities that a way up does not have to compute.
 ///
@@ -68,7 +67,7 @@ impl LightBvhRef<'_> {
             else {
                 return 0.0;
             };
-            *share = Weights::new(node, receiver).probability(child);
+            *share = self.weights(index, node, receiver).probability(child);
             levels += 1;
             slot = node.parent;
         }

@@ -23,11 +23,12 @@ impl<'a> LightBvhRef<'a> {
     #[inline]
     #[must_use]
     pub fn at<A: IntoReceiver>(&self, receiver: A) -> LightBvhAt<'a, A::Kept> {
+        let tree = self.wanting(receiver.groups());
         let receiver = receiver.keep();
         LightBvhAt {
-            tree: *self,
+            tree,
             receiver,
-            root: dispatch(QueryFor(&receiver, Root { tree: self })),
+            root: dispatch(QueryFor(&receiver, Root { tree: &tree })),
         }
     }
 }
@@ -69,7 +70,7 @@ impl Query for Root<'_, '_> {
     fn run<R: Receiver>(self, receiver: &R) -> Weights {
         // Not by a closure, which would be compiled for narrow vectors.
         match self.tree.nodes().first() {
-            Some(root) => Weights::new(root, receiver),
+            Some(root) => self.tree.weights(0, root, receiver),
             None => Weights::NONE,
         }
     }

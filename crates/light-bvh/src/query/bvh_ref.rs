@@ -1,6 +1,8 @@
-use light_bounds::LightId;
+use light_bounds::{LightGroups, LightId};
 
+use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
+use crate::query::weights::Weights;
 use crate::simd::prefetch;
 
 /// How many nodes the caches hold: a smaller tree is not prefetched.
@@ -14,6 +16,10 @@ pub struct LightBvhRef<'a> {
     nodes: &'a [WideNode],
     order: &'a [u32],
     slots: &'a [u32],
+    /// The groups of the lights of each child of each node; empty if nothing is left out by them.
+    groups: &'a [[LightGroups; WIDTH]],
+    /// The groups that are asked for.
+    wanted: LightGroups,
 }
 
 /// What a slot of a node leads to.
@@ -31,6 +37,48 @@ impl<'a> LightBvhRef<'a> {
             nodes,
             order,
             slots,
+            groups: &[],
+            wanted: LightGroups::ALL,
+        }
+    }
+
+    /// The same tree with the groups of its lights, for each child of each node: those of
+    /// [`LightBvh::groups`](crate::LightBvh::groups). Without them all lights are in all groups.
+    #[must_use]
+    pub const fn with_groups(self, groups: &'a [[LightGroups; WIDTH]]) -> Self {
+        Self { groups, ..self }
+    }
+
+    /// The tree for a context that asks for these groups.
+    #[inline(always)]
+    pub(crate) const fn wanting(self, wanted: LightGroups) -> Self {
+        if wanted.0 == LightGroups::ALL.0 {
+            let groups = &[];
+            Self { groups, ..self }
+        } else {
+            Self { wanted, ..self }
+        }
+    }
+
+    /// The weights of the children of the node `index`: 0 for those without a light that is asked
+    /// for.
+    #[inline(always)]
+    pub(crate) fn weights<R: Receiver>(
+        &self,
+        index: usize,
+        node: &WideNode,
+        receiver: &R,
+    ) -> Weights {
+        let mut weights = Weights::new(node, receiver);
+        self.leave_out(index, &mut weights);
+        weights
+    }
+
+    /// Takes the weights of those children away that have no light that is asked for.
+    #[inline(always)]
+    pub(crate) fn leave_out(&self, index: usize, weights: &mut Weights) {
+        if let Some(groups) = self.groups.get(index) {
+            weights.keep(groups, self.wanted);
         }
     }
 

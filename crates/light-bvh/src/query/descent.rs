@@ -5,7 +5,6 @@ use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
 use crate::query::select::{Choice, mul_prob};
-use crate::query::weights::Weights;
 
 /// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
@@ -41,7 +40,7 @@ impl LightBvhRef<'_> {
             if level >= CACHED_LEVELS {
                 self.prefetch_below(node);
             }
-            let choice = Weights::new(node, receiver).choose(u)?;
+            let choice = self.weights(index, node, receiver).choose(u)?;
             pmf = mul_prob(pmf, choice.probability);
             u = choice.u;
             match self.child(node, choice.child)? {

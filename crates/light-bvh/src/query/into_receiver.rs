@@ -1,4 +1,4 @@
-use light_bounds::LightSampleContext;
+use light_bounds::{LightGroups, LightSampleContext};
 
 use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::receiver::Receiver;
@@ -22,6 +22,12 @@ pub trait IntoReceiver: Copy {
 
     /// Prepares it.
     fn keep(self) -> Self::Kept;
+
+    /// The groups of the lights that it asks for: all, if nothing else is said.
+    #[inline]
+    fn groups(self) -> LightGroups {
+        LightGroups::ALL
+    }
 }
 
 /// A receiver that queries keep: a [`Receiver`] or a [`ContextReceiver`].
@@ -66,6 +72,11 @@ impl IntoReceiver for &LightSampleContext {
     #[inline(always)]
     fn keep(self) -> ContextReceiver {
         self.into()
+    }
+
+    #[inline(always)]
+    fn groups(self) -> LightGroups {
+        self.groups
     }
 }
 

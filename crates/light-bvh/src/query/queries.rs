@@ -14,14 +14,16 @@ impl LightBvhRef<'_> {
     #[inline]
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
-        dispatch(QueryFor(&receiver.keep(), Descent { tree: self, u }))
+        let tree = &self.wanting(receiver.groups());
+        dispatch(QueryFor(&receiver.keep(), Descent { tree, u }))
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
     #[inline]
     #[must_use]
     pub fn pmf(&self, receiver: impl IntoReceiver, light: LightId) -> f32 {
-        dispatch(QueryFor(&receiver.keep(), Ascent { tree: self, light }))
+        let tree = &self.wanting(receiver.groups());
+        dispatch(QueryFor(&receiver.keep(), Ascent { tree, light }))
     }
 
     /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is

@@ -1,3 +1,5 @@
+use light_bounds::LightGroups;
+
 use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{WIDTH, WideNode};
@@ -61,6 +63,16 @@ impl Weights {
             // So far away, all are points.
             (Self::from_afar(node, receiver), [0.0; WIDTH])
         }
+    }
+
+    /// Takes the weights of those children away none of whose lights is in a `wanted` group.
+    pub(crate) fn keep(&mut self, groups: &[LightGroups; WIDTH], wanted: LightGroups) {
+        for (weight, groups) in self.lanes.iter_mut().zip(groups) {
+            if !groups.is_wanted(wanted) {
+                *weight = 0.0;
+            }
+        }
+        self.total = total(self.lanes);
     }
 
     /// About the irradiance by the lights of `node`, of which these are the weights, where all

@@ -87,6 +87,11 @@ fn an_infinite_sum_is_still_a_distribution() {
         assert_eq!(pmfs.iter().sum::<f32>(), 1.0, "{weights:?}");
         assert!(pmfs.iter().all(|&pmf| pmf > 0.0), "{pmfs:?}");
     }
+    for count in [2, 3, 64] {
+        let pmf = pmf_by(count, |_| f32::MAX, count - 1);
+        let even = 1.0 / count as f32;
+        assert!((pmf / even - 1.0).abs() < 0.1, "{count} alike: {pmf}");
+    }
 }
 
 #[test]

@@ -2,6 +2,16 @@ use super::*;
 use alloc::vec::Vec;
 use light_math::fraction;
 
+/// The irradiance of a light in all groups.
+fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
+    let light = InfiniteLight {
+        light: LightId(0),
+        bounds: *bounds,
+        groups: LightGroups::ALL,
+    };
+    super::irradiance(&light, ctx)
+}
+
 fn floor() -> LightSampleContext {
     LightSampleContext::surface(Vec3::ZERO, Vec3::Z, Vec3::Z)
 }
@@ -88,9 +98,9 @@ fn sky() -> [LightExtent; 4] {
 /// Beside a tree of weight 2.
 #[test]
 fn each_choice_has_its_share_of_u() {
-    let lights: Vec<InfiniteLight> = emitting(&sky()).collect();
+    let lights: Vec<InfiniteLight> = emitting(&sky(), &[]).collect();
     let sky = InfiniteLights::new(&lights).expect("in order");
-    let fluence = |bounds: &InfiniteBounds| bounds.fluence;
+    let fluence = |light: &InfiniteLight| light.bounds.fluence;
     // Of four weights at most five parts of 2^16 go elsewhere.
     const PARTS: f32 = 5.0 / 65536.0;
     for (u, light, pmf, rest) in [
@@ -126,7 +136,7 @@ fn each_choice_has_its_share_of_u() {
 
 #[test]
 fn lights_out_of_order_or_without_valid_bounds_are_refused() {
-    let lights: Vec<InfiniteLight> = emitting(&sky()).collect();
+    let lights: Vec<InfiniteLight> = emitting(&sky(), &[]).collect();
     let swapped = [lights[1], lights[0]];
     let error = InfiniteLights::new(&swapped).map(|_| ());
     assert_eq!(error, Err(InfiniteLightsError::Order), "swapped");
