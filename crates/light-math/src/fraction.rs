@@ -4,6 +4,9 @@
 //! whole chain of choices. All of it is integer arithmetic that a 32-bit machine does as well, with
 //! the same result.
 
+/// 2^32, the number of values of a word.
+const WORDS: f32 = 4_294_967_296.0;
+
 /// 2^-24, the distance between two fractions in single precision.
 const STEP_OF_F32: f32 = 1.0 / 16_777_216.0;
 
@@ -73,6 +76,28 @@ pub const fn choose(count: u32, u: u64) -> (u32, u64) {
     let low = (u & 0xffff_ffff) * count as u64;
     let high = (u >> 32) * count as u64 + (low >> 32);
     ((high >> 32) as u32, high << 32 | (low & 0xffff_ffff))
+}
+
+/// Whether `u` is below `chance`: true for the nearest 2^-64 to `chance` of all `u`, for none if it
+/// is 0 or NaN, for all if it is 1 or more.
+///
+/// All bits of `u` count, so that chances far below 2^-24 are met as well.
+#[inline]
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the casts truncate on purpose"
+)]
+pub const fn is_below(u: u64, chance: f32) -> bool {
+    let scaled = chance * WORDS;
+    if scaled >= WORDS {
+        return true;
+    }
+    // Exact: a float below 2^32 less its whole part.
+    let high = scaled as u32;
+    let low = (scaled - high as f32) * WORDS;
+    u < from_words(high, low as u32)
 }
 
 /// The fraction at the relative position `u` in the `i`th of `count` equal parts of `[0, 1)`;
@@ -168,6 +193,26 @@ mod tests {
                 assert_eq!(u128::from(index), product >> 64, "{u} {count}");
                 assert_eq!(u128::from(rest), product & u128::from(u64::MAX), "{u}");
             }
+        }
+    }
+
+    #[test]
+    fn a_chance_is_met_by_all_bits() {
+        for (chance, first_above) in [
+            (0.25, 1 << 62),
+            (0.3, 10_066_330 << 39),
+            (1.0 - f32::EPSILON / 2.0, 0xff_ffff << 40),
+            (3.0 / (1u64 << 31) as f32, 3 << 33),
+            (1.0 / (1u64 << 50) as f32, 1 << 14),
+        ] {
+            assert!(is_below(first_above - 1, chance), "{chance}");
+            assert!(!is_below(first_above, chance), "{chance}");
+        }
+        for chance in [0.0, -1.0, f32::NAN, 1e-30] {
+            assert!(!is_below(0, chance), "{chance}");
+        }
+        for chance in [1.0, 7.0, f32::INFINITY] {
+            assert!(is_below(u64::MAX, chance), "{chance}");
         }
     }
 

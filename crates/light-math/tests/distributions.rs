@@ -8,8 +8,8 @@
 
 use light_math::discrete::{self, SampledIndex};
 use light_math::distribution::{
-    AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError,
-    WeightedReservoir, Window, WindowedPiecewiseConstant2D,
+    AliasTable, PiecewiseConstant1D, PiecewiseConstant2D, SummedAreaTable, TableError, Window,
+    WindowedPiecewiseConstant2D,
 };
 use light_math::fraction;
 use light_math::glam::Vec2;
@@ -137,20 +137,6 @@ fn choices_follow_their_probabilities() {
     let table = AliasTable::new(&weights).expect("weights");
     let pmf = pmfs(&|i| table.pmf(i));
     check_choice("alias table", &pmf, |u| table.sample(u));
-    let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
-    let pmf = pmfs(&|i| (f64::from(weights[i]) / total) as f32);
-    check_choice("reservoir", &pmf, |u| {
-        let mut reservoir = WeightedReservoir::new(fraction::to_f64(u));
-        for (index, &weight) in weights.iter().enumerate() {
-            reservoir.add(index, weight);
-        }
-        let kept = reservoir.sample().expect("weights");
-        SampledIndex {
-            index: kept.value,
-            pmf: kept.pmf,
-            u: fraction::from_f64(kept.u),
-        }
-    });
 }
 
 /// Stratified random numbers give every one of a million weights its exact share.

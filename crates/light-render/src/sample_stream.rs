@@ -31,14 +31,32 @@ pub struct CameraNumbers {
 pub struct VertexNumbers {
     /// Which light: a fraction of 2^64.
     pub light: u64,
-    /// Which of several lights is looked at for its shadow.
-    pub shadow: f32,
+    /// Which of two lights is looked at for its shadow: a fraction of 2^64. See
+    /// [`shadow_of`](Self::shadow_of).
+    pub shadow: u64,
     /// Whether the path goes on.
     pub roulette: f32,
     /// Which lobe of the material.
     pub lobe: f32,
     /// Which direction of the lobe.
     pub direction: Vec2,
+}
+
+impl VertexNumbers {
+    /// Whether light sample `i` takes the place of those before it as the one that is looked at for
+    /// its shadow: a fraction of 2^64, independent for each sample. The first takes none, the second
+    /// one that is stratified over the samples of the pixel.
+    #[inline]
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "splits a word")]
+    pub const fn shadow_of(&self, i: u32) -> u64 {
+        if i < 2 {
+            return self.shadow;
+        }
+        let [high, low] = [(self.shadow >> 32) as u32, self.shadow as u32];
+        let high = sobol::hash(high ^ sobol::hash(i));
+        fraction::from_words(high, sobol::hash(low ^ high))
+    }
 }
 
 impl SampleStream {
@@ -68,9 +86,10 @@ impl SampleStream {
     pub fn vertex(&self, vertex: u32) -> VertexNumbers {
         let [light, _, _, roulette] = self.set(2 * vertex + 1);
         let [u, v, lobe, shadow] = self.set(2 * vertex + 2);
+        let low = sobol::hash(self.key() ^ vertex);
         VertexNumbers {
-            light: fraction::from_words(light, sobol::hash(self.key() ^ vertex)),
-            shadow: unit(shadow),
+            light: fraction::from_words(light, low),
+            shadow: fraction::from_words(shadow, sobol::hash(low)),
             roulette: unit(roulette),
             lobe: unit(lobe),
             direction: Vec2::new(unit(u), unit(v)),

@@ -25,7 +25,7 @@ pub use alias_table::AliasTable;
 pub use error::TableError;
 pub use piecewise_constant_1d::{PiecewiseConstant1D, Sample1D};
 pub use piecewise_constant_2d::{PiecewiseConstant2D, Sample2D};
-pub use reservoir::{SampledValue, WeightedReservoir};
+pub use reservoir::WeightedReservoir;
 pub use summed_area_table::SummedAreaTable;
 pub use window::Window;
 pub use windowed_piecewise_constant_2d::WindowedPiecewiseConstant2D;

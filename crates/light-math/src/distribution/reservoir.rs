@@ -1,146 +1,200 @@
-/// The largest `u` that a random number of 53 bits may have.
-const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
+use crate::fraction::is_below;
 
-/// `u` forced into `[0, 1)`; 0 for NaN.
-#[inline]
-pub(super) fn unit(u: f64) -> f64 {
-    if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
-}
-
-/// One of a stream of values, chosen in proportion to weights that are known one at a time.
+/// One of a stream of candidates, kept in proportion to weights that are known one at a time, and
+/// what makes it an unbiased sample.
 ///
-/// One `u` serves the whole stream: each choice uses a part of it and passes on the rest. The rest
-/// stays accurate as long as the first weights are not vanishingly small against the sum, which is
-/// what the 53 bits of an `f64` are for.
+/// Resampled importance sampling: candidates are drawn as a source draws them, with density `p`, and
+/// one is kept with a probability in proportion to its *resampling weight* `target / p`. The target
+/// is any non-negative estimate of what the candidate contributes; it need not be normalised. For a
+/// function `f` whose target is above 0 wherever `f` is not 0,
+/// `f(value) * `[`contribution_weight`](Self::contribution_weight) has the sum (or integral) of `f`
+/// as its mean: the weight takes the place of `1 / p`. There is no density to weight it by against
+/// another strategy, since that of a kept value has no closed form; weight the candidates, as a
+/// factor of `f`.
+///
+/// A reservoir holds no random number: it can be stored, get more candidates, and be
+/// [merged](Self::merge) into that of another receiver. Every candidate takes a fresh `u`,
+/// independent of how candidates are drawn; the bits of a single one would not last.
 ///
 /// ```
 /// # use light_math::distribution::WeightedReservoir;
-/// let mut reservoir = WeightedReservoir::new(0.75);
-/// reservoir.add('a', 1.0);
-/// reservoir.add('b', 3.0);
-/// let chosen = reservoir.sample().expect("a positive weight");
-/// assert_eq!((chosen.value, chosen.pmf), ('a', 0.25));
+/// # let mut random = [1u64 << 62, 1 << 63].into_iter();
+/// // Four numbers, drawn alike; their squares are the target, their cubes are asked for.
+/// let numbers = [1.0f32, 2.0, 3.0, 4.0];
+/// let mut reservoir = WeightedReservoir::new();
+/// for (index, u) in [1, 3].into_iter().zip(&mut random) {
+///     let target = numbers[index].powi(2);
+///     reservoir.add(index, target, target / 0.25, u);
+/// }
+/// let kept = *reservoir.value().expect("a positive weight");
+/// let cubes = numbers[kept].powi(3) * reservoir.contribution_weight();
+/// assert_eq!((kept, cubes), (3, 64.0 * 80.0 / (2.0 * 16.0)));
 /// ```
 ///
 /// # Source
-/// `[Chao1982]`, with the remapped `u` of `[PBRT4]` 2.3.1 in place of a new one for each value.
+/// `[Chao1982]` for the stream, `[Talbot2005]` 3 for the weights, `[Bitterli2020]` algorithms 2 to 4
+/// and 6 for reservoirs that are kept and merged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeightedReservoir<T> {
-    kept: Option<(T, f64)>,
-    total: f64,
-    u: f64,
+    kept: Option<Kept<T>>,
+    total: f32,
+    count: u32,
 }
 
-/// A value chosen with probability `pmf`.
+/// The value of a reservoir, and its target, which is positive and finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampledValue<T> {
-    /// The value.
-    pub value: T,
-    /// Its probability, above 0.
-    pub pmf: f32,
-    /// The unused part of `u`, uniform in `[0, 1)` again.
-    pub u: f64,
+struct Kept<T> {
+    value: T,
+    target: f32,
+}
+
+impl<T> Default for WeightedReservoir<T> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<T> WeightedReservoir<T> {
-    /// An empty reservoir that chooses by `u` in `[0, 1)`.
+    /// A reservoir of no candidate.
     #[must_use]
-    pub fn new(u: f64) -> Self {
+    pub const fn new() -> Self {
         Self {
             kept: None,
             total: 0.0,
-            u: unit(u),
+            count: 0,
         }
     }
 
-    /// Offers `value`; a weight that is not a positive finite number never wins.
+    /// Offers a candidate with its target and its resampling weight: the target over the density
+    /// with which the candidate was drawn. `u` is a fresh [fraction](crate::fraction) of 2^64.
+    ///
+    /// A target or a weight that is not positive and finite never wins; the candidate counts. The
+    /// sum of weights stays at `f32::MAX` once it gets there. It is rounded at each addition, so
+    /// that after `n` candidates it is a relative `n * 2^-24` off at most.
     #[inline]
-    pub fn add(&mut self, value: T, weight: f32) {
-        if !(weight > 0.0 && weight.is_finite()) {
+    pub fn add(&mut self, value: T, target: f32, weight: f32, u: u64) {
+        self.count = self.count.saturating_add(1);
+        self.offer(value, target, weight, u);
+    }
+
+    /// Counts a candidate that contributes nothing: a source that had none to give was asked all the
+    /// same.
+    #[inline]
+    pub const fn add_none(&mut self) {
+        self.count = self.count.saturating_add(1);
+    }
+
+    /// Adds all candidates of `other` as if they were offered one by one. `target` is that of this
+    /// reservoir, of the value that `other` kept; it may be another than the one `other` had.
+    ///
+    /// With one target the merged reservoir is distributed as one of all candidates; otherwise see
+    /// [`contribution_weight`](Self::contribution_weight).
+    ///
+    /// # Source
+    /// `[Bitterli2020]`, algorithm 4.
+    #[inline]
+    pub fn merge(&mut self, other: Self, target: impl FnOnce(&T) -> f32, u: u64) {
+        self.count = self.count.saturating_add(other.count);
+        if let Some(kept) = other.kept {
+            let target = target(&kept.value);
+            let weight = (target / kept.target * other.total).min(f32::MAX);
+            self.offer(kept.value, target, weight, u);
+        }
+    }
+
+    /// Keeps `value` with the probability that its weight has of all so far.
+    #[inline]
+    fn offer(&mut self, value: T, target: f32, weight: f32, u: u64) {
+        let is_valid = |x: f32| x > 0.0 && x.is_finite();
+        if !(is_valid(target) && is_valid(weight)) {
             return;
         }
-        let weight = f64::from(weight);
-        self.total += weight;
-        let chance = weight / self.total;
-        if self.u < chance {
-            self.u = unit(self.u / chance);
-            self.kept = Some((value, weight));
-        } else {
-            self.u = unit((self.u - chance) / (1.0 - chance));
+        self.total = (self.total + weight).min(f32::MAX);
+        if is_below(u, weight / self.total) {
+            self.kept = Some(Kept { value, target });
         }
     }
 
-    /// The sum of the weights so far.
+    /// The kept value; `None` while no weight was positive.
     #[must_use]
-    pub fn total(&self) -> f64 {
+    pub const fn value(&self) -> Option<&T> {
+        match &self.kept {
+            Some(kept) => Some(&kept.value),
+            None => None,
+        }
+    }
+
+    /// The target of the kept value; 0 without one.
+    #[must_use]
+    pub const fn target(&self) -> f32 {
+        match &self.kept {
+            Some(kept) => kept.target,
+            None => 0.0,
+        }
+    }
+
+    /// The sum of all resampling weights. Divided by [`count`](Self::count) its mean is the sum (or
+    /// integral) of the target.
+    #[must_use]
+    pub const fn total(&self) -> f32 {
         self.total
     }
 
-    /// The chosen value; `None` while no weight was positive, or if its probability is below the
-    /// range of `f32`.
+    /// How many candidates there were, those of no weight included: `M` of the source.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "rounds a probability")]
-    pub fn sample(self) -> Option<SampledValue<T>> {
-        let (value, weight) = self.kept?;
-        let pmf = (weight / self.total) as f32;
-        let u = self.u;
-        (pmf > 0.0).then_some(SampledValue { value, pmf, u })
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Lets the candidates so far count as at most `count` when more are added. The contribution
+    /// weight stays.
+    ///
+    /// A reservoir that is kept from frame to frame needs it: old candidates would outnumber new
+    /// ones more and more.
+    ///
+    /// # Source
+    /// `[Bitterli2020]`, section 5: at most 20 times as many as those of a frame.
+    pub fn limit_count(&mut self, count: u32) {
+        if count < self.count {
+            self.total *= count as f32 / self.count as f32;
+            self.count = count;
+        }
+    }
+
+    /// What an estimate multiplies the kept value's contribution by: the sum of weights over `count *
+    /// target`. 0 without a value; at most `f32::MAX`.
+    ///
+    /// Unbiased if every candidate came from a source that reaches all that contributes here: where
+    /// the reservoirs that were merged had a target of 0 at what contributes here, the mean is too
+    /// small. See [`contribution_weight_among`](Self::contribution_weight_among).
+    ///
+    /// # Source
+    /// `[Talbot2005]`, equation 6; `[Bitterli2020]`, equation 6.
+    #[must_use]
+    pub fn contribution_weight(&self) -> f32 {
+        self.contribution_weight_among(self.count)
+    }
+
+    /// [`contribution_weight`](Self::contribution_weight) with another number of candidates, which
+    /// may depend on the kept value.
+    ///
+    /// After merging reservoirs with unlike targets, an unbiased number is the sum of the
+    /// [`count`](Self::count)s of those whose own target of the kept value is above 0. It takes one
+    /// target a reservoir, and is noisy where a target is small but not 0. Weights stand that: offer
+    /// the kept value of each reservoir by [`add`](Self::add) with the weight `m * target *
+    /// contribution_weight`, where the numbers `m` that the reservoirs have for one value add up to
+    /// 1, and take 1 here.
+    ///
+    /// # Source
+    /// `[Bitterli2020]`, algorithm 6, and its section 4.3 for the weights `m`.
+    #[must_use]
+    pub fn contribution_weight_among(&self, count: u32) -> f32 {
+        match &self.kept {
+            Some(kept) if count > 0 => (self.total / kept.target).min(f32::MAX) / count as f32,
+            _ => 0.0,
+        }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn choose(weights: &[f32], u: f64) -> Option<SampledValue<usize>> {
-        let mut reservoir = WeightedReservoir::new(u);
-        for (index, &weight) in weights.iter().enumerate() {
-            reservoir.add(index, weight);
-        }
-        reservoir.sample()
-    }
-
-    #[test]
-    fn the_total_is_that_of_all_weights() {
-        let mut reservoir = WeightedReservoir::new(0.5);
-        assert_eq!(reservoir.total(), 0.0, "none yet");
-        for weight in [0.25, 0.0, 2.0] {
-            reservoir.add((), weight);
-        }
-        assert_eq!(reservoir.total(), 2.25, "of three");
-    }
-
-    #[test]
-    fn a_probability_below_the_range_of_floats_is_none() {
-        assert_eq!(choose(&[1e30, 1e-30], 0.0), None, "1e-60");
-        let least = choose(&[1e30, 1e-6], 0.0).expect("1e-36");
-        assert!(least.value == 1 && least.pmf > 0.0, "{least:?}");
-    }
-
-    #[test]
-    fn even_u_gives_even_shares_and_an_even_rest() {
-        let weights = [1.0, 0.0, 2.0, 5.0];
-        let mut counts = [0; 4];
-        let mut rests = 0.0;
-        for i in 0..8000 {
-            let s = choose(&weights, (f64::from(i) + 0.5) / 8000.0).expect("positive weights");
-            assert_eq!(s.pmf, weights[s.value] / 8.0, "probability");
-            counts[s.value] += 1;
-            rests += s.u / 8000.0;
-        }
-        assert_eq!(counts, [1000, 0, 2000, 5000], "shares");
-        assert!((rests - 0.5).abs() < 1e-3, "mean of what is left: {rests}");
-    }
-
-    #[test]
-    fn nonsense_never_wins() {
-        let weights = [f32::NAN, -1.0, f32::INFINITY, 0.0, 1e-30, f32::NAN];
-        for u in [0.0, 0.5, 1.0, 7.0, f64::NAN] {
-            let s = choose(&weights, u).expect("a positive weight");
-            assert_eq!((s.value, s.pmf), (4, 1.0), "the only one, u = {u}");
-            assert!((0.0..1.0).contains(&s.u), "rest {}", s.u);
-        }
-        assert_eq!(choose(&weights[..4], 0.5), None, "no positive weight");
-        assert_eq!(choose(&[], 0.5), None, "no weight");
-    }
-}
+mod tests;

@@ -1,5 +1,4 @@
 use super::piecewise_constant_2d::Sample2D;
-use super::reservoir::unit;
 use super::span::{Span, texel};
 use super::summed_area_table::SummedAreaTable;
 use super::window::Window;
@@ -81,6 +80,15 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
         let value = self.table.count(column..column + 1, row..row + 1);
         (value / total * (nx * ny) as f64) as f32
     }
+}
+
+/// The largest `u` that a random number of 53 bits may have.
+const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
+
+/// `u` forced into `[0, 1)`; 0 for NaN.
+#[inline]
+fn unit(u: f64) -> f64 {
+    if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
 }
 
 /// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given

@@ -117,19 +117,23 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
     ) -> Traced {
         let (world, estimator) = (self.world, self.estimator);
         // Resampling: a candidate is tested with a probability in proportion to its contribution.
-        let mut candidates = WeightedReservoir::new(numbers.shadow.into());
+        let mut candidates = WeightedReservoir::new();
         for (number, choice) in (0..).zip(chosen.iter()) {
             let point = stream.light_point(vertex.number, number, query.choices.count());
             if let Some(candidate) = unshadowed(world, estimator, query, vertex, choice, point) {
-                candidates.add(candidate, candidate.radiance.element_sum());
+                let weight = candidate.radiance.element_sum();
+                let u = numbers.shadow_of(candidates.count());
+                candidates.add(candidate, weight, weight, u);
             }
         }
-        let Some(chosen) = candidates.sample() else {
+        let Some(chosen) = candidates.value() else {
             return Traced::default();
         };
-        let Arrived { left, rays } = arrived(&chosen.value);
+        // The sum over all candidates, not their mean: a candidate is divided by their number.
+        let weight = candidates.contribution_weight_among(1);
+        let Arrived { left, rays } = arrived(chosen);
         Traced {
-            radiance: left * chosen.value.radiance / chosen.pmf,
+            radiance: left * chosen.radiance * weight,
             rays,
         }
     }
