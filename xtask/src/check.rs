@@ -1,7 +1,7 @@
 //! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
 
 use crate::arrows;
-use crate::features::{SOFTWARE_FLOATS, for_each_set};
+use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 
@@ -27,9 +27,25 @@ pub fn add_steps(steps: &mut Steps) {
         })
     });
     steps.run("documentation", || {
-        let mut doc = cargo(["doc", "--workspace", "--no-deps", "--quiet"]);
-        run(doc.env("RUSTDOCFLAGS", "-D warnings")).map(|()| Outcome::Passed)
+        documents(&["--workspace"])?;
+        documents_libraries(&["--all-features"])?;
+        documents_libraries(&["--no-default-features", "--features", "libm"])
     });
+}
+
+/// Documents the crates that have feature sets, with the same features each.
+fn documents_libraries(features: &[&str]) -> StepResult {
+    let packages = FEATURE_SETS
+        .iter()
+        .flat_map(|set| ["--package", set.package]);
+    let selection: Vec<&str> = packages.chain(features.iter().copied()).collect();
+    documents(&selection)
+}
+
+fn documents(selection: &[&str]) -> StepResult {
+    let mut doc = cargo(["doc", "--no-deps", "--quiet"]);
+    let doc = doc.args(selection).env("RUSTDOCFLAGS", "-D warnings");
+    run(doc).map(|()| Outcome::Passed)
 }
 
 fn lints(selection: &[&str]) -> Result<(), String> {

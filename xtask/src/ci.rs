@@ -2,7 +2,7 @@
 
 use crate::steps::{Outcome, Steps, cargo, run};
 use crate::tools::Install;
-use crate::{api, check, counts, dependencies, fuzz, no_std, oldest};
+use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, packages};
 
 /// Seconds that each fuzz target gets.
 const FUZZ_SECONDS: u32 = 5;
@@ -12,6 +12,8 @@ pub fn add_steps(steps: &mut Steps) {
     check::add_steps(steps);
     no_std::add_steps(steps);
     oldest::add_steps(steps);
+    packages::add_steps(steps);
+    steps.run("dependencies of each crate alone", || crates::crates(&[]));
     dependencies::add_steps(steps, Install::Forbidden);
     steps.run("conformance", || {
         let vectors = ["run", "--quiet", "--package", "light-conformance"];

@@ -57,8 +57,9 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     std("light-samplers", "std,rayon"),
     core("light-sources", "libm"),
     alloc("light-sources", "libm,alloc"),
-    std("light-sources", "std,rayon"),
+    std("light-sources", "std,rayon,half"),
     alloc("light-sources", "libm,serde"),
+    alloc("light-sources", "libm,half,serde"),
     core("light-media", "libm"),
     alloc("light-media", "libm,alloc"),
     std("light-media", "std"),
@@ -67,7 +68,9 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     std("light-photometry", "std"),
     core("lights", "libm"),
     alloc("lights", "libm,alloc,bytemuck"),
-    std("lights", "std,rayon,serde"),
+    core("lights", "libm,bytemuck"),
+    alloc("lights", "libm,alloc,half,serde"),
+    std("lights", "std,half,rayon,bytemuck,serde"),
 ];
 
 /// Runs `check` for the sets that `select` chooses, all of them, whatever fails.

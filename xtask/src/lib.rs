@@ -9,6 +9,7 @@ mod check;
 mod ci;
 mod counts;
 mod coverage;
+mod crates;
 mod debian;
 mod dependencies;
 mod features;
@@ -17,6 +18,7 @@ mod gallery;
 mod mutants;
 mod no_std;
 mod oldest;
+mod packages;
 mod programs;
 mod references;
 mod steps;
@@ -29,7 +31,7 @@ const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
 
   (none)                      format, lints, tests over each feature set, documentation
-  ci                          the same, bare targets, the oldest toolchain, fuzz smoke,
+  ci                          the same, bare targets, the oldest toolchain, packages, fuzz smoke,
                               instruction counts
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   conformance --self-test [DIR]
@@ -44,6 +46,9 @@ usage: cargo xtask [COMMAND]
                               write them there
   arrows [--write]            compare the drawing of the crates in ARCHITECTURE.md with the
                               manifests, or write it
+  crates [--write [CRATE...]] compare the counts of dependencies in the README of each library with
+                              cargo's, or measure its build and write both
+  packages                    make the package of each library, and build it from that
   families                    write the table of families of places into docs/light-bvh.md
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for docs/light-media.md
@@ -82,6 +87,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("counts", rest) => one("counts", || counts::counts(rest)),
         ("api", rest) => one("public items", || api::api(rest)),
         ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
+        ("crates", rest) => one("builds of each crate alone", || crates::crates(rest)),
+        ("packages", []) => all(packages::add_steps),
         ("gallery", []) => one("gallery", gallery::gallery),
         ("march-convergence", []) => one("march-convergence", programs::march_convergence),
         ("median-cut-table", images) => {

@@ -1,6 +1,13 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(
+    not(feature = "alloc"),
+    allow(
+        rustdoc::broken_intra_doc_links,
+        reason = "links to what owns memory are plain text where it is left out"
+    )
+)]
 // Not forbidden where one private module, `simd`, calls code for wider vectors after asking whether
 // the machine has them.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), forbid(unsafe_code))]
@@ -13,6 +20,8 @@ extern crate alloc;
 extern crate std;
 
 pub use light_bounds;
+pub use light_bounds::glam;
+pub use light_bounds::light_math;
 
 #[cfg(feature = "alloc")]
 mod build;

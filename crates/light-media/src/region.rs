@@ -21,6 +21,13 @@ pub enum RegionError {
     Transform,
 }
 
+impl Default for Region {
+    /// The unbounded region.
+    fn default() -> Self {
+        Self::UNBOUNDED
+    }
+}
+
 impl Region {
     /// The unbounded region.
     pub const UNBOUNDED: Self = Self {

@@ -4,6 +4,11 @@
 
 extern crate alloc;
 
+pub use light_scene;
+pub use light_sets;
+pub use lights;
+pub use lights::glam;
+
 mod accel;
 mod available_memory;
 pub mod bench;

@@ -4,6 +4,7 @@
 
 extern crate alloc;
 
+pub use light_sets;
 pub use lights;
 pub use lights::glam;
 

@@ -6,6 +6,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::image_error::{ImageError, check_texels};
 use crate::rgb_sum::RgbSum;
 use crate::texture_mapping::{TextureMapping, Wrap};
+#[cfg(feature = "half")]
 use half::f16;
 
 /// An image of radiometric values: linear RGB with sRGB's primaries, or one grey channel; finite
@@ -26,6 +27,7 @@ pub struct Image {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 enum Texels {
     Single(Arc<[f32]>),
+    #[cfg(feature = "half")]
     Half(Arc<[f16]>),
 }
 
@@ -48,10 +50,12 @@ impl Image {
         })
     }
 
-    /// An image of half-precision texels, half the memory.
+    /// An image of half-precision texels, half the memory. Needs the feature `half`, whose type is
+    /// that of the crate [`half`](crate::half).
     ///
     /// # Errors
     /// When the size is 0 or does not fit `texels`, or a texel is NaN, infinite or negative.
+    #[cfg(feature = "half")]
     pub fn from_f16(
         size: [u32; 2],
         channels: Channels,
@@ -83,6 +87,7 @@ impl Image {
     pub fn bytes(&self) -> usize {
         match &self.texels {
             Texels::Single(texels) => size_of_val::<[f32]>(texels),
+            #[cfg(feature = "half")]
             Texels::Half(texels) => size_of_val::<[f16]>(texels),
         }
     }
@@ -96,6 +101,7 @@ impl Image {
         let index = y as usize * width as usize + x as usize;
         match &self.texels {
             Texels::Single(texels) => self.channels.color(index, |i| texels[i]),
+            #[cfg(feature = "half")]
             Texels::Half(texels) => self.channels.color(index, |i| texels[i].to_f32()),
         }
     }
@@ -163,6 +169,7 @@ impl Image {
         let numbers = y as usize * width..(y as usize + 1) * width;
         match &self.texels {
             Texels::Single(texels) => self.channels.for_each(&texels[numbers], |&x| x, each),
+            #[cfg(feature = "half")]
             Texels::Half(texels) => self
                 .channels
                 .for_each(&texels[numbers], |x| x.to_f32(), each),
@@ -187,6 +194,7 @@ impl Image {
     pub(crate) fn address(&self) -> usize {
         match &self.texels {
             Texels::Single(texels) => texels.as_ptr().addr(),
+            #[cfg(feature = "half")]
             Texels::Half(texels) => texels.as_ptr().addr(),
         }
     }
@@ -269,6 +277,7 @@ mod tests {
         assert_eq!(image.averages(), [0.0, 1.0, 2.0, 3.0], "averages");
     }
 
+    #[cfg(feature = "half")]
     #[test]
     fn half_texels_read_as_their_values() {
         let halves: Vec<f16> = [0.25, 0.5, 0.75].map(f16::from_f32).to_vec();

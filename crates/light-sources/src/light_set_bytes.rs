@@ -106,7 +106,7 @@ impl Count {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "half"))]
 mod tests {
     use super::*;
     use crate::amount::RadianceAmount;

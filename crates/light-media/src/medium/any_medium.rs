@@ -27,6 +27,16 @@ pub enum AnyMedium<C: ColorModel> {
     ColorGrid(Box<ColorGridMedium<C, Vec<f32>>>),
 }
 
+impl<C: ColorModel> Default for AnyMedium<C>
+where
+    Homogeneous<C>: Default,
+{
+    /// Vacuum everywhere.
+    fn default() -> Self {
+        Self::Homogeneous(Homogeneous::default())
+    }
+}
+
 /// Calls a method of the medium inside.
 macro_rules! for_each_kind {
     ($medium:expr, $it:ident => $answer:expr) => {

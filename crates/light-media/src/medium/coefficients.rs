@@ -1,4 +1,6 @@
-use light_sources::{ColorModel, Radiance};
+use light_math::glam::Vec3;
+use light_math::spectrum::Constant;
+use light_sources::{ColorModel, Radiance, Rgb, Spectral, SpectralEmission};
 
 /// The coefficients of a medium at one point, per unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +26,13 @@ impl<R: Radiance> Coefficients<R> {
     #[must_use]
     pub fn sigma_t(&self) -> R {
         self.sigma_a + self.sigma_s
+    }
+}
+
+impl<R: Radiance> Default for Coefficients<R> {
+    /// Vacuum.
+    fn default() -> Self {
+        Self::VACUUM
     }
 }
 
@@ -110,6 +119,32 @@ impl<C: ColorModel> Substance<C> {
     #[must_use]
     pub(crate) fn max_sigma_t(&self) -> f32 {
         self.max_sigma_t
+    }
+}
+
+impl<C: ColorModel> Substance<C> {
+    /// Vacuum, given the emission that is black in this colour model.
+    fn vacuum(black: &C::Emission) -> Self {
+        Self {
+            sigma_a: black.clone(),
+            sigma_s: black.clone(),
+            le: black.clone(),
+            max_sigma_t: 0.0,
+        }
+    }
+}
+
+impl Default for Substance<Rgb> {
+    /// Vacuum.
+    fn default() -> Self {
+        Self::vacuum(&Vec3::ZERO)
+    }
+}
+
+impl<const N: usize> Default for Substance<Spectral<N>> {
+    /// Vacuum.
+    fn default() -> Self {
+        Self::vacuum(&SpectralEmission::Constant(Constant(0.0)))
     }
 }
 

@@ -21,6 +21,20 @@ pub struct Homogeneous<C: ColorModel> {
     pub region: Region,
 }
 
+impl<C: ColorModel> Default for Homogeneous<C>
+where
+    Substance<C>: Default,
+{
+    /// Vacuum everywhere, with an isotropic phase function.
+    fn default() -> Self {
+        Self {
+            substance: Substance::default(),
+            phase: Phase::default(),
+            region: Region::default(),
+        }
+    }
+}
+
 impl<C: ColorModel> Medium<C> for Homogeneous<C> {
     fn phase(&self) -> &Phase {
         &self.phase

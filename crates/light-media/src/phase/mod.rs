@@ -58,6 +58,13 @@ pub enum Phase {
     MieMurky(MieMurky),
 }
 
+impl Default for Phase {
+    /// Isotropic.
+    fn default() -> Self {
+        Self::Isotropic(Isotropic)
+    }
+}
+
 impl Phase {
     /// Samples a direction: `wo` points back along the path that arrived, the result points onward.
     /// `u` in `[0, 1)^2`.
