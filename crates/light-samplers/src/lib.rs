@@ -37,6 +37,7 @@ mod light_sampler;
 mod power;
 #[cfg(feature = "alloc")]
 mod reference_bvh;
+mod resampled;
 mod uniform;
 
 #[cfg(feature = "alloc")]
