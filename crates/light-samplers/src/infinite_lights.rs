@@ -1,11 +1,14 @@
 use core::fmt;
 
+#[cfg(feature = "alloc")]
+use light_bounds::LightExtent;
 use light_bounds::{
-    InfiniteBounds, InfiniteBoundsError, LightExtent, LightGroups, LightId, LightSampleContext,
-    ReceiverKind, ReceiverSides, SampledLight,
+    InfiniteBounds, InfiniteBoundsError, LightGroups, LightId, LightSampleContext, ReceiverKind,
+    ReceiverSides, SampledLight,
 };
-use light_math::glam::Vec3;
-use light_math::{direction, discrete, float};
+#[cfg(feature = "alloc")]
+use light_math::{direction, glam::Vec3};
+use light_math::{discrete, float};
 
 use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
 
