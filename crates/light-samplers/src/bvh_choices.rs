@@ -1,7 +1,6 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvhAt, LightCut};
+use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
 
-use crate::BvhLightSamplerRef;
 use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 
@@ -31,26 +30,28 @@ enum TreeChoices<'a> {
 }
 
 impl<'a> BvhChoices<'a> {
-    /// For `count` choices by `sampler` at `ctx`.
+    /// For `count` choices at `ctx` among the lights of a tree of this power and those at infinity.
     #[inline]
     pub(crate) fn new(
-        sampler: &BvhLightSamplerRef<'a>,
+        tree: LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
         ctx: &LightSampleContext,
         count: u32,
     ) -> Self {
         let tree = if count < FEWEST_OF_CUT {
-            TreeChoices::Single(sampler.tree.at(ctx))
+            TreeChoices::Single(tree.at(ctx))
         } else {
-            TreeChoices::Cut(sampler.tree.cut(ctx, CutDetail::default()))
+            TreeChoices::Cut(tree.cut(ctx, CutDetail::default()))
         };
         let of_unit_power = match &tree {
             TreeChoices::Single(tree) => tree.irradiance(),
             TreeChoices::Cut(tree) => tree.irradiance(),
         };
         Self {
-            infinite: sampler.infinite,
+            infinite,
             ctx: *ctx,
-            in_tree: mul_prob(of_unit_power, sampler.power).min(f32::MAX),
+            in_tree: mul_prob(of_unit_power, power).min(f32::MAX),
             tree,
         }
     }

@@ -46,11 +46,16 @@ impl<'a> BvhLightSamplerRef<'a> {
         self.infinite.lights()
     }
 
+    #[inline]
+    fn choices(&self, ctx: &LightSampleContext, count: u32) -> BvhChoices<'a> {
+        BvhChoices::new(self.tree, self.power, self.infinite, ctx, count)
+    }
+
     /// [`LightSampler::at`], for as long as the memory is borrowed.
     #[inline]
     #[must_use]
     pub fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        LightChoices::bvh(BvhChoices::new(self, ctx, count), count)
+        LightChoices::bvh(self.choices(ctx, count), count)
     }
 }
 
@@ -60,7 +65,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         if self.infinite.is_empty() {
             self.tree.sample(ctx, u)
         } else {
-            BvhChoices::new(self, ctx, 1).sample(u)
+            self.choices(ctx, 1).sample(u)
         }
     }
 
@@ -69,7 +74,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         if self.infinite.is_empty() {
             self.tree.pmf(ctx, light)
         } else {
-            BvhChoices::new(self, ctx, 1).pmf(light)
+            self.choices(ctx, 1).pmf(light)
         }
     }
 

@@ -31,7 +31,6 @@ mod grouped;
 mod infinite_lights;
 #[cfg(feature = "alloc")]
 mod infinite_shares;
-mod light_choices;
 mod light_sampler;
 #[cfg(feature = "alloc")]
 mod power;
@@ -47,8 +46,7 @@ pub use bvh_ref::BvhLightSamplerRef;
 pub use exhaustive::ExhaustiveLightSampler;
 pub use grouped::GroupedLightSampler;
 pub use infinite_lights::{InfiniteLight, InfiniteLightsError};
-pub use light_choices::LightChoices;
-pub use light_sampler::LightSampler;
+pub use light_sampler::{LightChoices, LightSampler};
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};
 #[cfg(feature = "alloc")]

@@ -12,6 +12,7 @@ const HEIGHT: f32 = 0.2;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Horizon {
     n: Vec3,
+    /// Half of the normal, and its absolute value: what every child is multiplied by.
     half_n: Vec3,
     abs_half_n: Vec3,
 }
