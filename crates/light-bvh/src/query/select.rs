@@ -64,8 +64,15 @@ impl Weights {
         }
         let child = child & (WIDTH - 1);
         if child > 0 && self.lanes[0] > 0.0 {
-            return PART * parts_of(self.lanes[child], self.scale());
+            PART * parts_of(self.lanes[child], self.scale())
+        } else {
+            self.probability_with_left_over(child)
         }
+    }
+
+    /// The probability of a child that may be the first, which takes the parts that are left over.
+    #[inline(always)]
+    fn probability_with_left_over(&self, child: usize) -> f32 {
         let parts = self.parts();
         let is_first = parts.iter().position(|&parts| parts > 0.0) == Some(child);
         if is_first {

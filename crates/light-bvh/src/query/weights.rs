@@ -2,11 +2,18 @@ use light_bounds::LightGroups;
 
 use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
+use crate::lane_math::{LaneMask, larger};
 use crate::node::wide_node::{WIDTH, WideNode};
 
 /// The least sum of weights in codes that is trusted: a weight 10^18 times smaller than the
 /// largest, and its factors 10^27 times smaller, are still normal floats.
 const LEAST_TOTAL: f32 = 1e-10;
+
+/// The least weight of a child that can contribute, as a share of the weights of its node.
+///
+/// An estimate has no limit to its error; this bounds what a light costs that was estimated too
+/// low. Chosen by V: see `docs/light-bvh.md`.
+const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
 /// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]
@@ -108,6 +115,10 @@ impl Weights {
             let child = frame.child(node, k);
             *weight = receiver.weigh(&child, frame.inv_unit);
             note(k, &child);
+        }
+        let least = total(lanes) * LEAST_SHARE;
+        for weight in &mut lanes {
+            *weight = LaneMask::when(*weight > 0.0).keep(larger(*weight, least));
         }
         Self {
             lanes,
