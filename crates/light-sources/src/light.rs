@@ -25,7 +25,8 @@ pub trait Light<C: ColorModel> {
     ///
     /// The radiance that a surface reflects is estimated by `bsdf * l * |cos| / (pdf * pmf)`, where
     /// `cos` is that at the receiver and `pmf` the probability with which the light was chosen. Of
-    /// several choices the sum is divided by their number.
+    /// several choices the sum is divided by their number. `crates/lights/examples/direct_lighting.rs`
+    /// weights such samples against those of the BSDF.
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -46,7 +47,7 @@ pub trait Light<C: ColorModel> {
     /// `direction` and its `normal`, because `pdf.pos` is a density per area of that surface. Where
     /// `normal` is zero the factor is 1: a light at a point has an intensity, and lights at
     /// infinity state `pdf.pos` per area across the ray. The mean of that power is
-    /// [`phi`](Self::phi).
+    /// [`phi`](Self::phi). `crates/lights/examples/light_tracing.rs` lets it land on a floor.
     fn sample_le(
         &self,
         u1: Vec2,

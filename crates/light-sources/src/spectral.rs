@@ -9,6 +9,8 @@ use crate::glam::Vec3;
 use crate::spectral_emission::SpectralEmission;
 
 /// The spectral colour model, with `N` sampled wavelengths per query.
+///
+/// `crates/lights/examples/spectral.rs` makes a picture with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spectral<const N: usize>;
 

@@ -35,7 +35,7 @@ use region::texel_solid_angle;
 /// biased: each concentrates a region in one direction.
 ///
 /// Building takes time and memory in proportion to the texels: 8 bytes each with
-/// [`RegionSums::Table`].
+/// [`RegionSums::Table`]. `crates/lights/examples/median_cut.rs` draws regions and lights.
 ///
 /// # Source
 /// `[Debevec2005]`; regions are cut by shares instead of halves, so that any number of lights is of
