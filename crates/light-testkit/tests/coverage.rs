@@ -143,7 +143,15 @@ fn kinds() -> Vec<String> {
             );
         }
     }
-    kinds.extend(["discrete", "equal_area", "SampledWavelengths"].map(String::from));
+    // What is drawn by none of the names above.
+    let others = [
+        "discrete",
+        "equal_area",
+        "SampledWavelengths",
+        "WeightedReservoir",
+        "LightChoices::resampled",
+    ];
+    kinds.extend(others.map(String::from));
     kinds
 }
 
