@@ -24,6 +24,9 @@ pub const PART: f32 = 1.0 / 65536.0;
 /// The largest number of weights of one choice.
 const GROUP: usize = 64;
 
+/// The least sum of weights that is used as it is: 2^-100.
+const LEAST_TOTAL: f32 = f32::from_bits(27 << 23);
+
 /// One of several indices, chosen with probability `pmf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledIndex {
@@ -150,7 +153,25 @@ impl Groups {
             let first = start + group * len;
             *sum = total(first, (first + len).min(end), &weight);
         }
+        groups.bring_within_range();
         groups
+    }
+
+    /// Multiplies all sums by a power of two, if their sum is infinite or so small that the factor
+    /// to parts would be.
+    #[inline]
+    fn bring_within_range(&mut self) {
+        let sums = &mut self.sums[..self.count];
+        let unit = match sums.iter().sum::<f32>() {
+            total if total > f32::MAX => 1.0 / 128.0,
+            total if total < LEAST_TOTAL => 1.0 / LEAST_TOTAL,
+            _ => return,
+        };
+        for sum in sums {
+            if *sum > 0.0 {
+                *sum = (*sum * unit).max(f32::MIN_POSITIVE);
+            }
+        }
     }
 
     /// The indices of one of the groups.
@@ -164,13 +185,7 @@ impl Groups {
     #[inline]
     fn parts(&self) -> impl Iterator<Item = u32> + use<'_> {
         let sums = &self.sums[..self.count];
-        let mut scale = parts_scale(sums.iter().sum(), sums.len());
-        if scale == 0.0 {
-            // The sum overflows.
-            const UNIT: f32 = 1.0 / 128.0;
-            let total = sums.iter().map(|sum| sum * UNIT).sum();
-            scale = parts_scale(total, sums.len()) * UNIT;
-        }
+        let scale = parts_scale(sums.iter().sum(), sums.len());
         let mut rest = PARTS - sums.iter().map(|&sum| parts_of(sum, scale)).sum::<u32>();
         sums.iter().map(move |&sum| match parts_of(sum, scale) {
             0 => 0,

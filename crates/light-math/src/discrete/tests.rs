@@ -95,6 +95,15 @@ fn an_infinite_sum_is_still_a_distribution() {
 }
 
 #[test]
+fn the_smallest_weights_keep_their_proportion() {
+    assert_eq!(LEAST_TOTAL, 2f32.powi(-100), "a power of two");
+    let weights = [1e-45, 0.0, 4.2e-45];
+    let pmfs = [0, 1, 2].map(|i| pmf(&weights, i));
+    assert!((pmfs[0] - 0.25).abs() < 1e-4 && pmfs[1] == 0.0, "{pmfs:?}");
+    assert!((pmfs[2] - 0.75).abs() < 1e-4, "{pmfs:?}");
+}
+
+#[test]
 fn nothing_to_choose() {
     assert_eq!(sample(&[], 0), None, "no weights");
     assert_eq!(
