@@ -25,8 +25,8 @@ pub trait Light<C: ColorModel> {
     ///
     /// The radiance that a surface reflects is estimated by `bsdf * l * |cos| / (pdf * pmf)`, where
     /// `cos` is that at the receiver and `pmf` the probability with which the light was chosen. Of
-    /// several choices the sum is divided by their number. `crates/lights/examples/direct_lighting.rs`
-    /// weights such samples against those of the BSDF.
+    /// several choices the sum is divided by their number.
+    /// `crates/lights/examples/direct_lighting.rs` weights such samples against those of the BSDF.
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -39,8 +39,11 @@ pub trait Light<C: ColorModel> {
     /// and for directions that miss the light.
     fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32;
 
-    /// A ray that leaves the light, its origin chosen by `u1` and its direction by `u2`, unless the
-    /// light says otherwise.
+    /// A ray that leaves the light, chosen by `u1` and `u2`, both uniform in `[0, 1)^2`.
+    ///
+    /// An area light chooses the origin by `u1` and the direction by `u2`; a light in a point the
+    /// direction by `u1`; a light at infinity the direction by `u1` and the origin by `u2`, or the
+    /// origin by `u1` if it has one direction.
     ///
     /// The power that the ray carries is `l * cos / (pdf.pos * pdf.dir)`, over the probability of
     /// the light if one was chosen. At a surface, `cos` is the absolute cosine between the ray's
