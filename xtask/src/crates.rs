@@ -1,5 +1,5 @@
-//! `cargo xtask crates [--write [CRATE...]]`: what each library alone takes to build, written in its
-//! README.
+//! `cargo xtask crates [--write [CRATE...]]`: what each library alone takes to build, written in
+//! its README.
 
 use std::collections::BTreeSet;
 use std::fs;

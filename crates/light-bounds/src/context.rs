@@ -74,9 +74,9 @@ pub enum ReceiverSides {
 impl LightSampleContext {
     /// A point on a surface with geometric normal `n` and shading normal `ns`, known exactly.
     ///
-    /// Only the directions of the normals are used; a vector of unit length up to rounding keeps its
-    /// bits. A normal without a direction (zero, infinite, not a number) is replaced by the other
-    /// one; without both the receiver is a point in a medium.
+    /// Only the directions of the normals are used; a vector of unit length up to rounding keeps
+    /// its bits. A normal without a direction (zero, infinite, not a number) is replaced by the
+    /// other one; without both the receiver is a point in a medium.
     #[inline]
     #[must_use]
     pub fn surface(p: Vec3, n: Vec3, ns: Vec3) -> Self {

@@ -9,7 +9,7 @@ pub struct SampledLight {
     /// Probability of this light, above 0 and at most 1: the same bits that a query of the light's
     /// pmf returns.
     pub pmf: f32,
-    /// Unused part of `u`: given the light, a uniform [fraction](light_math::fraction) of 2^64 again,
-    /// with as many random bits fewer as the choice took.
+    /// Unused part of `u`: given the light, a uniform [fraction](light_math::fraction) of 2^64
+    /// again, with as many random bits fewer as the choice took.
     pub u: u64,
 }

@@ -1,14 +1,14 @@
 //! Choosing one of several weights, with probabilities that are whole parts of 2^16.
 //!
 //! Every positive weight gets at least one part, and the parts of all weights sum to 2^16: the
-//! probabilities sum to exactly 1. Against exact proportion a probability among `n <= 64` weights is
-//! at most a relative `n / 2^16` too small, and at most 2^-16 too large; that of the first positive
-//! weight, which takes the parts that are left over, `(n + 1) / 2^16`. More weights are chosen by
-//! groups of groups, each choice of at most 64.
+//! probabilities sum to exactly 1. Against exact proportion a probability among `n <= 64` weights
+//! is at most a relative `n / 2^16` too small, and at most 2^-16 too large; that of the first
+//! positive weight, which takes the parts that are left over, `(n + 1) / 2^16`. More weights are
+//! chosen by groups of groups, each choice of at most 64.
 //!
-//! A choice takes and leaves a [fraction](crate::fraction) of 2^64. A larger fraction never leads to
-//! an earlier weight, so that stratified fractions choose stratified weights. No step needs more than
-//! 32-bit integers and single precision.
+//! A choice takes and leaves a [fraction](crate::fraction) of 2^64. A larger fraction never leads
+//! to an earlier weight, so that stratified fractions choose stratified weights. No step needs more
+//! than 32-bit integers and single precision.
 //!
 //! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) answers in
 //! constant time.
@@ -65,8 +65,8 @@ pub fn pmf(weights: &[f32], index: usize) -> f32 {
     pmf_by(weights.len(), |index| weights[index], index)
 }
 
-/// [`sample`] of `count` weights, of which `weight(i)` is that of index `i`. Asks for a weight little
-/// more than once.
+/// [`sample`] of `count` weights, of which `weight(i)` is that of index `i`. Asks for a weight
+/// little more than once.
 #[inline]
 #[must_use]
 pub fn sample_by(count: usize, weight: impl Fn(usize) -> f32, u: u64) -> Option<SampledIndex> {

@@ -10,16 +10,16 @@ const WORDS: f32 = 4_294_967_296.0;
 /// 2^-24, the distance between two fractions in single precision.
 const STEP_OF_F32: f32 = 1.0 / 16_777_216.0;
 
-/// The fraction whose upper half is `high`, for example a point of a Sobol sequence, and whose lower
-/// half is `low`, for example a hash.
+/// The fraction whose upper half is `high`, for example a point of a Sobol sequence, and whose
+/// lower half is `low`, for example a hash.
 #[inline]
 #[must_use]
 pub const fn from_words(high: u32, low: u32) -> u64 {
     (high as u64) << 32 | low as u64
 }
 
-/// The fraction whose upper 24 bits are `u` in `[0, 1)` and whose lower 40 bits are the upper ones of
-/// `fill`, another random number.
+/// The fraction whose upper 24 bits are `u` in `[0, 1)` and whose lower 40 bits are the upper ones
+/// of `fill`, another random number.
 ///
 /// Without bits to fill in a million lights are chosen on a grid. Numbers outside of the domain are
 /// moved into it, NaN to 0.

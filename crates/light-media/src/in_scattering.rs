@@ -54,8 +54,8 @@ where
     /// unit of the scattering coefficient: the integral of phase function times radiance, in W m^-2
     /// sr^-1.
     ///
-    /// `u_light`, a fraction of 2^64, chooses a light, `u` in `[0, 1)^2` the point on it. The estimate is
-    /// divided by the probability of the light, and includes occlusion and attenuation.
+    /// `u_light`, a fraction of 2^64, chooses a light, `u` in `[0, 1)^2` the point on it. The
+    /// estimate is divided by the probability of the light, and includes occlusion and attenuation.
     pub fn in_scattered(
         &self,
         at: ScatteringPoint,

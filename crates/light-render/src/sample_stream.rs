@@ -44,8 +44,8 @@ pub struct VertexNumbers {
 
 impl VertexNumbers {
     /// Whether light sample `i` takes the place of those before it as the one that is looked at for
-    /// its shadow: a fraction of 2^64, independent for each sample. The first takes none, the second
-    /// one that is stratified over the samples of the pixel.
+    /// its shadow: a fraction of 2^64, independent for each sample. The first takes none, the
+    /// second one that is stratified over the samples of the pixel.
     #[inline]
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "splits a word")]

@@ -5,8 +5,8 @@ use crate::{LightChoices, LightSampler};
 /// A sampler that knows no groups, restricted to the groups that a context asks for: a choice of
 /// any other light is none.
 ///
-/// `G` lends the groups of all lights by id, for example a `Vec<LightGroups>`; lights beyond its end
-/// are in all groups. A choice that contributes nothing costs as much as another:
+/// `G` lends the groups of all lights by id, for example a `Vec<LightGroups>`; lights beyond its
+/// end are in all groups. A choice that contributes nothing costs as much as another:
 /// [`BvhLightSampler`](crate::BvhLightSampler) chooses among the lights that are asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct GroupedLightSampler<S, G> {

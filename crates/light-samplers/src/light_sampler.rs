@@ -7,8 +7,8 @@ use crate::bvh_choices::BvhChoices;
 
 /// Chooses lights of a set at random, with probabilities that can be queried.
 ///
-/// Every `u` is a [fraction](light_bounds::light_math::fraction) of 2^64. Samplers are immutable and
-/// deterministic in their arguments. For any input, and in every implementation:
+/// Every `u` is a [fraction](light_bounds::light_math::fraction) of 2^64. Samplers are immutable
+/// and deterministic in their arguments. For any input, and in every implementation:
 ///
 /// - the pmf of a sample has the same bits as the queried pmf of its light;
 /// - the pmfs of all lights and the probability of `None` add up to 1;

@@ -4,8 +4,8 @@ use light_bounds::light_math::distribution::WeightedReservoir;
 use crate::LightChoices;
 
 impl LightChoices<'_> {
-    /// One of the choices, resampled in proportion to `target`: an estimate of what a light gives at
-    /// the context that is better than the sampler's but too costly for every light.
+    /// One of the choices, resampled in proportion to `target`: an estimate of what a light gives
+    /// at the context that is better than the sampler's but too costly for every light.
     ///
     /// `target` is called once a candidate. It has no unit and need not be normalised; it must be
     /// above 0 for every light that contributes, since a light whose target is not positive and
@@ -14,15 +14,15 @@ impl LightChoices<'_> {
     /// stratified choice is not.
     ///
     /// What the kept light gives, times
-    /// [`contribution_weight`](WeightedReservoir::contribution_weight), has the sum over all lights as
-    /// its mean. This weight takes the place of `1 / pmf`. There is no pmf: the probability of a
+    /// [`contribution_weight`](WeightedReservoir::contribution_weight), has the sum over all lights
+    /// as its mean. This weight takes the place of `1 / pmf`. There is no pmf: the probability of a
     /// kept light is a sum over all combinations of candidates, so that a resampled choice is no
     /// [`LightSampler`](crate::LightSampler). For multiple importance sampling put the weight of a
     /// candidate, by [`count`](Self::count) times [`pmf`](Self::pmf), into what a light gives and
     /// best into its target: any weights that add up to 1 are unbiased.
     ///
-    /// The reservoir can be kept and [merged](WeightedReservoir::merge) with those of other points or
-    /// frames. The example `resampling` of the crate `lights` measures what resampling gains.
+    /// The reservoir can be kept and [merged](WeightedReservoir::merge) with those of other points
+    /// or frames. The example `resampling` of the crate `lights` measures what resampling gains.
     ///
     /// ```
     /// # use light_samplers::{LightSampler, UniformLightSampler, light_bounds};
@@ -41,8 +41,8 @@ impl LightChoices<'_> {
     /// ```
     ///
     /// # Source
-    /// `[Talbot2005]`, section 3; `[Bitterli2020]`, algorithm 3. Candidates are stratified here: only
-    /// their average density counts.
+    /// `[Talbot2005]`, section 3; `[Bitterli2020]`, algorithm 3. Candidates are stratified here:
+    /// only their average density counts.
     pub fn resampled(
         &self,
         u: u64,

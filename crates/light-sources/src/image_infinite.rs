@@ -24,15 +24,16 @@ use light_math::DirectionCone;
 /// wherever there is light, and the same bits in a sample and in a query unless a texel is smaller
 /// than the rounding of a direction. An equal-area picture is sampled as pbrt samples it.
 ///
-/// Memory beside the image: 8 bytes a texel of a lat-long picture, 16 of an equal-area one. Building
-/// takes two passes over the texels; with the feature `rayon` those of a lat-long picture run on all
-/// threads, and give the same bits on any number of them. A sample takes two binary searches, along
-/// rows and along columns. `crates/lights/examples/environment.rs` lights a ball with one.
+/// Memory beside the image: 8 bytes a texel of a lat-long picture, 16 of an equal-area one.
+/// Building takes two passes over the texels; with the feature `rayon` those of a lat-long picture
+/// run on all threads, and give the same bits on any number of them. A sample takes two binary
+/// searches, along rows and along columns. `crates/lights/examples/environment.rs` lights a ball
+/// with one.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.5.2, of which the map and the solid angle of lat-long texels differ; the
-/// compensated distribution for [`PdfCoverage::Incomplete`] is that of `[Karlik2019]`, with the mean
-/// over the sphere.
+/// compensated distribution for [`PdfCoverage::Incomplete`] is that of `[Karlik2019]`, with the
+/// mean over the sphere.
 #[derive(Clone, Debug)]
 pub struct ImageInfiniteLight<C> {
     transform: RigidTransform,

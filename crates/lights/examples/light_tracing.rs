@@ -1,7 +1,7 @@
 //! Light the other way round: rays leave the lights, and the floor counts the power that lands.
 //!
-//! `cargo run --release -p lights --example light_tracing` writes `out/light_tracing.png`: the floor
-//! below a lamp, a spot light and a panel, from above.
+//! `cargo run --release -p lights --example light_tracing` writes `out/light_tracing.png`: the
+//! floor below a lamp, a spot light and a panel, from above.
 
 use core::error::Error;
 use core::f32::consts::FRAC_PI_2;

@@ -1,7 +1,8 @@
 //! 90,000 lamps of very different powers: a hierarchy chooses those that matter where one asks.
 //!
 //! `cargo run --release -p lights --example many_lights` writes `out/many_lights.png`, a plain seen
-//! from above: four lights a pixel, chosen alike, by power and by the hierarchy, from left to right.
+//! from above: four lights a pixel, chosen alike, by power and by the hierarchy, from left to
+//! right.
 
 use core::error::Error;
 
@@ -90,7 +91,8 @@ mod tests {
         lights.iter().filter_map(li).sum()
     }
 
-    /// All three agree with the sum over all lights, and the hierarchy has a tenth of the others' variance.
+    /// All three agree with the sum over all lights, and the hierarchy has a tenth of the others'
+    /// variance.
     #[test]
     fn means_agree_and_noise_falls() -> Result<()> {
         let lights = lamps(20)?;

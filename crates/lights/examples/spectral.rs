@@ -1,7 +1,8 @@
 //! Lights as spectra: four wavelengths a sample, and the eye's response makes colours of them.
 //!
 //! `cargo run --release -p lights --example spectral` writes `out/spectral.png`: candle, daylight
-//! and a sodium lamp on a white wall, above, and on a blue one, below, that sodium light leaves black.
+//! and a sodium lamp on a white wall, above, and on a blue one, below, that sodium light leaves
+//! black.
 
 use core::error::Error;
 use core::f32::consts::FRAC_1_PI;

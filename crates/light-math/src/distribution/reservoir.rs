@@ -3,14 +3,14 @@ use crate::fraction::is_below;
 /// One of a stream of candidates, kept in proportion to weights that are known one at a time, and
 /// what makes it an unbiased sample.
 ///
-/// Resampled importance sampling: candidates are drawn as a source draws them, with density `p`, and
-/// one is kept with a probability in proportion to its *resampling weight* `target / p`. The target
-/// is any non-negative estimate of what the candidate contributes; it need not be normalised. For a
-/// function `f` whose target is above 0 wherever `f` is not 0,
-/// `f(value) * `[`contribution_weight`](Self::contribution_weight) has the sum (or integral) of `f`
-/// as its mean: the weight takes the place of `1 / p`. There is no density to weight it by against
-/// another strategy, since that of a kept value has no closed form; weight the candidates, as a
-/// factor of `f`.
+/// Resampled importance sampling: candidates are drawn as a source draws them, with density `p`,
+/// and one is kept with a probability in proportion to its *resampling weight* `target / p`. The
+/// target is any non-negative estimate of what the candidate contributes; it need not be
+/// normalised. For a function `f` whose target is above 0 wherever `f` is not 0, `f(value) *
+/// `[`contribution_weight`](Self::contribution_weight) has the sum (or integral) of `f` as its
+/// mean: the weight takes the place of `1 / p`. There is no density to weight it by against another
+/// strategy, since that of a kept value has no closed form; weight the candidates, as a factor of
+/// `f`.
 ///
 /// A reservoir holds no random number: it can be stored, get more candidates, and be
 /// [merged](Self::merge) into that of another receiver. Every candidate takes a fresh `u`,
@@ -32,8 +32,8 @@ use crate::fraction::is_below;
 /// ```
 ///
 /// # Source
-/// `[Chao1982]` for the stream, `[Talbot2005]` 3 for the weights, `[Bitterli2020]` algorithms 2 to 4
-/// and 6 for reservoirs that are kept and merged.
+/// `[Chao1982]` for the stream, `[Talbot2005]` 3 for the weights, `[Bitterli2020]` algorithms 2 to
+/// 4 and 6 for reservoirs that are kept and merged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeightedReservoir<T> {
     kept: Option<Kept<T>>,
@@ -77,8 +77,8 @@ impl<T> WeightedReservoir<T> {
         self.offer(value, target, weight, u);
     }
 
-    /// Counts a candidate that contributes nothing: a source that had none to give was asked all the
-    /// same.
+    /// Counts a candidate that contributes nothing: a source that had none to give was asked all
+    /// the same.
     #[inline]
     pub const fn add_none(&mut self) {
         self.count = self.count.saturating_add(1);
@@ -161,8 +161,8 @@ impl<T> WeightedReservoir<T> {
         }
     }
 
-    /// What an estimate multiplies the kept value's contribution by: the sum of weights over `count *
-    /// target`. 0 without a value; at most `f32::MAX`.
+    /// What an estimate multiplies the kept value's contribution by: the sum of weights over `count
+    /// * target`. 0 without a value; at most `f32::MAX`.
     ///
     /// Unbiased if every candidate came from a source that reaches all that contributes here: where
     /// the reservoirs that were merged had a target of 0 at what contributes here, the mean is too
@@ -180,8 +180,8 @@ impl<T> WeightedReservoir<T> {
     ///
     /// After merging reservoirs with unlike targets, an unbiased number is the sum of the
     /// [`count`](Self::count)s of those whose own target of the kept value is above 0. It takes one
-    /// target a reservoir, and is noisy where a target is small but not 0. Weights stand that: offer
-    /// the kept value of each reservoir by [`add`](Self::add) with the weight `m * target *
+    /// target a reservoir, and is noisy where a target is small but not 0. Weights stand that:
+    /// offer the kept value of each reservoir by [`add`](Self::add) with the weight `m * target *
     /// contribution_weight`, where the numbers `m` that the reservoirs have for one value add up to
     /// 1, and take 1 here.
     ///

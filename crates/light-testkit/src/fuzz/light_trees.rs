@@ -7,8 +7,8 @@ use super::input::Input;
 /// Lights that one input may hold: enough for a few levels.
 const MAX_LIGHTS: usize = 40;
 
-/// Both trees refuse lights that are not valid, and have a result for every query about the others: the pmf of
-/// a sample has the bits of the queried pmf, and pmfs sum to one at most.
+/// Both trees refuse lights that are not valid, and have a result for every query about the others:
+/// the pmf of a sample has the bits of the queried pmf, and pmfs sum to one at most.
 ///
 /// # Panics
 /// If a guarantee is violated.

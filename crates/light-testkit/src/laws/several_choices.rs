@@ -5,8 +5,8 @@ use light_samplers::LightSampler;
 use crate::{Rng, SamplerCase, chi_squared, kolmogorov_smirnov_uniform};
 
 /// Several choices at one context carry the bits of their queried pmfs, which add up to one at most
-/// and are the same whenever they are prepared; they fall on lights as often as their pmf, and leave
-/// a uniform rest of `u` for each of them.
+/// and are the same whenever they are prepared; they fall on lights as often as their pmf, and
+/// leave a uniform rest of `u` for each of them.
 ///
 /// They are stratified, so counts vary less than independent ones: the test errs on
 /// the safe side.
