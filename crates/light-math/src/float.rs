@@ -65,6 +65,18 @@ forward! {
     round(x) = round, roundf;
 }
 
+/// The product of two numbers of at least 0, such as probabilities: 0 only if one of them is, and
+/// never by rounding alone. 0 for any other number.
+#[inline(always)]
+#[must_use]
+pub fn positive_product(a: f32, b: f32) -> f32 {
+    if a > 0.0 && b > 0.0 {
+        (a * b).max(f32::MIN_POSITIVE)
+    } else {
+        0.0
+    }
+}
+
 /// Square root; NaN below zero. Correctly rounded whoever computes it, so that the platform's is
 /// taken wherever there is one.
 #[inline]
@@ -164,6 +176,20 @@ pub const fn next_down(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn products_of_positive_numbers_are_positive() {
+        assert_eq!(positive_product(0.5, 0.25), 0.125, "a product");
+        assert_eq!(
+            positive_product(1e-30, 1e-30),
+            f32::MIN_POSITIVE,
+            "rounded up"
+        );
+        for none in [0.0, -1.0, f32::NAN] {
+            assert_eq!(positive_product(none, 1.0), 0.0, "{none}");
+            assert_eq!(positive_product(1.0, none), 0.0, "{none}");
+        }
+    }
 
     #[test]
     fn safe_functions_clamp_round_off() {

@@ -1,7 +1,8 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
+use light_math::float::positive_product;
 
-use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 
 /// The least number of choices for which a cut is faster than single choices.
@@ -51,7 +52,7 @@ impl<'a> BvhChoices<'a> {
         Self {
             infinite,
             ctx: *ctx,
-            in_tree: mul_prob(of_unit_power, power).min(f32::MAX),
+            in_tree: positive_product(of_unit_power, power).min(f32::MAX),
             tree,
         }
     }
@@ -65,7 +66,7 @@ impl<'a> BvhChoices<'a> {
         match self.infinite.first(u, self.in_tree, weight)? {
             FirstChoice::Infinite(light) => Some(light),
             FirstChoice::Others { pmf, u } => self.tree.sample(u).map(|light| SampledLight {
-                pmf: mul_prob(pmf, light.pmf),
+                pmf: positive_product(pmf, light.pmf),
                 ..light
             }),
         }
@@ -79,7 +80,7 @@ impl<'a> BvhChoices<'a> {
         let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
         match self.infinite.first_pmf(light, self.in_tree, weight) {
             FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => mul_prob(pmf, self.tree.pmf(light)),
+            FirstPmf::Others(pmf) => positive_product(pmf, self.tree.pmf(light)),
         }
     }
 }

@@ -1,8 +1,9 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhRef;
+use light_math::float::positive_product;
 
 use crate::bvh_choices::BvhChoices;
-use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, InfiniteLightsError};
 use crate::{LightChoices, LightSampler};
 
@@ -88,7 +89,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
             FirstChoice::Infinite(light) => Some(light),
             FirstChoice::Others { pmf, u } => {
                 self.tree.sample_emitter(u).map(|light| SampledLight {
-                    pmf: mul_prob(pmf, light.pmf),
+                    pmf: positive_product(pmf, light.pmf),
                     ..light
                 })
             }
@@ -98,7 +99,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
     fn pmf_emitter(&self, light: LightId) -> f32 {
         match self.infinite.first_pmf(light, self.power, fluence) {
             FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => mul_prob(pmf, self.tree.pmf_emitter(light)),
+            FirstPmf::Others(pmf) => positive_product(pmf, self.tree.pmf_emitter(light)),
         }
     }
 }

@@ -3,8 +3,9 @@ use alloc::vec::Vec;
 use light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhError;
 use light_math::discrete;
+use light_math::float::positive_product;
 
-use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 use crate::{LightChoices, LightSampler};
 
@@ -58,7 +59,7 @@ impl ExhaustiveLightSampler {
                 let chosen = discrete::sample_by(self.bounds.len(), weights, u)?;
                 Some(SampledLight {
                     light: id(chosen.index),
-                    pmf: mul_prob(pmf, chosen.pmf),
+                    pmf: positive_product(pmf, chosen.pmf),
                     u: chosen.u,
                 })
             }
@@ -71,7 +72,7 @@ impl ExhaustiveLightSampler {
             FirstPmf::Others(pmf) => {
                 let weights = |index: usize| weight(&self.bounds[index]);
                 let within = discrete::pmf_by(self.bounds.len(), weights, light.index());
-                mul_prob(pmf, within)
+                positive_product(pmf, within)
             }
         }
     }

@@ -17,13 +17,3 @@ pub(crate) enum FirstPmf {
     /// It is one of the others, if any; this is the probability of all of them.
     Others(f32),
 }
-
-/// The product, which never vanishes by rounding alone.
-#[inline]
-pub(crate) fn mul_prob(a: f32, b: f32) -> f32 {
-    if a > 0.0 && b > 0.0 {
-        (a * b).max(f32::MIN_POSITIVE)
-    } else {
-        0.0
-    }
-}

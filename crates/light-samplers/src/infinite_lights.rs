@@ -10,7 +10,7 @@ use light_bounds::{
 use light_math::{direction, glam::Vec3};
 use light_math::{discrete, float};
 
-use crate::first_choice::{FirstChoice, FirstPmf, mul_prob};
+use crate::first_choice::{FirstChoice, FirstPmf};
 
 /// Least cosine while any light may arrive, and the rounding margin of the test that none arrives.
 const SLACK: f32 = 1e-5;
@@ -175,7 +175,7 @@ impl core::error::Error for InfiniteLightsError {}
 /// horizon, or if it is not asked for.
 pub(crate) fn irradiance(light: &InfiniteLight, ctx: &LightSampleContext) -> f32 {
     if light.groups.is_wanted(ctx.groups) {
-        mul_prob(light.bounds.fluence, mean_cosine(&light.bounds, ctx))
+        float::positive_product(light.bounds.fluence, mean_cosine(&light.bounds, ctx))
     } else {
         0.0
     }

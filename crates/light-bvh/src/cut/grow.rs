@@ -1,6 +1,7 @@
 //! How a [`LightCut`] is grown.
 
 use light_math::discrete::{PARTS, parts_of, parts_scale};
+use light_math::float::positive_product;
 use light_math::glam::Vec4;
 
 use crate::cut::light_cut::{CutDetail, CutNodes, LightCut, MAX_NODES};
@@ -8,7 +9,6 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{IntoReceiver, Query, QueryFor};
-use crate::query::select::mul_prob;
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
@@ -71,7 +71,7 @@ impl Query for Grow<'_, '_> {
             let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
             let mut lanes = weights.lanes;
             for weight in &mut lanes {
-                *weight = mul_prob(*weight, scale);
+                *weight = positive_product(*weight, scale);
             }
             if index == 0 {
                 // Not a number counts as 0.

@@ -2,13 +2,13 @@
 
 use light_bounds::{LightId, SampledLight};
 use light_math::discrete::PART;
+use light_math::float::positive_product;
 use light_math::fraction::divide;
 
 use crate::cut::light_cut::{CutNodes, LightCut};
 use crate::importance::receiver::Receiver;
 use crate::query::ascent::KnownPmfs;
 use crate::query::into_receiver::{KeptReceiver, Query, QueryFor};
-use crate::query::select::mul_prob;
 use crate::simd::dispatch;
 
 impl<R: KeptReceiver> LightCut<'_, R> {
@@ -78,7 +78,7 @@ impl KnownPmfs for CutNodes {
         let index = nodes.iter().position(|&n| n as usize == node)?;
         let (_, parts) = self.parts(index);
         let within = self.weights(index).probability(child);
-        Some(mul_prob(parts as f32 * PART, within))
+        Some(positive_product(parts as f32 * PART, within))
     }
 }
 

@@ -1,10 +1,10 @@
 use light_bounds::LightId;
+use light_math::float::positive_product;
 
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
-use crate::query::select::mul_prob;
 
 /// The probabilities that a way up does not have to compute.
 ///
@@ -75,6 +75,6 @@ impl LightBvhRef<'_> {
         shares[..levels]
             .iter()
             .rev()
-            .fold(pmf, |pmf, &s| mul_prob(pmf, s))
+            .fold(pmf, |pmf, &s| positive_product(pmf, s))
     }
 }

@@ -1,10 +1,11 @@
 use light_bounds::SampledLight;
+use light_math::float::positive_product;
 
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
-use crate::query::select::{Choice, mul_prob};
+use crate::query::select::Choice;
 
 /// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
@@ -41,7 +42,7 @@ impl LightBvhRef<'_> {
                 self.prefetch_below(node);
             }
             let choice = self.weights(index, node, receiver).choose(u)?;
-            pmf = mul_prob(pmf, choice.probability);
+            pmf = positive_product(pmf, choice.probability);
             u = choice.u;
             match self.child(node, choice.child)? {
                 Child::Light(light) => return Some(SampledLight { light, pmf, u }),
@@ -61,7 +62,7 @@ impl LightBvhRef<'_> {
         pmf: f32,
         choice: &Choice,
     ) -> Option<SampledLight> {
-        let pmf = mul_prob(pmf, choice.probability);
+        let pmf = positive_product(pmf, choice.probability);
         let u = choice.u;
         match self.child(self.nodes().get(node as usize)?, choice.child)? {
             Child::Light(light) => Some(SampledLight { light, pmf, u }),

@@ -147,16 +147,6 @@ const fn to_u32(whole: f32) -> u32 {
     (whole + 8_388_608.0).to_bits() & 0x7f_ffff
 }
 
-/// The probability of two choices in turn, which never vanishes by rounding alone.
-#[inline(always)]
-pub(crate) fn mul_prob(a: f32, b: f32) -> f32 {
-    if a > 0.0 && b > 0.0 {
-        (a * b).max(f32::MIN_POSITIVE)
-    } else {
-        0.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
