@@ -1,8 +1,8 @@
 //! Light linking, and a picture in layers: lamps of one group light all, those of another light
 //! only what asks for them; and the layers of the groups sum to the picture.
 //!
-//! `cargo run --release -p lights --example light_groups` writes `light_groups.png`: the picture,
-//! then the layer of each group.
+//! `cargo run --release -p lights --example light_groups` writes `out/light_groups.png`: the
+//! picture, then the layer of each group.
 
 use core::error::Error;
 
@@ -11,6 +11,8 @@ use lights::glam::{Vec2, Vec3};
 use lights::math::fraction;
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::*;
+
+mod picture;
 
 type Result<T> = core::result::Result<T, Box<dyn Error>>;
 
@@ -81,33 +83,15 @@ impl Scene {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates"
-)]
-fn to_byte(x: f32) -> u8 {
-    // The gamma of a screen.
-    (255.0 * x.powf(1.0 / 2.2)) as u8
-}
-
 fn main() -> Result<()> {
     let scene = Scene::new()?;
     let size = 256;
     let groups = [LightGroups::ALL, STREET, WINDOWS];
     let layers = groups.map(|groups| scene.layer(size, groups));
-    let (width, height) = (3 * u32::from(size), u32::from(size));
-    let picture = image::RgbImage::from_fn(width, height, |x, y| {
-        let layer = &layers[(x / height) as usize];
-        image::Rgb(
-            layer[(y * height + x % height) as usize]
-                .to_array()
-                .map(to_byte),
-        )
-    });
-    picture.save("light_groups.png")?;
-    println!("light_groups.png: all lights, the street, the windows");
-    Ok(())
+    let side = u32::from(size);
+    picture::save("light_groups", [3 * side, side], |x, y| {
+        layers[(x / side) as usize][(y * side + x % side) as usize]
+    })
 }
 
 #[cfg(test)]

@@ -13,6 +13,8 @@ use lights::math::fraction;
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::*;
 
+mod picture;
+
 type Result<T> = core::result::Result<T, Box<dyn Error>>;
 
 /// A field of lamps under a sky, one lamp of which moves.
@@ -94,28 +96,14 @@ impl Field {
         (0..).zip(choices).filter_map(from).sum()
     }
 
-    /// The ground from above, 10 units to each side.
-    fn picture(&self, size: u16) -> image::RgbImage {
-        image::RgbImage::from_fn(size.into(), size.into(), |x, y| {
-            let pixel = Vec2::new(x as f32, y as f32);
-            let at = (pixel + 0.5) / f32::from(size) * 20.0 - 10.0;
-            // Neighbours take different offsets, so that noise forms no pattern.
-            let offset = pixel.dot(Vec2::new(0.7549, 0.5698)).fract();
-            let e = self.irradiance(Vec3::new(at.x, 0.0, at.y), 32, offset);
-            // The gamma of a screen.
-            let shown = e.map(|x| 255.0 * x.powf(1.0 / 2.2)).to_array();
-            image::Rgb(shown.map(to_byte))
-        })
+    /// A pixel of the ground from above, 10 units to each side.
+    fn pixel(&self, size: u16, x: u32, y: u32) -> Vec3 {
+        let pixel = Vec2::new(x as f32, y as f32);
+        let at = (pixel + 0.5) / f32::from(size) * 20.0 - 10.0;
+        // Neighbours take different offsets, so that noise forms no pattern.
+        let offset = pixel.dot(Vec2::new(0.7549, 0.5698)).fract();
+        self.irradiance(Vec3::new(at.x, 0.0, at.y), 32, offset)
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates, as a screen does"
-)]
-const fn to_byte(x: f32) -> u8 {
-    x as u8
 }
 
 /// Where the lamp is.
@@ -126,15 +114,14 @@ fn position(frame: u16) -> Vec3 {
 
 fn main() -> Result<()> {
     let mut field = Field::new(100, 512)?;
-    std::fs::create_dir_all("out")?;
     for frame in 0..8 {
         let took = field.advance(position(frame))?;
         println!(
             "frame {frame}: lights ready in {:.2} ms",
             1e3 * took.as_secs_f64()
         );
-        let file = format!("out/moving_lights_{frame}.png");
-        field.picture(200).save(file)?;
+        let name = format!("moving_lights_{frame}");
+        picture::save(&name, [200, 200], |x, y| field.pixel(200, x, y))?;
     }
     Ok(())
 }
