@@ -1,9 +1,10 @@
-//! `cargo xtask mutants [CRATE] [COUNT|all|missed] [OFFSET]`: breaks the core crates on purpose and
-//! sees whether a test notices.
+//! `cargo xtask mutants [CRATE] [COUNT|all|missed|FILE] [OFFSET]`: breaks the core crates on purpose
+//! and sees whether a test notices.
 //!
 //! `cargo-mutants` makes the mutants and runs the tests of the mutated crate, but for its doc
 //! tests; `.cargo/mutants.toml` lists those that are equivalent, each with its reason. Another
-//! `OFFSET` takes other mutants; `missed` takes those that survived the run before.
+//! `OFFSET` takes other mutants; `missed` takes those that survived the run before, and the path of
+//! a `FILE` below the crate's `src` all of that file.
 
 use std::path::Path;
 use std::process::Command;
@@ -28,15 +29,17 @@ const DEFAULT_COUNT: usize = 60;
 /// The survivors of a crate's last run, in its folder.
 const MISSED: &str = "missed.txt";
 
-const USAGE: &str = "usage: cargo xtask mutants [CRATE] [COUNT|all|missed] [OFFSET]";
+const USAGE: &str = "usage: cargo xtask mutants [CRATE] [COUNT|all|missed|FILE] [OFFSET]";
 
 /// Which mutants of a crate are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Choice {
     /// So many or fewer, evenly spread over the list, from the given place in it on.
     Spread { count: usize, offset: usize },
     /// Those that survived the run before.
     Missed,
+    /// Those of one file, by its path below `src`.
+    File(String),
 }
 
 /// Runs so many mutants of one crate or of each.
@@ -53,7 +56,7 @@ pub fn mutants(arguments: &[String]) -> StepResult {
     let mut total = Tally::default();
     let mut rows = String::new();
     for name in CRATES.iter().filter(|c| names.is_none_or(|n| n == *c)) {
-        let tally = run_crate(&tool, name, choice)?;
+        let tally = run_crate(&tool, name, &choice)?;
         rows += &format!("{}\n", tally.row(name));
         total.add(tally);
     }
@@ -84,6 +87,7 @@ fn choice(arguments: &[String]) -> Result<Choice, String> {
             });
         }
         [one] if one == "missed" => return Ok(Choice::Missed),
+        [file] if file.ends_with(".rs") => return Ok(Choice::File(file.clone())),
         [count] => (count, 0),
         [count, offset] => (count, number(offset)?),
         _ => return Err(USAGE.into()),
@@ -128,7 +132,7 @@ impl Tally {
     }
 }
 
-fn run_crate(tool: &Path, name: &str, choice: Choice) -> Result<Tally, String> {
+fn run_crate(tool: &Path, name: &str, choice: &Choice) -> Result<Tally, String> {
     let known = output(command(tool).args(["--list", "--package", name]))?;
     let known = known.lines().count();
     let folder = root().join("target/mutants").join(name);
@@ -136,7 +140,7 @@ fn run_crate(tool: &Path, name: &str, choice: Choice) -> Result<Tally, String> {
     let mut first = command(tool);
     let mut names = None;
     match choice {
-        Choice::Spread { count, offset } => {
+        &Choice::Spread { count, offset } => {
             let shards = known.div_ceil(count).max(1);
             println!("    {name}: one in {shards} of {known} mutants");
             first.args(["--sharding", "round-robin", "--shard"]);
@@ -152,6 +156,13 @@ fn run_crate(tool: &Path, name: &str, choice: Choice) -> Result<Tally, String> {
                 });
             }
             names = Some(missed);
+        }
+        Choice::File(file) => {
+            let path = format!("crates/{name}/src/{file}");
+            if !root().join(&path).is_file() {
+                return Err(format!("{path} is no file; {USAGE}"));
+            }
+            first.args(["--file", &path]);
         }
     }
     // Unit tests are one program, built in a fraction of the time; the others only have to find
@@ -284,7 +295,9 @@ mod tests {
         assert_eq!(choice("7 3"), spread(7, 3), "a count and a place");
         assert_eq!(choice("all"), spread(usize::MAX, 0), "all");
         assert_eq!(choice("missed"), Ok(Choice::Missed), "those before");
-        for wrong in ["0", "some", "7 x", "7 3 1", "missed 3"] {
+        let file = Ok(Choice::File("node/encode.rs".into()));
+        assert_eq!(choice("node/encode.rs"), file, "of one file");
+        for wrong in ["0", "some", "7 x", "7 3 1", "missed 3", "encode.rs 3"] {
             assert!(choice(wrong).is_err(), "{wrong}");
         }
     }

@@ -146,6 +146,7 @@ mod tests {
             "the default is no light"
         );
         assert_eq!(u.bounds, Aabb::new(Vec3::ZERO, Vec3::ONE), "boxes join");
+        assert_eq!(u.centroid(), Vec3::splat(0.5), "the middle of both");
         assert_eq!(u.cos_theta_e, -0.5, "the wider emission");
         assert!(u.two_sided, "one of them is");
         assert!(

@@ -65,6 +65,7 @@ mod tests {
         assert!(!LightGroups::NONE.is_wanted(a | b | c), "in no group");
         assert!(LightGroups::NONE.is_wanted(LightGroups::ALL), "all lights");
         assert!(LightGroups::ALL.is_wanted(c), "in every group");
+        assert_eq!(LightGroups::default(), LightGroups::ALL, "if none is named");
         assert!(!a.is_wanted(LightGroups::NONE), "none wanted");
         assert_eq!(LightGroups::of(31), LightGroups::NONE, "no such group");
     }

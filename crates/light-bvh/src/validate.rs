@@ -35,7 +35,11 @@ pub(crate) fn validate_light(light: LightId, extent: &LightExtent) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_bounds::{InfiniteBounds, InfiniteBoundsError, LightBounds, LightBoundsError};
+    use light_bounds::{
+        EmissionLobe, InfiniteBounds, InfiniteBoundsError, LightBounds, LightBoundsError,
+    };
+    use light_math::Aabb;
+    use light_math::glam::Vec3;
 
     #[test]
     fn the_first_bad_light_is_named() {
@@ -53,5 +57,28 @@ mod tests {
             reason: LightBoundsError::Box,
         };
         assert_eq!(validate(&[empty, no_sky]), Err(bad_box), "the box");
+    }
+    #[test]
+    fn a_lobe_that_is_none_is_refused() {
+        let bounds = LightBounds {
+            bounds: Aabb::from_point(Vec3::ZERO),
+            w: Vec3::Z,
+            ..LightBounds::EMPTY
+        };
+        let of = |power| {
+            let mean = Vec3::Z * 0.5;
+            let lobe = EmissionLobe {
+                power,
+                mean,
+                spread: 0.1,
+            };
+            validate(&[LightExtent::Lobe(bounds, lobe)])
+        };
+        assert_eq!(of(1.0), Ok(()), "a lobe");
+        let bad = LightBvhError::BadBounds {
+            light: LightId(0),
+            reason: LightBoundsError::Lobe,
+        };
+        assert_eq!(of(-1.0), Err(bad), "its power is negative");
     }
 }

@@ -7,7 +7,9 @@ use light_bvh::light_bounds::light_math::{Aabb, fraction::stratum, glam::Vec3};
 use light_bvh::light_bounds::{
     LightBounds, LightBoundsError, LightExtent, LightId, LightSampleContext,
 };
-use light_bvh::reference::{BitTrail, ReferenceLightBvh, ReferenceLightBvhRef};
+use light_bvh::reference::{
+    BitTrail, ReferenceLightBvh, ReferenceLightBvhRef, ReferenceNode, Side,
+};
 
 fn point_light(p: Vec3) -> LightBounds {
     LightBounds {
@@ -222,4 +224,32 @@ fn borrowed_parts_are_checked() {
         "a trail leads elsewhere"
     );
     assert!(ReferenceLightBvhRef::new(&[], &[], bounds).is_ok(), "empty");
+    let mut more = trails.to_vec();
+    more.push(trails[8]);
+    assert!(
+        ReferenceLightBvhRef::new(nodes, &more, bounds).is_err(),
+        "a trail of no light"
+    );
+    let of = |index: usize| *nodes[index].bounds();
+    let leaf = |id: u32| ReferenceNode::leaf(of(0), LightId(id));
+    for (nodes, what) in [
+        (vec![leaf(0), leaf(1)], "a node behind the tree"),
+        (
+            vec![ReferenceNode::interior(of(0), 1), leaf(0), leaf(1)],
+            "a second child that is the first",
+        ),
+        (
+            vec![ReferenceNode::interior(of(0), 1); 40],
+            "more levels than a trail has",
+        ),
+    ] {
+        let trails = [BitTrail::ROOT, BitTrail::ROOT];
+        let first = BitTrail::ROOT.then(Side::First).expect("one level");
+        for trails in [trails, [first; 2]] {
+            assert!(
+                ReferenceLightBvhRef::new(&nodes, &trails, bounds).is_err(),
+                "{what}"
+            );
+        }
+    }
 }

@@ -133,6 +133,9 @@ mod tests {
         assert_eq!(Aabb::EMPTY.surface_area(), 0.0, "no area");
         assert_eq!(Aabb::EMPTY.bounding_sphere(), (Vec3::ZERO, 0.0), "a point");
         assert_eq!(Aabb::default(), Aabb::EMPTY, "the default");
+        assert_eq!(Aabb::from_points([]), Aabb::EMPTY, "no points");
+        let corners = [b.max, b.center(), b.min];
+        assert_eq!(Aabb::from_points(corners), b, "its corners");
     }
 
     #[test]

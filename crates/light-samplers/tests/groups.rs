@@ -102,6 +102,7 @@ fn every_sampler_obeys() {
     check("uniform", &uniform);
     let powers = vec![1.0; usize::from(LAMPS) + 2];
     let power = PowerLightSampler::new(&powers).expect("powers");
+    check_emitters(&power);
     check("power", &GroupedLightSampler::new(power, groups()));
     let exhaustive = ExhaustiveLightSampler::new(&lights).expect("valid lights");
     check(
@@ -110,6 +111,18 @@ fn every_sampler_obeys() {
     );
     let reference = ReferenceBvhLightSampler::new(&lights).expect("valid lights");
     check("reference", &GroupedLightSampler::new(reference, groups()));
+}
+
+/// Without a receiver nothing says which groups are asked for: all lights are.
+fn check_emitters(power: &PowerLightSampler) {
+    let grouped = GroupedLightSampler::new(power.clone(), groups());
+    let here = power.at(&floor(), 1);
+    for u in (0..300).map(|i| stratum(i, 300, 1 << 63)) {
+        let chosen = grouped.sample_emitter(u).expect("all shine");
+        assert_eq!(here.sample(u), Some(chosen), "as without groups");
+        assert_eq!(here.pmf(chosen.light), chosen.pmf, "{chosen:?}");
+        assert_eq!(grouped.pmf_emitter(chosen.light), chosen.pmf, "{chosen:?}");
+    }
 }
 
 /// The tree chooses among the lights that are asked for: their probabilities sum to one.

@@ -34,7 +34,41 @@ struct Known {
     reason: &'static str,
 }
 
-const KNOWN: [Known; 3] = [
+/// Why queries have an answer for places that no tree leads to.
+const CHECKED_LINKS: &str =
+    "links are checked when a tree is made; without them, this ends a query";
+
+const KNOWN: [Known; 9] = [
+    Known {
+        file: "light-bvh/src/cut/grow.rs",
+        line: "break;",
+        reason: CHECKED_LINKS,
+    },
+    Known {
+        file: "light-bvh/src/query/ascent.rs",
+        line: "return 0.0;",
+        reason: CHECKED_LINKS,
+    },
+    Known {
+        file: "light-bvh/src/query/descent.rs",
+        line: "None",
+        reason: CHECKED_LINKS,
+    },
+    Known {
+        file: "light-bvh/src/reference/pmf.rs",
+        line: "break;",
+        reason: CHECKED_LINKS,
+    },
+    Known {
+        file: "light-bvh/src/build/node_children.rs",
+        line: "break;",
+        reason: "a child with a gain is there",
+    },
+    Known {
+        file: "light-bvh/src/reference/builder.rs",
+        line: "None => return LightBounds::EMPTY",
+        reason: "there is a node for each light and between two of them",
+    },
     Known {
         file: "light-sources/src/light_set.rs",
         line: "LightKind::Triangle => LightRef::Triangle(",

@@ -3,20 +3,24 @@
 use alloc::vec::Vec;
 use core::f32::consts::PI;
 
-use light_bounds::{EmissionLobe, LightBounds, LightExtent};
+use light_bounds::{EmissionLobe, InfiniteBounds, LightBounds, LightExtent};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
+use super::binned_split::BinnedSplit;
 use super::bins::{BINS, Grid};
 use super::cluster::{Cluster, Sums};
+use super::clustering::clusters;
+use super::light_primitive::LightPrimitive;
 use super::lights::phi;
 use super::node_children::is_depth_limited;
 use super::options::{BuildMode, DarkLights, LightBvhOptions};
 use super::quality::degradation;
+use super::subtree::OutputSlice;
 use crate::node::light_emission::Shape;
 use crate::node::moments::Moments;
 use crate::node::spread_code::{RAMP_BY_SPREAD, SpreadCode};
-use crate::node::wide_node::{WideNode, encode_power};
+use crate::node::wide_node::{BOTH_SIDES, MAX_DEPTH, WideNode, encode_power};
 
 fn cluster(center: Vec3, power: f32, axis: Vec3) -> Cluster {
     Cluster {
@@ -69,6 +73,7 @@ fn assert_near(found: f32, expected: f64, what: &str) {
 fn a_cluster_has_the_means_of_its_parts() {
     let parts = five();
     let all = Cluster::join(parts);
+    assert_eq!(Cluster::join([]).lights, 0, "of no parts");
     assert_near(all.power, 5.25, "power");
     for i in 0..3 {
         assert_near(
@@ -138,6 +143,9 @@ fn a_beam_has_the_power_of_its_peak() {
     let peak = 2.0 / (PI * 0.75);
     assert_near(of(0.75 * Vec3::Z), (4.0 * PI * peak).into(), "a beam");
     assert_eq!(phi(&LightExtent::Bounded(bounds)), 2.0, "no lobe");
+    let sky = LightExtent::Infinite(InfiniteBounds::uniform(2.0));
+    assert_eq!(phi(&sky), 0.0, "nowhere");
+    assert_eq!(Moments::of_light(&sky, 1.0).power, 0.0, "nothing to hold");
 }
 
 /// A lobe that ends at a cosine of less than -1/2 does not count as a spot.
@@ -160,6 +168,33 @@ fn spots_end_within_two_thirds_of_the_sphere() {
         let moments = Moments::of_light(&LightExtent::Lobe(bounds, lobe), 1.0);
         assert_eq!(moments.shape != Shape::Mixed, is_spot, "{length}");
     }
+}
+
+/// Two levels for lights at half the distance each, which planes take off a few at a time.
+#[test]
+fn where_levels_run_out_groups_are_halved() {
+    let at = |light: u32| Vec3::X * f32::from_bits((127 - light / 2) << 23);
+    let primitives: Vec<LightPrimitive> = (0..200)
+        .map(|light| LightPrimitive {
+            center: at(light),
+            power: 0.005,
+            light,
+            axis: Vec3::Z,
+        })
+        .collect();
+    let ends: Vec<u32> = (1..=200).collect();
+    let mut clusters = clusters(&ends, &primitives);
+    let mut order = [u32::MAX; 200];
+    let output = OutputSlice {
+        order: &mut order,
+        depth: MAX_DEPTH - 2,
+    };
+    let topology = output.build_serial(BinnedSplit::new(&mut clusters, &primitives));
+    let (root, rest) = topology.0.split_first().expect("a root");
+    assert_eq!(rest.len(), usize::from(root.inner), "two levels");
+    assert!(rest.iter().all(|node| node.inner == 0), "lights alone");
+    order.sort_unstable();
+    assert!(order.into_iter().eq(0..200), "each light once");
 }
 
 /// Where all levels below would have to be full: of sixteen children, and of at most seven levels,
@@ -248,6 +283,11 @@ fn degradation_is_the_ratio_of_the_spreads() {
     let expected = (below / (variance * disagreement.powf(1.25))).sqrt();
     let found = degradation(&[root, child]);
     assert!((found - expected).abs() < 1e-6, "{found}, {expected}");
+    let mut both = root;
+    (both.offset[0], both.offset[1]) = (0, 60);
+    let one_sided = degradation(&[both, child]);
+    both.offset[0] = BOTH_SIDES;
+    assert_eq!(degradation(&[both, child]), one_sided, "no side");
     assert_eq!(degradation(&[child]), 0.0, "no step");
     assert_eq!(degradation(&Vec::new()), 0.0, "no node");
 }

@@ -40,7 +40,6 @@ impl WideNode {
                 light_base: self.light_base,
                 inner: self.inner,
                 parent: self.parent,
-                gain: encode_gain(0.0),
                 ..Self::EMPTY
             };
             return;
@@ -155,7 +154,7 @@ impl VectorWork for EncodeChildren<'_> {
     }
 }
 
-/// The upper half of the float: always finite and above 0.
+/// The upper half of the float, finite and above 0.
 fn encode_gain(power: f32) -> u16 {
     ((power.clamp(f32::MIN_POSITIVE, 1e30).to_bits() + 0x8000) >> 16) as u16
 }

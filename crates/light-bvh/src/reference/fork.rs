@@ -32,7 +32,7 @@ impl Fork {
         } else if self.second > 0.0 {
             (Side::Second, (x - first) / second)
         } else if self.first > 0.0 {
-            // u is so near to 1 that the product was rounded up.
+            // The product was rounded up, or u is 1.
             (Side::First, MAX_U)
         } else {
             return None;
@@ -68,6 +68,8 @@ mod tests {
         assert_eq!(fork.choose(0.25), Some((Side::Second, 0.0)), "at");
         assert_eq!(fork.choose(0.625), Some((Side::Second, 0.5)), "above");
         assert_eq!(fork.probability(Side::Second), 0.75, "three of four");
+        let only = Fork::new(1.0, 0.0);
+        assert_eq!(only.choose(1.0), Some((Side::First, MAX_U)), "beyond");
     }
 
     #[test]

@@ -3,6 +3,7 @@ use crate::node::light_emission::Lobe;
 use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::WideNode;
 use core::f32::consts::{FRAC_PI_2, PI};
+use light_bounds::EmissionLobe;
 use light_math::float;
 
 fn bounds(w: Vec3, theta_o: f32, theta_e: f32) -> LightBounds {
@@ -106,6 +107,22 @@ fn a_spot_is_a_step_at_the_middle_of_its_rim() {
             "{o}, {e}: {found}, not {variance}"
         );
     }
+}
+
+/// A line from 1 on the axis to 0 at the cosine 0.7 is a step that is evenly spread between both.
+#[test]
+fn a_narrow_lobe_is_a_step_along_its_line() {
+    let lobe = EmissionLobe {
+        power: 2.0,
+        mean: Vec3::X * 0.9,
+        spread: 0.0,
+    };
+    let at = bounds(Vec3::X, 0.0, 1.0);
+    let found = Moments::of_light(&LightExtent::Lobe(at, lobe), 1.0);
+    assert_eq!(found.shape, Shape::Steps, "{found:?}");
+    assert!(found.axis.distance(Vec3::X) < 1e-6, "{found:?}");
+    assert!((found.offset - 0.85).abs() < 1e-6, "{found:?}");
+    assert!((found.spread_sq - 0.0075).abs() < 1e-6, "{found:?}");
 }
 
 /// What a group emits toward a direction is the mean of what its lights emit, at any width.
