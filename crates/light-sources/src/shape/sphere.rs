@@ -74,22 +74,34 @@ impl Sphere {
         }
     }
 
-    /// The cone in which the sphere is seen from outside; `None` from inside, and from where
-    /// rounding may have put a point of the surface.
+    /// The cone in which the sphere is seen from outside; `None` from inside and from its own
+    /// surface.
     fn cone(&self, ctx: &LightSampleContext) -> Option<Cone> {
         let to_center = self.center() - ctx.p;
         let distance = to_center.length();
-        let axis = to_center / distance;
-        let nearest = distance - axis.abs().dot(ctx.p_error);
-        if !(nearest > self.radius) {
+        if !(distance > self.radius) || self.is_own(ctx) {
             return None;
         }
+        let axis = to_center / distance;
         let sin_max = self.radius / distance;
         let sin_sq_max = sin_max * sin_max;
         Some(Cone {
             axis,
             sin_max,
             one_minus_cos_max: sin_sq_max / (1.0 + safe_sqrt(1.0 - sin_sq_max)),
+        })
+    }
+
+    /// Whether the receiver may be a point of the sphere, wherever rounding has put it: by its place
+    /// and its normal. Another surface that close is on the side where it is.
+    fn is_own(&self, ctx: &LightSampleContext) -> bool {
+        let size = self.center().abs().max_element() + self.radius;
+        let error = 2.0 * ctx.p_error + 8.0 * f32::EPSILON * size;
+        ctx.n().is_some_and(|n| {
+            [n, -n].into_iter().any(|n| {
+                let own = self.center() + n * self.radius;
+                (own - ctx.p).abs().cmple(error).all()
+            })
         })
     }
 
@@ -171,6 +183,10 @@ impl Shape for Sphere {
         let Some(cone) = self.cone(ctx) else {
             let ShapeSample { at, pdf } = self.sample(u)?;
             let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            // From outside, where rounding has put an own point, a line first enters.
+            if !(at.n.dot(wi) > 0.0) {
+                return None;
+            }
             let at = self.before(at, -1.0);
             return Some(DirectionSample { at, wi, pdf });
         };

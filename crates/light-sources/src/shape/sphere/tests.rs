@@ -42,7 +42,8 @@ fn points_of_the_surface_are_not_outside() {
     let p = Vec3::new(0.6, 0.0, 0.8) * (1.0 + 2.0 * f32::EPSILON);
     assert!(p.length() > 1.0, "outside, by rounding");
     let without = LightSampleContext::medium(p);
-    let with = without.with_error(Vec3::splat(4.0 * f32::EPSILON));
+    let n = p.normalize();
+    let with = LightSampleContext::surface(p, n, n).with_error(Vec3::splat(4.0 * f32::EPSILON));
     let across = Vec3::new(0.8, 0.0, -0.6);
     // Of the hemisphere above, of which the cone is nearly all, nothing is light.
     assert!(sphere.pdf_toward(&without, across) >= 0.0, "a cone");
@@ -56,6 +57,48 @@ fn points_of_the_surface_are_not_outside() {
         (sphere.pdf_toward(&with, below) / through - 1.0).abs() < 1e-5,
         "d^2 / A"
     );
+}
+
+/// A floor may be closer to the sphere than the error of its points: it still is outside, and its
+/// light comes from the near side.
+#[test]
+fn other_surfaces_within_rounding_see_the_near_side() {
+    let sphere = sphere(Vec3::splat(-1.9375), 1.9375);
+    let n = Vec3::NEG_X;
+    let ctx = LightSampleContext::surface(Vec3::splat(-0.5), n, n);
+    let ctx = ctx.with_error(Vec3::splat(0.5));
+    for u in numbers() {
+        let sample = sphere.sample_toward(&ctx, u).expect("a point");
+        assert!(sample.at.n.dot(sample.wi) < 0.0, "{u}: the near side");
+        assert_eq!(sphere.pdf_toward(&ctx, sample.wi), sample.pdf, "{u}");
+    }
+}
+
+/// From the sphere itself lines leave through the other side, wherever rounding has put the point.
+#[test]
+fn own_points_see_the_far_side() {
+    let sphere = sphere(Vec3::new(1.0, -30.0, 4.0), 1.0);
+    for u in numbers() {
+        let at = sphere.sample(u).expect("a point").at;
+        for moved in [-3.0, 0.0, 3.0] {
+            let p = at.p + at.n * (moved * 30.0 * f32::EPSILON);
+            let ctx = LightSampleContext::surface(p, -at.n, -at.n);
+            let ctx = ctx.with_error(Vec3::splat(120.0 * f32::EPSILON));
+            for u in numbers() {
+                let Some(sample) = sphere.sample_toward(&ctx, u) else {
+                    continue;
+                };
+                assert!(sample.at.n.dot(sample.wi) > 0.0, "{u}: the far side");
+                let pdf = sphere.pdf_toward(&ctx, sample.wi);
+                // Rounding turns the lines to points close by.
+                let is_close = sample.at.p.distance(p) < 0.1;
+                assert!(
+                    is_close || (pdf / sample.pdf - 1.0).abs() < 0.02,
+                    "{pdf}, {u}"
+                );
+            }
+        }
+    }
 }
 
 /// Directions to the very rim are directions to the sphere.
