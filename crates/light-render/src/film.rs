@@ -77,12 +77,20 @@ impl Film {
     /// # Panics
     /// Panics if `other` has another size.
     pub fn add(&mut self, other: &Self) {
+        self.samples += other.samples;
+        self.add_light(other);
+    }
+
+    /// Adds the light of a film of the same size whose samples are of the same paths.
+    ///
+    /// # Panics
+    /// Panics if `other` has another size.
+    pub(crate) fn add_light(&mut self, other: &Self) {
         assert_eq!(
             self.resolution(),
             other.resolution(),
             "films of one picture"
         );
-        self.samples += other.samples;
         for (row, more) in self.rows.iter_mut().zip(&other.rows) {
             for (x, sum) in more.sums().enumerate() {
                 row.add_sum(x, sum);

@@ -21,7 +21,7 @@ pub struct LightInventory {
 pub fn inventory(lights: &LightSet<Rgb>) -> Vec<LightInventory> {
     let mut kinds: Vec<LightInventory> = Vec::new();
     for (_, light) in lights.iter() {
-        let (kind, area) = describe(&light);
+        let (kind, area) = (kind(&light), area(&light));
         let power = light.phi(&()).as_dvec3();
         match kinds.iter_mut().find(|entry| entry.kind == kind) {
             Some(entry) => {
@@ -40,22 +40,31 @@ pub fn inventory(lights: &LightSet<Rgb>) -> Vec<LightInventory> {
     kinds
 }
 
-/// The name and the area of a light.
-fn describe(light: &LightRef<'_, Rgb>) -> (&'static str, f32) {
+/// The name of a light's kind.
+pub(crate) fn kind(light: &LightRef<'_, Rgb>) -> &'static str {
     match light {
-        LightRef::Point(_) => ("point", 0.0),
-        LightRef::Spot(_) => ("spot", 0.0),
-        LightRef::Projection(_) => ("projection", 0.0),
-        LightRef::Goniometric(_) => ("goniometric", 0.0),
-        LightRef::Area(light) => ("area", light.shape().area()),
-        LightRef::Triangle(light) => ("triangle", light.shape().area()),
-        LightRef::Distant(_) => ("distant", 0.0),
-        LightRef::Sun(_) => ("sun", 0.0),
-        LightRef::UniformInfinite(_) => ("uniform sky", 0.0),
-        LightRef::ImageInfinite(_) => ("image sky", 0.0),
-        LightRef::PortalInfinite(_) => ("portal", 0.0),
+        LightRef::Point(_) => "point",
+        LightRef::Spot(_) => "spot",
+        LightRef::Projection(_) => "projection",
+        LightRef::Goniometric(_) => "goniometric",
+        LightRef::Area(_) => "area",
+        LightRef::Triangle(_) => "triangle",
+        LightRef::Distant(_) => "distant",
+        LightRef::Sun(_) => "sun",
+        LightRef::UniformInfinite(_) => "uniform sky",
+        LightRef::ImageInfinite(_) => "image sky",
+        LightRef::PortalInfinite(_) => "portal",
         // The kinds are not exhaustive for other crates; those of today are all above.
-        _ => ("other", 0.0),
+        _ => "other",
+    }
+}
+
+/// The area of a light's surface; 0 for lights without one.
+fn area(light: &LightRef<'_, Rgb>) -> f32 {
+    match light {
+        LightRef::Area(light) => light.shape().area(),
+        LightRef::Triangle(light) => light.shape().area(),
+        _ => 0.0,
     }
 }
 

@@ -7,8 +7,8 @@ use light_scene::Crop;
 use lights::samplers::LightSampler;
 use rayon::prelude::*;
 
-use crate::integrator::{PathSettings, li};
-use crate::{Film, SampleStream, View, World};
+use crate::integrator::{LayerSums, LightSum, PathSettings, Total, add_li};
+use crate::{Film, FilmRow, LightLayers, SampleStream, View, World};
 
 /// What to render.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +45,15 @@ pub struct Rendering {
     pub rejected: u64,
 }
 
+/// A picture by groups of lights: the sum of the layers, and the layers.
+#[derive(Clone, Debug)]
+pub struct LayerRendering {
+    /// The sum of all layers.
+    pub whole: Rendering,
+    /// One picture for each layer, in the order of their names.
+    pub layers: Vec<Film>,
+}
+
 /// Renders `view` of `world` with lights chosen by `sampler`, on the threads of the current `rayon`
 /// pool.
 ///
@@ -56,12 +65,76 @@ pub fn render<S: LightSampler + Sync>(
     view: &View,
     sampler: &S,
     settings: &RenderSettings,
-    mut report: impl FnMut(Progress),
+    report: impl FnMut(Progress),
 ) -> Rendering {
-    let crop = view.crop();
-    let (width, height) = crop.size();
-    let Crop { min, max } = crop;
+    let (width, height) = view.crop().size();
     let mut film = Film::new(width, height);
+    let films = core::slice::from_mut(&mut film);
+    let scene = (world, view, sampler);
+    let taken = expose(films, scene, settings, Total::default, report);
+    taken.rendering(film)
+}
+
+/// As [`render`], with the light of each of `layers` in a film of its own. The paths are those of
+/// the whole picture, so that layers cost hardly more time, and share its noise. Integrators of
+/// single scattering put all light into the last.
+#[must_use]
+pub fn render_layers<S: LightSampler + Sync>(
+    world: &World,
+    view: &View,
+    sampler: &S,
+    settings: &RenderSettings,
+    layers: &LightLayers,
+    report: impl FnMut(Progress),
+) -> LayerRendering {
+    let (width, height) = view.crop().size();
+    let film = Film::new(width, height);
+    let mut films = vec![film; layers.names().len()];
+    let scene = (world, view, sampler);
+    let sum = || LayerSums::new(layers);
+    let taken = expose(&mut films, scene, settings, sum, report);
+    let mut whole = films[0].clone();
+    for layer in &films[1..] {
+        whole.add_light(layer);
+    }
+    LayerRendering {
+        whole: taken.rendering(whole),
+        layers: films,
+    }
+}
+
+/// What a rendering took.
+struct Taken {
+    elapsed: Duration,
+    rays: u64,
+    rejected: u64,
+}
+
+impl Taken {
+    fn rendering(self, film: Film) -> Rendering {
+        let Self {
+            elapsed,
+            rays,
+            rejected,
+        } = self;
+        Rendering {
+            film,
+            elapsed,
+            rays,
+            rejected,
+        }
+    }
+}
+
+/// Adds the samples of `settings` to `films`, one for each layer of a `sum`.
+fn expose<S: LightSampler + Sync, L: LightSum>(
+    films: &mut [Film],
+    (world, view, sampler): (&World, &View, &S),
+    settings: &RenderSettings,
+    sum: impl Fn() -> L + Sync,
+    mut report: impl FnMut(Progress),
+) -> Taken {
+    let Crop { min, max } = view.crop();
     let (rays, rejected) = (AtomicU64::new(0), AtomicU64::new(0));
     let start = Instant::now();
     let Range { start: first, end } = settings.samples;
@@ -72,21 +145,29 @@ pub fn render<S: LightSampler + Sync>(
             break;
         }
         let count = pass.end - pass.start;
-        film.expose(count)
-            .par_iter_mut()
+        let mut rows: Vec<Vec<&mut FilmRow>> = (min[1]..max[1]).map(|_| Vec::new()).collect();
+        for film in &mut *films {
+            for (rows, row) in rows.iter_mut().zip(film.expose(count)) {
+                rows.push(row);
+            }
+        }
+        rows.par_iter_mut()
             .zip(min[1]..max[1])
-            .for_each(|(row, y)| {
-                let mut row_rays = 0;
+            .for_each(|(rows, y)| {
+                let (mut row_rays, mut sum) = (0, sum());
                 for (pixel, x) in (min[0]..max[0]).enumerate() {
                     for sample in pass.clone() {
                         let stream = SampleStream::new(settings.seed, (x, y), sample);
                         let numbers = stream.camera();
                         let corner = lights::glam::Vec2::new(x as f32, y as f32);
                         let ray = view.ray(corner + numbers.film, numbers.lens);
-                        let traced = li(world, sampler, &settings.path, ray, &stream);
-                        row_rays += u64::from(traced.rays);
-                        if traced.radiance.is_finite() {
-                            row.add(pixel, traced.radiance);
+                        sum.clear();
+                        let traced = add_li(world, sampler, &settings.path, ray, &stream, &mut sum);
+                        row_rays += u64::from(traced);
+                        if sum.layers().iter().all(|radiance| radiance.is_finite()) {
+                            for (row, &radiance) in rows.iter_mut().zip(sum.layers()) {
+                                row.add(pixel, radiance);
+                            }
                         } else {
                             rejected.fetch_add(1, Ordering::Relaxed);
                         }
@@ -100,8 +181,7 @@ pub fn render<S: LightSampler + Sync>(
             samples: next - first,
         });
     }
-    Rendering {
-        film,
+    Taken {
         elapsed: start.elapsed(),
         rays: rays.into_inner(),
         rejected: rejected.into_inner(),

@@ -25,6 +25,8 @@ impl SceneDigest {
             materials,
             images,
             lights,
+            // They say nothing about the picture, as long as it has no layers.
+            light_names: _,
             media,
             // The view knows it, with what the command line changes.
             camera: _,

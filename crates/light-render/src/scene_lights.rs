@@ -21,10 +21,23 @@ pub(crate) struct SceneLights {
     pub(crate) lights: LightSet<Rgb>,
     /// The ids of emissive meshes and spheres.
     pub(crate) emitters: EmitterIds,
+    /// What each source is, in the order of their ids.
+    pub(crate) sources: Vec<SceneSource>,
     /// Those at infinity that rays can find when they leave the scene.
     pub(crate) infinite: Vec<LightId>,
     /// Those with an alpha mask, in the order of their ids.
     pub(crate) masked: Vec<AlphaMaskedLights>,
+}
+
+/// What a source of lights is in the scene.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SceneSource {
+    /// An emissive mesh in world space.
+    Mesh(usize),
+    /// An emissive sphere in world space.
+    Sphere(usize),
+    /// A light without geometry.
+    Light(usize),
 }
 
 /// Why the lights of a scene cannot be built.
@@ -67,6 +80,7 @@ impl SceneLights {
             SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
         };
         let mut builder = LightSetBuilder::new(sphere.map_err(SceneLightsError::Bounds)?);
+        let mut sources = Vec::new();
         let mut textures = Textures::new(images);
         let mut emissive_meshes = Vec::new();
         for (index, mesh) in meshes.iter().enumerate() {
@@ -74,6 +88,7 @@ impl SceneLights {
             if let Some((desc, is_masked)) = textures.mesh_light(mesh, material) {
                 let source = add(&mut builder, &material.name, desc)?;
                 emissive_meshes.push((index, source, is_masked));
+                sources.push(SceneSource::Mesh(index));
             }
         }
         let mut emissive_spheres = Vec::new();
@@ -82,11 +97,12 @@ impl SceneLights {
             if let Some((desc, is_masked)) = textures.sphere_light(sphere, material) {
                 let source = add(&mut builder, &material.name, desc)?;
                 emissive_spheres.push((index, source, is_masked));
+                sources.push(SceneSource::Sphere(index));
             }
         }
         for (number, light) in scene_lights.into_iter().enumerate() {
-            let name = format!("light {number}");
-            add(&mut builder, &name, light)?;
+            add(&mut builder, &numbered(number), light)?;
+            sources.push(SceneSource::Light(number));
         }
         let lights = builder.build();
         let mut emitters = EmitterIds::new(meshes.len(), spheres.len());
@@ -119,6 +135,7 @@ impl SceneLights {
             infinite: lights.infinite_ids().filter(is_hit_by_rays).collect(),
             lights,
             emitters,
+            sources,
             masked,
         })
     }
@@ -133,6 +150,11 @@ fn add(
         name: name.into(),
         error,
     })
+}
+
+/// What a light without geometry is called if it has no name.
+pub(crate) fn numbered(light: usize) -> String {
+    format!("light {light}")
 }
 
 /// The images of a scene, checked for use by lights and surfaces.

@@ -212,6 +212,7 @@ mod tests {
             };
             let corners = [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y];
             let mesh = WorldMesh {
+                name: String::new(),
                 positions: corners.into(),
                 indices: [[0, 1, 2], [0, 2, 3]].into(),
                 uvs: Some(corners.map(|p| Vec2::new(p.x, p.y)).into()),

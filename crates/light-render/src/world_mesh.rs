@@ -8,6 +8,7 @@ use lights::sources::shape::Triangle;
 /// The triangles of one material, with vertices that the lights share.
 #[derive(Debug)]
 pub(crate) struct WorldMesh {
+    pub(crate) name: String,
     pub(crate) positions: Arc<[Vec3]>,
     pub(crate) normals: Option<Vec<Vec3>>,
     pub(crate) uvs: Option<Arc<[Vec2]>>,
@@ -66,6 +67,7 @@ impl From<Mesh> for WorldMesh {
         let material = mesh.material.0 as usize;
         match count {
             Some(count) => Self {
+                name: mesh.name,
                 positions: of_triangles(&mesh.positions, &list),
                 normals: mesh.normals.map(|normals| of_triangles(&normals, &list)),
                 uvs: mesh.uvs.map(|uvs| of_triangles(&uvs, &list)),
@@ -73,6 +75,7 @@ impl From<Mesh> for WorldMesh {
                 material,
             },
             None => Self {
+                name: mesh.name,
                 positions: mesh.positions.into(),
                 normals: mesh.normals,
                 uvs: mesh.uvs.map(Arc::from),

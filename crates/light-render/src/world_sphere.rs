@@ -9,6 +9,7 @@ use crate::WorldError;
 /// A sphere of one material.
 #[derive(Debug)]
 pub(crate) struct WorldSphere {
+    pub(crate) name: String,
     pub(crate) shape: Sphere,
     pub(crate) front: SphereFront,
     pub(crate) material: usize,
@@ -37,6 +38,7 @@ impl TryFrom<light_scene::Sphere> for WorldSphere {
     fn try_from(sphere: light_scene::Sphere) -> Result<Self, WorldError> {
         match sphere.shape().build() {
             Ok(AnyShape::Sphere(shape)) => Ok(Self {
+                name: sphere.name,
                 shape,
                 front: sphere.front,
                 material: sphere.material.0 as usize,

@@ -40,6 +40,9 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// Lights without geometry: points, spots, distant lights, environments.
     pub lights: Vec<LightDesc<Rgb>>,
+    /// The names of these lights in the file, in their order; empty for a light without one, as for
+    /// lights beyond the end.
+    pub light_names: Vec<String>,
     /// Media; materials and lights name them by position.
     pub media: Vec<NamedMedium>,
     /// The camera, if the file has one.
@@ -84,6 +87,13 @@ impl Scene {
             Color::Constant(color) => *color,
             Color::Image(shown) => shown.scale * self.images[shown.image.0 as usize].mean(),
         }
+    }
+
+    /// Adds a light without geometry, with the name that it has in the file.
+    pub(crate) fn add_named_light(&mut self, name: &str, light: LightDesc<Rgb>) {
+        self.light_names.resize(self.lights.len(), String::new());
+        self.light_names.push(name.into());
+        self.lights.push(light);
     }
 
     /// The prototype with this id.

@@ -14,6 +14,7 @@ mod exit;
 mod failure;
 mod ies;
 mod info;
+mod layer_args;
 mod memory_check;
 mod merge;
 mod output_file;

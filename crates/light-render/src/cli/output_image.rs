@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::{PartialPicture, ToneMap};
-use light_scene::{Image, write_exr, write_exr_half, write_png};
+use light_scene::{ChannelFile, Image, write_exr, write_exr_half, write_png};
+use lights::glam::Vec3;
 
 use super::failure::Failure;
 use super::output_file::{expect_writable, refuse};
@@ -71,6 +72,38 @@ impl OutputImage {
         }
     }
 
+    /// Whether it can hold layers.
+    pub(crate) const fn has_layers(&self) -> bool {
+        matches!(self.format, Format::Exr(_))
+    }
+
+    /// Writes a picture and its layers, by their names: channels `R`, `G`, `B` and `NAME.R` and so
+    /// on of 32 bits, and the picture alone into a PNG.
+    ///
+    /// # Errors
+    /// When the file cannot be written; nothing is left behind then.
+    pub(crate) fn write_layers(
+        &self,
+        image: &Image,
+        layers: &[(String, Vec<Vec3>)],
+        tone_map: &ToneMap,
+    ) -> Result<(), Failure> {
+        if !self.has_layers() {
+            return self.write(image, tone_map);
+        }
+        let mut channels = channels("", image.texels());
+        for (name, texels) in layers {
+            channels.extend(self::channels(&format!("{name}."), texels));
+        }
+        let file = ChannelFile {
+            width: image.width(),
+            height: image.height(),
+            channels,
+            ..ChannelFile::default()
+        };
+        file.write(&self.path).map_err(Failure::input)
+    }
+
     /// Writes linear radiance: as it is into an EXR, with `tone_map` into a PNG.
     ///
     /// # Errors
@@ -83,6 +116,19 @@ impl OutputImage {
         }
         .map_err(Failure::input)
     }
+}
+
+/// The three channels of a layer.
+fn channels(prefix: &str, texels: &[Vec3]) -> Vec<(String, Vec<f32>)> {
+    let channel = |(color, name)| {
+        let numbers = texels.iter().map(|texel| texel[color]).collect();
+        (format!("{prefix}{name}"), numbers)
+    };
+    ["R", "G", "B"]
+        .into_iter()
+        .enumerate()
+        .map(channel)
+        .collect()
 }
 
 /// What a screen shows of linear radiance.

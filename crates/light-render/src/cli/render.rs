@@ -4,17 +4,19 @@ use std::time::Instant;
 
 use clap::Args;
 use light_scene::{Diagnostic, Image};
+use lights::glam::Vec3;
 use serde_json::json;
 
 use crate::light_sample_time::light_sample_time;
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, ToneMap, View, World, render,
+    SceneDigest, ToneMap, View, World, render, render_layers,
 };
 
 use super::arguments::threads;
 use super::checkpoint::CheckpointArgs;
 use super::failure::Failure;
+use super::layer_args::LayerArgs;
 use super::memory_check::check_memory;
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
@@ -44,6 +46,8 @@ pub(crate) struct RenderArgs {
     view: ViewArgs,
     #[command(flatten)]
     checkpoint: CheckpointArgs,
+    #[command(flatten)]
+    layers: LayerArgs,
     /// Print one line of JSON about the rendering.
     #[arg(long)]
     json: bool,
@@ -74,6 +78,7 @@ impl RenderArgs {
             return Err(Failure::input(Diagnostic::file(&self.input.scene, nothing)));
         }
         let settings = self.settings.settings(&world)?;
+        let layers = self.layers.layers(&self.input, &world, &view, &settings)?;
         let sampler_kind = self.settings.light_sampler;
         let identity = digest.map(|digest| digest.identity(&view, &settings, sampler_kind));
         let identity = identity.unwrap_or_default();
@@ -94,11 +99,24 @@ impl RenderArgs {
         };
         let line = ProgressLine::new(self.input.scene.display().to_string(), volume);
         let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
-        let rendering = pool.install(|| match checkpoint {
-            Some(checkpoint) => checkpoint.render(&world, &view, &sampler, &settings, show),
-            None => Ok(render(&world, &view, &sampler, &settings, show)),
+        let (rendering, films) = pool.install(|| match (checkpoint, &layers) {
+            (Some(checkpoint), _) => {
+                let whole = checkpoint.render(&world, &view, &sampler, &settings, show)?;
+                Ok((whole, Vec::new()))
+            }
+            (None, Some(layers)) => {
+                let made = render_layers(&world, &view, &sampler, &settings, layers, show);
+                Ok((made.whole, made.layers))
+            }
+            (None, None) => {
+                let whole = render(&world, &view, &sampler, &settings, show);
+                Ok::<_, Failure>((whole, Vec::new()))
+            }
         })?;
         drop(line);
+        let names = layers.iter().flat_map(|layers| layers.names()).cloned();
+        let layers: Vec<_> = names.zip(films.iter().map(Film::develop)).collect();
+        drop(films);
         if rendering.rejected > 0 && !self.quiet {
             complain(format_args!(
                 "warning: {} samples were not finite",
@@ -109,7 +127,8 @@ impl RenderArgs {
             let sample_ns = light_sample_time(&world, &view, &sampler);
             self.report(&world, &rendering, build_ms, sample_ns)
         });
-        self.write(&outputs, &settings, identity, rendering.film, exposure)?;
+        let picture = (rendering.film, layers);
+        self.write(&outputs, &settings, identity, picture, exposure)?;
         match report {
             Some(report) => say!("{report}"),
             None => Ok(()),
@@ -152,7 +171,12 @@ impl RenderArgs {
             }
             Ok(output)
         };
-        self.output.iter().map(open).collect()
+        let outputs: Vec<OutputImage> = self.output.iter().map(open).collect::<Result<_, _>>()?;
+        if self.layers.is_wanted() && !outputs.iter().any(OutputImage::has_layers) {
+            let message = "--aov: expected an .exr file to write, which holds the layers";
+            return Err(Failure::Input(message.into()));
+        }
+        Ok(outputs)
     }
 
     /// Writes the picture, or the part of it that was asked for.
@@ -161,7 +185,7 @@ impl RenderArgs {
         outputs: &[OutputImage],
         settings: &RenderSettings,
         identity: PictureIdentity,
-        film: Film,
+        (film, layers): (Film, Vec<(String, Vec<Vec3>)>),
         exposure: Option<f32>,
     ) -> Result<(), Failure> {
         if self.settings.samples.is_some() {
@@ -180,9 +204,10 @@ impl RenderArgs {
         drop(film);
         let fit = || ToneMap::fit(image.texels());
         let tone_map = exposure.map_or_else(fit, ToneMap::new);
-        outputs
-            .iter()
-            .try_for_each(|output| output.write(&image, &tone_map))
+        outputs.iter().try_for_each(|output| match &layers[..] {
+            [] => output.write(&image, &tone_map),
+            layers => output.write_layers(&image, layers, &tone_map),
+        })
     }
 
     fn report(

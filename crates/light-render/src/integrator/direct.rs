@@ -5,8 +5,8 @@ use lights::math::distribution::WeightedReservoir;
 use lights::samplers::{LightChoices, LightSampler};
 use lights::sources::{Light, LightType};
 
+use super::Estimator;
 use super::chosen_lights::ChosenLights;
-use super::{Estimator, Traced};
 use crate::{SampleStream, VertexNumbers, World};
 
 /// How lights are chosen at a vertex. It is kept while the path goes on: a light that the next ray
@@ -46,10 +46,21 @@ pub(super) struct Vertex<'a, V> {
 /// The contribution of a light sample to a vertex, without occlusion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unshadowed {
+    light: LightId,
     radiance: Vec3,
     pub(super) wi: Vec3,
     pub(super) p_light: Vec3,
     pub(super) kind: LightType,
+}
+
+/// The direct light at a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lit {
+    /// The light that it comes from; `None` where it is zero.
+    pub(super) light: Option<LightId>,
+    pub(super) radiance: Vec3,
+    /// How many rays were traced.
+    pub(super) rays: u32,
 }
 
 /// The transmittance between a light sample and a vertex.
@@ -114,7 +125,7 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
         numbers: &VertexNumbers,
         stream: &SampleStream,
         arrived: impl FnOnce(&Unshadowed) -> Arrived,
-    ) -> Traced {
+    ) -> Lit {
         let (world, estimator) = (self.world, self.estimator);
         // Resampling: a candidate is tested with a probability in proportion to its contribution.
         let mut candidates = WeightedReservoir::new();
@@ -127,12 +138,17 @@ impl<'a, S: LightSampler> DirectLight<'a, S> {
             }
         }
         let Some(chosen) = candidates.value() else {
-            return Traced::default();
+            return Lit {
+                light: None,
+                radiance: Vec3::ZERO,
+                rays: 0,
+            };
         };
         // The sum over all candidates, not their mean: a candidate is divided by their number.
         let weight = candidates.contribution_weight_among(1);
         let Arrived { left, rays } = arrived(chosen);
-        Traced {
+        Lit {
+            light: Some(chosen.light),
             radiance: left * chosen.radiance * weight,
             rays,
         }
@@ -185,6 +201,7 @@ fn unshadowed<V: Scatters>(
         estimator.light_weight(density, scattering.pdf(wo, sample.wi))
     };
     Some(Unshadowed {
+        light: choice.light,
         radiance: scattered * (weight / density),
         wi: sample.wi,
         p_light: sample.p_light,

@@ -4,6 +4,7 @@ mod chosen_lights;
 mod direct;
 mod estimator;
 mod li;
+mod light_sum;
 mod path;
 mod path_state;
 mod settings;
@@ -15,7 +16,9 @@ mod volpath;
 mod volume_vertex;
 
 pub use estimator::Estimator;
+pub(crate) use li::add_li;
 pub use li::li;
+pub(crate) use light_sum::{LayerSums, LightSum, Total};
 use path::trace;
 pub use settings::{Integrator, PathSettings, SingleScattering};
 pub(crate) use single_scattering::coarse_step;

@@ -2,26 +2,28 @@ use lights::bounds::LightSampleContext;
 use lights::glam::{Vec2, Vec3};
 use lights::samplers::LightSampler;
 
+use super::PathSettings;
 use super::direct::{Arrived, Scatters, Unshadowed};
+use super::light_sum::LightSum;
 use super::path_state::{PathState, PathVertex};
-use super::{PathSettings, Traced};
 use crate::bsdf::{BsdfSample, Scattering};
 use crate::{Ray, SampleStream, Surface, World};
 
-/// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: an unbiased
-/// estimate of the radiance along it, over paths of at most `settings.max_depth` segments.
-#[must_use]
-pub(crate) fn trace<S: LightSampler>(
+/// Follows the camera ray `ray` through `world`, with lights chosen by `sampler`: adds an unbiased
+/// estimate of the radiance along it to `sum`, over paths of at most `settings.max_depth` segments.
+/// Returns the number of rays traced.
+pub(crate) fn trace<S: LightSampler, L: LightSum>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,
     mut ray: Ray,
     stream: &SampleStream,
-) -> Traced {
-    let mut path = PathState::new(world, sampler, settings);
+    sum: &mut L,
+) -> u32 {
+    let mut path = PathState::new(world, sampler, settings, sum);
     let mut from = None;
     for number in 0..settings.max_depth {
-        path.traced.rays += 1;
+        path.rays += 1;
         let Some(surface) = world.closest(&ray, from) else {
             path.add_sky(&ray);
             break;
@@ -46,7 +48,7 @@ pub(crate) fn trace<S: LightSampler>(
         ray = surface.spawn(wi);
         from = Some(surface.primitive);
     }
-    path.traced
+    path.rays
 }
 
 /// A vertex of a path on a surface.

@@ -2,9 +2,10 @@ use lights::bounds::{LightId, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 use lights::samplers::LightSampler;
 
+use super::PathSettings;
 use super::direct::{Arrived, DirectLight, LightQuery, Scatters, Unshadowed, Vertex};
+use super::light_sum::LightSum;
 use super::sky::sky;
-use super::{PathSettings, Traced};
 use crate::bsdf::BsdfSample;
 use crate::{Ray, SampleStream, Surface, World};
 
@@ -24,8 +25,11 @@ pub(super) trait PathVertex: Scatters {
 /// The state of a path, with the rules that all path integrators share: multiple importance
 /// sampling and Russian roulette.
 #[derive(Debug)]
-pub(super) struct PathState<'a, S> {
-    pub(super) traced: Traced,
+pub(super) struct PathState<'a, S, L> {
+    /// The radiance that arrives along the first segment.
+    sum: &'a mut L,
+    /// The number of rays traced, shadow rays included.
+    pub(super) rays: u32,
     /// Weight of the radiance that arrives along the current segment.
     pub(super) throughput: Vec3,
     direct: DirectLight<'a, S>,
@@ -38,15 +42,21 @@ pub(super) struct PathState<'a, S> {
     count: u32,
 }
 
-impl<'a, S: LightSampler> PathState<'a, S> {
+impl<'a, S: LightSampler, L: LightSum> PathState<'a, S, L> {
     /// Paths of fewer vertices are never ended at random.
     const SURE_VERTICES: u32 = 4;
 
-    /// A path at the camera.
+    /// A path at the camera, the light of which goes into `sum`.
     #[inline]
-    pub(super) fn new(world: &'a World, sampler: &'a S, settings: &PathSettings) -> Self {
+    pub(super) fn new(
+        world: &'a World,
+        sampler: &'a S,
+        settings: &PathSettings,
+        sum: &'a mut L,
+    ) -> Self {
         Self {
-            traced: Traced::default(),
+            sum,
+            rays: 0,
             throughput: Vec3::ONE,
             direct: DirectLight::new(world, sampler, settings.estimator),
             query: None,
@@ -58,9 +68,16 @@ impl<'a, S: LightSampler> PathState<'a, S> {
     /// Adds the infinite lights along a segment that leaves the scene.
     #[inline]
     pub(super) fn add_sky(&mut self, ray: &Ray) {
-        let weight = |light| self.light_weight(light, ray.direction);
-        let radiance = sky(self.direct.world, ray, weight);
-        self.traced.radiance += self.throughput * radiance;
+        for (light, le) in sky(self.direct.world, ray) {
+            let weight = self.light_weight(light, ray.direction);
+            self.sum.add(Some(light), self.throughput * (le * weight));
+        }
+    }
+
+    /// Adds what the medium along the current segment emits.
+    #[inline]
+    pub(super) fn add_medium(&mut self, emitted: Vec3) {
+        self.sum.add(None, self.throughput * emitted);
     }
 
     /// Adds the emission of the surface that a segment in the direction `wi` hits.
@@ -68,7 +85,7 @@ impl<'a, S: LightSampler> PathState<'a, S> {
     pub(super) fn add_emission(&mut self, surface: &Surface, wi: Vec3) {
         if let Some((light, l)) = self.direct.world.emitted(surface, -wi) {
             let weight = self.light_weight(light, wi);
-            self.traced.radiance += self.throughput * l * weight;
+            self.sum.add(Some(light), self.throughput * l * weight);
         }
     }
 
@@ -106,8 +123,8 @@ impl<'a, S: LightSampler> PathState<'a, S> {
             let lit = self
                 .direct
                 .sample(query, chosen, &at, &numbers, stream, arrived);
-            self.traced.radiance += self.throughput * lit.radiance;
-            self.traced.rays += lit.rays;
+            self.sum.add(lit.light, self.throughput * lit.radiance);
+            self.rays += lit.rays;
         }
         if !is_dirac {
             self.count = 1;

@@ -6,19 +6,20 @@ use lights::samplers::LightSampler;
 use lights::sources::{LightType, Rgb};
 
 use super::direct::{DirectLight, Vertex};
+use super::light_sum::LightSum;
 use super::path_state::PathVertex;
 use super::sky::sky;
 use super::transmittance::transmittance;
 use super::volume_vertex::VolumeVertex;
-use super::{Estimator, PathSettings, SingleScattering, Traced};
+use super::{Estimator, PathSettings, SingleScattering};
 use crate::{Ray, SampleStream, World};
 
-/// The light along a camera ray that was scattered at most once, by the medium around the camera or
-/// by the first surface. Specular surfaces stay black.
+/// Adds the light along a camera ray that was scattered at most once to `sum`, as that of no light:
+/// by the medium around the camera or by the first surface. Specular surfaces stay black. Returns
+/// the number of rays traced.
 ///
 /// # Source
 /// Marching and light sampling are those of [`VolumeIntegrator`].
-#[must_use]
 pub(crate) fn trace_single_scattering<S: LightSampler>(
     world: &World,
     sampler: &S,
@@ -26,7 +27,8 @@ pub(crate) fn trace_single_scattering<S: LightSampler>(
     method: SingleScattering,
     ray: Ray,
     stream: &SampleStream,
-) -> Traced {
+    sum: &mut impl LightSum,
+) -> u32 {
     // No ray continues from the surface, so light samples have to find all light.
     let direct = DirectLight::new(world, sampler, Estimator::Light);
     let mut flight = stream.flight(0);
@@ -36,7 +38,7 @@ pub(crate) fn trace_single_scattering<S: LightSampler>(
     let distance = surface.map_or(f32::INFINITY, |s| (s.p - ray.origin).length());
     let mut lo = Vec3::ZERO;
     match surface {
-        None => lo = sky(world, &ray, |_| 1.0),
+        None => lo = sky(world, &ray).map(|(_, le)| le).sum(),
         Some(surface) => {
             let wo = -ray.direction;
             if let Some((_, l)) = world.emitted(&surface, wo) {
@@ -101,10 +103,8 @@ pub(crate) fn trace_single_scattering<S: LightSampler>(
             volume
         }
     };
-    Traced {
-        radiance: lo * volume.transmittance + volume.l,
-        rays,
-    }
+    sum.add(None, lo * volume.transmittance + volume.l);
+    rays
 }
 
 /// Visibility of lights from points in a medium, with a count of the rays.

@@ -2,16 +2,17 @@ use lights::glam::Vec3;
 use lights::samplers::LightSampler;
 use lights::sources::LightType;
 
+use super::PathSettings;
 use super::direct::Unshadowed;
+use super::light_sum::LightSum;
 use super::path_state::PathState;
 use super::transmittance::{MAX_CROSSINGS, across, transmittance};
 use super::volume_vertex::{VolumeRay, VolumeVertex};
-use super::{PathSettings, Traced};
 use crate::{FlightNumbers, Ray, SampleStream, World};
 
-/// Follows the camera ray `ray` through `world` and its media: an unbiased estimate of the radiance
-/// along it, over paths of at most `settings.max_depth` segments. Boundaries between media that do
-/// not refract end no segment.
+/// Follows the camera ray `ray` through `world` and its media: adds an unbiased estimate of the
+/// radiance along it to `sum`, over paths of at most `settings.max_depth` segments. Boundaries
+/// between media that do not refract end no segment. Returns the number of rays traced.
 ///
 /// Distances are chosen by delta tracking with the throughput in the choice, so that media with
 /// different coefficients per channel need no separate treatment. Light samples are attenuated by
@@ -21,15 +22,15 @@ use crate::{FlightNumbers, Ray, SampleStream, World};
 /// # Source
 /// `[PBRT4]`, section 14.2; the tracking is that of
 /// [`delta_tracking`](lights::media::delta_tracking).
-#[must_use]
-pub(crate) fn trace_volume<S: LightSampler>(
+pub(crate) fn trace_volume<S: LightSampler, L: LightSum>(
     world: &World,
     sampler: &S,
     settings: &PathSettings,
     ray: Ray,
     stream: &SampleStream,
-) -> Traced {
-    let mut path = PathState::new(world, sampler, settings);
+    sum: &mut L,
+) -> u32 {
+    let mut path = PathState::new(world, sampler, settings, sum);
     let mut here = VolumeRay {
         ray,
         from: None,
@@ -54,7 +55,7 @@ pub(crate) fn trace_volume<S: LightSampler>(
         };
         here = hit.vertex.spawn(world, wi);
     }
-    path.traced
+    path.rays
 }
 
 /// The vertex where a segment ended, and the direction in which the segment arrived.
@@ -65,14 +66,14 @@ struct VertexHit {
 
 /// Follows one segment to the next vertex, and adds the emission along it; `None` where the path
 /// ends.
-fn next_vertex<S: LightSampler>(
+fn next_vertex<S: LightSampler, L: LightSum>(
     world: &World,
-    path: &mut PathState<'_, S>,
+    path: &mut PathState<'_, S, L>,
     mut here: VolumeRay,
     flight: &mut FlightNumbers,
 ) -> Option<VertexHit> {
     for _ in 0..MAX_CROSSINGS {
-        path.traced.rays += 1;
+        path.rays += 1;
         let VolumeRay { ray, medium, .. } = here;
         let direction = ray.direction;
         let surface = world.closest(&ray, here.from);
@@ -83,7 +84,7 @@ fn next_vertex<S: LightSampler>(
                 flight.next_u()
             });
         if let Some(flown) = flown {
-            path.traced.radiance += path.throughput * flown.emitted;
+            path.add_medium(flown.emitted);
             path.throughput *= flown.weight;
             if let Some(t) = flown.scattered_at {
                 let vertex = VolumeVertex::in_medium(world, ray.at(t), medium?)?;

@@ -1,6 +1,7 @@
 mod alpha_mask;
 mod count;
 mod error;
+mod light_names;
 mod materials;
 mod mixtures;
 mod objects;
@@ -15,7 +16,7 @@ use lights::sources::shape::Sphere;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
 use crate::emitter_ids::EmitterIds;
-use crate::scene_lights::{SceneLights, checked_images};
+use crate::scene_lights::{SceneLights, SceneSource, checked_images};
 use crate::surface_emission::AlphaMaskedLights;
 use crate::world_media::WorldMedia;
 use crate::world_mesh::WorldMesh;
@@ -43,6 +44,9 @@ pub struct World {
     bounds: Aabb,
     lights: LightSet<Rgb>,
     emitters: EmitterIds,
+    sources: Vec<SceneSource>,
+    /// Names of the lights without geometry, as in a scene.
+    light_names: Vec<String>,
     infinite: Vec<LightId>,
     media: WorldMedia,
     /// Whether any material has an alpha mask.
@@ -72,6 +76,7 @@ impl World {
             materials,
             images,
             lights,
+            light_names,
             media,
             camera_medium,
             ..
@@ -84,6 +89,7 @@ impl World {
             lights,
             infinite,
             emitters,
+            sources,
             masked: masked_lights,
         } = SceneLights::new(&meshes, &spheres, &materials, &images, lights, &bounds)?;
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
@@ -117,6 +123,8 @@ impl World {
             bounds,
             lights,
             emitters,
+            sources,
+            light_names,
             infinite,
             media,
         })

@@ -4,6 +4,7 @@ mod environments;
 mod extremes;
 mod folder;
 mod interrupted;
+mod layers;
 mod outputs;
 mod refusals;
 mod samplers;

@@ -10,8 +10,12 @@ impl Reader<'_> {
     pub(super) fn add_instances(&mut self) -> Result<(), Diagnostic> {
         let mut copies = EmissiveCopies::default();
         for MeshUse { mesh, transforms } in core::mem::take(&mut self.uses).uses {
-            if let [(_, transform)] = &transforms[..] {
-                let meshes = self.primitives(&mesh, transform)?;
+            if let [(node, transform)] = &transforms[..] {
+                let mut meshes = self.primitives(&mesh, transform)?;
+                // What people see and name in an editor.
+                if !node.name().is_empty() {
+                    meshes.iter_mut().for_each(|m| m.name = node.name().into());
+                }
                 self.scene.meshes.extend(meshes);
                 continue;
             }

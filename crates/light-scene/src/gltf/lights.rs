@@ -31,13 +31,13 @@ impl<'a> Reader<'a> {
                 .unwrap_or(root.clone());
             let (_, light) = extension.require("light")?.target_in(&owner, "lights")?;
             let light = punctual(&light, node, transform)?;
-            self.scene.lights.push(light);
+            self.scene.add_named_light(node.name(), light);
         }
         if let Some(extension) = node.extension("EXT_lights_ies")? {
             let owner = root.extension("EXT_lights_ies")?.unwrap_or(root);
             let (_, profile) = extension.require("light")?.target_in(&owner, "lights")?;
             let light = self.measured(&extension, &profile, node, transform)?;
-            self.scene.lights.push(light);
+            self.scene.add_named_light(node.name(), light);
         }
         Ok(())
     }

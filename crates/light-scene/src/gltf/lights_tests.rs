@@ -8,7 +8,7 @@ use crate::glam::Vec3;
 fn punctual_lights_in_candela_and_lux_shine_along_minus_z() {
     let scene = read(
         r#""scenes": [{"nodes": [0, 1, 2]}], "nodes": [
-            {"translation": [1, 2, 3], "scale": [7, 7, 7], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"name": "bulb", "translation": [1, 2, 3], "scale": [7, 7, 7], "extensions": {"KHR_lights_punctual": {"light": 0}}},
             {"rotation": [0.70710678, 0, 0, -0.70710678], "extensions": {"KHR_lights_punctual": {"light": 1}}},
             {"extensions": {"KHR_lights_punctual": {"light": 2}}}],
         "extensions": {"KHR_lights_punctual": {"lights": [
@@ -20,6 +20,7 @@ fn punctual_lights_in_candela_and_lux_shine_along_minus_z() {
     let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
     let unused = ["accessors: was ignored", "bufferViews: was ignored"];
     assert_eq!(warnings, unused, "nothing else");
+    assert_eq!(scene.light_names, ["bulb", "", ""], "of the nodes");
     let [
         LightDesc::Point(point),
         LightDesc::Spot(spot),

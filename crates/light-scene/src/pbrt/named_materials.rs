@@ -50,7 +50,11 @@ impl Reader {
                 self.materials.twins.push((id, described));
                 id
             }
-            None => described,
+            None => {
+                let material = &mut self.scene.materials[described.0 as usize];
+                material.name.clone_from(&name);
+                described
+            }
         };
         self.materials.by_name.insert(name, id);
         Ok(())
