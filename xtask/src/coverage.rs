@@ -18,8 +18,13 @@ mod report;
 const OTHERS: &str =
     "light-testkit|light-scene|light-sets|light-render|crates/lights/|/tests?/|tests\\.rs";
 
-/// The crates with a feature that is not on by default and changes what the tests run.
-const WITH_RAYON: [&str; 2] = ["light-bvh", "light-samplers"];
+/// Features that are not on by default and change what the tests run.
+const FEATURES: [&str; 4] = [
+    "light-bvh/rayon",
+    "light-samplers/rayon",
+    "light-sources/half",
+    "light-sources/rayon",
+];
 
 /// Runs the tests of the core crates, or of those named; prints a table of the crates, and what is
 /// not reached with the reasons.
@@ -62,8 +67,9 @@ pub fn coverage(names: &[String]) -> StepResult {
     let mut tests = command(&["--no-report", "--quiet"])?;
     for name in CRATES.into_iter().filter(|name| is_chosen(name)) {
         tests.args(["--package", name]);
-        if WITH_RAYON.contains(&name) {
-            tests.args(["--features", &format!("{name}/rayon")]);
+        let of_crate = |feature: &&str| feature.split('/').next() == Some(name);
+        for feature in FEATURES.into_iter().filter(of_crate) {
+            tests.args(["--features", feature]);
         }
     }
     run(&mut tests)?;

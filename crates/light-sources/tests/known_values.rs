@@ -181,10 +181,18 @@ fn each_light_of_an_image_adds_its_table() {
             amount: RadianceAmount::Radiometric(1.0),
         })
     };
-    let kinds: [(&str, &dyn Fn() -> LightDesc<Rgb>); 3] = [
+    let lat_long = || {
+        LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map: EnvironmentMap::LatLong(image()),
+            amount: RadianceAmount::Radiometric(1.0),
+        })
+    };
+    let kinds: [(&str, &dyn Fn() -> LightDesc<Rgb>); 4] = [
         ("goniometric", &goniometric),
         ("projection", &projection),
         ("sky", &sky),
+        ("lat-long sky", &lat_long),
     ];
     for (name, desc) in kinds {
         let bytes = |n| set((0..n).map(|_| desc())).bytes().images;

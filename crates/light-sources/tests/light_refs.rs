@@ -2,6 +2,8 @@
 //! radiance that leaves them, skies alone one that arrives.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
+use light_sources::light_bounds::{LightGroups, LightSampleContext};
+use light_sources::light_math::SphereMap;
 use light_sources::shape::ShapeDesc;
 use light_sources::*;
 
@@ -186,4 +188,54 @@ fn skies_alone_have_a_radiance_that_arrives() {
         assert_eq!(is_infinite, is_sky, "{light:?}");
     }
     assert_eq!(skies, 4, "of each kind");
+}
+
+/// A set answers by kind what the light itself answers.
+#[test]
+fn densities_and_groups_are_those_of_the_light() {
+    let mut set = lights();
+    assert_eq!(set.is_empty(), set.len() == 0, "{}", set.len());
+    let ctx = LightSampleContext::medium(Vec3::new(0.4, 0.3, 0.8));
+    let complete = PdfCoverage::Complete;
+    let mut compared = 0;
+    for (_, light) in set.iter() {
+        if let Some(sample) = light.sample_li(&ctx, Vec2::splat(0.3), &(), complete) {
+            let is_delta = light.light_type().is_delta();
+            let expected = if is_delta { 0.0 } else { sample.pdf };
+            let pdf = light.pdf_li(&ctx, sample.wi, complete);
+            assert!(
+                (pdf - expected).abs() <= 1e-4 * expected,
+                "{pdf}: {light:?}"
+            );
+            compared += u32::from(!is_delta);
+        }
+    }
+    assert!(compared >= 4, "{compared} densities");
+
+    let all = vec![LightGroups::ALL; set.len()];
+    assert_eq!(set.groups(), all, "none are named");
+    let key = LightGroups::of(3);
+    set.set_groups(SourceId(2), key).expect("a source");
+    let expected = set.iter().map(|(id, _)| match set.source_of(id) {
+        Some((SourceId(2), _)) => key,
+        _ => LightGroups::ALL,
+    });
+    assert_eq!(set.groups(), expected.collect::<Vec<_>>(), "of one source");
+    let unknown = set.set_groups(SourceId(99), key);
+    assert_eq!(unknown, Err(LightUpdateError::UnknownSource), "no source");
+}
+
+/// A square map of equal areas stays as it is, another is refused, and a lat-long map is resampled.
+#[test]
+fn maps_become_equal_area_maps() {
+    let square = EnvironmentMap::EqualArea(image());
+    let kept = square.clone().into_equal_area().expect("a square");
+    assert_eq!(kept, square, "as it is");
+    let wide = Image::from_f32([2, 1], Channels::Gray, [1.0, 2.0]).expect("an image");
+    let refused = EnvironmentMap::EqualArea(wide.clone()).into_equal_area();
+    assert_eq!(refused, Err(ImageInfiniteLightError::NotSquare), "2 by 1");
+    let resampled = EnvironmentMap::LatLong(wide)
+        .into_equal_area()
+        .expect("any size");
+    assert_eq!(resampled.sphere_map(), SphereMap::EqualArea, "resampled");
 }
