@@ -14,7 +14,7 @@ pub trait Visibility {
 }
 
 /// The inputs of single scattering other than the ray: the medium, the lights, a sampler of them,
-/// and the visibility of the scene.
+/// and the visibility of the scene. `crates/lights/examples/fog.rs` renders lamps in fog with it.
 #[derive(Debug)]
 pub struct VolumeIntegrator<'a, C: ColorModel, M: ?Sized, S: ?Sized, V: ?Sized> {
     /// The medium that scatters.
