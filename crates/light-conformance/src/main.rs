@@ -29,7 +29,9 @@ fn main() -> ExitCode {
     } else {
         check_folder(&folder).map(|reports| {
             reports.iter().for_each(|report| print!("{report}"));
-            reports.iter().all(|report| report.failed == 0)
+            reports
+                .iter()
+                .all(|report| report.failed == 0 && report.unchecked == 0)
         })
     };
     match outcome {

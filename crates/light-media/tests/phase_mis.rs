@@ -18,7 +18,7 @@ use light_sources::{
     AreaLightDesc, DiffuseEmissionDesc, LightDesc, LightSetBuilder, RadianceAmount, Rgb,
     SceneSphere, SurfaceColor, UniformInfiniteLightDesc,
 };
-use light_testkit::Rng;
+use light_testkit::{Estimate, Rng};
 
 #[test]
 fn both_strategies_have_one_mean_and_together_less_noise() {
@@ -69,8 +69,7 @@ fn both_strategies_have_one_mean_and_together_less_noise() {
     let mut rng = Rng::new(5);
     let mut next_u = || rng.f32();
     let mut estimate = |mis: bool| {
-        let (mut sum, mut squares) = (0.0f64, 0.0f64);
-        for _ in 0..n {
+        Estimate::of(n, || {
             let mut pair = || Vec2::new(next_u(), next_u());
             let (point, direction) = (pair(), pair());
             let light = fraction::from_f32(next_u(), fraction::from_f32(next_u(), 0));
@@ -84,22 +83,11 @@ fn both_strategies_have_one_mean_and_together_less_noise() {
             } else {
                 integrator.in_scattered(at, light, point, &mut next_u)
             };
-            sum += f64::from(l.x);
-            squares += f64::from(l.x) * f64::from(l.x);
-        }
-        let mean = sum / f64::from(n);
-        let variance = squares / f64::from(n) - mean * mean;
-        (mean, variance)
+            f64::from(l.x)
+        })
     };
-    let (light, light_variance) = estimate(false);
-    let (both, both_variance) = estimate(true);
-    let error = ((light_variance + both_variance) / f64::from(n)).sqrt();
-    assert!(
-        (light - both).abs() < 4.0 * error,
-        "{light} and {both} +- {error}"
-    );
-    assert!(
-        both_variance * 4.0 < light_variance,
-        "variance {both_variance} against {light_variance}"
-    );
+    let (light, both) = (estimate(false), estimate(true));
+    assert!(light.agrees_with_estimate(&both), "{light:?} and {both:?}");
+    let gain = (light.standard_error / both.standard_error).powi(2);
+    assert!(gain > 4.0, "the variance is divided by {gain}");
 }

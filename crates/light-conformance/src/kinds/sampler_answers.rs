@@ -179,10 +179,17 @@ impl<'a> Query<'a> {
         }
         let is_one_choice = self.set.extents.len() <= MOST_IN_A_CHOICE;
         let choices = match self.sampler {
-            // An alias table's layout is its builder's.
-            Sampler::Power => return,
             Sampler::Exhaustive if is_one_choice => vec![self.choice_by_parts(fraction)],
-            Sampler::Exhaustive => return,
+            // The layout of an alias table is its builder's, and the reference's exhaustive choice
+            // depends on a hash: any light is right that has a probability.
+            Sampler::Power | Sampler::Exhaustive => {
+                let ours = findings.ours_if_any("choice", sample);
+                let is_right = ours.map_or(theirs < 0, |sample| sample.pmf > 0.0);
+                findings.check(is_right, || {
+                    format!("choice by {u}: {ours:?}, reference {theirs}")
+                });
+                return findings.settled(Certainty::Determined);
+            }
             Sampler::Uniform | Sampler::Bvh => self.choices(u),
         };
         let ours = findings.ours("choice", sample.map_or(-1, |s| i64::from(s.light.0)));

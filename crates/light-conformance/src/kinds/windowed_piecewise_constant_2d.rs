@@ -1,6 +1,6 @@
 use super::tables::{CANCELLATION, moved_window, windows};
 use crate::comparison::{Comparison, settle_none};
-use crate::oracle::{Certainty, Jitter};
+use crate::oracle::Jitter;
 use crate::{Case, Findings, Malformed, Rule, Tolerance};
 use glam::{DVec2, DVec3};
 use lights::math::distribution::{SummedAreaTable, Window, WindowedPiecewiseConstant2D};
@@ -45,12 +45,8 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
             (pdf > 0.0).then(|| vec![p.extend(0.0), DVec3::X * pdf])
         };
         let Some(ours) = findings.ours_if_any("sample", table.sample(u, &window)) else {
-            if theirs.is_some() || is_lost {
-                settle_none(findings, "sample", || &CANCELLATION, truth);
-            } else {
-                findings.settled(Certainty::Undetermined);
-                findings.check(true, String::new);
-            }
+            let rule = (theirs.is_some() || is_lost).then_some(&CANCELLATION);
+            settle_none(findings, "sample", rule, truth);
             continue;
         };
         let mut comparison = Comparison::default();

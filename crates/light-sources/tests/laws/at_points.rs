@@ -94,7 +94,6 @@ fn goniometric() {
 
 #[test]
 fn projection() {
-    // Fine texels: the power of each is taken at its middle.
     let [width, height] = [48u16, 32];
     let texels = (0..width * height).flat_map(|i| [f32::from(i % 11); 3]);
     let size = [u32::from(width), u32::from(height)];

@@ -204,13 +204,8 @@ fn textures() {
                 f64::from(s.l.element_sum() / 3.0 * cos / (s.pdf.pos * s.pdf.dir))
             })
         });
-        // 64 points of a coarse texture, against the texture itself.
         let phi = f64::from(light.phi(&()).element_sum() / 3.0);
-        let margin = estimate.margin(phi) + 0.03 * phi;
-        assert!(
-            (estimate.mean - phi).abs() < margin,
-            "{desc:?}: {phi}, {estimate:?}"
-        );
+        assert!(estimate.agrees_with(phi), "{desc:?}: {phi}, {estimate:?}");
     }
 }
 
