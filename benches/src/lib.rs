@@ -10,7 +10,7 @@ use light_testkit::{Rng, SamplerCase};
 use lights::bounds::LightSampleContext;
 use lights::glam::Vec2;
 
-/// Queries in turn, so many that no branch predictor learns them.
+/// Queries in a cycle long enough to defeat branch prediction.
 #[derive(Clone, Debug)]
 pub struct Queries<T> {
     queries: Vec<T>,
@@ -51,7 +51,7 @@ pub fn squares() -> Queries<Vec2> {
     Queries::new(Rng::vec2)
 }
 
-/// Criterion with little patience: the whole suite runs in a few minutes.
+/// Criterion with short measuring times: the whole suite runs in a few minutes.
 #[must_use]
 pub fn criterion() -> Criterion {
     Criterion::default()

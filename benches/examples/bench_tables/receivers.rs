@@ -1,4 +1,4 @@
-//! Who asks, and what stands between: variance against the light of whole areas.
+//! Receivers and occluders: variance against the light of whole areas.
 
 use light_render::SamplerKind;
 use light_render::bench::{BenchOptions, BenchReceiverKind, GroundTruth};
@@ -15,7 +15,7 @@ const SETS: [SetKind; 4] = [
 
 const LIGHTS: u32 = 10_000;
 
-/// Who asks, how many spheres stand between, and the table's words for it.
+/// The receiver, the number of occluding spheres, and their name in the table.
 const RECEIVERS: [(&str, BenchReceiverKind, usize); 5] = [
     ("diffuse", BenchReceiverKind::Diffuse, 0),
     ("two-sided", BenchReceiverKind::TwoSided, 0),
@@ -25,7 +25,7 @@ const RECEIVERS: [(&str, BenchReceiverKind, usize); 5] = [
 ];
 
 const HEADER: &str = "\
-| set | who asks | reference: V mean | V median | V 99 % | default: V mean | V median | V 99 % |
+| set | receiver | reference: V mean | V median | V 99 % | default: V mean | V median | V 99 % |
 | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 

@@ -173,7 +173,7 @@ mod tests {
         assert_eq!(size_of::<InfiniteBounds>(), 32, "at infinity");
         assert_eq!(size_of::<EmissionLobe>(), 20, "lobe");
         assert_eq!(size_of::<LightExtent>(), 72, "any of them");
-        assert_eq!(size_of::<LightSampleContext>(), 80, "who asks");
+        assert_eq!(size_of::<LightSampleContext>(), 80, "a receiver");
         assert_eq!(size_of::<SampledLight>(), 16, "a choice");
     }
 

@@ -53,7 +53,7 @@ impl fmt::Display for LightBvhError {
             }
             Self::NoPlace { light } => write!(
                 f,
-                "light {}: no place in the tree that fits; build it anew",
+                "light {}: no place in the tree that fits; build a new tree",
                 light.0
             ),
         }

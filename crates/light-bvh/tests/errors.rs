@@ -37,7 +37,7 @@ fn other_errors_are_their_own_reason() {
         (other, "expected 1 lights, as when the tree was built"),
         (
             no_place,
-            "light 0: no place in the tree that fits; build it anew",
+            "light 0: no place in the tree that fits; build a new tree",
         ),
         (
             LightBvhError::TooManyLights,

@@ -77,8 +77,8 @@ pub fn positive_product(a: f32, b: f32) -> f32 {
     }
 }
 
-/// Square root; NaN below zero. Correctly rounded whoever computes it, so that the platform's is
-/// taken wherever there is one.
+/// Square root; NaN below zero. IEEE 754 square roots are correctly rounded, so that the platform's
+/// gives the same bits, and is used.
 #[inline]
 #[must_use]
 pub fn sqrt(x: f32) -> f32 {

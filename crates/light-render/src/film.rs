@@ -5,7 +5,7 @@ use crate::{ExactSum, FilmRow};
 /// The film: the sum of the samples of every pixel, rows from the top.
 ///
 /// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no
-/// other. A pixel takes 30 bytes.
+/// other. A pixel takes 24, 30 or 48 bytes.
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,

@@ -159,11 +159,12 @@ impl PartialPicture {
         }
     }
 
-    /// The film that all parts make together.
+    /// The film that all parts make together. Each is taken when the one before is added, so that
+    /// there are never more than two.
     ///
     /// # Errors
     /// When they are not parts of one picture, overlap, or are none.
-    pub fn merge(parts: Vec<Self>) -> Result<Film, PartialPictureError> {
+    pub fn merge(parts: impl IntoIterator<Item = Self>) -> Result<Film, PartialPictureError> {
         let mut parts = parts.into_iter();
         let first = parts.next().ok_or(PartialPictureError::Nothing)?;
         let mut film = first.film;
@@ -230,11 +231,7 @@ mod tests {
             };
             let parts = [3..7, 0..3, 7..20].map(|range| back(&part(range, "a", scale)));
             let whole = part(0..20, "a", scale).film;
-            assert_eq!(
-                PartialPicture::merge(parts.into()),
-                Ok(whole),
-                "to the last bit"
-            );
+            assert_eq!(PartialPicture::merge(parts), Ok(whole), "to the last bit");
         }
     }
 

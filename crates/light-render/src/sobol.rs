@@ -1,6 +1,6 @@
 //! Sobol's sequence in four dimensions, Owen-scrambled and shuffled by a seed.
 //!
-//! Whole numbers here are "reversed": the bit that is worth one half is the lowest. A scramble is
+//! Whole numbers here are reversed: the lowest bit has the weight 1/2. A scramble is
 //! then a hash in which every bit depends on lower bits alone.
 
 /// How many bits of the index count: the sequence repeats after 2^24 points.

@@ -127,7 +127,7 @@ mod tests {
         let sampler = PowerLightSampler::new(&[1.0, 0.0, 3.0]).expect("powers");
         let pmfs = [0, 1, 2, 3].map(|i| sampler.pmf_emitter(LightId(i)));
         assert_eq!((pmfs[1], pmfs[3]), (0.0, 0.0), "dark, and unknown");
-        // Probabilities are multiples of this, and one a light is given in advance.
+        // Probabilities are multiples of this, and each light that is on gets one first.
         let part = 1.0 / (3.0 * 65536.0);
         assert!((pmfs[0] - 0.25).abs() <= 2.0 * part, "{pmfs:?}");
         assert!((pmfs[2] - 0.75).abs() <= 2.0 * part, "{pmfs:?}");

@@ -47,8 +47,8 @@ impl AlphaMask {
 
     /// How its texels count; `None` where the surface emits everywhere.
     ///
-    /// A cutoff is lower by more than [`opacity`](Self::opacity) rounds, so that whatever emits by
-    /// that counts here.
+    /// The cutoff is lowered by more than the rounding of [`opacity`](Self::opacity), so that every
+    /// point that emits counts.
     pub(crate) fn rule(&self) -> Option<MaskRule> {
         let scale = f64::from(self.scale);
         let linear = |factor| MaskRule {

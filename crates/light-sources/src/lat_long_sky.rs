@@ -179,7 +179,8 @@ impl TexelChoice {
 }
 
 impl RowMoments {
-    /// Writes the weights of the texels of row `y` into `weights`, and learns the rest on the way.
+    /// Writes the weights of the texels of row `y` into `weights`, and returns the sums of colours,
+    /// of weights and of weighted directions.
     fn new(image: &Image, y: u32, columns: &[DVec2], weights: &mut [f32]) -> Self {
         let mut moments = Self {
             color: RgbSum::default(),

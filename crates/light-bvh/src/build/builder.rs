@@ -25,8 +25,8 @@ pub(crate) fn build(
     if scan.count == 0 {
         return (Topology(Vec::new()), order);
     }
-    /// At most so many lights are split one by one from the root on: clusters of them would be too
-    /// coarse.
+    /// Sets of at most this many lights are split light by light from the root on: clusters would
+    /// be too coarse.
     const FEW: usize = 2048;
     /// How many lights ahead of the one that is read are prefetched.
     const AHEAD: usize = 24;

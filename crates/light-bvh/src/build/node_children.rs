@@ -12,7 +12,7 @@ pub(crate) struct NodeChildren<G> {
     singles: u16,
 }
 
-/// Whether only halves of equal size are sure to fit so many lights into so few levels.
+/// Whether only halving guarantees that this many lights fit into this many levels.
 pub(crate) const fn is_depth_limited(lights: usize, levels: usize) -> bool {
     const BITS: usize = WIDTH.ilog2() as usize;
     levels <= 28 / BITS && lights > 1 << (BITS * (levels - 1))

@@ -149,7 +149,7 @@ struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// As [`Filling::subtree`], of a subtree with all its lights in the batch.
+    /// Encodes a subtree of which all lights are in the batch, as [`Filling::subtree`] does.
     fn subtree(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
         let (inner, count) = (usize::from(node.inner), usize::from(node.count));
         let child_base = node.child_base as usize;

@@ -8,8 +8,8 @@ use crate::importance::position::FAR;
 use crate::parallel::join;
 use crate::validate::validate_light;
 
-/// Lights of a tree, at most: a slot of 32 bits names a node, of which there are fewer than lights,
-/// and one of sixteen children.
+/// The largest number of lights. A tree has fewer nodes than lights, and a place, `16 * node +
+/// child`, has 32 bits.
 const MAX_LIGHTS: usize = 1 << 28;
 
 /// Whether slots of 32 bits can name the places of so many lights.

@@ -12,7 +12,7 @@ pub(crate) struct NodeCounts {
     pub(crate) count: u8,
 }
 
-/// A subtree before its nodes know anything of their lights.
+/// The shape of a subtree, without the data of its lights.
 ///
 /// The root comes first, then the children of a node side by side, then what is below the first of
 /// them, and so on.
@@ -69,8 +69,8 @@ impl Topology {
         }
     }
 
-    /// Returns the first node, and the first place for a light, behind all that is below `node`.
-    /// Recursive, as deep as the tree at most.
+    /// Returns the first free node and the first free position of a light after the subtree of
+    /// `node`. Recursive, as deep as the tree at most.
     fn place_below(&self, node: Place, each: &mut impl FnMut(&Place)) -> (usize, usize) {
         each(&node);
         let inner = usize::from(node.counts.inner);

@@ -79,9 +79,9 @@ impl ChildView {
         self.weight(self.dist, 0.0)
     }
 
-    /// The importance of the child to a point over whose horizon it is at `height`. `lift`
-    /// is what the mean of what is above the horizon adds to how far the receiver is beyond the
-    /// emission, times the distance.
+    /// The importance of the child to a point over whose horizon it is at `height`. `lift` is
+    /// `dot(axis, mean above the horizon - mean)`: it is added to `beyond`, which is
+    /// `dot(axis, mean) + offset * distance`, negative where the child emits to the receiver.
     ///
     /// A ramp emits `max(0, -beyond)`, half of the root less `beyond` where these vary. A step
     /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by
@@ -92,7 +92,7 @@ impl ChildView {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
         let [mx, my, mz] = self.axis;
-        // All of the emission times the distance, which is not divided by before the end.
+        // The emission times the distance: all divisions come at the end.
         let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist + lift;
         let width = hx + hy + hz;
         let cap = (0.25 * UNIT) * (UNIT - self.offset);

@@ -29,7 +29,7 @@ impl Horizon {
     }
 
     /// Half of the mean height over the plane, and half of that by which the highest point of the
-    /// box may exceed it: the sum of a root and of what is in it is so a mean without a factor.
+    /// box may exceed it. Halved, so that a later sum `root + x` needs no factor 1/2.
     #[inline(always)]
     pub(crate) fn half_height(&self, child: &ChildView) -> (f32, f32) {
         let (n, abs_n) = (self.half_n, self.abs_half_n);
@@ -44,10 +44,10 @@ impl Horizon {
     /// How much the product of the axis of a group and its mean position changes where only what is
     /// above the horizon counts; 0 of what is no group of ramps.
     ///
-    /// Lights that fill their box evenly have that mean half way between the highest point and the
-    /// larger of their mean height and zero: it is raised by half of the support less the height,
-    /// of which the arguments are half. Height and emission so go together: where lights face
-    /// down, what is above the horizon is what is in front.
+    /// Lights that fill their box evenly, from `mean - support` to `mean + support`, have that mean
+    /// at `(mean + support) / 2` where the box straddles the horizon: it is raised by half of
+    /// `support - mean`, of which the arguments are half. Of lights that face down, those above the
+    /// horizon are those in front.
     #[inline(always)]
     pub(crate) fn lift(&self, child: &ChildView, height: f32, support: f32) -> f32 {
         let [mx, my, mz] = child.axis;

@@ -221,8 +221,8 @@ mod tests {
         }
     }
 
-    /// Over all directions in which the exact line shines, and from its codes: what rounding in
-    /// receivers may take is left.
+    /// In all directions in which the exact line emits, and from its codes: a margin is left for the
+    /// rounding of receivers.
     #[test]
     fn offsets_leave_what_receivers_round_off() {
         /// In codes; nine tenths of the margin, the rest is the encoder's own round-off.

@@ -51,8 +51,8 @@ impl Emission {
         }
     }
 
-    /// As a light in one point with a lobe emits. However small the spread, it keeps what is
-    /// emitted beyond the line alive.
+    /// As a light in one point with a lobe emits. The spread is above 0, so that the weight is
+    /// above 0 beyond the line, too.
     #[inline(always)]
     pub(crate) fn of_lobe(lobe: &EmissionLobe) -> Self {
         let line = lobe.line();

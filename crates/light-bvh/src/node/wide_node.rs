@@ -22,19 +22,24 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | byte | field | |
 /// | --- | --- | --- |
 /// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
-/// | 48 | `extent[axis][child]` | half extents of a box about that position that holds the child's lights, at least 1 |
+/// | 48 | `extent[axis][child]` | half extents of a box about that position, at least 1 |
 /// | 96 | `axis[axis][child]` | mean emission axis, signed |
-/// | 144 | `offset[child]` | mean emission offset, signed; -128 for a child that emits alike to both sides (its offset is 0) |
-/// | 160 | `spread[child]` | bit 7: it is a step; bit 6: it is anything but one flat light or one spot; below, the deviation of axis and offset, in six bits of which three are the exponent: 0.52 to 122 |
-/// | 176 | `power[child]` | five bits of exponent, three of mantissa, less what these say for 0, relative to the node's `gain` and doubled for a child that emits to both sides; 0 for an empty slot |
+/// | 144 | `offset[child]` | mean emission offset, signed; -128: to both sides alike |
+/// | 160 | `spread[child]` | bit 7: a step; bit 6: soft; below, a deviation |
+/// | 176 | `power[child]` | relative to `gain`; 0 for an empty slot |
 /// | 192 | `origin` | |
 /// | 204 | `inv_scale` | |
 /// | 208 | `child_base` | |
 /// | 212 | `light_base` | |
-/// | 216 | `gain` | upper half of an `f32`: the largest power of a child, as a share of the tree's |
+/// | 216 | `gain` | upper half of an `f32`: the largest share of a child of the tree's power |
 /// | 218 | `inner` | |
 /// | 219 | `count` | children in all |
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
+///
+/// The box holds the child's lights. A child that emits to both sides alike has offset 0 and its
+/// power doubled. A child is soft if it is anything but one flat light or one spot. The deviation of
+/// axis and offset has six bits, of which three are the exponent: 0.52 to 122. A power has five bits
+/// of exponent and three of mantissa, less their value for 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]

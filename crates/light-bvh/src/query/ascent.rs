@@ -6,7 +6,7 @@ use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
 
-/// The probabilities that a way up does not have to compute.
+/// Probabilities that are known before the ascent.
 ///
 /// Implementations are `#[inline(always)]`, as closures cannot be: the caller chooses the vectors.
 pub(crate) trait KnownPmfs {
@@ -14,7 +14,7 @@ pub(crate) trait KnownPmfs {
     fn pmf(&self, node: usize, child: usize) -> Option<f32>;
 }
 
-/// No probability is known: the way leads up to the root.
+/// No probability is known: the ascent ends at the root.
 struct NothingKnown;
 
 impl KnownPmfs for NothingKnown {
@@ -55,8 +55,8 @@ impl LightBvhRef<'_> {
             return 0.0;
         }
         let (mut pmf, mut levels) = (1.0, 0);
-        // Up along the parents: which nodes to visit does not depend on what they weigh, so their
-        // latencies overlap.
+        // Up along the parents: the path is known before any weight is, so the loads of its nodes
+        // overlap.
         while slot != NOWHERE {
             let (index, child) = (slot as usize / WIDTH, slot as usize % WIDTH);
             if let Some(known) = known.pmf(index, child) {

@@ -60,8 +60,8 @@ impl<'a> LightBvhRef<'a> {
         }
     }
 
-    /// The weights of the children of the node `index`: 0 for those without a light that is asked
-    /// for.
+    /// The weights of the children of the node `index`: 0 for those without a light in the
+    /// requested groups.
     #[inline(always)]
     pub(crate) fn weights<R: Receiver>(
         &self,
@@ -74,7 +74,7 @@ impl<'a> LightBvhRef<'a> {
         weights
     }
 
-    /// Takes the weights of those children away that have no light that is asked for.
+    /// Sets the weights of children without a light in the requested groups to 0.
     #[inline(always)]
     pub(crate) fn leave_out(&self, index: usize, weights: &mut Weights) {
         if let Some(groups) = self.groups.get(index) {

@@ -72,7 +72,7 @@ impl Weights {
         }
     }
 
-    /// Takes the weights of those children away none of whose lights is in a `wanted` group.
+    /// Sets the weights of children without a light in a `wanted` group to 0.
     pub(crate) fn keep(&mut self, groups: &[LightGroups; WIDTH], wanted: LightGroups) {
         for (weight, groups) in self.lanes.iter_mut().zip(groups) {
             if !groups.is_wanted(wanted) {

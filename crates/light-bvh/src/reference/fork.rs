@@ -3,8 +3,8 @@ use super::Side;
 /// The largest `f64` below one: the upper end of `u`, which lies in `[0, 1)`.
 const MAX_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// The choice between two children: in proportion to their weights, in sampling and in asking
-/// alike.
+/// The choice between two children in proportion to their weights, the same for samples and for
+/// queries.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fork {
     first: f32,

@@ -184,7 +184,10 @@ impl<'a> Query<'a> {
             // depends on a hash: any light is right that has a probability.
             Sampler::Power | Sampler::Exhaustive => {
                 let ours = findings.ours_if_any("choice", sample);
-                let is_right = ours.map_or(theirs < 0, |sample| sample.pmf > 0.0);
+                let is_right = match ours {
+                    Some(sample) => sample.pmf > 0.0,
+                    None => self.is_nothing_to_choose(),
+                };
                 findings.check(is_right, || {
                     format!("choice by {u}: {ours:?}, reference {theirs}")
                 });
@@ -205,6 +208,15 @@ impl<'a> Query<'a> {
         if ours != theirs && self.sampler != Sampler::Exhaustive {
             findings.exempt(&EDGE_OF_U);
         }
+    }
+
+    /// Whether no light may have a probability.
+    fn is_nothing_to_choose(&self) -> bool {
+        let mut lights = (0..).map(LightId).zip(&self.set.extents);
+        lights.all(|(light, extent)| match self.sampler {
+            Sampler::Power => self.set.powers[light.index()] == 0.0,
+            _ => extent.bounded().is_some() && self.range(light).holds(0.0),
+        })
     }
 
     /// The light, or none (-1), that `u` chooses of so few that one choice is enough: in integers,

@@ -77,8 +77,7 @@ impl<T> WeightedReservoir<T> {
         self.offer(value, target, weight, u);
     }
 
-    /// Counts a candidate that contributes nothing: a source that had none to give was asked all
-    /// the same.
+    /// Counts a draw that has produced no candidate.
     #[inline]
     pub const fn add_none(&mut self) {
         self.count = self.count.saturating_add(1);

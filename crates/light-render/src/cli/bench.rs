@@ -62,7 +62,7 @@ pub(crate) struct BenchArgs {
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
     #[arg(long = "truth", default_value = "centroid")]
     ground_truth: GroundTruth,
-    /// Who asks: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half
+    /// The receivers: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half
     /// microfacets.
     #[arg(long, default_value = "diffuse")]
     receiver: BenchReceiverKind,

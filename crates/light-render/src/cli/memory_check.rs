@@ -2,8 +2,8 @@ use crate::available_memory::available_memory;
 
 use super::failure::Failure;
 
-/// Makes sure that `bytes` of memory are there, before they are taken. `what` needs them: the words
-/// name the flags that ask for it.
+/// Makes sure that `bytes` of memory are available before they are allocated. `what` needs them: the
+/// words name the flags that ask for it.
 ///
 /// # Errors
 /// When there is less, with both figures.

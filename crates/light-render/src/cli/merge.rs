@@ -28,11 +28,15 @@ impl MergeArgs {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let output = OutputImage::new(&self.output, Precision::Single)?;
         expect_another(&self.output, &self.parts, "a part for --output")?;
-        let mut parts = Vec::new();
-        for path in &self.parts {
-            parts.push(PartialPicture::read(path).map_err(Failure::input)?);
-        }
-        let film = PartialPicture::merge(parts).map_err(Failure::input)?;
+        let mut unread = Ok(());
+        let parts = self.parts.iter().map_while(|path| {
+            PartialPicture::read(path)
+                .map_err(|error| unread = Err(error))
+                .ok()
+        });
+        let film = PartialPicture::merge(parts);
+        unread.map_err(Failure::input)?;
+        let film = film.map_err(Failure::input)?;
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
         output.write(&image, &ToneMap::fit(image.texels()))

@@ -39,7 +39,7 @@ const INTERRUPTED: i32 = 130;
 /// Lights and light sampling for physically based rendering.
 ///
 /// Without a command: renders three of the shipped scenes into out/ and compares light samplers on
-/// them.
+/// the night scene.
 #[derive(Debug, Parser)]
 #[command(name = "lights", version, max_term_width = 100)]
 struct Program {

@@ -14,8 +14,8 @@ use super::volume_vertex::VolumeVertex;
 use super::{Estimator, PathSettings, SingleScattering};
 use crate::{Ray, SampleStream, World};
 
-/// Adds the light along a camera ray that was scattered at most once to `sum`, as that of no light:
-/// by the medium around the camera or by the first surface. Specular surfaces stay black. Returns
+/// Adds the light along a camera ray that was scattered at most once to `sum`, attributed to no
+/// light: scattered by the medium around the camera or by the first surface. Specular surfaces stay black. Returns
 /// the number of rays traced.
 ///
 /// # Source

@@ -39,6 +39,25 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     );
 }
 
+/// The file, the line and the light.
+#[test]
+fn a_bad_light_of_a_set_is_named() {
+    let folder = Folder::new("bad-light");
+    let points = folder.file("a.points", "0 0 0 0 0 1\n");
+    let good = "point 0 0 1 1\n";
+    for bad in [
+        "point 0 0 1 -1\n",
+        "spot 0 0 1 0 0 0 1 30 31\n",
+        "spot 0 0 1 0 0 nan 1 30 5\n",
+    ] {
+        let set = folder.file("a.lights", &format!("{good}{bad}{good}"));
+        assert_refused(
+            &["bench", "--lights", &set, "--points", &points],
+            &["a.lights:2"],
+        );
+    }
+}
+
 #[test]
 fn nonsense_on_the_command_line_is_refused() {
     let folder = Folder::new("nonsense");

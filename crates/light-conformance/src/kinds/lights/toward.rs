@@ -14,7 +14,7 @@ const PLACE: Tolerance = Tolerance::new(1e-5, 2e-5);
 const UV: Tolerance = Tolerance::new(1e-4, 1e-4);
 const VALUE: Tolerance = Tolerance::new(1e-4, 1e-6);
 
-/// Who asks, for us and for the oracle.
+/// The receiver, for us and for the oracle.
 struct QueryContext {
     ctx: LightSampleContext,
     coverage: PdfCoverage,

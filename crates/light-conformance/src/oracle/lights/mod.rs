@@ -20,7 +20,7 @@ use super::Jitter;
 use crate::{Case, Malformed};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Who asks for light.
+/// The point that is lit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Receiver {
     pub(crate) p: DVec3,
