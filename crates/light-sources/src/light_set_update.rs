@@ -33,7 +33,9 @@ impl<C: ColorModel> LightSet<C> {
     /// Replaces one source by another of the same kind and number of lights: a light that moves,
     /// turns, or changes what it emits. No id changes, and no other source is touched.
     ///
-    /// `crates/lights/examples/moving_lights.rs` moves a lamp.
+    /// Lights come and go as others are switched on and off: sources that are off are the room for
+    /// those to come. `crates/lights/examples/moving_lights.rs` moves a lamp, and adds and removes
+    /// others.
     ///
     /// Costs what the construction of the one source costs. A sky with the
     /// [`map`](crate::EnvironmentMap) that it had, lat-long or equal-area, keeps its tables, so

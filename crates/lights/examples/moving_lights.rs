@@ -1,4 +1,5 @@
-//! A lamp walks through a field of 10,000 others under a sky: what a frame has to do.
+//! A lamp walks through a field of 10,000 others under a sky and drops sparks, which come and go:
+//! what a frame has to do.
 //!
 //! `cargo run --release -p lights --example moving_lights` writes `out/moving_lights_0.png` and so
 //! on, and prints how long the lights of each frame took.
@@ -8,7 +9,8 @@ use core::time::Duration;
 use std::time::Instant;
 
 use lights::bounds::{LightExtent, LightSampleContext, SampledLight};
-use lights::glam::{Affine3A, Vec2, Vec3};
+use lights::bvh::LightBvhOptions;
+use lights::glam::{Vec2, Vec3};
 use lights::math::fraction;
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::*;
@@ -17,10 +19,12 @@ mod picture;
 
 type Result<T> = core::result::Result<T, Box<dyn Error>>;
 
-/// A field of lamps under a sky, one lamp of which moves.
+/// A field of lamps under a sky, one lamp of which moves, with room for some more.
 struct Field {
     lights: LightSet<Rgb>,
     moving: SourceId,
+    /// Lamps that are off: as many can be added.
+    spare: Vec<SourceId>,
     /// Kept from frame to frame, so that no frame allocates.
     extents: Vec<LightExtent>,
     sampler: BvhLightSampler,
@@ -43,15 +47,12 @@ fn sky(height: u32) -> Result<ImageInfiniteLightDesc> {
         Channels::Gray,
         texels.collect::<Vec<f32>>(),
     )?;
-    Ok(ImageInfiniteLightDesc {
-        transform: Affine3A::from_rotation_x(-core::f32::consts::FRAC_PI_2),
-        ..ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image))
-    })
+    Ok(ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image)))
 }
 
 impl Field {
-    /// `side * side` lamps a length apart, on the plane y = 0.
-    fn new(side: u16, sky_height: u32) -> Result<Self> {
+    /// `side * side` lamps a length apart, on the plane y = 0, and room for `capacity` more.
+    fn new(side: u16, sky_height: u32, capacity: usize) -> Result<Self> {
         let radius = f32::from(side);
         let mut lights = LightSetBuilder::new(SceneSphere::new(Vec3::ZERO, radius)?);
         lights.add(sky(sky_height)?)?;
@@ -61,17 +62,38 @@ impl Field {
             lights.add(lamp(Vec3::new(at.x, 0.2, at.y), color, 0.01))?;
         }
         let moving = lights.add(lamp(Vec3::Y, Vec3::ONE, 1.0))?;
+        let off = || lamp(Vec3::Y, Vec3::ONE, 0.0);
+        let spare = (0..capacity).map(|_| lights.add(off()));
+        let spare = spare.collect::<core::result::Result<Vec<_>, _>>()?;
         let lights = lights.build();
         let extents = lights.extents();
         Ok(Self {
-            sampler: BvhLightSampler::new(&extents)?,
+            // Lights that are off have a place in the tree, which a refit switches on.
+            sampler: BvhLightSampler::with(&extents, &LightBvhOptions::DYNAMIC)?,
             extents,
             lights,
             moving,
+            spare,
         })
     }
 
-    /// Moves the lamp: the light, the extents, the tree.
+    /// Adds a lamp; `None` where the room is used up. It is lit from the next frame on.
+    fn add(&mut self, lamp: PointLightDesc<Rgb>) -> Result<Option<SourceId>> {
+        let Some(source) = self.spare.pop() else {
+            return Ok(None);
+        };
+        self.lights.update(source, lamp)?;
+        Ok(Some(source))
+    }
+
+    /// Removes a lamp that was added.
+    fn remove(&mut self, source: SourceId) -> Result<()> {
+        self.lights.update(source, lamp(Vec3::Y, Vec3::ONE, 0.0))?;
+        self.spare.push(source);
+        Ok(())
+    }
+
+    /// Moves the lamp: the light, the extents, the tree, with all that was added or removed.
     fn advance(&mut self, position: Vec3) -> Result<Duration> {
         let start = Instant::now();
         self.lights
@@ -113,8 +135,15 @@ fn position(frame: u16) -> Vec3 {
 }
 
 fn main() -> Result<()> {
-    let mut field = Field::new(100, 512)?;
+    let mut field = Field::new(100, 512, 3)?;
+    let mut sparks = Vec::new();
     for frame in 0..8 {
+        // A spark lives for three frames.
+        if sparks.len() == 3 {
+            field.remove(sparks.remove(0))?;
+        }
+        let spark = lamp(position(frame) * 0.7, Vec3::new(1.0, 0.3, 0.1), 1.0);
+        sparks.extend(field.add(spark)?);
         let took = field.advance(position(frame))?;
         println!(
             "frame {frame}: lights ready in {:.2} ms",
@@ -133,7 +162,7 @@ mod tests {
     /// Under the lamp it is bright, where it was a moment ago no longer; and no sample is left out.
     #[test]
     fn the_light_follows_the_lamp() -> Result<()> {
-        let mut field = Field::new(8, 16)?;
+        let mut field = Field::new(8, 16, 0)?;
         let ground = |frame| position(frame) * Vec3::new(1.0, 0.0, 1.0);
         for frame in 1..4 {
             field.advance(position(frame))?;
@@ -147,6 +176,28 @@ mod tests {
                 "{here}, the lamp alone {own}"
             );
         }
+        Ok(())
+    }
+    /// Added lamps give light, removed ones none, and there is room for so many.
+    #[test]
+    fn lamps_come_and_go() -> Result<()> {
+        let mut field = Field::new(8, 16, 2)?;
+        field.advance(position(0))?;
+        let place = Vec3::new(-6.0, 0.0, 3.0);
+        let red = || lamp(place + Vec3::Y, Vec3::X, 2.0);
+        let at = |field: &Field| field.irradiance(place, 256, 0.5);
+        let before = at(&field);
+        let added = [field.add(red())?, field.add(red())?, field.add(red())?];
+        assert!(added[1].is_some() && added[2].is_none(), "room for two");
+        field.advance(position(0))?;
+        let gain = at(&field) - before;
+        assert!((gain.x - 4.0).abs() < 0.1, "two of 2 W/sr at 1: {gain}");
+        for source in added.into_iter().flatten() {
+            field.remove(source)?;
+        }
+        field.advance(position(0))?;
+        let off = (at(&field) - before).abs().max_element();
+        assert!(off < 0.01, "{off} is left");
         Ok(())
     }
 }

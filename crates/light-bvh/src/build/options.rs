@@ -51,7 +51,10 @@ impl LightBvhOptions {
         ..Self::QUALITY
     };
 
-    /// For lights that move and are switched on and off: every light gets a place.
+    /// For lights that move, are switched on and off, or are added and removed: every light gets a
+    /// place, and lights that are off are the room for those to come. What is added far from the
+    /// place that its spare light had makes the groups there larger:
+    /// [`degradation`](crate::LightBvh::degradation) says when to build a new tree.
     pub const DYNAMIC: Self = Self {
         dark: DarkLights::Kept,
         ..Self::QUALITY
