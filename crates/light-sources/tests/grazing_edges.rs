@@ -92,3 +92,38 @@ fn samples_at_edges_are_found_again_at_grazing_angles() {
         assert!(compared > 20_000, "{name}: {compared} compared");
     }
 }
+
+/// Closer to a surface than its coordinates can say, rounding decides where a direction leads: a
+/// sample carries the density of the direction that it has.
+#[test]
+fn samples_from_beside_a_surface_have_the_density_of_their_direction() {
+    let mut rng = Rng::new(11);
+    for (name, shape) in shapes() {
+        if !matches!(name, "rectangle" | "triangle" | "flat patch") {
+            continue;
+        }
+        let mut compared = 0;
+        for _ in 0..20_000 {
+            let Some(on) = shape.sample(rng.vec2()) else {
+                continue;
+            };
+            let side = if rng.below(2) == 0 { 1.0 } else { -1.0 };
+            let p = on.at.p + on.at.n * (side * rng.log_range(1e-7, 1e-4));
+            let n = rng.direction();
+            let ctx = LightSampleContext::surface(p, n, n);
+            let Some(sample) = shape.sample_toward(&ctx, rng.vec2()) else {
+                continue;
+            };
+            if sample.at.n.dot(sample.wi).abs() < 0.01 {
+                continue;
+            }
+            compared += 1;
+            let pdf = shape.pdf_toward(&ctx, sample.wi);
+            assert!(
+                (pdf - sample.pdf).abs() <= 2e-3 * sample.pdf,
+                "{name}: queried {pdf}, {sample:?} from {p}"
+            );
+        }
+        assert!(compared > 1000, "{name}: {compared} compared");
+    }
+}

@@ -89,6 +89,15 @@ impl Rectangle {
         area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
     }
 
+    /// The sample whose direction is `wi`, with the point that the direction meets and the density
+    /// that it has, if it meets one.
+    #[cold]
+    fn met_by(&self, ctx: &LightSampleContext, wi: Vec3) -> Option<DirectionSample> {
+        let at = self.hit(ctx.p, wi)?;
+        let pdf = self.pdf_toward(ctx, wi);
+        (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
+    }
+
     fn at(&self, uv: Vec2) -> SurfacePoint {
         SurfacePoint {
             p: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
@@ -128,20 +137,19 @@ impl Shape for Rectangle {
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
             if is_within_rounding(to_light, at.p) {
-                // The point that the direction hits.
-                let at = self.hit(ctx.p, wi)?;
-                let (_, pdf) = self.by_area(ctx.p, at)?;
-                return Some(DirectionSample { at, wi, pdf });
+                return self.met_by(ctx, wi);
             }
             return Some(DirectionSample { at, wi, pdf });
         };
         let (u, pdf) = self.receiver_cosine(ctx).sample(u);
         let at = self.at(seen.sample(u));
-        Some(DirectionSample {
-            at,
-            wi: unit_normal(at.p - ctx.p)?,
-            pdf: pdf * seen.pdf(),
-        })
+        let to_light = at.p - ctx.p;
+        let wi = unit_normal(to_light)?;
+        if is_within_rounding(to_light, at.p) {
+            return self.met_by(ctx, wi);
+        }
+        let pdf = pdf * seen.pdf();
+        Some(DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

@@ -137,13 +137,13 @@ impl Triangle {
         area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
     }
 
-    /// The sample by area whose direction is `wi`, with the point that the direction meets, if it
-    /// does.
+    /// The sample whose direction is `wi`, with the point that the direction meets and the density
+    /// that it has, if it meets one.
     #[cold]
-    fn met_by(&self, p: Vec3, wi: Vec3) -> Option<DirectionSample> {
-        let (_, at) = self.intersect(p, wi)?;
-        let (_, pdf) = self.by_area(p, at)?;
-        Some(DirectionSample { at, wi, pdf })
+    fn met_by(&self, ctx: &LightSampleContext, wi: Vec3) -> Option<DirectionSample> {
+        let at = self.hit(ctx.p, wi)?;
+        let pdf = self.pdf_toward(ctx, wi);
+        (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
     }
 
     /// Barycentric coordinates of the point that the ray passes, if it hits; hits slightly outside
@@ -204,18 +204,20 @@ impl Shape for Triangle {
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
             if is_within_rounding(to_light, at.p) {
-                return self.met_by(ctx.p, wi);
+                return self.met_by(ctx, wi);
             }
             return Some(DirectionSample { at, wi, pdf });
         };
         let (n, _) = self.normal_and_inv_area()?;
         let (u, pdf) = Self::receiver_cosine(ctx, &seen).sample(u);
         let at = self.at(seen.sample(u), n);
-        Some(DirectionSample {
-            at,
-            wi: unit_normal(at.p - ctx.p)?,
-            pdf: pdf * seen.pdf(),
-        })
+        let to_light = at.p - ctx.p;
+        let wi = unit_normal(to_light)?;
+        if is_within_rounding(to_light, at.p) {
+            return self.met_by(ctx, wi);
+        }
+        let pdf = pdf * seen.pdf();
+        Some(DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
