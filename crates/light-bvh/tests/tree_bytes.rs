@@ -2,7 +2,7 @@
 #![cfg(all(feature = "bytemuck", feature = "alloc"))]
 
 use light_bvh::light_bounds::light_math::{Aabb, fraction::stratum, glam::Vec3};
-use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+use light_bvh::light_bounds::{LightBounds, LightExtent, LightGroups, LightId, LightSampleContext};
 use light_bvh::{LightBvh, LightBvhOptions, StoredLightBvh, TreeBytesError};
 use light_testkit::Rng;
 
@@ -80,6 +80,39 @@ fn trees_come_back_from_bytes() {
         let copy = LightBvh::from_bytes(shifted.get()).expect("a tree at any place");
         assert_eq!(copy.to_bytes(), bytes.get(), "{count} lights");
     }
+}
+
+/// Groups lie in the bytes, and groups of a node that are not those of its lights are refused.
+#[test]
+fn groups_come_back_from_bytes() {
+    let mut tree = tree(700);
+    let plain = tree.to_bytes();
+    let groups: Vec<_> = (0..700).map(|k| LightGroups::of(k % 3)).collect();
+    tree.set_groups(&groups).expect("as many");
+    let bytes = Aligned::new(&tree.to_bytes(), 0);
+    let nodes = tree.view().nodes().len();
+    assert_eq!(bytes.get().len(), plain.len() + 64 * nodes, "64 a node");
+    let stored = StoredLightBvh::from_bytes(bytes.get()).expect("a tree");
+    assert_eq!(stored.view().groups(), tree.groups(), "the same");
+    let copy = LightBvh::from_bytes(bytes.get()).expect("a tree");
+    assert_eq!(copy.to_bytes(), bytes.get(), "a copy");
+    let floor = LightSampleContext::medium(Vec3::ZERO).with_groups(LightGroups::of(1));
+    for id in (0..700).map(LightId) {
+        let pmf = stored.view().pmf(&floor, id);
+        assert_eq!(pmf, tree.pmf(&floor, id), "{id:?}");
+        assert!(pmf == 0.0 || id.0 % 3 == 1, "{id:?}");
+    }
+    for at in [plain.len(), bytes.get().len() - 1] {
+        let mut damaged = Aligned::new(bytes.get(), 0);
+        let start = damaged.start;
+        damaged.memory[start + at] ^= 0x41;
+        let found = StoredLightBvh::from_bytes(damaged.get()).map(|_| ());
+        assert_eq!(found, Err(TreeBytesError::Links), "byte {at}");
+    }
+    let mut fewer = bytes.get()[..bytes.get().len() - 64].to_vec();
+    fewer[28..32].copy_from_slice(&(u32::try_from(nodes).expect("few") - 1).to_le_bytes());
+    let found = LightBvh::from_bytes(&fewer).map(|_| ());
+    assert_eq!(found, Err(TreeBytesError::Links), "one node without");
 }
 
 #[test]

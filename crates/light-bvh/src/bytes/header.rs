@@ -1,7 +1,9 @@
 use core::error::Error;
 use core::fmt;
 
-use crate::node::wide_node::WideNode;
+use light_bounds::LightGroups;
+
+use crate::node::wide_node::{WIDTH, WideNode};
 
 /// The first bytes of every tree.
 const MAGIC: [u8; 8] = *b"LightBvh";
@@ -20,7 +22,8 @@ pub(super) struct Header {
     slots: u32,
     /// The power of all lights.
     power: f32,
-    reserved: u32,
+    /// Nodes with groups of lights: all or none.
+    groups: u32,
 }
 
 /// Bytes of the header.
@@ -29,13 +32,14 @@ pub(super) const HEADER: usize = size_of::<Header>();
 const _: () = assert!(HEADER == 32, "no padding");
 
 impl Header {
-    /// The header of a tree with so many nodes, lights in them, and lights in all.
+    /// The header of a tree with so many nodes, lights in them, lights in all, and nodes with groups
+    /// of lights.
     #[cfg(feature = "alloc")]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "a tree addresses its parts by 32 bits"
     )]
-    pub(super) const fn new(nodes: usize, order: usize, slots: usize, power: f32) -> Self {
+    pub(super) const fn new([nodes, order, slots, groups]: [usize; 4], power: f32) -> Self {
         Self {
             magic: MAGIC,
             version: VERSION,
@@ -43,13 +47,13 @@ impl Header {
             order: order as u32,
             slots: slots as u32,
             power,
-            reserved: 0,
+            groups: groups as u32,
         }
     }
 
-    /// The header at the start of `bytes`, at any alignment, and the nodes, order and slots that
-    /// follow it, if there are as many bytes as it tells.
-    pub(super) fn split(bytes: &[u8]) -> Result<(Self, [&[u8]; 3]), TreeBytesError> {
+    /// The header at the start of `bytes`, at any alignment, and the nodes, order, slots and groups
+    /// that follow it, if there are as many bytes as it tells.
+    pub(super) fn split(bytes: &[u8]) -> Result<(Self, [&[u8]; 4]), TreeBytesError> {
         let (start, rest) = bytes
             .split_at_checked(HEADER)
             .ok_or(TreeBytesError::NoTree)?;
@@ -66,14 +70,18 @@ impl Header {
             return Err(TreeBytesError::Length { expected });
         }
         let (nodes, rest) = rest.split_at(header.nodes as usize * size_of::<WideNode>());
-        let (order, slots) = rest.split_at(4 * header.order as usize);
-        Ok((header, [nodes, order, slots]))
+        let (order, rest) = rest.split_at(4 * header.order as usize);
+        let (slots, groups) = rest.split_at(4 * header.slots as usize);
+        Ok((header, [nodes, order, slots, groups]))
     }
 
     /// Bytes of the whole.
     fn bytes(&self) -> u64 {
-        let [nodes, order, slots] = [self.nodes, self.order, self.slots].map(u64::from);
-        HEADER as u64 + nodes * size_of::<WideNode>() as u64 + 4 * (order + slots)
+        let [nodes, order] = [self.nodes, self.order].map(u64::from);
+        let [slots, groups] = [self.slots, self.groups].map(u64::from);
+        let of_node = size_of::<[LightGroups; WIDTH]>() as u64;
+        let bytes = nodes * size_of::<WideNode>() as u64 + groups * of_node;
+        HEADER as u64 + bytes + 4 * (order + slots)
     }
 
     pub(super) const fn power(&self) -> f32 {

@@ -1,3 +1,5 @@
+use light_bounds::LightGroups;
+
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
 
@@ -17,6 +19,18 @@ pub(super) fn are_links_sound(tree: &LightBvhRef<'_>) -> bool {
     let placed = slots.iter().filter(|&&slot| slot != NOWHERE).count();
     let is_whole = children == nodes.len().saturating_sub(1);
     is_whole && lights == order.len() && placed == order.len()
+}
+
+/// Whether there are groups for all nodes or for none, and those of each node together are what its
+/// parent has for it. The links are sound.
+pub(super) fn are_groups_sound(tree: &LightBvhRef<'_>) -> bool {
+    let (nodes, groups) = (tree.nodes(), tree.groups());
+    let is_union = |(node, own): (&WideNode, &[LightGroups; WIDTH])| {
+        let all = own.iter().fold(LightGroups::NONE, |a, &b| a | b);
+        let place = node.parent as usize;
+        node.parent == NOWHERE || groups[place / WIDTH][place % WIDTH] == all
+    };
+    groups.is_empty() || groups.len() == nodes.len() && nodes.iter().zip(groups).all(is_union)
 }
 
 fn has_sound_children(tree: &LightBvhRef<'_>, index: usize, node: &WideNode) -> bool {

@@ -3,23 +3,24 @@ use alloc::vec::Vec;
 use crate::bytes::header::{HEADER, Header, TreeBytesError};
 use crate::bytes::stored::StoredLightBvh;
 use crate::light_bvh::LightBvh;
-use crate::query::bvh_ref::LightBvhRef;
 
 impl LightBvh {
-    /// The tree as bytes, for [`StoredLightBvh::from_bytes`] and [`from_bytes`](Self::from_bytes).
+    /// The tree as bytes, with the groups of its lights, for [`StoredLightBvh::from_bytes`] and [`from_bytes`](Self::from_bytes).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let header = Header::new(
+        let counts = [
             self.nodes.len(),
             self.order.len(),
             self.slots.len(),
-            self.power,
-        );
+            self.groups.len(),
+        ];
+        let header = Header::new(counts, self.power);
         let mut bytes = Vec::with_capacity(HEADER + self.bytes());
         bytes.extend_from_slice(bytemuck::bytes_of(&header));
         bytes.extend_from_slice(bytemuck::cast_slice(&self.nodes));
         bytes.extend_from_slice(bytemuck::cast_slice(&self.order));
         bytes.extend_from_slice(bytemuck::cast_slice(&self.slots));
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.groups));
         bytes
     }
 
@@ -28,16 +29,15 @@ impl LightBvh {
     /// # Errors
     /// The first thing that is wrong: see [`TreeBytesError`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, TreeBytesError> {
-        let (header, [nodes, order, slots]) = Header::split(bytes)?;
+        let (header, [nodes, order, slots, groups]) = Header::split(bytes)?;
         let tree = Self {
             nodes: bytemuck::pod_collect_to_vec(nodes),
             order: bytemuck::pod_collect_to_vec(order),
             slots: bytemuck::pod_collect_to_vec(slots),
             power: header.power(),
-            groups: Vec::new(),
+            groups: bytemuck::pod_collect_to_vec(groups),
         };
-        let view = LightBvhRef::new(&tree.nodes, &tree.order, &tree.slots);
-        StoredLightBvh::checked(view, tree.power)?;
+        StoredLightBvh::checked(tree.view(), tree.power)?;
         Ok(tree)
     }
 }

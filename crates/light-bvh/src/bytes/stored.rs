@@ -1,11 +1,12 @@
 use crate::bytes::header::{Header, TreeBytesError};
-use crate::bytes::links::are_links_sound;
+use crate::bytes::links::{are_groups_sound, are_links_sound};
 use crate::query::bvh_ref::LightBvhRef;
 
 /// A tree that lies in bytes: in a mapped file, in flash, or in a buffer.
 ///
-/// 32 bytes of head, the nodes, then the entries of [`LightBvhRef::order`] and
-/// [`LightBvhRef::slots`], as little-endian machines hold them. Nothing is copied.
+/// 32 bytes of head, the nodes, the entries of [`LightBvhRef::order`] and [`LightBvhRef::slots`],
+/// and the groups of the lights if they have some, as little-endian machines hold them. Nothing is
+/// copied.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredLightBvh<'a> {
     view: LightBvhRef<'a>,
@@ -21,20 +22,21 @@ impl<'a> StoredLightBvh<'a> {
     /// what nodes say of their lights is not checked: wrong codes give wrong probabilities, but
     /// neither a panic nor an endless loop.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, TreeBytesError> {
-        let (header, [nodes, order, slots]) = Header::split(bytes)?;
+        let (header, [nodes, order, slots, groups]) = Header::split(bytes)?;
         let unaligned = |_| TreeBytesError::Alignment;
         let view = LightBvhRef::new(
             bytemuck::try_cast_slice(nodes).map_err(unaligned)?,
             bytemuck::try_cast_slice(order).map_err(unaligned)?,
             bytemuck::try_cast_slice(slots).map_err(unaligned)?,
         );
-        Self::checked(view, header.power())
+        let groups = bytemuck::try_cast_slice(groups).map_err(unaligned)?;
+        Self::checked(view.with_groups(groups), header.power())
     }
 
     /// The tree of `view`, if it is one.
     pub(super) fn checked(view: LightBvhRef<'a>, power: f32) -> Result<Self, TreeBytesError> {
         let has_power = power.is_finite() && power >= 0.0;
-        if has_power && are_links_sound(&view) {
+        if has_power && are_links_sound(&view) && are_groups_sound(&view) {
             Ok(Self { view, power })
         } else {
             Err(TreeBytesError::Links)

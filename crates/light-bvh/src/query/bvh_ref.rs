@@ -100,6 +100,12 @@ impl<'a> LightBvhRef<'a> {
         self.slots
     }
 
+    /// The groups of the lights of each child of each node; empty without groups.
+    #[must_use]
+    pub const fn groups(&self) -> &'a [[LightGroups; WIDTH]] {
+        self.groups
+    }
+
     /// Whether there is no light in the tree.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
