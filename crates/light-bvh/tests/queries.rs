@@ -5,8 +5,8 @@ use core::f32::consts::PI;
 
 use light_bvh::light_bounds::light_math::fraction::stratum;
 use light_bvh::light_bounds::light_math::glam::Vec3;
-use light_bvh::light_bounds::{LightExtent, LightGroups, LightId, LightSampleContext};
-use light_bvh::{CutDetail, LightBvh, LightBvhError};
+use light_bvh::light_bounds::{Gloss, LightExtent, LightGroups, LightId, LightSampleContext};
+use light_bvh::{CutDetail, GlossyReceiver, LightBvh, LightBvhError};
 use light_testkit::Rng;
 
 mod support;
@@ -130,6 +130,28 @@ fn lights_far_away_are_chosen_by_a_cut() {
         for u in (0..100).map(|i| stratum(i, 100, 1 << 63)) {
             let chosen = cut.sample(u).expect("they shine down");
             assert_eq!(chosen.pmf, cut.pmf(chosen.light), "{chosen:?}");
+        }
+    }
+}
+
+/// Without a direction to the viewer nothing is mirrored.
+#[test]
+fn a_glossy_surface_without_a_viewer_is_diffuse() {
+    let (tree, p, n) = (tree(), Vec3::splat(0.4), Vec3::Z);
+    let of = |wo, diffuse| {
+        let gloss = Gloss {
+            wo,
+            alpha: 0.1,
+            diffuse,
+        };
+        GlossyReceiver::new(p, n, &gloss)
+    };
+    let diffuse = of(n, 1.0);
+    for wo in [Vec3::ZERO, Vec3::NAN] {
+        let unseen = of(wo, 0.2);
+        for id in (0..200).map(LightId) {
+            let [pmf, expected] = [&unseen, &diffuse].map(|at| tree.view().pmf(at, id));
+            assert_eq!(pmf, expected, "{id:?} with {wo}");
         }
     }
 }
