@@ -5,7 +5,8 @@ use crate::bytes::stored::StoredLightBvh;
 use crate::light_bvh::LightBvh;
 
 impl LightBvh {
-    /// The tree as bytes, with the groups of its lights, for [`StoredLightBvh::from_bytes`] and [`from_bytes`](Self::from_bytes).
+    /// The tree as bytes, with the groups of its lights, for [`StoredLightBvh::from_bytes`] and
+    /// [`from_bytes`](Self::from_bytes).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let counts = [

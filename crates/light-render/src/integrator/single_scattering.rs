@@ -15,8 +15,8 @@ use super::{Estimator, PathSettings, SingleScattering};
 use crate::{Ray, SampleStream, World};
 
 /// Adds the light along a camera ray that was scattered at most once to `sum`, attributed to no
-/// light: scattered by the medium around the camera or by the first surface. Specular surfaces stay black. Returns
-/// the number of rays traced.
+/// light: scattered by the medium around the camera or by the first surface. Specular surfaces stay
+/// black. Returns the number of rays traced.
 ///
 /// # Source
 /// Marching and light sampling are those of [`VolumeIntegrator`].

@@ -155,6 +155,15 @@ fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
     to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
 }
 
+/// The sample of `shape` whose direction is `wi`, with the point that the direction meets and the
+/// density that it has, if it meets one.
+#[cold]
+fn met_by(shape: &impl Shape, ctx: &LightSampleContext, wi: Vec3) -> Option<DirectionSample> {
+    let at = shape.hit(ctx.p, wi)?;
+    let pdf = shape.pdf_toward(ctx, wi);
+    (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
+}
+
 /// Rounding error of the intersection of a ray with a surface at the given distance, as a length
 /// along the surface; it grows at grazing angles. Edges are extended by it, so that a direction
 /// toward any point hits.

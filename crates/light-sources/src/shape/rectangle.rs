@@ -4,7 +4,7 @@ use core::fmt;
 use super::receiver_cosine::ReceiverCosine;
 use super::{
     DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle, hit_slack, is_within_rounding,
-    unit_normal,
+    met_by, unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -89,15 +89,6 @@ impl Rectangle {
         area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
     }
 
-    /// The sample whose direction is `wi`, with the point that the direction meets and the density
-    /// that it has, if it meets one.
-    #[cold]
-    fn met_by(&self, ctx: &LightSampleContext, wi: Vec3) -> Option<DirectionSample> {
-        let at = self.hit(ctx.p, wi)?;
-        let pdf = self.pdf_toward(ctx, wi);
-        (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
-    }
-
     fn at(&self, uv: Vec2) -> SurfacePoint {
         SurfacePoint {
             p: self.corner + self.edges[0] * uv.x + self.edges[1] * uv.y,
@@ -137,7 +128,7 @@ impl Shape for Rectangle {
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
             if is_within_rounding(to_light, at.p) {
-                return self.met_by(ctx, wi);
+                return met_by(self, ctx, wi);
             }
             return Some(DirectionSample { at, wi, pdf });
         };
@@ -146,7 +137,7 @@ impl Shape for Rectangle {
         let to_light = at.p - ctx.p;
         let wi = unit_normal(to_light)?;
         if is_within_rounding(to_light, at.p) {
-            return self.met_by(ctx, wi);
+            return met_by(self, ctx, wi);
         }
         let pdf = pdf * seen.pdf();
         Some(DirectionSample { at, wi, pdf })

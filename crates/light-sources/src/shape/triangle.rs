@@ -1,7 +1,7 @@
 use super::receiver_cosine::ReceiverCosine;
 use super::{
     DirectionSample, SMALL, Shape, ShapeSample, TriangleError, UvArea, area_to_solid_angle,
-    is_within_rounding, normal_length, unit_normal,
+    is_within_rounding, met_by, normal_length, unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -137,15 +137,6 @@ impl Triangle {
         area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
     }
 
-    /// The sample whose direction is `wi`, with the point that the direction meets and the density
-    /// that it has, if it meets one.
-    #[cold]
-    fn met_by(&self, ctx: &LightSampleContext, wi: Vec3) -> Option<DirectionSample> {
-        let at = self.hit(ctx.p, wi)?;
-        let pdf = self.pdf_toward(ctx, wi);
-        (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
-    }
-
     /// Barycentric coordinates of the point that the ray passes, if it hits; hits slightly outside
     /// of the edges count.
     ///
@@ -204,7 +195,7 @@ impl Shape for Triangle {
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
             if is_within_rounding(to_light, at.p) {
-                return self.met_by(ctx, wi);
+                return met_by(self, ctx, wi);
             }
             return Some(DirectionSample { at, wi, pdf });
         };
@@ -214,7 +205,7 @@ impl Shape for Triangle {
         let to_light = at.p - ctx.p;
         let wi = unit_normal(to_light)?;
         if is_within_rounding(to_light, at.p) {
-            return self.met_by(ctx, wi);
+            return met_by(self, ctx, wi);
         }
         let pdf = pdf * seen.pdf();
         Some(DirectionSample { at, wi, pdf })
