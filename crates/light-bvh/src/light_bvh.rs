@@ -10,7 +10,7 @@ use crate::build::scan::{Scan, is_addressable};
 use crate::build::{quality, refit};
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::join;
-use crate::query::bvh_ref::LightBvhRef;
+use crate::query::bvh_ref::{LightBvhRef, groups_of_all};
 use crate::query::into_receiver::IntoReceiver;
 
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
@@ -119,9 +119,7 @@ impl LightBvh {
         // Parents come before their children.
         for (index, node) in self.nodes.iter().enumerate().rev() {
             if node.parent != NOWHERE {
-                let all = of_nodes[index]
-                    .iter()
-                    .fold(LightGroups::NONE, |a, &b| a | b);
+                let all = groups_of_all(&of_nodes[index]);
                 of_nodes[node.parent as usize / WIDTH][node.parent as usize % WIDTH] = all;
             }
         }

@@ -1,7 +1,7 @@
 use light_bounds::LightGroups;
 
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH, WideNode};
-use crate::query::bvh_ref::LightBvhRef;
+use crate::query::bvh_ref::{LightBvhRef, groups_of_all};
 
 /// Whether the nodes are one tree with parents before their children, and `order` and `slots` lead
 /// from its leaves to the lights and back. Linear, without memory of its own.
@@ -26,9 +26,8 @@ pub(super) fn are_links_sound(tree: &LightBvhRef<'_>) -> bool {
 pub(super) fn are_groups_sound(tree: &LightBvhRef<'_>) -> bool {
     let (nodes, groups) = (tree.nodes(), tree.groups());
     let is_union = |(node, own): (&WideNode, &[LightGroups; WIDTH])| {
-        let all = own.iter().fold(LightGroups::NONE, |a, &b| a | b);
         let place = node.parent as usize;
-        node.parent == NOWHERE || groups[place / WIDTH][place % WIDTH] == all
+        node.parent == NOWHERE || groups[place / WIDTH][place % WIDTH] == groups_of_all(own)
     };
     groups.is_empty() || groups.len() == nodes.len() && nodes.iter().zip(groups).all(is_union)
 }

@@ -28,6 +28,13 @@ pub(crate) enum Child {
     Light(LightId),
 }
 
+/// The groups of all children of a node together.
+#[cfg(any(feature = "alloc", feature = "bytemuck"))]
+pub(crate) fn groups_of_all(children: &[LightGroups; WIDTH]) -> LightGroups {
+    let all = children.iter().copied();
+    all.fold(LightGroups::NONE, core::ops::BitOr::bitor)
+}
+
 impl<'a> LightBvhRef<'a> {
     /// A view of the arrays of a [`LightBvh`](crate::LightBvh). Other arrays give meaningless
     /// results, but neither a panic nor an endless loop.

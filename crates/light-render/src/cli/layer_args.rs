@@ -2,10 +2,10 @@ use clap::{Args, ValueEnum};
 use light_scene::Diagnostic;
 
 use crate::integrator::Integrator;
-use crate::{Film, LightGroupPattern, LightLayers, RenderSettings, View, World};
+use crate::{LightGroupPattern, LightLayers, RenderSettings, View, World};
 
 use super::failure::Failure;
-use super::memory_check::check_memory;
+use super::memory_check::{PICTURE, check_memory};
 use super::scene_input::SceneInput;
 
 /// Layers of a picture.
@@ -46,8 +46,6 @@ impl LayerArgs {
         view: &View,
         settings: &RenderSettings,
     ) -> Result<Option<LightLayers>, Failure> {
-        /// The film, what it shows, and the file.
-        const PIXEL: u64 = Film::BYTES_PER_PIXEL + 40;
         if !self.is_wanted() {
             return Ok(None);
         }
@@ -62,7 +60,7 @@ impl LayerArgs {
         let what =
             format!("{count} layers of {width} x {height} pixels (--aov, --width, --height)");
         let pixels = u64::from(width) * u64::from(height);
-        check_memory(&what, pixels * (count + 1) * PIXEL)?;
+        check_memory(&what, pixels * (count + 1) * PICTURE)?;
         Ok(Some(layers))
     }
 }

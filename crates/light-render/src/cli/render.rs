@@ -17,7 +17,7 @@ use super::arguments::threads;
 use super::checkpoint::CheckpointArgs;
 use super::failure::Failure;
 use super::layer_args::LayerArgs;
-use super::memory_check::check_memory;
+use super::memory_check::{PICTURE, check_memory};
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::render_settings::SettingsArgs;
@@ -142,8 +142,6 @@ impl RenderArgs {
 
     /// Makes sure that the picture fits into memory.
     fn check_memory(&self, view: &View) -> Result<(), Failure> {
-        /// The film, what it shows, what a screen shows of that, and the file.
-        const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
         let sums = if self.checkpoint.is_wanted() {
             2 * Film::BYTES_PER_PIXEL + PartialPicture::FILE_BYTES_PER_PIXEL
         } else if self.settings.samples.is_some() {
