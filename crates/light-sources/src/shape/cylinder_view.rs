@@ -104,18 +104,19 @@ impl CylinderView {
             let (sin, cos) = (self.inward.perp_dot(direction), self.inward.dot(direction));
             // The wall is enlarged by the rounding error of the direction.
             let slack = 4.0 * f32::EPSILON;
+            let aside = slack / horizontal;
             let is_outside = self.half_angle.is_some();
-            if is_outside
-                && !(cos > 0.0 && sin.abs() <= self.radius / self.distance + slack / horizontal)
-            {
+            if is_outside && !(cos > 0.0 && sin.abs() <= self.radius / self.distance + aside) {
                 return None;
             }
             let column = self.column(sin, cos);
             let slope = wi.z / horizontal;
+            let depth = self.depth_change(sin, aside);
             let is_met = |strip: Option<(Strip, Vec2)>| {
                 strip.is_some_and(|(s, _)| {
                     let height = slope * s.distance;
-                    let slack = slack * (s.distance + height.abs()) / horizontal;
+                    let slack =
+                        slack * (s.distance + height.abs()) / horizontal + slope.abs() * depth;
                     (s.low - slack..=s.high + slack).contains(&height)
                 })
             };
@@ -124,6 +125,18 @@ impl CylinderView {
             ((is_met(column.near) || is_met(column.far)) && pdf.is_finite()).then_some(pdf)
         };
         pdf().unwrap_or(0.0)
+    }
+
+    /// How far the wall recedes where the plane is turned by the small angle `aside`: by much more
+    /// at the silhouette than elsewhere.
+    fn depth_change(&self, sin: f32, aside: f32) -> f32 {
+        let (offset, aside) = ((self.distance * sin).abs(), self.distance * aside);
+        aside + self.half_chord((offset - aside).max(0.0)) - self.half_chord(offset + aside)
+    }
+
+    /// Half of the chord that a plane at this distance from the axis cuts out of the circle.
+    fn half_chord(&self, offset: f32) -> f32 {
+        safe_sqrt((self.radius - offset) * (self.radius + offset))
     }
 
     fn pdf_of(&self, measure: f32) -> f32 {
@@ -138,9 +151,9 @@ impl CylinderView {
     /// The visible wall in the plane at the given angle from inward.
     fn column(&self, sin: f32, cos: f32) -> Column {
         let [low, high] = self.rims;
-        // Half of the chord that the plane cuts out of the circle, and its middle.
+        // Half of the chord and its middle, along the plane.
         let offset = self.distance * sin;
-        let half = safe_sqrt((self.radius - offset) * (self.radius + offset));
+        let half = self.half_chord(offset);
         let middle = self.distance * cos;
         let side = self.horizontal(sin, cos);
         let normal = |along: f32| (self.across + side * along).normalize_or(side);

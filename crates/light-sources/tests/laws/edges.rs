@@ -62,3 +62,42 @@ fn samples_on_edges_hit() {
     }
     assert!(failures.is_empty(), "{failures:#?}");
 }
+
+/// Samples at the ends of tubes of any proportion, near the silhouette too, where a rounding of the
+/// direction moves the wall by much more than the direction.
+#[test]
+fn samples_at_the_ends_of_tubes_are_queried_as_sampled() {
+    let mut rng = Rng::new(82);
+    let (mut taken, mut missed) = (0u32, Vec::new());
+    for _ in 0..200_000 {
+        let turn = Quat::from_axis_angle(rng.direction(), rng.range(0.0, 6.0));
+        let center = rng.direction() * rng.log_range(0.1, 30.0);
+        let desc = ShapeDesc::Cylinder {
+            transform: Affine3A::from_rotation_translation(turn, center),
+            radius: rng.log_range(0.01, 1.0),
+            length: rng.log_range(0.01, 1.0),
+        };
+        let shape = desc.build().expect("a cylinder");
+        let ctx = LightSampleContext::medium(rng.direction());
+        let beside = [0.0, rng.log_range(1e-7, 0.1), rng.f32()][rng.below(3)];
+        let end = [0.0, light_math::float::ONE_MINUS_EPSILON][rng.below(2)];
+        let u = Vec2::new((end - beside).abs(), end);
+        let Some(sample) = shape.sample_toward(&ctx, u) else {
+            continue;
+        };
+        if sample.at.n.dot(sample.wi).abs() < 1e-3 {
+            continue;
+        }
+        taken += 1;
+        if shape.pdf_toward(&ctx, sample.wi) == 0.0 {
+            missed.push(format!("{desc:?} from {} at {u}: {sample:?}", ctx.p));
+        }
+    }
+    assert!(taken > 100_000, "{taken}");
+    assert!(
+        missed.is_empty(),
+        "{} of {taken}: {:#?}",
+        missed.len(),
+        &missed[..missed.len().min(3)]
+    );
+}
