@@ -27,10 +27,11 @@ mod scene_input;
 mod stdout;
 mod view_args;
 
+use alloc::collections::BTreeSet;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use light_scene::exit_without_outputs;
 
 /// The conventional exit status of an interrupted program.
@@ -95,9 +96,38 @@ where
     parsed.map(drop).map_err(|error| error.render().to_string())
 }
 
+/// Each word that the program knows once: the names of its commands and flags, as they are typed,
+/// and the values that have a name.
+#[must_use]
+pub fn words() -> Vec<String> {
+    let mut program = Program::command();
+    program.build();
+    let mut words = BTreeSet::new();
+    let mut commands = vec![&program];
+    while let Some(command) = commands.pop() {
+        words.insert(command.get_name().to_owned());
+        for argument in command.get_arguments() {
+            words.extend(argument.get_short().map(|flag| format!("-{flag}")));
+            words.extend(argument.get_long().map(|flag| format!("--{flag}")));
+            let values = argument.get_possible_values();
+            words.extend(values.iter().map(|value| value.get_name().to_owned()));
+        }
+        commands.extend(command.get_subcommands());
+    }
+    words.into_iter().collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_are_commands_flags_and_named_values() {
+        let words = words();
+        for word in ["render", "median-cut", "--spp", "-o", "mis", "--group"] {
+            assert!(words.iter().any(|known| known == word), "{word}: {words:?}");
+        }
+    }
 
     #[test]
     fn command_lines_are_read_without_running_them() {

@@ -1,51 +1,11 @@
+use std::sync::LazyLock;
+
 use light_render::cli;
 
 use super::input::Input;
 
-/// Words that the program knows, and invalid values.
-const WORDS: [&str; 64] = [
-    "bench",
-    "compare",
-    "env",
-    "ies",
-    "info",
-    "merge",
-    "render",
-    "convert",
-    "median-cut",
-    "regions",
-    "demo",
-    "help",
-    "--help",
-    "--version",
-    "-o",
-    "--output",
-    "--width",
-    "--height",
-    "--samples",
-    "--spp",
-    "--seed",
-    "--time",
-    "--threads",
-    "--checkpoint",
-    "--checkpoint-every",
-    "--sampler",
-    "--integrator",
-    "--light",
-    "--depth",
-    "--exposure",
-    "--write",
-    "--n",
-    "--count",
-    "--size",
-    "--camera",
-    "--look-at",
-    "--fov",
-    "--up",
-    "--step",
-    "--strategy",
-    "--tone-map",
-    "--reference",
+/// Values, valid and not.
+const VALUES: [&str; 32] = [
     "a.obj",
     "a.exr",
     "out.png",
@@ -55,6 +15,7 @@ const WORDS: [&str; 64] = [
     "0",
     "1",
     "-1",
+    "0.5",
     "1e30",
     "1e-30",
     "NaN",
@@ -62,11 +23,20 @@ const WORDS: [&str; 64] = [
     "4294967295",
     "4294967296",
     "99999999999999999999",
+    "64x64",
+    "0x1",
+    "0/4",
+    "4/4",
     "0..4",
     "4..0",
     "1,2,3",
     "1,2",
+    "a=b",
+    "=*",
     "bvh",
+    "power",
+    "pbrt",
+    "bvh,uniform,,",
     "\u{fc}\u{0}",
 ];
 
@@ -78,12 +48,14 @@ const MAX_WORDS: usize = 12;
 /// # Panics
 /// If a guarantee is violated.
 pub fn command_lines(data: &[u8]) {
+    static WORDS: LazyLock<Vec<String>> = LazyLock::new(cli::words);
     let mut input = Input::new(data);
     let mut words = vec!["lights".to_owned()];
     while !input.is_empty() && words.len() < MAX_WORDS {
         let kind = input.byte();
         words.push(match kind >> 6 {
-            0..=2 => WORDS[usize::from(kind & 63)].to_owned(),
+            0 | 1 => WORDS[input.below(WORDS.len())].clone(),
+            2 => VALUES[input.below(VALUES.len())].to_owned(),
             _ => match kind & 3 {
                 0 => input.f32().to_string(),
                 1 => input.u32().to_string(),
