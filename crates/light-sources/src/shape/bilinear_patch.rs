@@ -2,8 +2,8 @@ use super::bilinear_patch_error::BilinearPatchError;
 use super::flat_quad::FlatQuad;
 use super::patch_area;
 use super::{
-    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle,
-    is_within_rounding, normal_length, unit_normal,
+    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, normal_length,
+    unit_normal,
 };
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -112,12 +112,6 @@ impl BilinearPatch {
         area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
     }
 
-    /// Whether `uv` is so near to a degenerate corner that its rounding error turns the normal.
-    fn is_pinched(&self, uv: Vec2) -> bool {
-        const PINCHED: f32 = 0.05;
-        self.area_density(uv) < PINCHED * self.area
-    }
-
     /// Flat where all normals at the corners are the same, up to rounding.
     fn measure_bend(&self) -> Bend {
         const TOLERANCE: f32 = 1e-6;
@@ -209,10 +203,9 @@ impl Shape for BilinearPatch {
             if t < same * to_light.length() || is_other_side {
                 return None;
             }
-            if self.is_pinched(at.uv) || is_within_rounding(to_light, at.p) {
-                let (_, pdf) = self.by_area(met, wi * t)?;
-                return Some(DirectionSample { at, wi, pdf });
-            }
+            // At the silhouette a rounding of the direction changes the density by much.
+            let (_, pdf) = self.by_area(met, wi * t)?;
+            return Some(DirectionSample { at, wi, pdf });
         }
         Some(DirectionSample { at, wi, pdf })
     }
