@@ -1,6 +1,8 @@
 //! Whether the densities that samples of a light carry are those that are queried, one sample at a
 //! time.
 
+use core::f32::consts::TAU;
+
 use light_bounds::LightSampleContext;
 use light_math::glam::{Vec2, Vec3};
 use light_sources::{EmittedRay, LePdf, Light, LightRef, LightType, PdfCoverage, Rgb};
@@ -15,6 +17,10 @@ const GRAZING: f32 = 1e-3;
 /// Sines of the angles by which a direction is turned where it lies so near to an edge, of a shape
 /// or a texel, that its density is that of the other side.
 const NEAR: [f32; 3] = [1.2e-7, 1e-6, 1e-5];
+
+/// Directions in which it is turned: the corner of a texel of an equal-area image has 43 degrees on
+/// the sphere where the square's diagonals meet the equator.
+const ASIDES: u8 = 32;
 
 /// What a sample must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -137,11 +143,11 @@ fn near(w: Vec3, expected: f32, value: impl Fn(Vec3) -> f32) -> bool {
         return true;
     }
     let (x, y) = w.normalize().any_orthonormal_pair();
-    let asides = [x, -x, y, -y, x + y, x - y, y - x, -x - y];
     let (mut low, mut high) = (here, here);
     for by in NEAR {
-        for aside in asides {
-            let beside = value((w + aside * by).normalize());
+        for k in 0..ASIDES {
+            let (sin, cos) = (f32::from(k) * (TAU / f32::from(ASIDES))).sin_cos();
+            let beside = value((w + (x * cos + y * sin) * by).normalize());
             (low, high) = (low.min(beside), high.max(beside));
         }
     }
@@ -159,6 +165,22 @@ mod tests {
         assert!(!near(Vec3::Z, 4.0, step), "twice what is beside an edge");
         let far = Vec3::new(0.01, 0.0, 1.0).normalize();
         assert!(!near(far, 0.0, step), "away from the edge");
+        let corner = |w: Vec3| {
+            if w.y.abs() < 0.38 * w.x - 1e-7 {
+                2.0
+            } else {
+                0.0
+            }
+        };
+        for turn in 0..90 {
+            let (sin, cos) = (turn as f32).to_radians().sin_cos();
+            let turned =
+                |w: Vec3| corner(Vec3::new(w.x * cos - w.y * sin, w.x * sin + w.y * cos, w.z));
+            assert!(
+                near(Vec3::Z, 2.0, turned),
+                "beside a corner turned by {turn}"
+            );
+        }
         let steep = |w: Vec3| 1.0 + 1e5 * w.x;
         assert!(near(Vec3::Z, 1.5, steep), "a slope");
         assert!(!near(Vec3::Z, 4.0, steep), "beyond a slope");
