@@ -89,8 +89,10 @@ impl CylinderView {
         };
         let height = strip.height_above_low(measure);
         let along = self.horizontal(sin, cos) * strip.distance;
+        let to_wall = along.extend(strip.low + height);
         Some(WallSample {
-            wi: along.extend(strip.low + height).try_normalize()?,
+            // Scaled first, because squares of tiny lengths lose their digits.
+            wi: (to_wall / to_wall.abs().max_element()).try_normalize()?,
             pdf,
             normal,
             height: strip.low - self.rims[0] + height,
