@@ -2,11 +2,12 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::lane_math::larger;
+use crate::lane_math::{LaneMask, larger};
 
-/// How much of the squared support of a child counts as variance of its height over the horizon.
+/// How much of the squared half extents of a child, along the normal, counts as variance of its
+/// height over the horizon: a little more than that of lights which fill the box evenly, 1/3.
 /// Chosen by V: see `docs/light-bvh.md`.
-const HEIGHT: f32 = 0.2;
+const HEIGHT: f32 = 0.4;
 
 /// The plane through a receiver, with its normal up.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +16,18 @@ pub(crate) struct Horizon {
     /// Half of the normal, and its absolute value: what every child is multiplied by.
     half_n: Vec3,
     abs_half_n: Vec3,
+}
+
+/// The height of a child over a horizon, halved, so that a later sum `root + x` needs no factor
+/// 1/2.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfHeight {
+    /// Half of the mean.
+    mean: f32,
+    /// Half of that by which the highest point of the box may exceed the mean.
+    support: f32,
+    /// A quarter of the variance.
+    variance: f32,
 }
 
 impl Horizon {
@@ -28,17 +41,18 @@ impl Horizon {
         }
     }
 
-    /// Half of the mean height over the plane, and half of that by which the highest point of the
-    /// box may exceed it. Halved, so that a later sum `root + x` needs no factor 1/2.
+    /// The height of the child over the plane.
     #[inline(always)]
-    pub(crate) fn half_height(&self, child: &ChildView) -> (f32, f32) {
+    pub(crate) fn half_height(&self, child: &ChildView) -> HalfHeight {
         let (n, abs_n) = (self.half_n, self.abs_half_n);
         let [vx, vy, vz] = child.mean;
         let [hx, hy, hz] = child.extent;
-        (
-            n.x * vx + n.y * vy + n.z * vz,
-            abs_n.x * hx + abs_n.y * hy + abs_n.z * hz,
-        )
+        let [sx, sy, sz] = [abs_n.x * hx, abs_n.y * hy, abs_n.z * hz];
+        HalfHeight {
+            mean: n.x * vx + n.y * vy + n.z * vz,
+            support: sx + sy + sz,
+            variance: HEIGHT * (sx * sx + sy * sy + sz * sz),
+        }
     }
 
     /// How much the product of the axis of a group and its mean position changes where only what is
@@ -46,20 +60,41 @@ impl Horizon {
     ///
     /// Lights that fill their box evenly, from `mean - support` to `mean + support`, have that mean
     /// at `(mean + support) / 2` where the box straddles the horizon: it is raised by half of
-    /// `support - mean`, of which the arguments are half. Of lights that face down, those above the
+    /// `support - mean`, of which `height` holds half. Of lights that face down, those above the
     /// horizon are those in front.
     #[inline(always)]
-    pub(crate) fn lift(&self, child: &ChildView, height: f32, support: f32) -> f32 {
+    pub(crate) fn lift(&self, child: &ChildView, height: &HalfHeight) -> f32 {
         let [mx, my, mz] = child.axis;
         let n = self.n;
-        let raised = child.is_ramp_group().keep(larger(0.0, support - height));
+        let raised = child
+            .is_ramp_group()
+            .keep(larger(0.0, height.support - height.mean));
         raised * (mx * n.x + my * n.y + mz * n.z)
     }
 }
 
-/// About half of the mean distance from the horizon, up or down, of lights of half the given height
-/// and support: more than `-height` even where the support just reaches the horizon.
-#[inline(always)]
-pub(crate) fn half_expected_abs(height: f32, support: f32) -> f32 {
-    float::sqrt(height * height + HEIGHT * (support * support))
+impl HalfHeight {
+    /// Whether any point of the box is above the plane, or no more than half of `slack` below it.
+    #[inline(always)]
+    pub(crate) fn is_above(&self, slack: f32) -> LaneMask {
+        LaneMask::when(self.mean + self.support > -slack)
+    }
+
+    /// About the mean height of lights, those below counting as 0; at least `slack`. Above 0 even
+    /// where the support just reaches the horizon.
+    #[inline(always)]
+    pub(crate) fn above(&self, slack: f32) -> f32 {
+        larger(slack, self.mean + self.root())
+    }
+
+    /// About half of the mean distance of lights from the plane, up or down; at least `slack`.
+    #[inline(always)]
+    pub(crate) fn either_side(&self, slack: f32) -> f32 {
+        larger(slack, self.root())
+    }
+
+    #[inline(always)]
+    fn root(&self) -> f32 {
+        float::sqrt(self.mean * self.mean + self.variance)
+    }
 }

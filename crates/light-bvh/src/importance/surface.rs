@@ -2,10 +2,9 @@ use light_math::direction;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::importance::horizon::{Horizon, half_expected_abs};
+use crate::importance::horizon::Horizon;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
-use crate::lane_math::{LaneMask, larger};
 
 /// A point on a surface that light reaches from the side of its normal only.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +34,7 @@ impl SurfaceReceiver {
     /// 0.
     #[inline(always)]
     pub(crate) fn expected_height(&self, child: &ChildView) -> f32 {
-        let (height, support) = self.horizon.half_height(child);
-        larger(child.slack, height + half_expected_abs(height, support))
+        self.horizon.half_height(child).above(child.slack)
     }
 }
 
@@ -48,10 +46,10 @@ impl Receiver for SurfaceReceiver {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
-        let (height, support) = self.horizon.half_height(child);
-        let above = LaneMask::when(height + support > -child.slack);
-        let lift = self.horizon.lift(child, height, support);
-        let weight = child.weight(self.expected_height(child), lift);
-        above.and(child.may_reach()).keep(weight)
+        let height = self.horizon.half_height(child);
+        let lift = self.horizon.lift(child, &height);
+        let weight = child.weight(height.above(child.slack), lift);
+        let is_above = height.is_above(child.slack);
+        is_above.and(child.may_reach()).keep(weight)
     }
 }

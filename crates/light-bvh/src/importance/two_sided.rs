@@ -2,10 +2,9 @@ use light_math::direction;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::importance::horizon::{Horizon, half_expected_abs};
+use crate::importance::horizon::Horizon;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
-use crate::lane_math::larger;
 
 /// A point on a surface that light reaches from both sides.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +39,7 @@ impl Receiver for TwoSidedReceiver {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
-        let (height, support) = self.horizon.half_height(child);
-        let half = larger(child.slack, half_expected_abs(height, support));
+        let half = self.horizon.half_height(child).either_side(child.slack);
         child.may_reach().keep(child.weight(2.0 * half, 0.0))
     }
 }

@@ -4,6 +4,10 @@ use light_math::glam::Vec3;
 
 use crate::node::light_emission::{Emission, Lobe, Shape};
 
+/// How much of the squared depth of a group of ramps, over its squared width, counts as squared
+/// spread. Chosen by V: see `docs/light-bvh.md`.
+const RAMP_BY_DEPTH: f32 = 11.0;
+
 /// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak
 /// intensity.
 ///
@@ -24,6 +28,9 @@ pub(crate) struct Moments {
     pub(crate) spread_sq: f32,
     /// Mean squared deviation of the axis alone.
     pub(crate) axis_var: f32,
+    /// The depth: mean squared product of the axis and the position relative to the mean, over the
+    /// squared [`width`](Self::width).
+    pub(crate) depth_var: f32,
     /// How the emission is shaped.
     pub(crate) shape: Shape,
     /// Whether the edge of the emission is that of a mean: of several lights, or of a measured one.
@@ -40,6 +47,7 @@ impl Moments {
         offset: 0.0,
         spread_sq: 0.0,
         axis_var: 0.0,
+        depth_var: 0.0,
         shape: Shape::Mixed,
         is_mean: false,
     };
@@ -66,22 +74,30 @@ impl Moments {
             offset: emission.offset,
             spread_sq: emission.spread_sq,
             axis_var: 0.0,
+            depth_var: 0.0,
             shape: emission.shape,
             is_mean: matches!(extent, LightExtent::Lobe(..)),
         }
     }
 
+    /// The sum of the half extents of the box about the mean position that holds all lights.
+    pub(crate) fn width(&self) -> f32 {
+        let Aabb { min, max } = self.bounds;
+        (max - self.mean).max(self.mean - min).element_sum()
+    }
+
     /// What counts as squared spread of a group seen from one place.
     ///
-    /// Of steps that of the offsets and of the directions; of these less where the cones are
-    /// narrow, for few of them matter to one receiver.
+    /// Of ramps also their depth: a near receiver is in front of some and behind others. Of steps
+    /// that of the offsets and of the directions; of these less where the cones are narrow, for
+    /// few of them matter to one receiver.
     pub(crate) fn total_spread_sq(&self) -> f32 {
         match self.shape {
             Shape::Steps => {
                 let counted = (3.0 * (1.0 - self.offset)).clamp(0.0, 1.0 / 3.0);
                 self.spread_sq + self.axis_var * counted
             }
-            Shape::Mixed | Shape::BothSides => self.spread_sq,
+            Shape::Mixed | Shape::BothSides => self.spread_sq + RAMP_BY_DEPTH * self.depth_var,
         }
     }
 
@@ -110,6 +126,7 @@ impl Moments {
             offset: 0.0,
             spread_sq: 0.0,
             axis_var: 0.0,
+            depth_var: 0.0,
             shape,
             is_mean: true,
         };
@@ -123,11 +140,16 @@ impl Moments {
             joined.offset += part.offset * share;
         }
         joined.mean = (joined.mean + bounds.min).clamp(bounds.min, bounds.max);
+        let inv_width = 1.0 / joined.width().max(f32::MIN_POSITIVE);
         for part in parts() {
             let share = part.power * inv_power;
             let part = part.in_group(shape, joined.axis);
             let axis_sq = part.axis.distance_squared(joined.axis);
             let offset = part.offset - joined.offset;
+            let relative_width = part.width() * inv_width;
+            let depth = joined.axis.dot((part.mean - joined.mean) * inv_width);
+            joined.depth_var +=
+                share * (part.depth_var * (relative_width * relative_width) + depth * depth);
             joined.axis_var += share * (part.axis_var + axis_sq);
             let deviation_sq = match shape {
                 Shape::Steps => offset * offset,
@@ -159,6 +181,7 @@ impl Moments {
                 offset: 0.0,
                 spread_sq: 1.0 / 3.0,
                 axis_var: 0.0,
+                depth_var: 0.0,
                 ..*self
             },
             // A cosine is a step whose offset is evenly spread over [0, 1]; a light that emits

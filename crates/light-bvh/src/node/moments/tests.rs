@@ -199,3 +199,37 @@ fn axes_of_both_sides_join_whatever_their_signs() {
         assert_eq!(found, expected, "{sign_a}, {sign_b}");
     }
 }
+
+/// Of lamps that face the same way: nothing for a sheet across the axis, the share of the width for
+/// a row along it, however the row is grouped.
+#[test]
+fn the_depth_of_a_group_is_along_its_axis() {
+    let lamp = |p: Vec3, power: f32| {
+        let bounds = Aabb::from_point(p);
+        Moments {
+            bounds,
+            mean: p,
+            ..diffuse(Vec3::X, power)
+        }
+    };
+    let sheet = [Vec3::ZERO, Vec3::Y, 3.0 * Vec3::Z].map(|p| lamp(p, 2.0));
+    let sheet = Moments::join(&sheet);
+    assert!(sheet.depth_var == 0.0, "{sheet:?}");
+    for scale in [1e-30, 1.0, 1e30] {
+        let row = [0.0, 1.0, 4.0, 9.0].map(|x| lamp(Vec3::X * (x * scale), 1.0 + x));
+        let flat = Moments::join(&row);
+        let [near, far] = [&row[..2], &row[2..]].map(Moments::join);
+        let grouped = Moments::join(&[near, far]);
+        // Powers 1, 2, 5, 10: the mean is at 6.2222, from which the variance is 10.8395.
+        let expected = 10.8395 / (6.2222 * 6.2222);
+        for group in [flat, grouped] {
+            assert!(
+                (group.depth_var - expected).abs() < 1e-4,
+                "{scale}: {group:?}"
+            );
+        }
+        assert!(flat.total_spread_sq() > flat.spread_sq, "{flat:?}");
+    }
+    let one_place = Moments::join(&[lamp(Vec3::ONE, 1.0), lamp(Vec3::ONE, 2.0)]);
+    assert!(one_place.depth_var == 0.0, "{one_place:?}");
+}
