@@ -72,9 +72,9 @@ fn default_tree() {
         })
     });
     let pinned = [
-        [(8, 0x3db3_6811), (20, 0x3d12_de9f)],
-        [(8, 0x3dfa_68c8), (28, 0x3d14_277c)],
-        [(8, 0x3db7_3493), (28, 0x3d1b_f236)],
+        [(8, 0x3db3_ad64), (20, 0x3d12_5caa)],
+        [(8, 0x3dfa_d130), (28, 0x3d13_998d)],
+        [(8, 0x3db7_b2ff), (28, 0x3d1a_eac3)],
         [(8, 0x3d8d_4cfa), (6, 0x3b29_7b20)],
         [(30, 0x3d9f_e7a1), (56, 0x3c6a_292e)],
     ];
@@ -89,6 +89,6 @@ fn default_tree() {
         let sample = cut.sample(from_f64(u)).expect("lit");
         (sample.light.0, sample.pmf.to_bits())
     });
-    let pinned = [(49, 0x3c17_3b6e), (19, 0x3d24_4fdd)];
+    let pinned = [(49, 0x3c17_df71), (19, 0x3d24_32c0)];
     assert_eq!(chosen, pinned, "from a cut");
 }

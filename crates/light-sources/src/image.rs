@@ -290,6 +290,9 @@ mod tests {
             Vec3::new(0.25, 0.5, 0.75),
             "exact in half"
         );
+        let mut row = Vec::new();
+        image.for_each_in_row(0, |texel| row.push(texel));
+        assert_eq!(row, [image.texel(0, 0)], "a row");
         assert_eq!(image.bytes(), 6, "two bytes a number");
     }
 }
