@@ -92,16 +92,6 @@ impl Aabb {
         self.max - self.min
     }
 
-    /// The area of the surface, in length squared; 0 for the empty box.
-    #[must_use]
-    pub fn surface_area(&self) -> f32 {
-        if self.is_empty() {
-            return 0.0;
-        }
-        let d = self.diagonal();
-        2.0 * (d.x * d.y + d.y * d.z + d.z * d.x)
-    }
-
     /// Centre and radius of the sphere through the corners; radius 0 for the empty box.
     #[must_use]
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
@@ -130,7 +120,6 @@ mod tests {
         assert!(Aabb::EMPTY.is_empty() && !b.is_empty(), "emptiness");
         assert!(!Aabb::EMPTY.contains(Vec3::ZERO), "holds nothing");
         assert!(b.contains_box(&Aabb::EMPTY), "lies in every box");
-        assert_eq!(Aabb::EMPTY.surface_area(), 0.0, "no area");
         assert_eq!(Aabb::EMPTY.bounding_sphere(), (Vec3::ZERO, 0.0), "a point");
         assert_eq!(Aabb::default(), Aabb::EMPTY, "the default");
         assert_eq!(Aabb::from_points([]), Aabb::EMPTY, "no points");
@@ -141,7 +130,6 @@ mod tests {
     #[test]
     fn measures() {
         let b = Aabb::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 2.0));
-        assert_eq!(b.surface_area(), 16.0, "2 (2 + 4 + 2)");
         assert_eq!(
             b.bounding_sphere(),
             (Vec3::new(0.5, 1.0, 1.0), 1.5),

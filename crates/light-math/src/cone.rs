@@ -127,22 +127,6 @@ impl DirectionCone {
         Self::new(w.normalize(), cos(theta_o))
     }
 
-    /// The cone of the directions within `angle` (in `[0, pi]`) of a direction of this cone; empty
-    /// stays empty.
-    #[must_use]
-    pub fn widened(self, angle: f32) -> Self {
-        if self.is_empty() {
-            return self;
-        }
-        let (sin_a, cos_a) = sin_cos(angle);
-        // Past pi the cosine of the sum would come back up.
-        if self.cos_theta <= -cos_a {
-            return Self::WHOLE_SPHERE;
-        }
-        let sin_theta = sqrt((1.0 - self.cos_theta) * (1.0 + self.cos_theta));
-        Self::new(self.w, self.cos_theta * cos_a - sin_theta * sin_a)
-    }
-
     /// A cone that holds the directions from `p` to every point of `bounds`, through the box's
     /// bounding sphere.
     ///

@@ -101,7 +101,7 @@ pub fn wrap(p: Vec2) -> Vec2 {
     clippy::cast_possible_wrap,
     reason = "sizes are far below 2^31, wrapped indices are positive"
 )]
-pub fn wrap_texel(x: i32, y: i32, n: u32) -> (u32, u32) {
+pub(crate) fn wrap_texel(x: i32, y: i32, n: u32) -> (u32, u32) {
     let n = n as i32;
     let (mut x, mut y) = (x, y);
     if x < 0 {

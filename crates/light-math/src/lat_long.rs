@@ -52,7 +52,7 @@ pub fn solid_angle_per_area(v: f32) -> f32 {
     clippy::cast_possible_wrap,
     reason = "sizes are far below 2^31, wrapped indices are positive"
 )]
-pub fn wrap_texel(x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
+pub(crate) fn wrap_texel(x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
     let (columns, rows) = (size[0] as i32, size[1] as i32);
     let (x, y) = if y < 0 {
         (x + columns / 2, -1 - y)

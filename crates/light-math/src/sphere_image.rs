@@ -51,7 +51,7 @@ impl SphereMap {
     /// texel outside.
     #[inline]
     #[must_use]
-    pub fn wrap_texel(self, x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
+    pub(crate) fn wrap_texel(self, x: i32, y: i32, size: [u32; 2]) -> (u32, u32) {
         match self {
             Self::LatLong => lat_long::wrap_texel(x, y, size),
             Self::EqualArea => equal_area::wrap_texel(x, y, size[0]),

@@ -23,7 +23,7 @@ impl FlightNumbers {
 
     /// The next number.
     #[inline]
-    pub fn next_u(&mut self) -> f32 {
+    pub(crate) fn next_u(&mut self) -> f32 {
         if let Some(first) = self.first.take() {
             return first;
         }

@@ -49,7 +49,7 @@ impl VertexNumbers {
     #[inline]
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "splits a word")]
-    pub const fn shadow_of(&self, i: u32) -> u64 {
+    pub(crate) const fn shadow_of(&self, i: u32) -> u64 {
         if i < 2 {
             return self.shadow;
         }
@@ -109,7 +109,7 @@ impl SampleStream {
     /// The numbers for the way through media to vertex `vertex`, and from there to a light.
     #[inline]
     #[must_use]
-    pub fn flight(&self, vertex: u32) -> FlightNumbers {
+    pub(crate) fn flight(&self, vertex: u32) -> FlightNumbers {
         // Far from the sets of all vertices.
         let [first, ..] = self.set(vertex | 1 << 31);
         let path = sobol::hash(self.index ^ sobol::hash(vertex));

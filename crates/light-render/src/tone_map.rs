@@ -23,7 +23,7 @@ impl ToneMap {
     /// # Source
     /// `[Reinhard2002]`, equations 1 and 2, over the pixels that are not black.
     #[must_use]
-    pub fn fit(pixels: &[Vec3]) -> Self {
+    pub(crate) fn fit(pixels: &[Vec3]) -> Self {
         const MIDDLE_GREY: f64 = 0.18;
         let (mut sum, mut n) = (0.0, 0u32);
         for luminance in pixels.iter().map(|&p| f64::from(rec709_luminance(p))) {

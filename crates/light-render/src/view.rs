@@ -89,7 +89,7 @@ impl View {
 
     /// The pixels that are rendered: all of them, unless [`with_crop`](Self::with_crop) chose some.
     #[must_use]
-    pub const fn crop(&self) -> Crop {
+    pub(crate) const fn crop(&self) -> Crop {
         self.crop
     }
 

@@ -55,7 +55,7 @@ impl<'a> BvhLightSamplerRef<'a> {
     /// [`LightSampler::at`], for as long as the memory is borrowed.
     #[inline]
     #[must_use]
-    pub fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+    pub(crate) fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         LightChoices::bvh(self.choices(ctx, count), count)
     }
 }

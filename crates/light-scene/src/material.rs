@@ -176,7 +176,7 @@ impl Surface {
     ///
     /// Reflectances are clamped to 0.9999, as 1 would need infinite absorption.
     #[must_use]
-    pub fn conductor_of_reflectance(reflectance: Vec3, alpha: Vec2) -> Self {
+    pub(crate) fn conductor_of_reflectance(reflectance: Vec3, alpha: Vec2) -> Self {
         let r = reflectance.clamp(Vec3::ZERO, Vec3::splat(0.9999));
         // With eta = 1 the normal reflectance is k^2 / (4 + k^2).
         let k = r.map(|r| 2.0 * (r / (1.0 - r)).sqrt());

@@ -55,7 +55,7 @@ impl Mesh {
     }
 
     /// Adds one triangle, counter-clockwise seen from the front; the mesh must be flat shaded.
-    pub fn push_triangle(&mut self, corners: [Vec3; 3]) {
+    pub(crate) fn push_triangle(&mut self, corners: [Vec3; 3]) {
         let first = self.next_vertex();
         self.positions.extend(corners);
         self.indices.push([first, first + 1, first + 2]);

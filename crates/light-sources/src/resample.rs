@@ -40,7 +40,7 @@ impl Image {
 
     /// The mean of this image over the sphere, under `map`.
     #[must_use]
-    pub fn sphere_mean(&self, map: SphereMap) -> Vec3 {
+    pub(crate) fn sphere_mean(&self, map: SphereMap) -> Vec3 {
         sphere_mean(map, self.size(), self.texels())
     }
 }

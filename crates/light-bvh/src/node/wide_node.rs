@@ -95,7 +95,7 @@ impl WideNode {
     /// The largest power of a child, as a share of the tree's.
     #[inline]
     #[must_use]
-    pub const fn gain(&self) -> f32 {
+    pub(crate) const fn gain(&self) -> f32 {
         f32::from_bits((self.gain as u32) << 16)
     }
 }

@@ -148,13 +148,13 @@ impl Accel {
 
     /// The numbers of the triangles and of the spheres in world space.
     #[must_use]
-    pub fn world(&self) -> [Range<u32>; 2] {
+    pub(crate) fn world(&self) -> [Range<u32>; 2] {
         self.world.numbers()
     }
 
     /// The numbers of the triangles and of the spheres in every instance.
     #[must_use]
-    pub fn instances(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
+    pub(crate) fn instances(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
         self.instances.geometry().map(Geometry::numbers)
     }
 

@@ -17,7 +17,7 @@ pub struct Lambert {
 impl Lambert {
     /// An opaque surface that reflects on both sides; `reflectance` is in `[0, 1]`.
     #[must_use]
-    pub const fn opaque(reflectance: Vec3) -> Self {
+    pub(crate) const fn opaque(reflectance: Vec3) -> Self {
         Self {
             reflectance,
             transmittance: Vec3::ZERO,

@@ -28,7 +28,7 @@ impl Scattering {
     /// The scattering function in the frame of the shading normal.
     #[inline]
     #[must_use]
-    pub const fn bsdf(&self) -> &Bsdf {
+    pub(crate) const fn bsdf(&self) -> &Bsdf {
         &self.bsdf
     }
 

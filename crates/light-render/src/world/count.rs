@@ -12,7 +12,7 @@ impl World {
 
     /// The number of spheres, those of prototypes counted once per instance.
     #[must_use]
-    pub fn sphere_count(&self) -> usize {
+    pub(crate) fn sphere_count(&self) -> usize {
         self.count(|[_, spheres]| spheres.len())
     }
 

@@ -97,7 +97,7 @@ impl World {
     /// it sends none.
     #[inline]
     #[must_use]
-    pub fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
+    pub(crate) fn emitted(&self, surface: &Surface, wo: Vec3) -> Option<(LightId, Vec3)> {
         let number = surface.primitive.number() as usize;
         let (id, n) = match self.triangles.get(number) {
             Some(&MeshTriangle { mesh, index }) => {
