@@ -37,6 +37,7 @@ pub fn invalid_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
             all.extend([up * x, leaning].map(|ns| on_surface(p, up, ns)));
             all.push(on_surface(p, up * x, up * -x));
             all.push(on_surface(p * x, up, up));
+            all.push(on_surface(p, up, up).with_error(up * x));
         }
         all.push(LightSampleContext::medium(Vec3::new(p.x, x, -x)));
         for way in [up, -up, Vec3::X] {
