@@ -26,7 +26,7 @@ impl Sides {
 
     /// Whether a surface with normal `n` emits toward `w`.
     #[must_use]
-    pub(crate) fn emit_toward(self, n: Vec3, w: Vec3) -> bool {
+    pub fn emit_toward(self, n: Vec3, w: Vec3) -> bool {
         match self {
             Self::Front => n.dot(w) > 0.0,
             Self::Back => n.dot(w) < 0.0,
@@ -36,7 +36,7 @@ impl Sides {
 
     /// The normal on the side that emits, for the geometric normal `n`; `n` itself when both do.
     #[must_use]
-    pub(crate) fn emitting_normal(self, n: Vec3) -> Vec3 {
+    pub fn emitting_normal(self, n: Vec3) -> Vec3 {
         match self {
             Self::Front | Self::Both => n,
             Self::Back => -n,
