@@ -181,7 +181,6 @@ impl Moments {
                 offset: 0.0,
                 spread_sq: 1.0 / 3.0,
                 axis_var: 0.0,
-                depth_var: 0.0,
                 ..*self
             },
             // A cosine is a step whose offset is evenly spread over [0, 1]; a light that emits

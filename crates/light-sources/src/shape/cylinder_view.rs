@@ -105,8 +105,7 @@ impl CylinderView {
             let direction = wi.truncate().try_normalize()?;
             let (sin, cos) = (self.inward.perp_dot(direction), self.inward.dot(direction));
             // The wall is enlarged by the rounding error of the direction.
-            let slack = 4.0 * f32::EPSILON;
-            let aside = slack / horizontal;
+            let aside = 4.0 * f32::EPSILON / horizontal;
             let is_outside = self.half_angle.is_some();
             if is_outside && !(cos > 0.0 && sin.abs() <= self.radius / self.distance + aside) {
                 return None;
@@ -117,8 +116,7 @@ impl CylinderView {
             let is_met = |strip: Option<(Strip, Vec2)>| {
                 strip.is_some_and(|(s, _)| {
                     let height = slope * s.distance;
-                    let slack =
-                        slack * (s.distance + height.abs()) / horizontal + slope.abs() * depth;
+                    let slack = aside * (s.distance + height.abs()) + slope.abs() * depth;
                     (s.low - slack..=s.high + slack).contains(&height)
                 })
             };
