@@ -31,8 +31,7 @@ pub struct CameraNumbers {
 pub struct VertexNumbers {
     /// Which light: a fraction of 2^64.
     pub light: u64,
-    /// Which of two lights is looked at for its shadow: a fraction of 2^64. See
-    /// [`shadow_of`](Self::shadow_of).
+    /// Which of two lights is looked at for its shadow: a fraction of 2^64.
     pub shadow: u64,
     /// Whether the path goes on.
     pub roulette: f32,
