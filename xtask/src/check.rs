@@ -5,9 +5,18 @@ use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 
+/// Who runs `cargo test --workspace`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WorkspaceTests {
+    /// A step.
+    Here,
+    /// The caller did, before these steps.
+    Before,
+}
+
 /// Adds the steps: format, lints, tests, documentation, each over every feature set that can make a
 /// difference.
-pub fn add_steps(steps: &mut Steps) {
+pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     steps.run("format", || passes(&["fmt", "--all", "--check"]));
     steps.run("references", references::check);
     steps.run("arrows between crates", || arrows::arrows(&[]));
@@ -17,9 +26,11 @@ pub fn add_steps(steps: &mut Steps) {
     steps.run("lints of each feature set", || {
         for_each_set(|_| true, |set| lints(&set.arguments()))
     });
-    steps.run("tests of the workspace", || {
-        passes(&["test", "--workspace", "--quiet"])
-    });
+    if tests == WorkspaceTests::Here {
+        steps.run("tests of the workspace", || {
+            passes(&["test", "--workspace", "--quiet"])
+        });
+    }
     steps.run("tests with software floats", || {
         let mut sets = SOFTWARE_FLOATS.iter();
         sets.try_fold(Outcome::Passed, |_, set| {

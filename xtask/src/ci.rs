@@ -1,5 +1,6 @@
 //! `cargo xtask ci`: everything that a machine can check without being asked twice.
 
+use crate::check::WorkspaceTests;
 use crate::steps::{Outcome, Steps, cargo, run};
 use crate::tools::Install;
 use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, packages};
@@ -8,8 +9,8 @@ use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, pack
 const FUZZ_SECONDS: u32 = 5;
 
 /// Adds all steps: the everyday ones, then what needs more tools or more time.
-pub fn add_steps(steps: &mut Steps) {
-    check::add_steps(steps);
+pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
+    check::add_steps(steps, tests);
     no_std::add_steps(steps);
     oldest::add_steps(steps);
     packages::add_steps(steps);

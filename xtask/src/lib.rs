@@ -24,6 +24,7 @@ mod references;
 mod steps;
 mod tools;
 
+use check::WorkspaceTests;
 use steps::{StepResult, Steps};
 use tools::Install;
 
@@ -31,8 +32,8 @@ const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
 
   (none)                      format, lints, tests over each feature set, documentation
-  ci                          the same, bare targets, the oldest toolchain, packages, fuzz smoke,
-                              instruction counts
+  ci [--tested]               the same, bare targets, the oldest toolchain, packages, fuzz smoke,
+                              instruction counts (--tested: `cargo test --workspace` ran before)
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   conformance --self-test [DIR]
                               change each of our answers and demand that its case fails
@@ -71,10 +72,13 @@ usage: cargo xtask [COMMAND]
 #[must_use]
 pub fn run(arguments: &[String]) -> ExitCode {
     let Some((command, rest)) = arguments.split_first() else {
-        return all(check::add_steps);
+        return all(|steps| check::add_steps(steps, WorkspaceTests::Here));
     };
     match (command.as_str(), rest) {
-        ("ci", []) => all(ci::add_steps),
+        ("ci", []) => all(|steps| ci::add_steps(steps, WorkspaceTests::Here)),
+        ("ci", [flag]) if flag == "--tested" => {
+            all(|steps| ci::add_steps(steps, WorkspaceTests::Before))
+        }
         ("oldest", []) => all(oldest::add_steps),
         ("no-std", []) => all(no_std::add_steps),
         ("bench", [flag, names @ ..]) if flag == "--table" => {
