@@ -66,6 +66,7 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     alloc("light-media", "libm,serde"),
     alloc("light-photometry", "libm"),
     std("light-photometry", "std"),
+    alloc("light-gpu", "libm"),
     core("lights", "libm"),
     alloc("lights", "libm,alloc,bytemuck"),
     core("lights", "libm,bytemuck"),

@@ -15,6 +15,7 @@ mod dependencies;
 mod features;
 mod fuzz;
 mod gallery;
+mod gpu;
 mod mutants;
 mod no_std;
 mod oldest;
@@ -57,6 +58,8 @@ usage: cargo xtask [COMMAND]
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   coverage [CRATE...]         which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
+  gpu [QUERIES]               the shaders of light-gpu against the crates, on this machine's driver
+                              or on Mesa's from Debian (default: 2^20 queries a set)
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                               break the core crates on purpose: does a test notice?
                               (default: 60 mutants a crate)
@@ -100,6 +103,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
         ("coverage", rest) => one("coverage", || coverage::coverage(rest)),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
+        ("gpu", rest) => all(|steps| steps.run("shaders", || gpu::gpu(rest))),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("soak", rest) => one("soak", || programs::soak(rest)),

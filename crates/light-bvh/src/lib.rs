@@ -37,6 +37,7 @@ mod node;
 #[cfg(feature = "alloc")]
 mod parallel;
 mod query;
+mod query_constants;
 pub mod reference;
 mod simd;
 mod validate;
@@ -62,5 +63,6 @@ pub use node::wide_node::{MAX_DEPTH, WideNode};
 pub use query::bvh_at::LightBvhAt;
 pub use query::bvh_ref::LightBvhRef;
 pub use query::into_receiver::{IntoReceiver, KeptReceiver};
+pub use query_constants::QUERY_CONSTANTS;
 pub use simd::prefetch_item;
 pub use validate::validate;

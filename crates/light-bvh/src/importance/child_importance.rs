@@ -6,18 +6,18 @@ use crate::lane_math::{LaneMask, larger};
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
 /// axis. Chosen by V: see `docs/light-bvh.md`.
-const RAMP_BY_POSITION: f32 = 11.0;
+pub(crate) const RAMP_BY_POSITION: f32 = 11.0;
 
 /// The same of a group: where its emitters lie on both sides of the plane through the receiver,
 /// those in front count although the mean is behind. Chosen by V.
-const GROUP_BY_POSITION: f32 = 400.0;
+pub(crate) const GROUP_BY_POSITION: f32 = 400.0;
 
 /// The length of the axis of one light that emits in a step, 127 codes, and a little more: so that
 /// something is left of `UNIT - offset` for the narrowest cones, whose offset rounds to 127.
-const UNIT: f32 = 127.25;
+pub(crate) const UNIT: f32 = 127.25;
 
 /// How much more a child counts where its width is its distance. Chosen by V.
-const NEARNESS: f32 = 0.2;
+pub(crate) const NEARNESS: f32 = 0.2;
 
 /// How far what is emitted beyond the edge may differ between two points of a box, over the sum of
 /// its half extents.
@@ -26,14 +26,14 @@ const NEARNESS: f32 = 0.2;
 /// offset's by 127 times a length that is no longer. The mean distance exceeds that of the mean
 /// position by at most 0.3 of the sum: 127 (2 + 0.3) < 293. An emitter in the corner of a cube,
 /// beside a receiver in the cube, needs 210.
-const BOX_EMISSION: f32 = 297.0;
+pub(crate) const BOX_EMISSION: f32 = 297.0;
 
 /// How far beyond the mean edge of a spot it may emit, in codes, over its spread.
 ///
 /// Half the width of the rim over the spread, which is rounded up, is the root of 5. Rounding of
 /// axis and offset moves the edge by half the diagonal of a cube and half a code, 1.3661, which is
 /// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
-const STEP_EDGE: f32 = 4.87;
+pub(crate) const STEP_EDGE: f32 = 4.87;
 
 impl ChildView {
     /// Whether any light of the child may emit toward the receiver's position. Sound there only:

@@ -11,7 +11,7 @@ pub(crate) const DISTANCE: f32 = 0.09;
 
 /// Round-off of a position, as a share of its distance: of coordinates, and of products with them.
 /// What they round as codes of a node is in the margin of the boxes.
-const ROUND_OFF: f32 = 1e-5;
+pub(crate) const ROUND_OFF: f32 = 1e-5;
 
 /// A child of a node as a receiver sees it.
 ///

@@ -10,20 +10,20 @@ use crate::lane_math::{larger, smaller};
 /// How much of a group's squared extent over its squared distance widens the facets, and how much
 /// of its squared width is variance of that distance: less than elsewhere, for lights on the far
 /// side of the receiver lie in other directions.
-const WIDENING: f32 = 0.375;
-const DISTANCE: f32 = 0.03;
+pub(crate) const WIDENING: f32 = 0.375;
+pub(crate) const DISTANCE: f32 = 0.03;
 
 /// Keeps the weights of the smoothest mirrors within what products of them can hold.
-const MIN_ALPHA: f32 = 0.01;
+pub(crate) const MIN_ALPHA: f32 = 0.01;
 
 /// What is left for lights far from the mirror direction, whose estimate is the worst.
-const MIN_DIFFUSE: f32 = 0.02;
+pub(crate) const MIN_DIFFUSE: f32 = 0.02;
 
 /// Keeps the half vector from vanishing where the light is behind the viewer's mirror image.
-const MIN_HALF_SQ: f32 = 1e-5;
+pub(crate) const MIN_HALF_SQ: f32 = 1e-5;
 
 /// Keeps grazing views from dividing by nothing.
-const MIN_COS: f32 = 1e-3;
+pub(crate) const MIN_COS: f32 = 1e-3;
 
 /// A point on a surface that mirrors: what a [`SurfaceReceiver`] counts, times the reflection
 /// toward the viewer.

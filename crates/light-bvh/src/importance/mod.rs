@@ -1,10 +1,10 @@
 //! The importance of the children of a node to a receiver: one kind of receiver a file.
 
-mod child_importance;
+pub(crate) mod child_importance;
 pub(crate) mod child_view;
 pub(crate) mod context_receiver;
 pub(crate) mod glossy;
-mod horizon;
+pub(crate) mod horizon;
 pub(crate) mod medium;
 pub(crate) mod position;
 pub(crate) mod receiver;

@@ -9,11 +9,14 @@ use crate::importance::receiver::Receiver;
 use crate::lane_math::{larger, smaller};
 
 /// Points along the segment at which the emission is evaluated.
-const PLACES: usize = 4;
+pub(crate) const PLACES: usize = 4;
+
+/// The bend of the approximation of tangents: 1 - 8 / pi^2.
+pub(crate) const BENT: f32 = 1.0 - 8.0 / (PI * PI);
 
 /// How near a light may be to a segment, as a share of its length: nearer ones count as there, so
 /// that the weights of neighbours stay within what floats hold, whatever the length.
-const NEAREST: f32 = 1e-8;
+pub(crate) const NEAREST: f32 = 1e-8;
 
 /// A ray segment in a medium: lights count by their mean fluence along it.
 ///
@@ -102,7 +105,6 @@ fn angle(x: f32) -> f32 {
 /// at 0 and its poles.
 #[inline(always)]
 fn tangent(x: f32) -> f32 {
-    const BENT: f32 = 1.0 - 8.0 / (PI * PI);
     let t = x * FRAC_2_PI;
     let square = t * t;
     x * (1.0 - BENT * square) / (1.0 - square)

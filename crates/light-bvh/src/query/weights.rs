@@ -7,13 +7,13 @@ use crate::node::wide_node::{WIDTH, WideNode};
 
 /// The least sum of weights in codes that is trusted: a weight 10^18 times smaller than the
 /// largest, and its factors 10^27 times smaller, are still normal floats.
-const LEAST_TOTAL: f32 = 1e-10;
+pub(crate) const LEAST_TOTAL: f32 = 1e-10;
 
 /// The least weight of a child that can contribute, as a share of the weights of its node.
 ///
 /// An estimate has no limit to its error; this bounds what a light costs that was estimated too
 /// low. Chosen by V: see `docs/light-bvh.md`.
-const LEAST_SHARE: f32 = 1.0 / 1024.0;
+pub(crate) const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
 /// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,39 @@
+//! What a port of the queries to another language has to know.
+
+use crate::importance::child_importance::{
+    BOX_EMISSION, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
+};
+use crate::importance::child_view::{DISTANCE, ROUND_OFF};
+use crate::importance::glossy::{self, MIN_ALPHA, MIN_COS, MIN_DIFFUSE, MIN_HALF_SQ, WIDENING};
+use crate::importance::horizon::HEIGHT;
+use crate::importance::position::FAR;
+use crate::importance::segment::{BENT, NEAREST, PLACES};
+use crate::node::spread_code::LEAST_SPREAD;
+use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL};
+
+/// The numbers in the importance of a group of lights, by name, for ports of the queries to another
+/// language. They change with the estimate: a port takes them from here.
+pub const QUERY_CONSTANTS: [(&str, f32); 22] = [
+    ("BENT", BENT),
+    ("BOX_EMISSION", BOX_EMISSION),
+    ("DISTANCE", DISTANCE),
+    ("FAR", FAR),
+    ("GLOSSY_DISTANCE", glossy::DISTANCE),
+    ("GROUP_BY_POSITION", GROUP_BY_POSITION),
+    ("HEIGHT", HEIGHT),
+    ("LEAST_SHARE", LEAST_SHARE),
+    ("LEAST_SPREAD", LEAST_SPREAD),
+    ("LEAST_TOTAL", LEAST_TOTAL),
+    ("MIN_ALPHA", MIN_ALPHA),
+    ("MIN_COS", MIN_COS),
+    ("MIN_DIFFUSE", MIN_DIFFUSE),
+    ("MIN_HALF_SQ", MIN_HALF_SQ),
+    ("NEAREST", NEAREST),
+    ("NEARNESS", NEARNESS),
+    ("PLACES", PLACES as f32),
+    ("RAMP_BY_POSITION", RAMP_BY_POSITION),
+    ("ROUND_OFF", ROUND_OFF),
+    ("STEP_EDGE", STEP_EDGE),
+    ("UNIT", UNIT),
+    ("WIDENING", WIDENING),
+];

@@ -1,0 +1,16 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![forbid(unsafe_code)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+extern crate alloc;
+
+pub use light_bvh;
+pub use light_bvh::light_math;
+
+mod rows;
+mod source;
+
+pub use rows::{alias_table_rows, light_tree_rows, node_rows};
+pub use source::{LIGHTS_WGSL, constants, flat};

@@ -1,0 +1,85 @@
+//! Rows are what the shader's comments say of them.
+
+use light_bvh::light_bounds::{LightBounds, LightExtent};
+use light_bvh::light_math::distribution::AliasTable;
+use light_bvh::light_math::{Aabb, glam::Vec3};
+use light_bvh::{LightBvh, WideNode};
+use light_gpu::{alias_table_rows, light_tree_rows, node_rows};
+
+fn lamps(count: u16) -> LightBvh {
+    let lights: Vec<LightExtent> = (0..count)
+        .map(|i| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(Vec3::new(f32::from(i), f32::from(i % 7), 2.0)),
+                w: Vec3::NEG_Z,
+                phi: 1.0 + f32::from(i),
+                cos_theta_o: 1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        })
+        .collect();
+    LightBvh::build(&lights).expect("valid lights")
+}
+
+#[test]
+fn a_tree_is_a_head_and_three_parts() {
+    let tree = lamps(103);
+    let tree = tree.view();
+    let rows = light_tree_rows(&tree);
+    let [nodes, order, lights, _] = rows[0].map(|n| n as usize);
+    assert_eq!(nodes, tree.nodes().len(), "nodes");
+    assert_eq!((order, lights), (26, 103), "rows of the order, and lights");
+    let (in_nodes, rest) = rows[1..].split_at(14 * nodes);
+    assert_eq!(in_nodes, node_rows(tree.nodes()), "the nodes");
+    let (in_order, in_slots) = rest.split_at(order);
+    assert_eq!(in_order.as_flattened()[..103], *tree.order(), "the order");
+    assert_eq!(in_slots.as_flattened()[..103], *tree.slots(), "the slots");
+}
+
+/// The shader reads the fields of a node at these rows.
+#[test]
+fn a_node_is_fourteen_rows() {
+    let node = WideNode {
+        power: core::array::from_fn(|k| k as u8),
+        origin: [1.0, 2.0, 3.0],
+        inv_scale: 4.0,
+        child_base: 5,
+        light_base: 6,
+        inner: 7,
+        count: 8,
+        parent: 9,
+        ..WideNode::EMPTY
+    };
+    let rows = node_rows(core::slice::from_ref(&node));
+    assert_eq!(rows.len(), 14, "rows of a node");
+    assert_eq!(
+        rows[11][1],
+        u32::from_le_bytes([4, 5, 6, 7]),
+        "bytes of children 4 to 7"
+    );
+    assert_eq!(
+        rows[12].map(f32::from_bits),
+        [1.0, 2.0, 3.0, 4.0],
+        "origin and scale"
+    );
+    let [child_base, light_base, counts, parent] = rows[13];
+    assert_eq!((child_base, light_base, parent), (5, 6, 9), "links");
+    assert_eq!((counts >> 16) & 0xff, 7, "inner");
+    assert_eq!(counts >> 24, 8, "count");
+}
+
+#[test]
+fn no_light_is_a_head_alone() {
+    let none = LightBvh::build(&[]).map(|tree| light_tree_rows(&tree.view()));
+    assert_eq!(none.expect("an empty tree"), [[0; 4]], "only the head");
+}
+
+#[test]
+fn a_bin_is_a_row() {
+    let table = AliasTable::new(&[1.0, 3.0]).expect("valid weights");
+    let rows = alias_table_rows(table.bins());
+    for (row, bin) in rows.iter().zip(table.bins()) {
+        assert_eq!(*row, [bin.own, bin.alias, bin.pmf.to_bits(), 0], "{bin:?}");
+    }
+}

@@ -1,0 +1,131 @@
+//! Queries and answers, as the shader lays them out.
+
+use bytemuck::{Pod, Zeroable};
+use light_bounds::{Gloss, LightId};
+use light_bvh::{
+    ContextReceiver, GlossyReceiver, MediumReceiver, SegmentReceiver, SurfaceReceiver,
+    TwoSidedReceiver,
+};
+use light_math::glam::Vec3;
+use light_sets::BenchSet;
+
+/// Kinds of receivers, in the order of the shader's constants.
+pub const KINDS: [&str; 5] = ["surface", "two-sided", "glossy", "medium", "segment"];
+
+/// Who asks for a light, by which random number, and whose probability is asked besides.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Query {
+    p: [f32; 3],
+    kind: u32,
+    n: [f32; 3],
+    alpha: f32,
+    wo: [f32; 3],
+    diffuse: f32,
+    u: [u32; 2],
+    other: u32,
+    unused: u32,
+}
+
+/// What the shader chose.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Answer {
+    pub light: u32,
+    pub pmf: f32,
+    /// Upper and lower word.
+    pub u: [u32; 2],
+    /// The probability of that light by a query of the shader.
+    pub again: f32,
+    /// That of the other light.
+    pub other: f32,
+    unused: [u32; 2],
+}
+
+/// What the shader made of a query by tables and maps.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Mapped {
+    pub index: u32,
+    pub pmf: f32,
+    pub u: [u32; 2],
+    pub decoded: [f32; 3],
+    pub code: u32,
+    pub direction: [f32; 3],
+    unused: u32,
+    pub place: [f32; 2],
+    unused_too: [u32; 2],
+}
+
+impl Query {
+    /// Query `i` of many at the points of `set`, of each kind of receiver in turn.
+    pub fn new(set: &BenchSet, i: u32) -> Self {
+        let mut state = u64::from(i) << 8;
+        let mut next = || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            mixed(state)
+        };
+        let at = &set.points[(next() % set.points.len() as u64) as usize];
+        let (high, low) = (next(), next());
+        let unit = |bits: u64| (bits >> 40) as f32 / 8_388_608.0 - 1.0;
+        let wo = Vec3::new(unit(next()), unit(next()), unit(next()));
+        let kind = i % KINDS.len() as u32;
+        let other = &set.points[(next() % set.points.len() as u64) as usize];
+        let n = if kind == 4 { other.p - at.p } else { at.n };
+        Self {
+            p: at.p.to_array(),
+            kind,
+            n: n.to_array(),
+            alpha: (next() >> 40) as f32 / 16_777_216.0,
+            wo: (wo * wo.dot(at.n).signum()).to_array(),
+            diffuse: (next() >> 40) as f32 / 16_777_216.0,
+            u: [(high >> 32) as u32, (low >> 32) as u32],
+            other: (next() % set.lights.len() as u64) as u32,
+            unused: 0,
+        }
+    }
+
+    /// The kind of receiver, an index into [`KINDS`].
+    pub const fn kind(&self) -> usize {
+        self.kind as usize
+    }
+
+    /// The random number.
+    pub const fn u(&self) -> u64 {
+        light_math::fraction::from_words(self.u[0], self.u[1])
+    }
+
+    /// The normal, or the extent of a segment.
+    pub fn n(&self) -> Vec3 {
+        self.n.into()
+    }
+
+    /// The light whose probability is asked besides.
+    pub const fn other(&self) -> LightId {
+        LightId(self.other)
+    }
+
+    /// Who asks.
+    pub fn receiver(&self) -> ContextReceiver {
+        let [p, n, wo] = [self.p, self.n, self.wo].map(Vec3::from);
+        let gloss = Gloss {
+            wo,
+            alpha: self.alpha,
+            diffuse: self.diffuse,
+        };
+        match KINDS[self.kind()] {
+            "surface" => ContextReceiver::Surface(SurfaceReceiver::new(p, n)),
+            "two-sided" => ContextReceiver::TwoSided(TwoSidedReceiver::new(p, n)),
+            "glossy" => ContextReceiver::Glossy(GlossyReceiver::new(p, n, &gloss)),
+            "medium" => ContextReceiver::Medium(MediumReceiver::new(p)),
+            _ => ContextReceiver::Segment(SegmentReceiver::new(p, n)),
+        }
+    }
+}
+
+/// A hash of 64 bits.
+const fn mixed(x: u64) -> u64 {
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}

@@ -1,0 +1,88 @@
+//! How the shader's answers compare with those of the crates.
+
+use light_bounds::LightId;
+use light_bvh::LightBvhRef;
+
+use crate::query::{Answer, KINDS, Query};
+
+/// The least share of queries for which the shader has to choose the same light.
+const SAME: f64 = 0.99;
+
+/// What differs between the answers to so many queries.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    queries: u32,
+    /// Choices of another light, or of one instead of none, by kind of receiver.
+    others: [u32; KINDS.len()],
+    /// Probabilities that were compared.
+    pmfs: u32,
+    /// Those that are not the same bits.
+    unlike: u32,
+    /// The largest relative difference.
+    largest: f32,
+    /// The sum of all.
+    sum: f64,
+    /// Probabilities of which one is 0 and the other is not.
+    zeros: u32,
+    /// Samples whose probability the shader does not find again.
+    unequal: u32,
+}
+
+impl Tally {
+    /// The head of the table.
+    pub const HEAD: &str = "\
+| set | same light | unlike pmfs | mean, largest difference | zeros | not found again | M queries/s |
+| --- | ---: | ---: | ---: | ---: | ---: | ---: |";
+
+    /// Compares the answer to one query with those of the crates.
+    pub fn add(&mut self, tree: &LightBvhRef<'_>, query: &Query, theirs: &Answer) {
+        self.queries += 1;
+        let receiver = &query.receiver();
+        let chosen = tree.sample(receiver, query.u()).map(|s| s.light);
+        let light = LightId(theirs.light);
+        let theirs_chosen = (theirs.pmf > 0.0).then_some(light);
+        if chosen != theirs_chosen {
+            self.others[query.kind()] += 1;
+        }
+        if theirs_chosen.is_some() {
+            self.compare(tree.pmf(receiver, light), theirs.pmf);
+            self.unequal += u32::from(theirs.again.to_bits() != theirs.pmf.to_bits());
+        }
+        self.compare(tree.pmf(receiver, query.other()), theirs.other);
+    }
+
+    fn compare(&mut self, ours: f32, theirs: f32) {
+        self.pmfs += 1;
+        self.zeros += u32::from((ours > 0.0) != (theirs > 0.0));
+        if ours != theirs {
+            let difference = (theirs / ours - 1.0).abs();
+            self.unlike += 1;
+            self.largest = self.largest.max(difference);
+            self.sum += f64::from(difference);
+        }
+    }
+
+    /// Whether it is what is promised.
+    pub fn holds(&self) -> bool {
+        self.zeros == 0 && self.unequal == 0 && self.same() >= SAME
+    }
+
+    fn same(&self) -> f64 {
+        1.0 - f64::from(self.others.iter().sum::<u32>()) / f64::from(self.queries)
+    }
+
+    /// A row of the table.
+    pub fn row(&self, set: &str, seconds: f64) -> String {
+        let pmfs = f64::from(self.pmfs);
+        format!(
+            "| {set} | {:.3} % | {:.2} % | {:.1e}, {:.1e} | {} | {} | {:.2} |",
+            100.0 * self.same(),
+            100.0 * f64::from(self.unlike) / pmfs,
+            self.sum / pmfs,
+            self.largest,
+            self.zeros,
+            self.unequal,
+            f64::from(self.queries) / seconds / 1e6,
+        )
+    }
+}

@@ -1,0 +1,74 @@
+//! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver of
+//! this machine, or on Mesa's software driver from Debian.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::debian::{libraries, unpacked};
+use crate::steps::{Outcome, StepResult, cargo, root};
+
+/// The workspace of the check, which needs a graphics stack to build.
+const MANIFEST: &str = "gpu/wgsl/Cargo.toml";
+
+/// The exit status by which the check says that there is no device.
+const NO_DEVICE: i32 = 77;
+
+/// Debian's packages of a Vulkan driver that needs no graphics card.
+const DRIVER: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
+
+/// Runs the check.
+///
+/// # Errors
+/// When the shaders answer otherwise than they may, or the check does not build.
+pub fn gpu(arguments: &[String]) -> StepResult {
+    match status(check(arguments))? {
+        0 => return Ok(Outcome::Passed),
+        NO_DEVICE => println!("    no driver for Vulkan, Metal or DirectX 12"),
+        _ => return Err("the shaders answer otherwise than the crates".into()),
+    }
+    let folder = match unpacked("vulkan", &DRIVER.map(String::from)) {
+        Ok(folder) => folder,
+        Err(why) => {
+            return Ok(Outcome::Skipped(format!(
+                "no driver, and none from Debian: {why}"
+            )));
+        }
+    };
+    let mut with_driver = check(arguments);
+    with_driver
+        .env("LD_LIBRARY_PATH", libraries(&folder))
+        .env("VK_ICD_FILENAMES", description(&folder)?);
+    match status(with_driver)? {
+        0 => Ok(Outcome::Passed),
+        NO_DEVICE => Ok(Outcome::Skipped("Mesa's driver does not run here".into())),
+        _ => Err("the shaders answer otherwise than the crates".into()),
+    }
+}
+
+fn check(arguments: &[String]) -> Command {
+    let mut command = cargo(["run", "--quiet", "--release", "--manifest-path", MANIFEST]);
+    let target = root().join("target").join("gpu");
+    command
+        .env("CARGO_TARGET_DIR", target)
+        .arg("--")
+        .args(arguments);
+    command
+}
+
+fn status(mut command: Command) -> Result<i32, String> {
+    let status = command.status().map_err(|e| e.to_string())?;
+    status.code().ok_or_else(|| "the check was stopped".into())
+}
+
+/// The file that tells the loader where the driver is: Debian's, with the path of this folder.
+fn description(folder: &Path) -> Result<String, String> {
+    let drivers = folder.join("usr/share/vulkan/icd.d");
+    let name = format!("lvp_icd.{}.json", std::env::consts::ARCH);
+    let theirs = fs::read_to_string(drivers.join(&name)).map_err(|e| format!("{name}: {e}"))?;
+    let installed = "\"library_path\": \"";
+    let here = format!("{installed}{}", folder.display());
+    let ours = folder.join("driver.json");
+    fs::write(&ours, theirs.replace(installed, &here)).map_err(|e| e.to_string())?;
+    Ok(ours.display().to_string())
+}
