@@ -1,4 +1,4 @@
-// The numbers of the importance: QUERY_CONSTANTS of light-bvh. Generated.
+// The numbers of light-bvh (QUERY_CONSTANTS) and light-samplers. Generated.
 
 const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
@@ -22,6 +22,7 @@ const LIGHT_ROUND_OFF: f32 = 1e-5;
 const LIGHT_STEP_EDGE: f32 = 4.87;
 const LIGHT_UNIT: f32 = 127.25;
 const LIGHT_WIDENING: f32 = 0.375;
+const LIGHT_HORIZON_SLACK: f32 = 1e-5;
 
 // Fractions of 2^64, random numbers that choices use up: x is the upper, y the lower word.
 
@@ -177,11 +178,13 @@ struct LightReceiver {
     diffuse: f32,
 }
 
-// A point of a surface that light reaches from the side of its normal n, of any length.
+// A point of a surface that light reaches from the side of its normal n, of any length. Without a
+// direction, or where coordinates were clamped, it is a point in a medium.
 fn light_surface(p: vec3<f32>, n: vec3<f32>) -> LightReceiver {
     var receiver = light_medium(p);
     receiver.n = light_unit_or(n, vec3<f32>(0.0));
-    receiver.kind = select(LIGHT_MEDIUM, LIGHT_SURFACE, all(receiver.p == p));
+    let is_surface = all(receiver.p == p) && any(receiver.n != vec3<f32>(0.0));
+    receiver.kind = select(LIGHT_MEDIUM, LIGHT_SURFACE, is_surface);
     return receiver;
 }
 
@@ -220,10 +223,10 @@ fn light_medium(p: vec3<f32>) -> LightReceiver {
     return receiver;
 }
 
-// The ray segment from p to p + extent in a medium.
+// The ray segment from p to p + extent in a medium; one of no extent is a point.
 fn light_segment(p: vec3<f32>, extent: vec3<f32>) -> LightReceiver {
     var receiver = light_medium(p);
-    receiver.kind = LIGHT_SEGMENT;
+    receiver.kind = select(LIGHT_MEDIUM, LIGHT_SEGMENT, any(extent != vec3<f32>(0.0)));
     let along = light_medium(receiver.p + extent).p - receiver.p;
     let largest = max(max(abs(along.x), abs(along.y)), max(abs(along.z), LIGHT_MIN));
     receiver.length = length(along / largest) * largest;
@@ -262,6 +265,8 @@ struct LightNode {
     inner: u32,
     count: u32,
     parent: u32,
+    // The largest power of a child, as a share of the tree's.
+    gain: f32,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -310,6 +315,7 @@ fn light_node(first: u32) -> LightNode {
     node.inner = (links.z >> 16u) & 0xffu;
     node.count = links.z >> 24u;
     node.parent = links.w;
+    node.gain = bitcast<f32>(links.z << 16u);
     return node;
 }
 
@@ -570,6 +576,8 @@ struct LightParts {
 struct LightWeights {
     lanes: array<vec4<f32>, 4>,
     total: f32,
+    // One over the unit of length that they are in.
+    inv_unit: f32,
 }
 
 // The tree whose rows begin in row `first`: light_tree_rows of the crate makes them.
@@ -642,14 +650,25 @@ fn light_tree_pmf(tree: LightTree, receiver: LightReceiver, light: u32) -> f32 {
     return pmf;
 }
 
+// About the irradiance by the lights of the tree, if all of them have power 1 together.
+fn light_tree_irradiance(tree: LightTree, receiver: LightReceiver) -> f32 {
+    if tree.node_count == 0u {
+        return 0.0;
+    }
+    var node = light_node(tree.nodes);
+    let weights = light_trusted_weights(&node, receiver);
+    if !(weights.total > 0.0) {
+        return 0.0;
+    }
+    // Intensities are counted twice.
+    let irradiance = (0.5 * weights.total * weights.inv_unit) * (node.gain * weights.inv_unit);
+    return clamp(irradiance, LIGHT_MIN, LIGHT_MAX);
+}
+
 // The parts of 2^16 of each child: at least one where it can contribute, none elsewhere. They sum
 // to 2^16, because the first one takes what is left over, or to 0.
 fn light_parts(node: ptr<function, LightNode>, receiver: LightReceiver) -> LightParts {
-    var weights = light_weights(node, receiver, light_frame_in_codes(*node, receiver.p));
-    if !(weights.total >= LIGHT_LEAST_TOTAL && weights.total <= LIGHT_MAX) {
-        let frame = light_frame_from_afar(*node, receiver.p, light_reach(receiver));
-        weights = light_weights(node, receiver, frame);
-    }
+    let weights = light_trusted_weights(node, receiver);
     var parts: LightParts;
     if !(weights.total > 0.0) {
         return parts;
@@ -672,6 +691,16 @@ fn light_parts(node: ptr<function, LightNode>, receiver: LightReceiver) -> Light
     return parts;
 }
 
+// In codes of the node, or in a unit in which none of them vanishes.
+fn light_trusted_weights(node: ptr<function, LightNode>, receiver: LightReceiver) -> LightWeights {
+    let weights = light_weights(node, receiver, light_frame_in_codes(*node, receiver.p));
+    if weights.total >= LIGHT_LEAST_TOTAL && weights.total <= LIGHT_MAX {
+        return weights;
+    }
+    let frame = light_frame_from_afar(*node, receiver.p, light_reach(receiver));
+    return light_weights(node, receiver, frame);
+}
+
 fn light_weights(
     node: ptr<function, LightNode>,
     receiver: LightReceiver,
@@ -688,6 +717,7 @@ fn light_weights(
         weights.lanes[word] = select(vec4<f32>(0.0), max(lanes, least), lanes > vec4<f32>(0.0));
     }
     weights.total = light_total(weights.lanes);
+    weights.inv_unit = frame.inv_unit;
     return weights;
 }
 
@@ -704,4 +734,159 @@ fn light_entry(first: u32, entry: u32) -> u32 {
 // The product of two probabilities: 0 only if one of them is.
 fn light_positive_product(a: f32, b: f32) -> f32 {
     return select(0.0, max(a * b, LIGHT_MIN), a > 0.0 && b > 0.0);
+}
+
+// Lights at infinity beside those of a tree: BvhLightSamplerRef of light-samplers.
+
+struct LightSampler {
+    tree: LightTree,
+    // Of the tree.
+    power: f32,
+    // The row of the first light at infinity, of three each, and how many there are.
+    infinite: u32,
+    infinite_count: u32,
+}
+
+// A part of the first choice: 0 is the tree, the lights at infinity follow.
+struct LightShare {
+    index: u32,
+    // Its parts of 2^16, and how far into them a random number falls.
+    parts: u32,
+    place: u32,
+}
+
+// The sampler whose rows begin in row `first`: light_sampler_rows of the crate makes them.
+fn light_sampler(first: u32) -> LightSampler {
+    let head = light_row(first);
+    let infinite = first + 1u;
+    let tree = light_tree(infinite + 3u * head.y);
+    return LightSampler(tree, bitcast<f32>(head.x), infinite, head.y);
+}
+
+// A light, chosen by u about in proportion to the unoccluded light of each.
+fn light_sampler_sample(
+    sampler: LightSampler,
+    receiver: LightReceiver,
+    u: vec2<u32>,
+) -> SampledLight {
+    if sampler.infinite_count == 0u {
+        return light_tree_sample(sampler.tree, receiver, u);
+    }
+    let share = light_share(sampler, receiver, u.x >> 16u, LIGHT_NOWHERE);
+    if share.parts == 0u {
+        return SampledLight(0u, 0.0, u);
+    }
+    let pmf = f32(share.parts) * (1.0 / 65536.0);
+    let rest = light_fraction_divide(share.place, light_fraction_after_16_bits(u), share.parts);
+    if share.index > 0u {
+        return SampledLight(light_infinite_id(sampler, share.index - 1u), pmf, rest);
+    }
+    var sampled = light_tree_sample(sampler.tree, receiver, rest);
+    sampled.pmf = light_positive_product(pmf, sampled.pmf);
+    return sampled;
+}
+
+// The probability with which light_sampler_sample returns `light`, with the same bits.
+fn light_sampler_pmf(sampler: LightSampler, receiver: LightReceiver, light: u32) -> f32 {
+    if sampler.infinite_count == 0u {
+        return light_tree_pmf(sampler.tree, receiver, light);
+    }
+    var index = 0u;
+    for (var i = 0u; i < sampler.infinite_count; i++) {
+        index = select(index, i + 1u, light_infinite_id(sampler, i) == light);
+    }
+    let share = light_share(sampler, receiver, 0u, index);
+    let pmf = f32(share.parts) * (1.0 / 65536.0);
+    if index > 0u {
+        return pmf;
+    }
+    return light_positive_product(pmf, light_tree_pmf(sampler.tree, receiver, light));
+}
+
+// The share `wanted`, or that on which `at` falls, a place below 2^16, if `wanted` is
+// LIGHT_NOWHERE. It has no parts where nothing has weight.
+fn light_share(
+    sampler: LightSampler,
+    receiver: LightReceiver,
+    at: u32,
+    wanted: u32,
+) -> LightShare {
+    let of_unit_power = light_tree_irradiance(sampler.tree, receiver);
+    let in_tree = min(light_positive_product(of_unit_power, sampler.power), LIGHT_MAX);
+    let count = 1u + sampler.infinite_count;
+    var total = 0.0;
+    for (var i = 0u; i < count; i++) {
+        total += light_first_weight(sampler, receiver, in_tree, i);
+    }
+    var unit = select(1.0, 1.0 / 128.0, total > LIGHT_MAX);
+    unit = select(unit, 0x1p+100, total < 0x1p-100);
+    var scaled = 0.0;
+    for (var i = 0u; i < count; i++) {
+        scaled += light_in_unit(light_first_weight(sampler, receiver, in_tree, i), unit);
+    }
+    var share = LightShare(LIGHT_NOWHERE, 0u, at);
+    if !(scaled > 0.0) {
+        return share;
+    }
+    let scale = min((65536.0 - f32(count)) / scaled, LIGHT_MAX);
+    var left_over = 65536u;
+    for (var i = 0u; i < count; i++) {
+        let weight = light_in_unit(light_first_weight(sampler, receiver, in_tree, i), unit);
+        left_over -= select(0u, 1u + u32(weight * scale), weight > 0.0);
+    }
+    for (var i = 0u; i < count; i++) {
+        let weight = light_in_unit(light_first_weight(sampler, receiver, in_tree, i), unit);
+        let own = select(0u, 1u + u32(weight * scale) + left_over, weight > 0.0);
+        left_over = select(left_over, 0u, weight > 0.0);
+        let is_chosen = wanted == LIGHT_NOWHERE && share.place < own;
+        if share.index == LIGHT_NOWHERE && (is_chosen || wanted == i) {
+            share.index = i;
+            share.parts = own;
+        }
+        share.place -= select(0u, own, share.index == LIGHT_NOWHERE);
+    }
+    return share;
+}
+
+// About the irradiance by the lights of the tree, or by a light at infinity.
+fn light_first_weight(
+    sampler: LightSampler,
+    receiver: LightReceiver,
+    in_tree: f32,
+    index: u32,
+) -> f32 {
+    if index == 0u {
+        return in_tree;
+    }
+    let first = sampler.infinite + 3u * (index - 1u);
+    let mean = bitcast<vec4<f32>>(light_row(first));
+    let cone = bitcast<vec4<f32>>(light_row(first + 1u));
+    return light_positive_product(mean.w, light_mean_cosine(receiver, mean.xyz, cone));
+}
+
+// Of light whose directions have this mean and lie within the cone about `cone.xyz` of the cosine
+// `cone.w`; 0 only if all of them are below the horizon.
+fn light_mean_cosine(receiver: LightReceiver, mean: vec3<f32>, cone: vec4<f32>) -> f32 {
+    if receiver.kind == LIGHT_MEDIUM || receiver.kind == LIGHT_SEGMENT {
+        return 1.0;
+    }
+    let height = dot(receiver.n, mean);
+    let variance = max(0.0, 1.0 - dot(mean, mean));
+    if receiver.kind == LIGHT_TWO_SIDED {
+        return max(max(abs(height), 0.5 * sqrt(variance)), LIGHT_HORIZON_SLACK);
+    }
+    let sin = sqrt(max(0.0, (1.0 - cone.w) * (1.0 + cone.w)));
+    if cone.w >= 0.0 && dot(receiver.n, cone.xyz) + sin < -LIGHT_HORIZON_SLACK {
+        return 0.0;
+    }
+    let expected = 0.5 * (height + sqrt(height * height + 0.25 * variance));
+    return max(expected, LIGHT_HORIZON_SLACK);
+}
+
+fn light_in_unit(weight: f32, unit: f32) -> f32 {
+    return select(0.0, max(weight * unit, LIGHT_MIN), weight > 0.0);
+}
+
+fn light_infinite_id(sampler: LightSampler, index: u32) -> u32 {
+    return light_row(sampler.infinite + 3u * index + 2u).x;
 }

@@ -6,11 +6,13 @@
 
 extern crate alloc;
 
-pub use light_bvh;
-pub use light_bvh::light_math;
+pub use light_samplers;
+pub use light_samplers::light_bvh;
 
 mod rows;
 mod source;
 
-pub use rows::{alias_table_rows, light_tree_rows, node_rows};
+pub use rows::{
+    TooManyInfiniteLights, alias_table_rows, light_sampler_rows, light_tree_rows, node_rows,
+};
 pub use source::{LIGHTS_WGSL, constants, flat};

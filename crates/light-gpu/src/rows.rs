@@ -1,10 +1,16 @@
 use alloc::vec::Vec;
+use core::fmt;
 
-use light_bvh::light_math::distribution::AliasBin;
-use light_bvh::{LightBvhRef, WideNode};
+use light_samplers::BvhLightSamplerRef;
+use light_samplers::light_bvh::light_bounds::InfiniteBounds;
+use light_samplers::light_bvh::light_math::distribution::AliasBin;
+use light_samplers::light_bvh::{LightBvhRef, WideNode};
 
 /// The words of a row.
 const WORDS: usize = 4;
+
+/// The tree and so many lights at infinity are one choice, by the rule of `light_math::discrete`.
+const MOST_INFINITE: u32 = 63;
 
 /// Rows of a tree: a head, the nodes, the order of the lights, and the slot of each light.
 ///
@@ -28,8 +34,54 @@ pub fn light_tree_rows(tree: &LightBvhRef<'_>) -> Vec<[u32; 4]> {
     rows
 }
 
+/// Rows of a sampler: a head, three for each light at infinity, and those of its tree.
+///
+/// In a buffer from row `first` on they are what `light_sampler(first)` reads. The head holds the
+/// power of the tree and the number of lights at infinity. A shader finds these one by one: it is
+/// made for a few.
+///
+/// # Errors
+/// [`TooManyInfiniteLights`] if there are more than 63 lights at infinity.
+///
+/// # Panics
+/// As [`light_tree_rows`].
+pub fn light_sampler_rows(
+    sampler: &BvhLightSamplerRef<'_>,
+) -> Result<Vec<[u32; 4]>, TooManyInfiniteLights> {
+    let infinite = sampler.infinite_lights();
+    let count = match u32::try_from(infinite.len()) {
+        Ok(count) if count <= MOST_INFINITE => count,
+        _ => return Err(TooManyInfiniteLights),
+    };
+    let mut rows = Vec::from([[sampler.power().to_bits(), count, 0, 0]]);
+    for light in infinite {
+        let InfiniteBounds {
+            fluence,
+            mean,
+            cone,
+        } = light.bounds;
+        rows.push(mean.extend(fluence).to_array().map(f32::to_bits));
+        rows.push(cone.w.extend(cone.cos_theta).to_array().map(f32::to_bits));
+        rows.push([light.light.0, 0, 0, 0]);
+    }
+    rows.extend(light_tree_rows(&sampler.tree()));
+    Ok(rows)
+}
+
+/// The lights at infinity of a sampler are more than the 63 that a shader chooses from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooManyInfiniteLights;
+
+impl fmt::Display for TooManyInfiniteLights {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "more than {MOST_INFINITE} lights at infinity")
+    }
+}
+
+impl core::error::Error for TooManyInfiniteLights {}
+
 /// The rows of nodes, which follow the head of a tree: after
-/// [`refit`](light_bvh::LightBvh::refit) nothing else of it has changed.
+/// [`refit`](light_samplers::light_bvh::LightBvh::refit) nothing else of it has changed.
 #[must_use]
 pub fn node_rows(nodes: &[WideNode]) -> &[[u32; 4]] {
     bytemuck::cast_slice(nodes)

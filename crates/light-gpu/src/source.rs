@@ -1,7 +1,8 @@
 use alloc::format;
 use alloc::string::String;
 
-use light_bvh::QUERY_CONSTANTS;
+use light_samplers::HORIZON_SLACK;
+use light_samplers::light_bvh::QUERY_CONSTANTS;
 
 /// All functions in one text of plain WGSL, which needs one of yours:
 /// `fn light_row(i: u32) -> vec4<u32>`, row `i` of the buffer that holds trees and tables.
@@ -11,7 +12,7 @@ use light_bvh::QUERY_CONSTANTS;
 pub const LIGHTS_WGSL: &str = include_str!("../lights.wgsl");
 
 /// The modules, in the order of the text, each after what it needs.
-const MODULES: [&str; 7] = [
+const MODULES: [&str; 8] = [
     include_str!("../wesl/fraction.wesl"),
     include_str!("../wesl/alias_table.wesl"),
     include_str!("../wesl/sphere_maps.wesl"),
@@ -19,14 +20,16 @@ const MODULES: [&str; 7] = [
     include_str!("../wesl/children.wesl"),
     include_str!("../wesl/importance.wesl"),
     include_str!("../wesl/light_tree.wesl"),
+    include_str!("../wesl/light_sampler.wesl"),
 ];
 
 /// The module of constants, with the numbers of the Rust crates: `wesl/constants.wesl`.
 #[must_use]
 pub fn constants() -> String {
-    let head = "// The numbers of the importance: QUERY_CONSTANTS of light-bvh. Generated.\n\n";
+    let head = "// The numbers of light-bvh (QUERY_CONSTANTS) and light-samplers. Generated.\n\n";
     QUERY_CONSTANTS
         .iter()
+        .chain(&[("HORIZON_SLACK", HORIZON_SLACK)])
         .fold(head.into(), |text: String, (name, value)| {
             text + &format!("const LIGHT_{name}: f32 = {value:?};\n")
         })

@@ -1,10 +1,14 @@
 //! Rows are what the shader's comments say of them.
 
-use light_bvh::light_bounds::{LightBounds, LightExtent};
-use light_bvh::light_math::distribution::AliasTable;
-use light_bvh::light_math::{Aabb, glam::Vec3};
-use light_bvh::{LightBvh, WideNode};
-use light_gpu::{alias_table_rows, light_tree_rows, node_rows};
+use light_gpu::light_bvh::light_bounds::{LightBounds, LightExtent};
+use light_gpu::light_bvh::light_math::distribution::AliasTable;
+use light_gpu::light_bvh::light_math::{Aabb, DirectionCone, glam::Vec3};
+use light_gpu::light_bvh::{LightBvh, WideNode};
+use light_gpu::light_samplers::BvhLightSampler;
+use light_gpu::light_samplers::light_bounds::InfiniteBounds;
+use light_gpu::{
+    TooManyInfiniteLights, alias_table_rows, light_sampler_rows, light_tree_rows, node_rows,
+};
 
 fn lamps(count: u16) -> LightBvh {
     let lights: Vec<LightExtent> = (0..count)
@@ -41,7 +45,7 @@ fn a_tree_is_a_head_and_three_parts() {
 #[test]
 fn a_node_is_fourteen_rows() {
     let node = WideNode {
-        power: core::array::from_fn(|k| k as u8),
+        power: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15],
         origin: [1.0, 2.0, 3.0],
         inv_scale: 4.0,
         child_base: 5,
@@ -82,4 +86,38 @@ fn a_bin_is_a_row() {
     for (row, bin) in rows.iter().zip(table.bins()) {
         assert_eq!(*row, [bin.own, bin.alias, bin.pmf.to_bits(), 0], "{bin:?}");
     }
+}
+
+fn skies(count: usize) -> BvhLightSampler {
+    let sky = LightExtent::Infinite(InfiniteBounds {
+        fluence: 0.5,
+        mean: 0.4 * Vec3::X,
+        cone: DirectionCone::new(Vec3::X, 0.1),
+    });
+    BvhLightSampler::new(&vec![sky; count]).expect("valid skies")
+}
+
+#[test]
+fn lights_at_infinity_are_three_rows_each_before_the_tree() {
+    let sampler = skies(2);
+    let rows = light_sampler_rows(&sampler.view()).expect("few skies");
+    assert_eq!(rows[0], [0, 2, 0, 0], "a tree without power");
+    let floats = |row: [u32; 4]| row.map(f32::from_bits);
+    assert_eq!(floats(rows[4]), [0.4, 0.0, 0.0, 0.5], "mean and fluence");
+    assert_eq!(floats(rows[5]), [1.0, 0.0, 0.0, 0.1], "the cone");
+    assert_eq!(rows[6][0], 1, "the id");
+    assert_eq!(
+        rows[7..],
+        light_tree_rows(&sampler.view().tree()),
+        "the tree"
+    );
+}
+
+#[test]
+fn too_many_lights_at_infinity_are_refused() {
+    assert!(light_sampler_rows(&skies(63).view()).is_ok(), "the most");
+    let refused = light_sampler_rows(&skies(64).view());
+    assert_eq!(refused, Err(TooManyInfiniteLights), "one more");
+    let text = TooManyInfiniteLights.to_string();
+    assert_eq!(text, "more than 63 lights at infinity", "says how many");
 }

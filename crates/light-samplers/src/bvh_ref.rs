@@ -41,6 +41,12 @@ impl<'a> BvhLightSamplerRef<'a> {
         self.tree
     }
 
+    /// The power of the lights of the tree.
+    #[must_use]
+    pub const fn power(&self) -> f32 {
+        self.power
+    }
+
     /// The lights at infinity that emit, in ascending order of their ids.
     #[must_use]
     pub const fn infinite_lights(&self) -> &'a [InfiniteLight] {

@@ -13,7 +13,7 @@ use light_math::{discrete, float};
 use crate::first_choice::{FirstChoice, FirstPmf};
 
 /// Least cosine while any light may arrive, and the rounding margin of the test that none arrives.
-const SLACK: f32 = 1e-5;
+pub const HORIZON_SLACK: f32 = 1e-5;
 
 /// The place of the tree among the weights of the first choice; the lights at infinity follow.
 const TREE: usize = 0;
@@ -189,12 +189,12 @@ fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
         let height = ns.dot(bounds.mean).abs();
         return height
             .max(0.5 * float::safe_sqrt(1.0 - bounds.mean.length_squared()))
-            .max(SLACK);
+            .max(HORIZON_SLACK);
     }
     let cone = &bounds.cone;
     if cone.cos_theta >= 0.0 {
         let sin = float::safe_sqrt((1.0 - cone.cos_theta) * (1.0 + cone.cos_theta));
-        if ns.dot(cone.w) + sin < -SLACK {
+        if ns.dot(cone.w) + sin < -HORIZON_SLACK {
             return 0.0;
         }
     }
@@ -202,7 +202,7 @@ fn mean_cosine(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
     let variance = (1.0 - bounds.mean.length_squared()).max(0.0);
     // Of a uniform sky a quarter arrives, of a distant light the cosine.
     let expected = 0.5 * (height + float::sqrt(height * height + 0.25 * variance));
-    expected.max(SLACK)
+    expected.max(HORIZON_SLACK)
 }
 
 #[cfg(all(test, feature = "alloc"))]

@@ -45,7 +45,7 @@ pub use bvh_ref::BvhLightSamplerRef;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
 pub use grouped::GroupedLightSampler;
-pub use infinite_lights::{InfiniteLight, InfiniteLightsError};
+pub use infinite_lights::{HORIZON_SLACK, InfiniteLight, InfiniteLightsError};
 pub use light_sampler::{LightChoices, LightSampler};
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};

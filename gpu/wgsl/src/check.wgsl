@@ -22,7 +22,7 @@ struct Answer {
     light: u32,
     pmf: f32,
     u: vec2<u32>,
-    // What light_tree_pmf says of that light, and of another one.
+    // What light_sampler_pmf says of that light, and of another one.
     again: f32,
     other: f32,
     unused: vec2<u32>,
@@ -73,11 +73,11 @@ fn choose(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let query = queries[id.x];
-    let tree = light_tree(0u);
+    let sampler = light_sampler(0u);
     let asked = receiver(query);
-    let sampled = light_tree_sample(tree, asked, query.u);
-    let again = light_tree_pmf(tree, asked, sampled.light);
-    let other = light_tree_pmf(tree, asked, query.other);
+    let sampled = light_sampler_sample(sampler, asked, query.u);
+    let again = light_sampler_pmf(sampler, asked, sampled.light);
+    let other = light_sampler_pmf(sampler, asked, query.other);
     answers[id.x] = Answer(sampled.light, sampled.pmf, sampled.u, again, other, vec2<u32>(0u));
 }
 

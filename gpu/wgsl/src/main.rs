@@ -12,9 +12,11 @@ mod tally;
 
 use std::process::ExitCode;
 
-use light_bounds::LightExtent;
-use light_bvh::LightBvh;
-use light_gpu::{LIGHTS_WGSL, light_tree_rows};
+use light_bounds::{InfiniteBounds, LightExtent};
+use light_gpu::{LIGHTS_WGSL, light_sampler_rows};
+use light_math::DirectionCone;
+use light_math::glam::Vec3;
+use light_samplers::BvhLightSampler;
 use light_sets::{BenchSet, SetKind};
 
 use crate::device::Device;
@@ -64,24 +66,65 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
     let mut all = true;
     for kind in KINDS {
         for n in [100, 10_000, 1_000_000] {
-            let set = BenchSet::generate(kind, n, 1);
-            let lights: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
-            let tree = LightBvh::build(&lights).map_err(|e| e.to_string())?;
-            let tree = tree.view();
-            let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, i)).collect();
-            let rows = light_tree_rows(&tree);
-            let (answers, seconds) = device.run::<Answer>(("choose", 2), &rows, &queries)?;
-            let mut tally = Tally::default();
-            for (query, answer) in queries.iter().zip(&answers) {
-                tally.add(&tree, query, answer);
-            }
-            println!("{}", tally.row(&format!("{} {n}", kind.name()), seconds));
-            all &= tally.holds();
+            all &= check_set(device, kind, n, &[], count)?;
         }
     }
+    all &= check_set(device, SetKind::Uniform, 10_000, &sky(), count)?;
     let set = BenchSet::generate(SetKind::Uniform, 100, 1);
-    let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, i)).collect();
+    let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, 100, i)).collect();
     all &= maps::check(device, &queries)?;
     println!("\n{}", if all { "all of it holds" } else { "FAILED" });
     Ok(all)
+}
+
+/// Prints the row of a set of `n` lights with the lights at infinity `beside`; whether it keeps what is promised.
+fn check_set(
+    device: &Device,
+    kind: SetKind,
+    n: usize,
+    beside: &[LightExtent],
+    count: u32,
+) -> Result<bool, String> {
+    let set = BenchSet::generate(kind, n, 1);
+    let mut lights: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
+    lights.extend_from_slice(beside);
+    let sampler = BvhLightSampler::new(&lights).map_err(|e| e.to_string())?;
+    let sampler = sampler.view();
+    let rows = light_sampler_rows(&sampler).map_err(|e| e.to_string())?;
+    let queries: Vec<Query> = (0..count)
+        .map(|i| Query::new(&set, lights.len(), i))
+        .collect();
+    let (answers, seconds) = device.run::<Answer>(("choose", 2), &rows, &queries)?;
+    let mut tally = Tally::default();
+    for (query, answer) in queries.iter().zip(&answers) {
+        tally.add(&sampler, query, answer);
+    }
+    let beside = if beside.is_empty() { "" } else { " and a sky" };
+    let name = format!("{} {n}{beside}", kind.name());
+    println!("{}", tally.row(&name, seconds));
+    Ok(tally.holds())
+}
+
+/// A uniform sky, a sun, and a sky that is brighter on one side.
+fn sky() -> [LightExtent; 3] {
+    let sun = Vec3::new(0.36, 0.48, 0.8);
+    let part = |fluence, mean, cone| {
+        LightExtent::Infinite(InfiniteBounds {
+            fluence,
+            mean,
+            cone,
+        })
+    };
+    [
+        part(0.2, Vec3::ZERO, DirectionCone::WHOLE_SPHERE),
+        part(1.0, sun, DirectionCone::from_direction(sun)),
+        part(
+            0.5,
+            0.4 * Vec3::X,
+            DirectionCone {
+                w: Vec3::X,
+                cos_theta: 0.1,
+            },
+        ),
+    ]
 }

@@ -1,11 +1,7 @@
 //! Queries and answers, as the shader lays them out.
 
 use bytemuck::{Pod, Zeroable};
-use light_bounds::{Gloss, LightId};
-use light_bvh::{
-    ContextReceiver, GlossyReceiver, MediumReceiver, SegmentReceiver, SurfaceReceiver,
-    TwoSidedReceiver,
-};
+use light_bounds::{Gloss, LightId, LightSampleContext};
 use light_math::glam::Vec3;
 use light_sets::BenchSet;
 
@@ -58,8 +54,8 @@ pub struct Mapped {
 }
 
 impl Query {
-    /// Query `i` of many at the points of `set`, of each kind of receiver in turn.
-    pub fn new(set: &BenchSet, i: u32) -> Self {
+    /// Query `i` of many about so many `lights` at the points of `set`, of each kind of receiver in turn.
+    pub fn new(set: &BenchSet, lights: usize, i: u32) -> Self {
         let mut state = u64::from(i) << 8;
         let mut next = || {
             state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -80,7 +76,7 @@ impl Query {
             wo: (wo * wo.dot(at.n).signum()).to_array(),
             diffuse: (next() >> 40) as f32 / 16_777_216.0,
             u: [(high >> 32) as u32, (low >> 32) as u32],
-            other: (next() % set.lights.len() as u64) as u32,
+            other: (next() % lights as u64) as u32,
             unused: 0,
         }
     }
@@ -106,7 +102,7 @@ impl Query {
     }
 
     /// Who asks.
-    pub fn receiver(&self) -> ContextReceiver {
+    pub fn context(&self) -> LightSampleContext {
         let [p, n, wo] = [self.p, self.n, self.wo].map(Vec3::from);
         let gloss = Gloss {
             wo,
@@ -114,11 +110,11 @@ impl Query {
             diffuse: self.diffuse,
         };
         match KINDS[self.kind()] {
-            "surface" => ContextReceiver::Surface(SurfaceReceiver::new(p, n)),
-            "two-sided" => ContextReceiver::TwoSided(TwoSidedReceiver::new(p, n)),
-            "glossy" => ContextReceiver::Glossy(GlossyReceiver::new(p, n, &gloss)),
-            "medium" => ContextReceiver::Medium(MediumReceiver::new(p)),
-            _ => ContextReceiver::Segment(SegmentReceiver::new(p, n)),
+            "surface" => LightSampleContext::surface(p, n, n),
+            "two-sided" => LightSampleContext::two_sided(p, n, n),
+            "glossy" => LightSampleContext::surface(p, n, n).with_gloss(gloss),
+            "medium" => LightSampleContext::medium(p),
+            _ => LightSampleContext::segment(p, n),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How the shader's answers compare with those of the crates.
 
 use light_bounds::LightId;
-use light_bvh::LightBvhRef;
+use light_samplers::{BvhLightSamplerRef, LightSampler};
 
 use crate::query::{Answer, KINDS, Query};
 
@@ -35,20 +35,20 @@ impl Tally {
 | --- | ---: | ---: | ---: | ---: | ---: | ---: |";
 
     /// Compares the answer to one query with those of the crates.
-    pub fn add(&mut self, tree: &LightBvhRef<'_>, query: &Query, theirs: &Answer) {
+    pub fn add(&mut self, sampler: &BvhLightSamplerRef<'_>, query: &Query, theirs: &Answer) {
         self.queries += 1;
-        let receiver = &query.receiver();
-        let chosen = tree.sample(receiver, query.u()).map(|s| s.light);
+        let ctx = &query.context();
+        let chosen = sampler.sample(ctx, query.u()).map(|s| s.light);
         let light = LightId(theirs.light);
         let theirs_chosen = (theirs.pmf > 0.0).then_some(light);
         if chosen != theirs_chosen {
             self.others[query.kind()] += 1;
         }
         if theirs_chosen.is_some() {
-            self.compare(tree.pmf(receiver, light), theirs.pmf);
+            self.compare(sampler.pmf(ctx, light), theirs.pmf);
             self.unequal += u32::from(theirs.again.to_bits() != theirs.pmf.to_bits());
         }
-        self.compare(tree.pmf(receiver, query.other()), theirs.other);
+        self.compare(sampler.pmf(ctx, query.other()), theirs.other);
     }
 
     fn compare(&mut self, ours: f32, theirs: f32) {

@@ -223,6 +223,6 @@ fn a_light_at_the_edge_of_the_slack_counts() {
         (bounds.mean, bounds.cone.w) = (up, up);
         mean_cosine(&bounds, &floor())
     };
-    assert!(at(-SLACK) > 0.0, "at the edge");
-    assert_eq!(at(-1.001 * SLACK), 0.0, "beyond it");
+    assert!(at(-HORIZON_SLACK) > 0.0, "at the edge");
+    assert_eq!(at(-1.001 * HORIZON_SLACK), 0.0, "beyond it");
 }
