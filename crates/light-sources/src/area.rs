@@ -184,6 +184,10 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
 }
 
 impl<C: ColorModel, S: Shape> AreaLight<C> for DiffuseAreaLight<'_, C, S> {
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        self.shape.hit(origin, direction)
+    }
+
     fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         self.emission.l(at, w, wavelengths)
     }

@@ -103,6 +103,8 @@ mod mesh_indices;
 #[cfg(feature = "alloc")]
 mod mis_compensation;
 #[cfg(feature = "alloc")]
+mod own_light;
+#[cfg(feature = "alloc")]
 mod parallel;
 mod pdf_coverage;
 #[cfg(feature = "alloc")]
@@ -208,6 +210,8 @@ pub use medium_interface::{MediumId, MediumInterface};
 pub use mesh::{MeshLight, MeshLightDesc, MeshLightError};
 #[cfg(feature = "alloc")]
 pub use mesh_indices::MeshIndices;
+#[cfg(feature = "alloc")]
+pub use own_light::{OwnLight, OwnLightError};
 pub use pdf_coverage::PdfCoverage;
 pub use point::{PointLight, PointLightDesc, PointLightError};
 pub use point_source::{DirectionSample, PointSource};

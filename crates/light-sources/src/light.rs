@@ -9,6 +9,9 @@ use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 
 /// The interface of all lights. Random inputs `u` lie in `[0, 1)`; nothing here fails or panics.
 ///
+/// A type of your own that implements it joins a [`LightSet`](crate::LightSet) as an
+/// [`OwnLight`](crate::OwnLight).
+///
 /// Vectors are in scene space, directions have unit length and `wi` points toward the light.
 pub trait Light<C: ColorModel> {
     /// The kind of light.
@@ -78,6 +81,10 @@ pub trait Light<C: ColorModel> {
 
 /// A light that rays can hit.
 pub trait AreaLight<C: ColorModel>: Light<C> {
+    /// The first point of the surface on the ray from `origin` in the unit direction `direction`,
+    /// from either side; `None` for a ray that misses it.
+    fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint>;
+
     /// Radiance that leaves the surface at `at` in direction `w`, in W m^-2 sr^-1.
     fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance;
 }

@@ -7,6 +7,7 @@ use crate::distant::{DistantLightDesc, DistantLightError};
 use crate::goniometric::{GoniometricLightDesc, GoniometricLightError};
 use crate::image_infinite_desc::{ImageInfiniteLightDesc, ImageInfiniteLightError};
 use crate::mesh::{MeshLightDesc, MeshLightError};
+use crate::own_light::{OwnLight, OwnLightError};
 use crate::point::{PointLightDesc, PointLightError};
 use crate::portal_infinite::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::projection::{ProjectionLightDesc, ProjectionLightError};
@@ -37,6 +38,9 @@ pub enum LightDesc<C: ColorModel> {
     Area(AreaLightDesc<C>),
     /// An emissive mesh.
     Mesh(MeshLightDesc<C>),
+    /// A light of a type of your own, which says itself what it is. It cannot be serialized.
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
+    Own(OwnLight<C>),
     /// A distant light.
     Distant(DistantLightDesc<C>),
     /// A sun.
@@ -65,6 +69,8 @@ pub enum LightDescError {
     Area(AreaLightError),
     /// Of an emissive mesh.
     Mesh(MeshLightError),
+    /// Of a light of a type of your own.
+    Own(OwnLightError),
     /// Of a distant light.
     Distant(DistantLightError),
     /// Of a sun.
@@ -89,6 +95,7 @@ impl LightDescError {
             Self::Goniometric(rule) => ("goniometric", rule),
             Self::Area(rule) => ("area", rule),
             Self::Mesh(rule) => ("mesh", rule),
+            Self::Own(rule) => ("own", rule),
             Self::Distant(rule) => ("distant", rule),
             Self::Sun(rule) => ("sun", rule),
             Self::UniformInfinite(rule) => ("uniform infinite", rule),

@@ -7,6 +7,7 @@ use crate::goniometric::GoniometricLightDesc;
 use crate::image_infinite_desc::ImageInfiniteLightDesc;
 use crate::light_desc::LightDesc;
 use crate::mesh::MeshLightDesc;
+use crate::own_light::OwnLight;
 use crate::point::PointLightDesc;
 use crate::portal_infinite::PortalInfiniteLightDesc;
 use crate::projection::ProjectionLightDesc;
@@ -31,6 +32,7 @@ from_descriptions! {
     Goniometric: GoniometricLightDesc<C>;
     Area: AreaLightDesc<C>;
     Mesh: MeshLightDesc<C>;
+    Own: OwnLight<C>;
     Distant: DistantLightDesc<C>;
     Sun: SunLightDesc<C>;
     UniformInfinite: UniformInfiniteLightDesc<C>;

@@ -8,6 +8,7 @@ use crate::distant::DistantLight;
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
 use crate::mesh::MeshLight;
+use crate::own_light::OwnLight;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
 use crate::projection::ProjectionLight;
@@ -15,7 +16,7 @@ use crate::spot::SpotLight;
 use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 
-/// Calls the macro `$table` with the kinds, those at infinity last: the name of a kind, the list of
+/// Calls the macro `$table` with the kinds, those that are always at infinity last: the name of a kind, the list of
 /// a set that holds it, and what is in that list. What follows `$table`
 /// goes before them.
 macro_rules! light_kinds {
@@ -28,6 +29,7 @@ macro_rules! light_kinds {
             Goniometric, goniometrics: GoniometricLight<C>;
             Area, areas: AreaSource<C>;
             Triangle, meshes: MeshLight<C>;
+            Own, owns: OwnLight<C>;
             Distant, distants: DistantLight<C>;
             Sun, suns: SunLight<C>;
             UniformInfinite, uniform_infinites: UniformInfiniteLight<C>;
@@ -40,7 +42,7 @@ pub(crate) use light_kinds;
 
 macro_rules! kinds_and_lists {
     ($($kind:ident, $list:ident: $stored:ty;)*) => {
-        /// The kinds of light; those at infinity come last.
+        /// The kinds of light; those that are always at infinity come last.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub(crate) enum LightKind {
             $($kind,)*
@@ -99,13 +101,15 @@ macro_rules! kinds_and_lists {
 
 light_kinds!(kinds_and_lists!);
 
-impl LightKind {
-    pub(crate) fn is_infinite(self) -> bool {
-        self >= Self::Distant
-    }
-}
-
 impl<C: ColorModel> LightSource<C> {
+    /// Whether it is at infinity.
+    pub(crate) fn is_infinite(&self) -> bool {
+        match self {
+            Self::Own(light) => light.is_infinite(),
+            _ => self.kind() >= LightKind::Distant,
+        }
+    }
+
     /// How many lights it is.
     pub(crate) fn lights(&self) -> usize {
         match self {

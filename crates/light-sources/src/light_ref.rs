@@ -9,6 +9,7 @@ use crate::light_kinds::light_kinds;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::medium_interface::MediumInterface;
+use crate::own_light::OwnLight;
 use crate::pdf_coverage::PdfCoverage;
 use crate::point::PointLight;
 use crate::portal_infinite::PortalInfiniteLight;
@@ -20,7 +21,8 @@ use crate::surface_point::SurfacePoint;
 use crate::uniform_infinite::UniformInfiniteLight;
 use light_bounds::{LightExtent, LightSampleContext};
 
-/// One light of a set, of any kind: a closed enum next to the trait.
+/// One light of a set, of any kind: a closed enum next to the trait, and a variant for lights of
+/// your own types.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LightRef<'a, C: ColorModel> {
@@ -36,6 +38,8 @@ pub enum LightRef<'a, C: ColorModel> {
     Area(DiffuseAreaLight<'a, C, &'a AnyShape>),
     /// A triangle of an emissive mesh.
     Triangle(DiffuseAreaLight<'a, C, Triangle>),
+    /// A light of a type of your own, which may be at infinity.
+    Own(&'a OwnLight<C>),
     /// A distant light.
     Distant(&'a DistantLight<C>),
     /// A sun.
@@ -72,6 +76,7 @@ impl<C: ColorModel> LightRef<'_, C> {
         match self {
             Self::Area(light) => light.l(at, w, wavelengths),
             Self::Triangle(light) => light.l(at, w, wavelengths),
+            Self::Own(light) => light.l(at, w, wavelengths),
             Self::Point(_)
             | Self::Spot(_)
             | Self::Projection(_)
@@ -84,12 +89,33 @@ impl<C: ColorModel> LightRef<'_, C> {
         }
     }
 
+    /// The first point of the light's surface on the ray from `origin` in the unit direction
+    /// `direction`, from either side; `None` unless this is an area light that the ray hits.
+    #[must_use]
+    pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
+        match self {
+            Self::Area(light) => light.hit(origin, direction),
+            Self::Triangle(light) => light.hit(origin, direction),
+            Self::Own(light) => light.hit(origin, direction),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projection(_)
+            | Self::Goniometric(_)
+            | Self::Distant(_)
+            | Self::Sun(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_)
+            | Self::PortalInfinite(_) => None,
+        }
+    }
+
     /// Radiance that arrives along a ray that leaves the scene; black unless this is an infinite
     /// light.
     #[inline]
     #[must_use]
     pub fn le(&self, origin: Vec3, direction: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         match self {
+            Self::Own(light) => light.le(origin, direction, wavelengths),
             Self::Sun(light) => light.le(origin, direction, wavelengths),
             Self::UniformInfinite(light) => light.le(origin, direction, wavelengths),
             Self::ImageInfinite(light) => light.le(origin, direction, wavelengths),

@@ -76,7 +76,7 @@ impl<C: ColorModel> LightSet<C> {
             .sources
             .add(SourcePlace { kind, index }, source.lights());
         let id = id.ok_or(too_many)?;
-        if kind.is_infinite() {
+        if source.is_infinite() {
             self.infinite.push(first);
         }
         self.lists.push(source);
@@ -119,6 +119,7 @@ impl<C: ColorModel> LightSet<C> {
             LightKind::Goniometric => LightRef::Goniometric(&lists.goniometrics[index]),
             LightKind::Area => LightRef::Area(lists.areas[index].light()),
             LightKind::Triangle => LightRef::Triangle(self.triangle(index, 0)?),
+            LightKind::Own => LightRef::Own(&lists.owns[index]),
             LightKind::Distant => LightRef::Distant(&lists.distants[index]),
             LightKind::Sun => LightRef::Sun(&lists.suns[index]),
             LightKind::UniformInfinite => {

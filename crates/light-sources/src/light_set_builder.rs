@@ -33,7 +33,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
     }
 
     /// Adds the light that `desc` describes, a [`LightDesc`] or a description of one kind; the
-    /// returned source gives its id once the set is built.
+    /// returned source gives its id once the set is built. Lights of your own types are an
+    /// [`OwnLight`](crate::OwnLight).
     ///
     /// # Errors
     /// When the description is invalid; the set is unchanged then.
@@ -64,6 +65,7 @@ impl<C: ColorModel> LightSource<C> {
             }
             LightDesc::Area(desc) => Self::Area(AreaSource::new(desc).map_err(Error::Area)?),
             LightDesc::Mesh(desc) => Self::Triangle(MeshLight::new(desc).map_err(Error::Mesh)?),
+            LightDesc::Own(light) => Self::Own(light.checked().map_err(Error::Own)?),
             LightDesc::Distant(desc) => {
                 Self::Distant(DistantLight::new(desc, scene).map_err(Error::Distant)?)
             }

@@ -17,7 +17,8 @@ pub struct LightSetBytes {
     pub vertices: usize,
     /// Images, the means of textures, and the sampling tables of environment maps.
     pub images: usize,
-    /// The rest: lights, and where they are in the set.
+    /// The rest: lights, and where they are in the set. Of a light of a type of your own its own
+    /// bytes alone, not what it points to.
     pub lights: usize,
 }
 
@@ -65,6 +66,9 @@ impl<C: ColorModel> LightSet<C> {
             count.image(light.rectified());
             count.bytes.images += light.table_bytes();
         }
+        for light in &self.lists.owns {
+            count.own(light.memory());
+        }
         count.bytes
     }
 }
@@ -86,6 +90,12 @@ impl Count {
     fn means(&mut self, address: usize, bytes: usize) {
         if self.seen.insert(address) {
             self.bytes.images += bytes;
+        }
+    }
+
+    fn own(&mut self, (address, bytes): (usize, usize)) {
+        if self.seen.insert(address) {
+            self.bytes.lights += bytes;
         }
     }
 

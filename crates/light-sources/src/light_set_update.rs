@@ -18,7 +18,8 @@ pub enum LightUpdateError {
     UnknownSource,
     /// The new description is invalid.
     Description(LightDescError),
-    /// The new description is of another kind of light.
+    /// The new description is of another kind of light; of own lights, of another
+    /// [`LightType`](crate::LightType).
     OtherKind,
     /// The new description has another number of triangles, so that the ids behind it would move.
     OtherCount {
@@ -62,7 +63,13 @@ impl<C: ColorModel> LightSet<C> {
             }
             (_, desc) => LightSource::new(desc, self.scene)?,
         };
-        if new.kind() != kind {
+        let is_other = match &new {
+            LightSource::Own(light) if kind == LightKind::Own => {
+                light.light_type() != self.lists.owns[index].light_type()
+            }
+            _ => new.kind() != kind,
+        };
+        if is_other {
             return Err(LightUpdateError::OtherKind);
         }
         let given = new.lights();
