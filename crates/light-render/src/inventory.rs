@@ -12,7 +12,7 @@ pub struct LightInventory {
     /// Their power in W, a channel.
     pub power: DVec3,
     /// The area that emits light, each side of a two-sided light once; 0 for lights without a
-    /// surface.
+    /// surface, and for own lights, which do not tell it.
     pub area: f64,
 }
 
@@ -49,6 +49,7 @@ pub(crate) fn kind(light: &LightRef<'_, Rgb>) -> &'static str {
         LightRef::Goniometric(_) => "goniometric",
         LightRef::Area(_) => "area",
         LightRef::Triangle(_) => "triangle",
+        LightRef::Own(_) => "own",
         LightRef::Distant(_) => "distant",
         LightRef::Sun(_) => "sun",
         LightRef::UniformInfinite(_) => "uniform sky",

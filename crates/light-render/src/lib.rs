@@ -66,7 +66,7 @@ pub use primitive_id::PrimitiveId;
 pub use ray::Ray;
 pub use render::{LayerRendering, Progress, RenderSettings, Rendering, render, render_layers};
 pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};
-pub use scene_digest::SceneDigest;
+pub use scene_digest::{SceneDigest, SceneDigestError};
 pub use scene_lights::SceneLightsError;
 pub use surface::Surface;
 pub use tone_map::ToneMap;

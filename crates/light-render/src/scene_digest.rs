@@ -1,4 +1,8 @@
+use core::error::Error;
+use core::fmt;
+
 use light_scene::{Camera, Crop, Scene};
+use lights::sources::LightDesc;
 
 use crate::content_digest::content_digest;
 use crate::integrator::PathSettings;
@@ -12,10 +16,23 @@ const FORMAT: u32 = 2;
 #[derive(Clone, Debug)]
 pub struct SceneDigest([(&'static str, String); 5]);
 
+/// Why a scene has no digest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SceneDigestError {
+    /// A light is of a type of the caller's own, so that nothing says what it consists of.
+    OwnLight {
+        /// Its position among the scene's lights.
+        light: usize,
+    },
+}
+
 impl SceneDigest {
     /// The digests of a scene: every vertex, material, texel, light and medium counts.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    ///
+    /// # Errors
+    /// When the scene has an own light.
+    pub fn new(scene: &Scene) -> Result<Self, SceneDigestError> {
         // No field may be left out unseen, so that each is named.
         let Scene {
             meshes,
@@ -35,14 +52,18 @@ impl SceneDigest {
             // picture.
             warnings: _,
         } = scene;
+        let is_own = |light: &LightDesc<_>| matches!(light, LightDesc::Own(_));
+        if let Some(light) = lights.iter().position(is_own) {
+            return Err(SceneDigestError::OwnLight { light });
+        }
         let geometry = (meshes, spheres, prototypes, instances);
-        Self([
+        Ok(Self([
             ("geometry", content_digest(&geometry)),
             ("materials", content_digest(materials)),
             ("images", content_digest(images)),
             ("lights", content_digest(lights)),
             ("media", content_digest(&(media, camera_medium))),
-        ])
+        ]))
     }
 
     /// The identity of the picture of `view` of the scene, rendered with `sampler` as `settings`
@@ -106,3 +127,12 @@ fn camera_digest(camera: &Camera) -> String {
     } = camera;
     content_digest(&((position, right, up, forward), fov, lens))
 }
+
+impl fmt::Display for SceneDigestError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::OwnLight { light } = self;
+        write!(f, "light {light}: an own light has no digest")
+    }
+}
+
+impl Error for SceneDigestError {}

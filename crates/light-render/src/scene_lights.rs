@@ -6,8 +6,8 @@ use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Image, Light, LightDesc, LightDescError, LightSet, LightSetBuilder, LightType,
-    Rgb, SceneSphere, SceneSphereError,
+    self as sources, Image, Light, LightDesc, LightDescError, LightRef, LightSet, LightSetBuilder,
+    LightType, Rgb, SceneSphere, SceneSphereError,
 };
 
 use crate::emitter_ids::EmitterIds;
@@ -27,6 +27,8 @@ pub(crate) struct SceneLights {
     pub(crate) infinite: Vec<LightId>,
     /// Those with an alpha mask, in the order of their ids.
     pub(crate) masked: Vec<AlphaMaskedLights>,
+    /// The own lights that rays hit, in the order of their ids.
+    pub(crate) own: Vec<LightId>,
 }
 
 /// What a source of lights is in the scene.
@@ -100,8 +102,9 @@ impl SceneLights {
                 sources.push(SceneSource::Sphere(index));
             }
         }
+        let mut without_geometry = Vec::new();
         for (number, light) in scene_lights.into_iter().enumerate() {
-            add(&mut builder, &numbered(number), light)?;
+            without_geometry.push(add(&mut builder, &numbered(number), light)?);
             sources.push(SceneSource::Light(number));
         }
         let lights = builder.build();
@@ -126,13 +129,21 @@ impl SceneLights {
             add_masked(id, 1, spheres[index].material, is_masked);
         }
         masked.sort_by_key(|lights| lights.ids.start);
-        let is_hit_by_rays = |id: &LightId| {
+        let has_type = |id: &LightId, light_type| {
             lights
                 .get(*id)
-                .is_some_and(|light| light.light_type() == LightType::Infinite)
+                .is_some_and(|light| light.light_type() == light_type)
         };
+        let infinite = lights.infinite_ids();
+        let own = without_geometry.into_iter();
+        let own = own
+            .filter_map(|source| lights.first_id(source))
+            .filter(|id| matches!(lights.get(*id), Some(LightRef::Own(_))));
         Ok(Self {
-            infinite: lights.infinite_ids().filter(is_hit_by_rays).collect(),
+            infinite: infinite
+                .filter(|id| has_type(id, LightType::Infinite))
+                .collect(),
+            own: own.filter(|id| has_type(id, LightType::Area)).collect(),
             lights,
             emitters,
             sources,

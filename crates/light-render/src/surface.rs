@@ -70,6 +70,21 @@ impl Surface {
         }
     }
 
+    /// The point `at` of a light that says itself where rays hit it; the error bound is that of its
+    /// coordinates.
+    #[must_use]
+    pub(crate) fn on_light(id: PrimitiveId, at: &SurfacePoint) -> Self {
+        let &SurfacePoint { p, n, uv } = at;
+        Self {
+            p,
+            p_error: p.abs() * ERROR,
+            n,
+            ns: n,
+            uv,
+            primitive: id,
+        }
+    }
+
     /// The point with the shading normal that `normals` of the corners give, turned to the side of
     /// `n`; flat without them.
     #[inline]

@@ -133,7 +133,8 @@ fn view(camera: &Camera) -> Option<View> {
 
 fn identity(scene: &Scene) -> Option<PictureIdentity> {
     let view = view(&scene.camera_or_default())?;
-    Some(SceneDigest::new(scene).identity(&view, &settings(), SamplerKind::Bvh))
+    let digest = SceneDigest::new(scene).ok()?;
+    Some(digest.identity(&view, &settings(), SamplerKind::Bvh))
 }
 
 /// Where the numbers of a text begin and end, those in names left out.
@@ -232,7 +233,7 @@ fn the_sky_of_the_command_line_counts() {
 fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let folder = Folder::new("settings");
     let scene = folder.scene(SCENE).expect("a scene");
-    let digest = SceneDigest::new(&scene);
+    let digest = SceneDigest::new(&scene).expect("no own light");
     let camera = scene.camera.expect("a camera");
     let sampler = SamplerKind::Bvh;
     let base = View::new(&camera, 20, 10).expect("a view");

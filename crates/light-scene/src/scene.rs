@@ -1,8 +1,8 @@
 use lights::math::Aabb;
 use lights::media::AnyMedium;
 use lights::sources::{
-    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId, RadianceAmount,
-    Rgb,
+    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId, OwnLight,
+    RadianceAmount, Rgb,
 };
 
 use crate::glam::{Affine3A, Vec3};
@@ -38,7 +38,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
-    /// Lights without geometry: points, spots, distant lights, environments.
+    /// Lights without geometry: points, spots, distant lights, environments. No reader makes own
+    /// lights; a program may add them.
     pub lights: Vec<LightDesc<Rgb>>,
     /// The names of these lights in the file, in their order; empty for a light without one, as for
     /// lights beyond the end.
@@ -55,11 +56,13 @@ pub struct Scene {
 
 impl Scene {
     /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
-    /// spheres; an instance counts by the transformed corners of the boxes of its prototype.
+    /// spheres; an instance counts by the transformed corners of the boxes of its prototype, an own
+    /// light that rays hit by its bounds.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);
         let own = meshes.chain(self.spheres.iter().map(Sphere::bounds));
+        let own = own.chain(self.lights.iter().filter_map(own_box));
         let own = own.fold(Aabb::EMPTY, Aabb::union);
         let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
         let instances = self.instances.iter();
@@ -230,6 +233,14 @@ impl Scene {
         let id = u32::try_from(self.images.len()).expect("fewer than 2^32 images");
         self.images.push(image);
         ImageId(id)
+    }
+}
+
+/// The box of an own light that rays hit.
+fn own_box(light: &LightDesc<Rgb>) -> Option<Aabb> {
+    match light {
+        LightDesc::Own(OwnLight::Area(light)) => Some(light.bounds()?.bounds),
+        _ => None,
     }
 }
 

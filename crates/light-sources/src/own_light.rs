@@ -167,7 +167,8 @@ impl<C: ColorModel> fmt::Debug for OwnLight<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (light_type, extent) = (self.light_type(), self.extent());
         let mut own = f.debug_struct("OwnLight");
-        own.field("light_type", &light_type).field("extent", &extent);
+        own.field("light_type", &light_type)
+            .field("extent", &extent);
         own.finish_non_exhaustive()
     }
 }

@@ -72,6 +72,7 @@ impl RenderArgs {
         self.check_memory(&view)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = self.keeps_sums().then(|| SceneDigest::new(&scene));
+        let digest = digest.transpose().map_err(Failure::input)?;
         let world = self.input.build(scene)?;
         if world.lights().is_empty() && !world.has_media() {
             let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";

@@ -5,6 +5,7 @@ mod light_names;
 mod materials;
 mod mixtures;
 mod objects;
+mod own_lights;
 mod primitives;
 mod rays;
 
@@ -39,6 +40,7 @@ pub struct World {
     /// Those in world space, then those of prototypes.
     spheres: Vec<WorldSphere>,
     accel: Accel,
+    /// Those of the scene, and behind them that of own lights, if there are any.
     materials: Vec<Material>,
     images: Vec<Image>,
     bounds: Aabb,
@@ -48,6 +50,8 @@ pub struct World {
     /// Names of the lights without geometry, as in a scene.
     light_names: Vec<String>,
     infinite: Vec<LightId>,
+    /// The own lights that rays hit. Their surfaces have the numbers behind those of spheres.
+    own_lights: Vec<LightId>,
     media: WorldMedia,
     /// Whether any material has an alpha mask.
     has_alpha_masks: bool,
@@ -64,6 +68,9 @@ struct MeshTriangle {
 impl World {
     /// The world that `scene` describes.
     ///
+    /// Lights of the scene's list that are [`OwnLight::Area`](lights::sources::OwnLight) are seen
+    /// and cast shadows as black bodies that emit; every ray asks each of them.
+    ///
     /// # Errors
     /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there
     /// are too many emissive primitives in all instances.
@@ -73,7 +80,7 @@ impl World {
         let Scene {
             meshes,
             spheres,
-            materials,
+            mut materials,
             images,
             lights,
             light_names,
@@ -91,7 +98,11 @@ impl World {
             emitters,
             sources,
             masked: masked_lights,
+            own: own_lights,
         } = SceneLights::new(&meshes, &spheres, &materials, &images, lights, &bounds)?;
+        if !own_lights.is_empty() {
+            materials.push(Material::diffuse("own light", Vec3::ZERO));
+        }
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_spheres = shapes(&spheres);
         let mut prototypes = Vec::with_capacity(instanced.len());
@@ -126,6 +137,7 @@ impl World {
             sources,
             light_names,
             infinite,
+            own_lights,
             media,
         })
     }

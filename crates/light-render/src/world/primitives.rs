@@ -15,19 +15,23 @@ enum Stored<'a> {
     Triangle { mesh: &'a WorldMesh, index: u32 },
     /// A sphere.
     Sphere(&'a WorldSphere),
+    /// The surface of an own light.
+    Own,
 }
 
 impl World {
     /// The point of a primitive at the coordinates of [`Hit::coords`](crate::Hit::coords).
     ///
     /// # Panics
-    /// Panics if there is no such primitive.
+    /// Panics if there is no such primitive, or for the surface of an own light, which has no
+    /// coordinates.
     #[inline]
     #[must_use]
     pub fn surface(&self, primitive: PrimitiveId, coords: Vec2) -> Surface {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, coords),
             Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, coords),
+            Stored::Own => panic!("own lights have no coordinates"),
         }
     }
 
@@ -73,6 +77,7 @@ impl World {
         let id = match self.stored(primitive) {
             Stored::Triangle { mesh, .. } => mesh.material,
             Stored::Sphere(sphere) => sphere.material,
+            Stored::Own => self.materials.len() - 1,
         };
         (id, &self.materials[id])
     }
@@ -85,6 +90,7 @@ impl World {
                 mesh.uv(indices, weights)
             }
             Stored::Sphere(sphere) => sphere.at(coords).uv,
+            Stored::Own => coords,
         }
     }
 
@@ -104,10 +110,16 @@ impl World {
                 (self.emitters.triangle(mesh, index)?, surface.n)
             }
             None => {
-                let sphere = number - self.triangles.len();
-                let id = self.emitters.sphere(sphere)?;
-                // The light of a sphere has its front outside, whatever the front of the surface.
-                (id, self.spheres[sphere].front_normal(surface.n))
+                let number = number - self.triangles.len();
+                match self.spheres.get(number) {
+                    // The light of a sphere has its front outside, whatever the front of the
+                    // surface.
+                    Some(sphere) => {
+                        let id = self.emitters.sphere(number)?;
+                        (id, sphere.front_normal(surface.n))
+                    }
+                    None => (self.own_light(number - self.spheres.len())?, surface.n),
+                }
             }
         };
         let at = SurfacePoint {
@@ -134,7 +146,10 @@ impl World {
                 mesh: &self.meshes[mesh as usize],
                 index,
             },
-            None => Stored::Sphere(&self.spheres[number - self.triangles.len()]),
+            None => match self.spheres.get(number - self.triangles.len()) {
+                Some(sphere) => Stored::Sphere(sphere),
+                None => Stored::Own,
+            },
         }
     }
 

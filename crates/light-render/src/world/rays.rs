@@ -1,7 +1,7 @@
 use lights::glam::Vec3;
 
 use super::World;
-use crate::{PrimitiveId, Ray, Surface};
+use crate::{Hit, PrimitiveId, Ray, Surface};
 
 impl World {
     /// The first point of a surface along `ray`, which starts on the primitive `from`.
@@ -10,22 +10,28 @@ impl World {
     pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Surface> {
         let hit = if self.has_alpha_masks {
             let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
-            self.accel.closest_where(ray, from, any_hit)?
+            self.accel.closest_where(ray, from, any_hit)
         } else {
-            self.accel.closest(ray, from)?
+            self.accel.closest(ray, from)
         };
-        Some(self.surface(hit.primitive, hit.coords))
+        let surface = |hit: Hit| self.surface(hit.primitive, hit.coords);
+        if self.own_lights.is_empty() {
+            return hit.map(surface);
+        }
+        let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
+        self.closest_own(ray, t_max).or_else(|| hit.map(surface))
     }
 
     /// Whether anything but the primitive `from` lies within `distance` along `ray`.
     #[inline]
     pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<PrimitiveId>) -> bool {
-        if self.has_alpha_masks {
+        let is_blocked = if self.has_alpha_masks {
             let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
             self.accel.occluded_where(ray, distance, from, any_hit)
         } else {
             self.accel.occluded(ray, distance, from)
-        }
+        };
+        is_blocked || (!self.own_lights.is_empty() && self.closest_own(ray, distance).is_some())
     }
 
     /// Whether nothing lies between two points; a surface through the second is ignored.

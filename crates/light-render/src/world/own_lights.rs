@@ -1,0 +1,32 @@
+use lights::bounds::LightId;
+
+use super::World;
+use crate::{PrimitiveId, Ray, Surface};
+
+impl World {
+    /// The first point nearer than `t_max` where `ray` hits an own light of the scene: each says
+    /// itself where, one after the other.
+    // Not inlined: most scenes have no own lights.
+    #[inline(never)]
+    pub(super) fn closest_own(&self, ray: &Ray, mut t_max: f32) -> Option<Surface> {
+        let mut closest = None;
+        let first = u32::try_from(self.triangles.len() + self.spheres.len()).ok()?;
+        for (number, &id) in (first..).zip(&self.own_lights) {
+            let light = self.lights.get(id)?;
+            let Some(at) = light.hit(ray.origin, ray.direction) else {
+                continue;
+            };
+            let t = (at.p - ray.origin).dot(ray.direction);
+            if t > 0.0 && t < t_max {
+                t_max = t;
+                closest = Some(Surface::on_light(PrimitiveId::new(number), &at));
+            }
+        }
+        closest
+    }
+
+    /// The light of the surface with this number behind those of triangles and spheres.
+    pub(super) fn own_light(&self, number: usize) -> Option<LightId> {
+        self.own_lights.get(number).copied()
+    }
+}
