@@ -185,7 +185,8 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
 
 impl<C: ColorModel, S: Shape> AreaLight<C> for DiffuseAreaLight<'_, C, S> {
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        self.shape.hit(origin, direction)
+        let is_visible = self.emission.is_visible();
+        self.shape.hit(origin, direction).filter(|_| is_visible)
     }
 
     fn l(&self, at: &SurfacePoint, w: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {

@@ -82,7 +82,7 @@ pub trait Light<C: ColorModel> {
 /// A light that rays can hit.
 pub trait AreaLight<C: ColorModel>: Light<C> {
     /// The first point of the surface on the ray from `origin` in the unit direction `direction`,
-    /// from either side; `None` for a ray that misses it.
+    /// from either side; `None` for a ray that misses it, and for an invisible surface.
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint>;
 
     /// Radiance that leaves the surface at `at` in direction `w`, in W m^-2 sr^-1.

@@ -6,7 +6,7 @@
     reason = "doubles are rounded to what the tested f32 code takes, counts are small and positive"
 )]
 
-#[cfg(any(feature = "fuzz", feature = "soak"))]
+#[cfg(any(feature = "fuzz", feature = "soak", feature = "sources"))]
 extern crate alloc;
 
 pub use light_math::glam;
@@ -38,6 +38,8 @@ mod light_agreement;
 #[cfg(feature = "samplers")]
 mod may_contribute;
 pub mod naive;
+#[cfg(feature = "sources")]
+mod own_twin;
 mod quadrature;
 mod real3;
 mod rng;
@@ -57,6 +59,8 @@ pub use gamma::{ln_gamma, regularized_gamma_q};
 pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 #[cfg(feature = "samplers")]
 pub use may_contribute::may_contribute;
+#[cfg(feature = "sources")]
+pub use own_twin::own_twin;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
 #[cfg(feature = "samplers")]
