@@ -8,7 +8,7 @@ use crate::pdf_coverage::PdfCoverage;
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
 /// A point light: kinds differ only in the intensity by direction. Every `PointSource` is a
-/// [`Light`]. `crates/lights/examples/own_light.rs` puts one beside a set, in one hierarchy.
+/// [`Light`]. `crates/lights/examples/own_light.rs` puts one into a set, among its lamps.
 ///
 /// Directions are unit vectors in scene space, away from the light.
 pub trait PointSource {
