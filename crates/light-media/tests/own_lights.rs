@@ -77,10 +77,10 @@ fn pair() -> [LightSet<Rgb>; 2] {
     };
     let twin = |desc: &LightDesc<Rgb>| own_twin(desc.clone(), scene()).expect("a light").into();
     let own = build(descs.iter().map(twin).collect());
-    assert!(
-        own.iter()
-            .all(|(_, light)| matches!(light, LightRef::Own(_)))
-    );
+    let is_own = own
+        .iter()
+        .all(|(_, light)| matches!(light, LightRef::Own(_)));
+    assert!(is_own, "all of them");
     [build(descs.into()), own]
 }
 

@@ -5,9 +5,11 @@
 //! `cargo run --release -p lights --example own_light` writes `out/own_light.png`: the ground from
 //! above, with nine lamps and three lanterns.
 
+extern crate alloc;
+
+use alloc::sync::Arc;
 use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI};
-use std::sync::Arc;
 
 use lights::bounds::{LightBounds, LightSampleContext};
 use lights::glam::{Vec2, Vec3};

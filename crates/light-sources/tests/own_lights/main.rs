@@ -1,6 +1,8 @@
 //! Lights of other types in a set: they answer for themselves, and a set takes none that contradicts
 //! itself.
 
+extern crate alloc;
+
 mod sayer;
 
 use light_sources::glam::{Affine3A, Quat, Vec3};

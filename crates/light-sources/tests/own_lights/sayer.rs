@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use light_sources::glam::{Vec2, Vec3};
 use light_sources::light_bounds::{InfiniteBounds, LightBounds, LightExtent, LightSampleContext};

@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use light_bounds::{LightBounds, LightExtent, LightSampleContext};
 use light_math::Frame;

@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use light_bounds::{EmissionLobe, LightBounds, LightExtent};
 use light_math::Frame;

@@ -6,6 +6,8 @@
     reason = "doubles are rounded to what lights take"
 )]
 
+extern crate alloc;
+
 mod ball;
 mod choices;
 mod lantern;
