@@ -64,7 +64,8 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     alloc("light-media", "libm,alloc"),
     std("light-media", "std"),
     alloc("light-media", "libm,serde"),
-    alloc("light-photometry", "libm"),
+    core("light-photometry", "libm"),
+    alloc("light-photometry", "libm,alloc"),
     std("light-photometry", "std"),
     alloc("light-gpu", "libm"),
     core("lights", "libm"),
@@ -105,7 +106,7 @@ pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
     alloc("light-samplers", "libm,alloc"),
     alloc("light-sources", "libm,alloc"),
     alloc("light-media", "libm,alloc"),
-    alloc("light-photometry", "libm"),
+    alloc("light-photometry", "libm,alloc"),
 ];
 
 const fn core(package: &'static str, features: &'static str) -> FeatureSet {

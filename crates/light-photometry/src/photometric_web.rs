@@ -1,12 +1,11 @@
 use alloc::vec::Vec;
-use core::error::Error;
-use core::fmt;
 
 use light_math::equal_area::square_to_sphere;
-use light_math::float;
 use light_math::glam::{Vec2, Vec3};
 
-use super::axis::{Axis, Measure, full_turn};
+use super::axis_weights::{Measure, axis_weights};
+use super::photometric_web_error::PhotometricWebError;
+use super::photometric_web_ref::PhotometricWebRef;
 use super::unfolded_axis::UnfoldedAxis;
 use super::web_type::WebType;
 
@@ -18,25 +17,10 @@ use super::web_type::WebType;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhotometricWeb {
     web_type: WebType,
-    vertical: Axis,
-    horizontal: Axis,
+    vertical: Vec<f32>,
+    horizontal: Vec<f32>,
     /// The values of all vertical angles for each horizontal angle.
     candelas: Vec<f32>,
-}
-
-/// Why angles and candelas are invalid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PhotometricWebError {
-    /// Vertical angles do not ascend in `[0, 180]`, or for types A and B from the opposite of the
-    /// last one, or from 0, to at most 90; or there is only one.
-    Vertical,
-    /// Horizontal angles do not ascend from 0 to 0, 90, 180 or 360 or from 90 to 270, or for types
-    /// A and B from the opposite of the last one, or from 0, to at most 90; or there is only one in
-    /// these types.
-    Horizontal,
-    /// There is not one value for each pair of angles, or one is negative or not finite.
-    Candelas,
 }
 
 impl PhotometricWeb {
@@ -72,8 +56,8 @@ impl PhotometricWeb {
         Ok(Self {
             web_type,
             candelas: planes.from.iter().flat_map(value).collect(),
-            vertical: rows.axis,
-            horizontal: planes.axis,
+            vertical: rows.angles,
+            horizontal: planes.angles,
         })
     }
 
@@ -86,54 +70,39 @@ impl PhotometricWeb {
     /// The vertical angles in degrees, in ascending order, with those that symmetry adds.
     #[must_use]
     pub fn vertical(&self) -> &[f32] {
-        self.vertical.angles()
+        &self.vertical
     }
 
     /// The horizontal angles in degrees, in ascending order, with those that symmetry adds.
     #[must_use]
     pub fn horizontal(&self) -> &[f32] {
-        self.horizontal.angles()
+        &self.horizontal
+    }
+
+    /// What queries need, borrowed; it has the bits of this web.
+    #[inline]
+    #[must_use]
+    pub fn view(&self) -> PhotometricWebRef<'_> {
+        let (vertical, horizontal) = (&self.vertical, &self.horizontal);
+        PhotometricWebRef::of_valid(self.web_type, vertical, horizontal, &self.candelas)
     }
 
     /// The intensity in cd at a vertical and a horizontal angle in degrees.
     #[must_use]
     pub fn at(&self, vertical: f32, horizontal: f32) -> f32 {
-        let place = (
-            self.vertical.place(vertical),
-            self.horizontal.place(horizontal),
-        );
-        let (Some(row), Some(plane)) = place else {
-            return 0.0;
-        };
-        let n = self.vertical.angles().len();
-        let along = |plane: usize| {
-            let [low, high] = [row.below, row.above].map(|row| self.candelas[plane * n + row]);
-            low + row.t * (high - low)
-        };
-        let (low, high) = (along(plane.below), along(plane.above));
-        low + plane.t * (high - low)
+        self.view().at(vertical, horizontal)
     }
 
     /// The intensity in cd in a unit direction of light space.
     #[must_use]
     pub fn toward(&self, w: Vec3) -> f32 {
-        let (vertical, horizontal) = match self.web_type {
-            // At the poles of these types a negative zero would mean the direction behind.
-            WebType::A => (float::safe_asin(w.y), float::atan2(w.z, w.x + 0.0)),
-            WebType::B => (float::atan2(w.x, 0.0 - w.y), float::safe_asin(w.z)),
-            WebType::C => (float::safe_acos(-w.y), float::atan2(-w.z, w.x)),
-        };
-        let (vertical, horizontal) = (vertical.to_degrees(), horizontal.to_degrees());
-        match self.web_type {
-            WebType::A | WebType::B => self.at(vertical, horizontal),
-            WebType::C => self.at(vertical, full_turn(horizontal)),
-        }
+        self.view().toward(w)
     }
 
     /// The largest intensity, in cd.
     #[must_use]
     pub fn peak_candelas(&self) -> f32 {
-        self.candelas.iter().copied().fold(0.0, f32::max)
+        self.view().peak_candelas()
     }
 
     /// The luminous flux in lm: the exact integral of the bilinear interpolation over all
@@ -146,7 +115,8 @@ impl PhotometricWeb {
             WebType::B => [Measure::Longitude, Measure::Latitude],
             WebType::C => [Measure::Colatitude, Measure::Longitude],
         };
-        let (rows, planes) = (self.vertical.weights(rows), self.horizontal.weights(planes));
+        let rows = axis_weights(&self.vertical, rows);
+        let planes = axis_weights(&self.horizontal, planes);
         let along = |plane: &[f32]| -> f64 {
             let values = rows.iter().zip(plane);
             values
@@ -182,20 +152,3 @@ impl PhotometricWeb {
             .collect()
     }
 }
-
-impl fmt::Display for PhotometricWebError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Vertical => {
-                "expected ascending vertical angles in [0, 180], in types A and B from -90 or 0 to 90"
-            }
-            Self::Horizontal => {
-                "expected ascending horizontal angles from 0 to 0, 90, 180 or 360 or from 90 to 270, \
-                 in types A and B from -90 or 0 to 90"
-            }
-            Self::Candelas => "expected a finite intensity of at least 0 for each pair of angles",
-        })
-    }
-}
-
-impl Error for PhotometricWebError {}

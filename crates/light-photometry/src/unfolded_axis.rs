@@ -4,18 +4,18 @@ use alloc::vec::Vec;
 use super::axis::{Axis, full_turn};
 use super::web_type::WebType;
 
-/// An axis completed by symmetry, and for each of its angles the index of the measured angle with
+/// The angles of an axis completed by symmetry, and for each of them the index of the measured angle with
 /// its values.
 #[derive(Clone, Debug)]
 pub(super) struct UnfoldedAxis {
-    pub(super) axis: Axis,
+    pub(super) angles: Vec<f32>,
     pub(super) from: Vec<usize>,
 }
 
 impl UnfoldedAxis {
     /// `None` where the angles do not fit the type.
     pub(super) fn vertical(web_type: WebType, angles: &[f32]) -> Option<Self> {
-        let axis = Axis::new(angles.to_vec()).filter(|_| angles.len() > 1)?;
+        let axis = Axis::new(angles).filter(|_| angles.len() > 1)?;
         match web_type {
             WebType::A | WebType::B => Self::mirrored(&axis),
             WebType::C => {
@@ -26,7 +26,7 @@ impl UnfoldedAxis {
 
     /// `None` where the angles do not fit the type.
     pub(super) fn horizontal(web_type: WebType, angles: &[f32]) -> Option<Self> {
-        let axis = Axis::new(angles.to_vec())?;
+        let axis = Axis::new(angles)?;
         if web_type != WebType::C {
             return Self::mirrored(&axis).filter(|_| angles.len() > 1);
         }
@@ -50,7 +50,7 @@ impl UnfoldedAxis {
     }
 
     /// Angles in `[-90, 90]`, on one or both sides of 0.
-    fn mirrored(axis: &Axis) -> Option<Self> {
+    fn mirrored(axis: &Axis<'_>) -> Option<Self> {
         if axis.last() > 90.0 {
             None
         } else if axis.first() == 0.0 {
@@ -61,7 +61,7 @@ impl UnfoldedAxis {
     }
 
     /// All `images` of each angle in `[-360, 360]`, sorted, without duplicates.
-    fn of(axis: &Axis, images: impl Fn(f32) -> Vec<f32>) -> Self {
+    fn of(axis: &Axis<'_>, images: impl Fn(f32) -> Vec<f32>) -> Self {
         let angles = axis.angles().iter().enumerate();
         let mut all: Vec<(f32, usize)> = angles
             .flat_map(|(i, &angle)| images(angle).into_iter().map(move |image| (image, i)))
@@ -70,9 +70,6 @@ impl UnfoldedAxis {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.dedup_by(|a, b| a.0 == b.0);
         let (angles, from) = all.into_iter().unzip();
-        Self {
-            axis: Axis::new(angles).expect("sorted, each once"),
-            from,
-        }
+        Self { angles, from }
     }
 }

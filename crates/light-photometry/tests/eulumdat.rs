@@ -1,5 +1,7 @@
 //! EULUMDAT texts and what they mean.
 
+#![cfg(feature = "alloc")]
+
 use light_photometry::parse_eulumdat;
 
 /// Which planes a file holds, and the factor of the intensity around the vertical.

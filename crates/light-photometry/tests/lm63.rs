@@ -1,5 +1,7 @@
 //! LM-63 texts and what they mean.
 
+#![cfg(feature = "alloc")]
+
 use core::f32::consts::PI;
 
 use light_photometry::glam::Vec3;

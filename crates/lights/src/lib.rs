@@ -15,7 +15,6 @@ pub use light_bvh as bvh;
 pub use light_math as math;
 pub use light_math::glam;
 pub use light_media as media;
-#[cfg(feature = "alloc")]
 pub use light_photometry as photometry;
 pub use light_samplers as samplers;
 pub use light_sources as sources;
