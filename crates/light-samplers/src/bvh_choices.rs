@@ -9,13 +9,28 @@ use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 const FEWEST_OF_CUT: u32 = 2;
 
 /// What the default hierarchy and its lights at infinity know at one context.
+///
+/// A single choice is of another type than several, so that who makes only single ones has neither
+/// the code of a cut nor its size on the stack.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BvhChoices<'a> {
+pub(crate) struct BvhChoices<'a, T = TreeChoices<'a>> {
     infinite: InfiniteLights<'a>,
     ctx: LightSampleContext,
     /// Estimated irradiance from the lights of the tree; not needed without lights at infinity.
     in_tree: f32,
-    tree: TreeChoices<'a>,
+    tree: T,
+}
+
+/// What is known of the tree.
+pub(crate) trait InTree {
+    /// As [`LightBvhAt::irradiance`].
+    fn irradiance(&self) -> f32;
+
+    /// As [`LightBvhAt::sample`].
+    fn sample(&self, u: u64) -> Option<SampledLight>;
+
+    /// As [`LightBvhAt::pmf`].
+    fn pmf(&self, light: LightId) -> f32;
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +38,7 @@ pub(crate) struct BvhChoices<'a> {
     clippy::large_enum_variant,
     reason = "a box needs an allocator, and choices are made in place"
 )]
-enum TreeChoices<'a> {
+pub(crate) enum TreeChoices<'a> {
     /// Each from the root.
     Single(LightBvhAt<'a>),
     /// From groups that were opened before.
@@ -45,14 +60,30 @@ impl<'a> BvhChoices<'a> {
         } else {
             TreeChoices::Cut(tree.cut(ctx, CutDetail::default()))
         };
-        let of_unit_power = match &tree {
-            TreeChoices::Single(tree) => tree.irradiance(),
-            TreeChoices::Cut(tree) => tree.irradiance(),
-        };
+        Self::of(tree, power, infinite, ctx)
+    }
+}
+
+impl<'a> BvhChoices<'a, LightBvhAt<'a>> {
+    /// The same for a single choice.
+    #[inline]
+    pub(crate) fn single(
+        tree: LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        ctx: &LightSampleContext,
+    ) -> Self {
+        Self::of(tree.at(ctx), power, infinite, ctx)
+    }
+}
+
+impl<'a, T: InTree> BvhChoices<'a, T> {
+    #[inline]
+    fn of(tree: T, power: f32, infinite: InfiniteLights<'a>, ctx: &LightSampleContext) -> Self {
         Self {
             infinite,
             ctx: *ctx,
-            in_tree: positive_product(of_unit_power, power).min(f32::MAX),
+            in_tree: positive_product(tree.irradiance(), power).min(f32::MAX),
             tree,
         }
     }
@@ -85,7 +116,32 @@ impl<'a> BvhChoices<'a> {
     }
 }
 
-impl TreeChoices<'_> {
+impl InTree for LightBvhAt<'_> {
+    #[inline]
+    fn irradiance(&self) -> f32 {
+        self.irradiance()
+    }
+
+    #[inline]
+    fn sample(&self, u: u64) -> Option<SampledLight> {
+        self.sample(u)
+    }
+
+    #[inline]
+    fn pmf(&self, light: LightId) -> f32 {
+        self.pmf(light)
+    }
+}
+
+impl InTree for TreeChoices<'_> {
+    #[inline]
+    fn irradiance(&self) -> f32 {
+        match self {
+            Self::Single(tree) => tree.irradiance(),
+            Self::Cut(tree) => tree.irradiance(),
+        }
+    }
+
     #[inline]
     fn sample(&self, u: u64) -> Option<SampledLight> {
         match self {

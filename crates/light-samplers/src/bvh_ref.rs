@@ -1,5 +1,5 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
-use light_bvh::LightBvhRef;
+use light_bvh::{LightBvhAt, LightBvhRef};
 use light_math::float::positive_product;
 
 use crate::bvh_choices::BvhChoices;
@@ -53,16 +53,18 @@ impl<'a> BvhLightSamplerRef<'a> {
         self.infinite.lights()
     }
 
+    /// What is known for a single choice.
     #[inline]
-    fn choices(&self, ctx: &LightSampleContext, count: u32) -> BvhChoices<'a> {
-        BvhChoices::new(self.tree, self.power, self.infinite, ctx, count)
+    fn choice_at(&self, ctx: &LightSampleContext) -> BvhChoices<'a, LightBvhAt<'a>> {
+        BvhChoices::single(self.tree, self.power, self.infinite, ctx)
     }
 
     /// [`LightSampler::at`], for as long as the memory is borrowed.
     #[inline]
     #[must_use]
     pub(crate) fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        LightChoices::bvh(self.choices(ctx, count), count)
+        let choices = BvhChoices::new(self.tree, self.power, self.infinite, ctx, count);
+        LightChoices::bvh(choices, count)
     }
 }
 
@@ -72,7 +74,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         if self.infinite.is_empty() {
             self.tree.sample(ctx, u)
         } else {
-            self.choices(ctx, 1).sample(u)
+            self.choice_at(ctx).sample(u)
         }
     }
 
@@ -81,7 +83,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         if self.infinite.is_empty() {
             self.tree.pmf(ctx, light)
         } else {
-            self.choices(ctx, 1).pmf(light)
+            self.choice_at(ctx).pmf(light)
         }
     }
 
