@@ -12,6 +12,7 @@ mod coverage;
 mod crates;
 mod debian;
 mod dependencies;
+mod embedded;
 mod features;
 mod fuzz;
 mod gallery;
@@ -63,6 +64,8 @@ usage: cargo xtask [COMMAND]
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                               break the core crates on purpose: does a test notice?
                               (default: 60 mutants a crate)
+  embedded [--write]          run queries of a scene in flash on microcontrollers in an emulator and
+                              compare their bits with the host's, or write embedded/README.md
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
@@ -83,6 +86,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
             all(|steps| ci::add_steps(steps, WorkspaceTests::Before))
         }
         ("oldest", []) => all(oldest::add_steps),
+        ("embedded", rest) => all(|steps| embedded::add_steps(steps, rest)),
         ("no-std", []) => all(no_std::add_steps),
         ("bench", [flag, names @ ..]) if flag == "--table" => {
             one("bench --table", || programs::bench_tables(names))

@@ -27,7 +27,7 @@ pub fn add_steps(steps: &mut Steps) {
 
 /// Builds every set without std for the bare target, with the installed toolchain or with Debian's.
 fn check_bare_target() -> StepResult {
-    if is_installed()? {
+    if is_installed(TARGET)? {
         println!("    with the installed target");
         return build_all(&|_| cargo(["build", "--target", TARGET]));
     }
@@ -45,10 +45,14 @@ fn check_bare_target() -> StepResult {
     }
 }
 
-fn is_installed() -> Result<bool, String> {
+/// Whether the installed toolchain has the libraries of `target`.
+///
+/// # Errors
+/// If there is no compiler.
+pub fn is_installed(target: &str) -> Result<bool, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let sysroot = output(Command::new(rustc).args(["--print", "sysroot"]))?;
-    let libraries = Path::new(sysroot.trim()).join("lib/rustlib").join(TARGET);
+    let libraries = Path::new(sysroot.trim()).join("lib/rustlib").join(target);
     Ok(libraries.is_dir())
 }
 

@@ -1,0 +1,5 @@
+//! The queries of `light_embedded::tree`.
+
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+light_embedded::entry!(light_embedded::tree);

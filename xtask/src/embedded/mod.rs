@@ -1,0 +1,199 @@
+//! `cargo xtask embedded [--write]`: the core on microcontrollers in an emulator, with a scene in
+//! flash: the same bits as on the host, and what they cost.
+
+mod board;
+mod elf;
+mod page;
+mod report;
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::steps::{Outcome, StepResult, Steps, cargo, output, root};
+
+use board::{BOARDS, Board, Builder};
+use elf::Program;
+use report::Report;
+
+/// The programs of `embedded/`: what each may take on the first board, in bytes, where a promise
+/// was made.
+const PROGRAMS: [Firmware; 5] = [
+    Firmware {
+        name: "tables",
+        code: Some(4 << 10),
+        has_doubles: false,
+    },
+    Firmware {
+        name: "tree",
+        code: Some(24 << 10),
+        has_doubles: false,
+    },
+    Firmware {
+        name: "sampler",
+        code: None,
+        has_doubles: false,
+    },
+    Firmware {
+        name: "choices",
+        code: None,
+        has_doubles: false,
+    },
+    // The sine of libm computes with 64-bit floats.
+    Firmware {
+        name: "lights",
+        code: None,
+        has_doubles: true,
+    },
+];
+
+/// Bytes of stack that the programs keep to, but for `choices`: a cut of the tree lies on it.
+const STACK: u32 = 4 << 10;
+
+/// A program of `embedded/` and its promises.
+#[derive(Clone, Copy, Debug)]
+struct Firmware {
+    name: &'static str,
+    /// The most bytes of code on the first board.
+    code: Option<u32>,
+    /// Whether it may contain arithmetic of 64-bit floats in software.
+    has_doubles: bool,
+}
+
+/// What a program did on a board.
+#[derive(Debug)]
+struct Measured {
+    firmware: Firmware,
+    report: Report,
+    program: Program,
+}
+
+/// Adds a step for each board. `--write` writes what the first one measured into the README.
+pub fn add_steps(steps: &mut Steps, arguments: &[String]) {
+    let writes = match arguments {
+        [] => false,
+        [flag] if flag == "--write" => true,
+        _ => {
+            steps.run("embedded", || {
+                Err("usage: cargo xtask embedded [--write]".into())
+            });
+            return;
+        }
+    };
+    let mut hosts = Vec::new();
+    steps.run("embedded: the host's answers", || {
+        hosts = host_reports()?;
+        Ok(Outcome::Passed)
+    });
+    if hosts.is_empty() {
+        return;
+    }
+    let mut measured = Vec::new();
+    for board in &BOARDS {
+        steps.run(&format!("embedded: {}", board.name), || {
+            check(board, &hosts, &mut measured)
+        });
+    }
+    if writes {
+        steps.run("embedded: the table of the README", || {
+            page::write(&measured)
+        });
+    }
+}
+
+/// What each program answers on this machine.
+fn host_reports() -> Result<Vec<Report>, String> {
+    output(&mut build(cargo(["build", "--release"])))?;
+    // The examples of the README.
+    output(&mut build(cargo(["test", "--release", "--doc"])))?;
+    let answer = |firmware: &Firmware| {
+        let program = folder().join("release").join(firmware.name);
+        Report::of(&output(&mut Command::new(program))?)
+    };
+    PROGRAMS.iter().map(answer).collect()
+}
+
+/// The arguments that every build of the workspace in `embedded/` has.
+fn build(mut cargo: Command) -> Command {
+    cargo
+        .args(["--quiet", "--manifest-path"])
+        .arg(root().join("embedded/Cargo.toml"))
+        .arg("--target-dir")
+        .arg(folder());
+    cargo
+}
+
+fn folder() -> PathBuf {
+    root().join("target/embedded")
+}
+
+/// Builds all programs for a board, runs them, and holds them to the host's answers and to their
+/// promises.
+fn check(
+    board: &'static Board,
+    hosts: &[Report],
+    all: &mut Vec<(&'static Board, Vec<Measured>)>,
+) -> StepResult {
+    let builder = match Builder::new(board) {
+        Ok(builder) => builder,
+        Err(reason) => return Ok(Outcome::Skipped(reason)),
+    };
+    output(&mut build(builder.cargo_build()))?;
+    let mut measured = Vec::new();
+    for (&firmware, host) in PROGRAMS.iter().zip(hosts) {
+        let name = firmware.name;
+        let path = folder().join(board.target).join("release").join(name);
+        let bytes = fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let program = Program::new(&bytes).map_err(|e| format!("{name}: {e}"))?;
+        let report = Report::of(&output(&mut builder.emulator(&path))?)?;
+        report
+            .must_equal(host)
+            .map_err(|e| format!("{name}: {e}"))?;
+        println!("    {name}: identical bits");
+        report.print(board);
+        program.print();
+        measured.push(Measured {
+            firmware,
+            report,
+            program,
+        });
+    }
+    let is_first = all.is_empty();
+    let broken: Vec<String> = measured
+        .iter()
+        .flat_map(|m| broken_promises(m, is_first))
+        .collect();
+    all.push((board, measured));
+    if broken.is_empty() {
+        Ok(Outcome::Passed)
+    } else {
+        Err(broken.join("; "))
+    }
+}
+
+fn broken_promises(measured: &Measured, is_first: bool) -> Vec<String> {
+    let Measured {
+        firmware,
+        report,
+        program,
+    } = measured;
+    let name = firmware.name;
+    let mut broken = Vec::new();
+    if let Some(code) = firmware.code {
+        if is_first && program.code > code {
+            broken.push(format!(
+                "{name}: {} bytes of code, not {code}",
+                program.code
+            ));
+        }
+    }
+    let stack = report.stack();
+    if name != "choices" && stack > STACK {
+        broken.push(format!("{name}: {stack} bytes of stack, not {STACK}"));
+    }
+    let doubles = program.doubles();
+    if !firmware.has_doubles && !doubles.is_empty() {
+        broken.push(format!("{name}: 64-bit floats: {}", doubles.join(" ")));
+    }
+    broken
+}
