@@ -54,7 +54,6 @@ pub const fn from_f64(u: f64) -> u64 {
 /// The upper 24 bits of `u` as a number in `[0, 1)`.
 #[inline]
 #[must_use]
-#[expect(clippy::cast_possible_truncation, reason = "24 bits are left")]
 pub const fn to_f32(u: u64) -> f32 {
     // By way of a word: processors without 64 bits have no conversion of more.
     (u >> 40) as u32 as f32 * STEP_OF_F32

@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn another_bit_is_a_fault() {
         let host = Report::of("hash nothing 01\nhash tree 02\n").expect("a report");
-        let report = |text| Report::of(text).expect("a report");
+        let report = |text: &str| Report::of(text).expect("a report");
         assert_eq!(report(TEXT).must_equal(&host), Ok(()), "the same");
         let other = report(&TEXT.replace("02", "03")).must_equal(&host);
         assert!(other.is_err_and(|e| e.starts_with("tree")), "another");
