@@ -72,7 +72,7 @@ impl Wrap {
         let t = folded * count - 0.5;
         let first = floor(t);
         Neighbours {
-            texels: [first, first + 1.0].map(|i| self.texel(i.into(), n)),
+            texels: [first, first + 1.0].map(|i| self.texel_nearby(i, n)),
             part: t - first,
         }
     }
@@ -102,9 +102,29 @@ impl Wrap {
         if i >= 0.0 && i < f64::from(n) {
             return Some(i as u32);
         }
+        self.texel_beyond(i < 0.0, n)
+    }
+
+    /// The same in single precision, for queries.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number, and the cast saturates"
+    )]
+    fn texel_nearby(self, i: f32, n: u32) -> Option<u32> {
+        if i >= 0.0 && (i as u32) < n {
+            return Some(i as u32);
+        }
+        self.texel_beyond(i < 0.0, n)
+    }
+
+    /// The texel for a place before a row of `n`, or behind it.
+    #[inline]
+    const fn texel_beyond(self, is_before: bool, n: u32) -> Option<u32> {
         match self {
-            Self::Clamp | Self::Mirror => Some(if i < 0.0 { 0 } else { n - 1 }),
-            Self::Repeat => Some(if i < 0.0 { n - 1 } else { 0 }),
+            Self::Clamp | Self::Mirror => Some(if is_before { 0 } else { n - 1 }),
+            Self::Repeat => Some(if is_before { n - 1 } else { 0 }),
             Self::Black => None,
         }
     }

@@ -13,6 +13,8 @@ mod densities;
 mod error;
 mod piecewise_constant_1d;
 mod piecewise_constant_2d;
+mod position;
+mod quotient;
 mod reservoir;
 mod span;
 mod summed_area_table;

@@ -3,8 +3,9 @@ use alloc::{vec, vec::Vec};
 
 use super::axis::Axis;
 use super::error::{TableError, check_len};
+use super::quotient::quotient;
 use super::span::Span;
-use super::whole_sums::fill;
+use super::whole_sums::{UNITS, fill, power_of_two};
 use super::window::Window;
 
 /// Sums of a grid of weights over any rectangle, in constant time.
@@ -24,7 +25,7 @@ pub struct SummedAreaTable<S> {
     sums: S,
     nx: usize,
     ny: usize,
-    unit: f64,
+    log2_unit: i32,
 }
 
 #[cfg(feature = "alloc")]
@@ -36,8 +37,8 @@ impl SummedAreaTable<Vec<u64>> {
     /// finite.
     pub fn new(weights: &[f32], nx: usize, ny: usize) -> Result<Self, TableError> {
         let mut sums = vec![0; weights.len()];
-        let unit = fill(weights, nx, ny, &mut sums)?;
-        Ok(Self { sums, nx, ny, unit })
+        let log2_unit = fill(weights, nx, ny, &mut sums)?;
+        Ok(Self::of(sums, nx, ny, log2_unit))
     }
 }
 
@@ -49,7 +50,7 @@ impl<const M: usize> SummedAreaTable<[u64; M]> {
     pub const fn in_array(weights: &[f32; M], nx: usize, ny: usize) -> Result<Self, TableError> {
         let mut sums = [0; M];
         match fill(weights, nx, ny, &mut sums) {
-            Ok(unit) => Ok(Self { sums, nx, ny, unit }),
+            Ok(log2_unit) => Ok(Self::of(sums, nx, ny, log2_unit)),
             Err(error) => Err(error),
         }
     }
@@ -66,18 +67,29 @@ impl<'a> SummedAreaTable<&'a [u64]> {
         ny: usize,
         sums: &'a mut [u64],
     ) -> Result<Self, TableError> {
-        let unit = fill(weights, nx, ny, sums)?;
-        Ok(Self { sums, nx, ny, unit })
+        let log2_unit = fill(weights, nx, ny, sums)?;
+        Ok(Self::of(sums, nx, ny, log2_unit))
+    }
+}
+
+impl<S> SummedAreaTable<S> {
+    const fn of(sums: S, nx: usize, ny: usize, log2_unit: i32) -> Self {
+        Self {
+            sums,
+            nx,
+            ny,
+            log2_unit,
+        }
     }
 }
 
 impl<S: AsRef<[u64]>> SummedAreaTable<S> {
-    /// A table whose sums were built earlier, with their [`unit`](Self::unit).
+    /// A table whose sums were built earlier, with the exponent of their [unit](Self::log2_unit).
     ///
     /// # Errors
-    /// [`TableError`] if the sums are not what [`sums`](Self::sums) returns for `nx` columns and
-    /// `ny` rows.
-    pub fn from_sums(sums: S, nx: usize, ny: usize, unit: f64) -> Result<Self, TableError> {
+    /// [`TableError`] if the numbers are not what [`sums`](Self::sums) and
+    /// [`log2_unit`](Self::log2_unit) return for `nx` columns and `ny` rows.
+    pub fn from_sums(sums: S, nx: usize, ny: usize, log2_unit: i32) -> Result<Self, TableError> {
         if let Some(error) = [Axis::unit(nx), Axis::unit(ny)]
             .into_iter()
             .find_map(Result::err)
@@ -85,11 +97,11 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
             return Err(error);
         }
         check_len(nx.saturating_mul(ny), sums.as_ref().len())?;
-        let this = Self { sums, nx, ny, unit };
+        let this = Self::of(sums, nx, ny, log2_unit);
         let at = |x: usize, y: usize| i128::from(this.below(x, y));
         let count = |x, y| at(x + 1, y + 1) - at(x, y + 1) - at(x + 1, y) + at(x, y);
         let is_well_formed = (0..ny).all(|y| (0..nx).all(|x| count(x, y) >= 0));
-        if is_well_formed && unit >= 0.0 && unit.is_finite() {
+        if is_well_formed && UNITS.contains(&log2_unit) {
             Ok(this)
         } else {
             Err(TableError::Malformed)
@@ -100,21 +112,20 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
     /// texel; over the whole square it is the mean of the weights.
     #[inline]
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "rounds an integral")]
     pub fn integral(&self, window: &Window) -> f32 {
-        match window.clip() {
-            Some(window) => {
-                let [x, y] = self.spans(&window);
-                (x.sum(|x0, x1| y.sum(|y0, y1| self.count(x0..x1, y0..y1))) * self.mean_unit())
-                    as f32
-            }
-            None => 0.0,
-        }
+        let Some(window) = window.clip() else {
+            return 0.0;
+        };
+        let spans = self.spans(&window);
+        let steps = spans.iter().map(Span::log2_steps).sum::<i32>();
+        let texels = (self.nx as u64 * self.ny as u64) as u128;
+        quotient(self.total(&spans), texels, self.log2_unit - steps)
     }
 
     /// The sum of the weights in columns `x` and rows `y`, to the rounding of the result alone.
     ///
-    /// Ranges are cut off at the edges of the grid.
+    /// Ranges are cut off at the edges of the grid. The result is a double, for it may be above any
+    /// `f32`; this is the only query that needs one.
     #[inline]
     #[must_use]
     pub fn sum(&self, x: core::ops::Range<usize>, y: core::ops::Range<usize>) -> f64 {
@@ -123,7 +134,7 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
         if x.is_empty() || y.is_empty() {
             return 0.0;
         }
-        self.count(x, y) * self.unit
+        self.count(x, y) as f64 * power_of_two(self.log2_unit)
     }
 
     /// Columns and rows.
@@ -139,18 +150,30 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
         self.sums.as_ref()
     }
 
-    /// The weight that one unit of the sums represents: a power of two, or 0 if all weights are 0.
+    /// The exponent of the weight that one unit of the sums represents, a power of two.
     #[must_use]
-    pub fn unit(&self) -> f64 {
-        self.unit
+    pub const fn log2_unit(&self) -> i32 {
+        self.log2_unit
     }
 
-    /// The sum over whole texels in units, exact up to its conversion; the ranges lie in the grid.
+    /// The sum over whole texels in units; the ranges lie in the grid.
     #[inline]
-    pub(super) fn count(&self, x: core::ops::Range<usize>, y: core::ops::Range<usize>) -> f64 {
+    pub(super) fn count(&self, x: core::ops::Range<usize>, y: core::ops::Range<usize>) -> u64 {
         let right = self.below(x.end, y.end) - self.below(x.end, y.start);
         let left = self.below(x.start, y.end) - self.below(x.start, y.start);
-        (right - left) as f64
+        right - left
+    }
+
+    /// The sum over a part of the unit square, in units of the table and both spans.
+    #[inline]
+    pub(super) fn total(&self, [columns, rows]: &[Span; 2]) -> u128 {
+        columns.sum(|x| self.sum_below(x, rows))
+    }
+
+    /// The sum of what `rows` covers of the columns before `x`, in units of the table and `rows`.
+    #[inline]
+    pub(super) fn sum_below(&self, x: usize, rows: &Span) -> u128 {
+        rows.sum(|y| self.below(x, y))
     }
 
     /// How `window`, a part of the unit square, covers columns and rows.
@@ -164,18 +187,12 @@ impl<S: AsRef<[u64]>> SummedAreaTable<S> {
 
     /// The sum of the columns before `x` and the rows before `y`, in units.
     #[inline]
-    fn below(&self, x: usize, y: usize) -> u64 {
+    pub(super) fn below(&self, x: usize, y: usize) -> u64 {
         if x == 0 || y == 0 {
             0
         } else {
             self.sums.as_ref()[(y - 1) * self.nx + x - 1]
         }
-    }
-
-    /// The integral over a texel of one unit.
-    #[inline]
-    fn mean_unit(&self) -> f64 {
-        self.unit / (self.nx * self.ny) as f64
     }
 }
 
@@ -234,7 +251,7 @@ mod tests {
         assert_eq!(tiny.sum(0..2, 0..1), 2.0 * f64::from(1e-45f32), "denormal");
         let dark = SummedAreaTable::new(&[0.0; 3], 3, 1).expect("zeros have sums");
         assert_eq!(
-            (dark.unit(), dark.integral(&Window::UNIT)),
+            (dark.sum(0..3, 0..1), dark.integral(&Window::UNIT)),
             (0.0, 0.0),
             "dark"
         );
@@ -250,7 +267,7 @@ mod tests {
         let mut buffer = [0; 6];
         let borrowed = SummedAreaTable::build_into(&WEIGHTS, 3, 2, &mut buffer).expect("fits");
         assert_eq!(IN_FLASH.sums(), borrowed.sums(), "same builder");
-        let again = SummedAreaTable::from_sums(borrowed.sums(), 3, 2, borrowed.unit());
+        let again = SummedAreaTable::from_sums(borrowed.sums(), 3, 2, borrowed.log2_unit());
         assert_eq!(again, Ok(borrowed), "stored and used again");
     }
 
@@ -270,9 +287,11 @@ mod tests {
             Err(TableError::NotFinite { index: 0 }),
             "NaN"
         );
-        let falling = SummedAreaTable::from_sums([2, 1], 2, 1, 1.0).map(|_| ());
+        let falling = SummedAreaTable::from_sums([2, 1], 2, 1, 0).map(|_| ());
         assert_eq!(falling, Err(TableError::Malformed), "sums that fall");
-        let none = SummedAreaTable::from_sums([0; 0], 3, 0, 1.0).map(|_| ());
+        let unit = SummedAreaTable::from_sums([1, 2], 2, 1, 115).map(|_| ());
+        assert_eq!(unit, Err(TableError::Malformed), "more than floats sum to");
+        let none = SummedAreaTable::from_sums([0; 0], 3, 0, 0).map(|_| ());
         assert_eq!(none, Err(TableError::Empty), "no rows");
     }
 }

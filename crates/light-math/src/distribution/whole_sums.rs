@@ -1,13 +1,21 @@
+use core::ops::RangeInclusive;
+
 use super::axis::Axis;
 use super::error::{TableError, check_len, total};
 
-/// Fills `sums`; returns the unit.
+/// The exponents of units: from the smallest `f32` as the total to the sum of 2^48 of the largest.
+pub(super) const UNITS: RangeInclusive<i32> = -149 - LOG2_TOTAL..=127 + 48 - LOG2_TOTAL;
+
+/// The total has this many bits and one more, with room for the weights that are rounded up.
+const LOG2_TOTAL: i32 = 61;
+
+/// Fills `sums`; returns the exponent of their unit.
 pub(super) const fn fill(
     weights: &[f32],
     nx: usize,
     ny: usize,
     sums: &mut [u64],
-) -> Result<f64, TableError> {
+) -> Result<i32, TableError> {
     match (Axis::unit(nx), Axis::unit(ny)) {
         (Ok(_), Ok(_)) => {}
         (Err(error), _) | (_, Err(error)) => return Err(error),
@@ -22,14 +30,12 @@ pub(super) const fn fill(
     if let Err(error) = check_len(weights.len(), sums.len()) {
         return Err(error);
     }
-    // The power of two that brings the total to 61 or 62 bits, with room for the weights that are
-    // rounded up.
-    let exponent = if total > 0.0 {
-        (total.to_bits() >> 52) as i64 - 1023
+    let log2_unit = if total > 0.0 {
+        (total.to_bits() >> 52) as i32 - 1023 - LOG2_TOTAL
     } else {
-        61
+        0
     };
-    let scale = power_of_two(61 - exponent);
+    let scale = power_of_two(-log2_unit);
     let mut y = 0;
     while y < ny {
         let mut row = 0;
@@ -42,18 +48,14 @@ pub(super) const fn fill(
         }
         y += 1;
     }
-    Ok(if total > 0.0 {
-        power_of_two(exponent - 61)
-    } else {
-        0.0
-    })
+    Ok(log2_unit)
 }
 
 #[expect(
     clippy::cast_sign_loss,
     reason = "exponents of sums of f32 stay far inside the range"
 )]
-const fn power_of_two(exponent: i64) -> f64 {
+pub(super) const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 

@@ -1,8 +1,9 @@
 use super::piecewise_constant_2d::Sample2D;
-use super::span::{Span, texel};
+use super::position::texel;
+use super::quotient::quotient;
+use super::span::Span;
 use super::summed_area_table::SummedAreaTable;
 use super::window::Window;
-use crate::float::{next_down, next_up};
 use glam::Vec2;
 
 /// The density of a [`PiecewiseConstant2D`](super::PiecewiseConstant2D) over the unit square,
@@ -10,6 +11,10 @@ use glam::Vec2;
 ///
 /// Values of texels are differences of the table's sums, so nothing else is stored. A sample costs
 /// a binary search over the columns and one over the rows.
+///
+/// Sums over a window are whole numbers of 128 bits, for its edges are counted in 2^-32 of a texel:
+/// nothing cancels, and no query has a 64-bit float. Each result is rounded once; `u` counts to
+/// 2^-32.
 ///
 /// # Source
 /// `[Bitterli2015]`. `u.x` picks x first, then `u.y` picks y within the texel's column, as in
@@ -31,20 +36,14 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
     #[inline]
     #[must_use]
     pub fn sample(&self, u: Vec2, window: &Window) -> Option<Sample2D> {
-        let window = window.clip()?;
-        let [columns, rows] = self.table.spans(&window);
-        let strip = |x0, x1| rows.sum(|y0, y1| self.table.count(x0..x1, y0..y1));
-        let (column, x, total) = choose(&columns, u.x, strip)?;
-        let column_sum = |y0, y1| self.table.count(column..column + 1, y0..y1);
-        let (row, y, _) = choose(&rows, u.y, column_sum)?;
-
-        let [nx, ny] = self.table.resolution();
-        let p = Vec2::new(
-            settle(x / nx as f64, column, nx, window.min.x, window.max.x),
-            settle(y / ny as f64, row, ny, window.min.y, window.max.y),
-        );
-        let pdf = self.density([column, row], total);
-        let texel = [column, row];
+        let spans = self.table.spans(&window.clip()?);
+        let [columns, rows] = &spans;
+        let x = columns.choose(u.x, |x| self.table.sum_below(x, rows))?;
+        let column = |y| self.table.below(x.texel + 1, y) - self.table.below(x.texel, y);
+        let y = rows.choose(u.y, column)?;
+        let texel = [x.texel, y.texel];
+        let pdf = self.density(texel, &spans, x.total);
+        let p = Vec2::new(x.x, y.x);
         (pdf > 0.0).then_some(Sample2D { p, pdf, texel })
     }
 
@@ -56,11 +55,9 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
             return 0.0;
         };
         let [nx, ny] = self.table.resolution();
-        let column = texel(f64::from(p.x) * nx as f64, nx);
-        let row = texel(f64::from(p.y) * ny as f64, ny);
-        let [columns, rows] = self.table.spans(&window);
-        let total = columns.sum(|x0, x1| rows.sum(|y0, y1| self.table.count(x0..x1, y0..y1)));
-        self.density([column, row], total)
+        let spans = self.table.spans(&window);
+        let total = self.table.total(&spans);
+        self.density([texel(p.x, nx), texel(p.y, ny)], &spans, total)
     }
 
     /// The table of sums.
@@ -69,70 +66,17 @@ impl<S: AsRef<[u64]>> WindowedPiecewiseConstant2D<S> {
         &self.table
     }
 
-    /// The density in a texel, given the window's sum in units; 0 for an empty window.
+    /// The density in a texel, given the window and its sum; 0 for an empty window.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounds a density")]
-    fn density(&self, [column, row]: [usize; 2], total: f64) -> f32 {
-        if !(total > 0.0) {
+    fn density(&self, [column, row]: [usize; 2], [x, y]: &[Span; 2], total: u128) -> f32 {
+        if total == 0 {
             return 0.0;
         }
-        let [nx, ny] = self.table.resolution();
         let value = self.table.count(column..column + 1, row..row + 1);
-        (value / total * (nx * ny) as f64) as f32
+        let [nx, ny] = self.table.resolution();
+        let value = u128::from(value) * (nx as u64 * ny as u64) as u128;
+        quotient(value, total, x.log2_steps() + y.log2_steps())
     }
-}
-
-/// The largest `u` that a random number of 53 bits may have.
-const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
-
-/// `u` forced into `[0, 1)`; 0 for NaN.
-#[inline]
-fn unit(u: f64) -> f64 {
-    if u > 0.0 { u.min(LARGEST_U) } else { 0.0 }
-}
-
-/// The texel of `span` for `u`, the position counted in texels, and the sum over the span, given
-/// the sum over whole texels; `None` if that is zero.
-#[inline]
-fn choose(span: &Span, u: f32, whole: impl Fn(usize, usize) -> f64) -> Option<(usize, f64, f64)> {
-    let total = span.sum(&whole);
-    if !(total > 0.0) {
-        return None;
-    }
-    let target = unit(f64::from(u)) * total;
-    // The last texel that starts at or below the target; it ends above it, so it holds something.
-    let (mut low, mut high) = (span.first, span.last + 1);
-    while high - low > 1 {
-        let middle = low.midpoint(high);
-        if span.sum_before(middle, &whole) <= target {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let before = span.sum_before(low, &whole);
-    let covered = span.covered(low);
-    let place = ((target - before) / (covered * whole(low, low + 1))).clamp(0.0, 1.0);
-    let start = span.start.max(low as f64);
-    Some((low, start + place * covered, total))
-}
-
-/// `x` as an `f32` of the interval from `min` to `max` that lies in texel `wanted` of `texels` over
-/// `[0, 1]`.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "rounds a coordinate")]
-fn settle(x: f64, wanted: usize, texels: usize, min: f32, max: f32) -> f32 {
-    let mut x = (x as f32).clamp(min, max);
-    // One rounding may lead over an edge of the texel, never further.
-    for _ in 0..2 {
-        let found = texel(f64::from(x) * texels as f64, texels);
-        if found < wanted {
-            x = next_up(x);
-        } else if found > wanted {
-            x = next_down(x);
-        }
-    }
-    x
 }
 
 #[cfg(test)]
