@@ -26,7 +26,7 @@ std::thread_local! {
 }
 
 // SAFETY: hands every call on to the system's allocator as it is.
-#[allow(unsafe_code, reason = "an allocator cannot be written without")]
+#[expect(unsafe_code, reason = "an allocator cannot be written without")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // A thread that ends has no counter any more, and nothing that is counted.

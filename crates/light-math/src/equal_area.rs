@@ -96,7 +96,7 @@ pub fn wrap(p: Vec2) -> Vec2 {
 /// indices.
 #[inline]
 #[must_use]
-#[allow(
+#[expect(
     clippy::cast_sign_loss,
     clippy::cast_possible_wrap,
     reason = "sizes are far below 2^31, wrapped indices are positive"

@@ -47,7 +47,7 @@ pub fn solid_angle_per_area(v: f32) -> f32 {
 /// Rows close upon themselves; beyond a pole the map goes on half a turn further, downwards again.
 #[inline]
 #[must_use]
-#[allow(
+#[expect(
     clippy::cast_sign_loss,
     clippy::cast_possible_wrap,
     reason = "sizes are far below 2^31, wrapped indices are positive"

@@ -62,7 +62,7 @@ impl OctahedralVector {
     /// The coordinates on the square.
     #[inline]
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, reason = "takes the halves")]
+    #[expect(clippy::cast_possible_truncation, reason = "takes the halves")]
     pub const fn xy(self) -> (u16, u16) {
         (self.0 as u16, (self.0 >> 16) as u16)
     }
@@ -119,7 +119,7 @@ fn fold(x: f32, y: f32) -> (f32, f32) {
 /// The code of a coordinate, which a rounded quotient by a sum that is not smaller keeps within
 /// `[-1, 1]`.
 #[inline]
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "between 0.5 and 65535.5; the conversion saturates and sends NaN to 0"

@@ -19,7 +19,7 @@ pub const MAX_COS: u16 = 32767;
 /// outside are clamped; NaN gives 0, which represents -1, all directions.
 #[inline]
 #[must_use]
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "in [0, 32767]; the conversion truncates and sends NaN to 0"
@@ -101,7 +101,7 @@ fn fraction(c: f32, a: f32, b: f32) -> f32 {
     65535.0 * ((0.5 * c - 0.5 * a) / length).clamp(0.0, 1.0)
 }
 
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "in [0, 65535]; the conversion truncates and sends NaN to 0"
@@ -118,7 +118,7 @@ fn encode_lower(c: f32, a: f32, b: f32) -> u16 {
     q
 }
 
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "in [0, 65535] or NaN, which means the far corner"
@@ -143,7 +143,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// The float that many places above `c` in the order of all floats.
-    #[allow(
+    #[expect(
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
         reason = "reads the bits both ways"

@@ -34,7 +34,7 @@ impl<F> Resampler<F> {
     ///
     /// # Errors
     /// If the size is zero, or not square for an equal-area image.
-    #[allow(
+    #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "positive, and saturates"

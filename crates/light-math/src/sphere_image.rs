@@ -101,7 +101,7 @@ impl<F> SphereImage<F> {
     /// across edges and poles too.
     #[inline]
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, reason = "between -1 and the size")]
+    #[expect(clippy::cast_possible_truncation, reason = "between -1 and the size")]
     pub fn bilinear<T>(&self, d: Vec3) -> T
     where
         F: Fn(u32, u32) -> T,

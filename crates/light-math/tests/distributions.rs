@@ -1,7 +1,7 @@
 //! The laws of tables: samples follow the density, what is left of `u` is uniform again, weights
 //! that are invalid are refused, and nothing is ever returned that has no weight.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     reason = "probabilities are rounded to floats"
 )]

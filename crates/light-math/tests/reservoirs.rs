@@ -1,7 +1,7 @@
 //! The laws of reservoirs: frequencies, unbiased weights for one receiver and across receivers, and
 //! merging as streaming.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     reason = "indices of a few candidates"
 )]

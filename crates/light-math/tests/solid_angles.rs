@@ -1,7 +1,7 @@
 //! Solid angles and the shapes that are sampled by them, against double precision and against their
 //! own densities.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     reason = "doubles are rounded to what the tested code takes"
 )]

@@ -1,6 +1,6 @@
 //! Marches and trackers against closed forms and quadrature.
 
-#![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
+#![expect(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};

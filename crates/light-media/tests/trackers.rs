@@ -1,6 +1,6 @@
 //! Where trackers and marches stop, what they carry, and that roulette keeps their means.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "quadrature in f64, places in a table"

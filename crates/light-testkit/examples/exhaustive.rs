@@ -1,5 +1,5 @@
 //! Checks all 2^32 octahedral codes: `cargo xtask exhaustive`.
-#![allow(
+#![expect(
     clippy::print_stdout,
     clippy::print_stderr,
     reason = "a program for the terminal"

@@ -1,6 +1,6 @@
 //! Takes very many samples of lights and holds each against its query:
 //! `soak [CHOICES] [LIGHT_SAMPLES] [SEED]`.
-#![allow(
+#![expect(
     clippy::print_stdout,
     clippy::print_stderr,
     reason = "a program for the terminal"

@@ -2,7 +2,7 @@
 //! by their bounds.
 
 #![cfg(feature = "alloc")]
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "small positive numbers"

@@ -69,7 +69,7 @@ pub fn sampled_y<const N: usize>(
 
 /// Which of the [`SAMPLES`] nanometres is nearest; `None` outside of the range, or for NaN.
 #[inline]
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "between 0.5 and 470.5"
@@ -117,7 +117,7 @@ const fn interpolate(rows: &[[f64; 3]; 95]) -> [Vec3; SAMPLES] {
     out
 }
 
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     reason = "rounds to single precision"
 )]

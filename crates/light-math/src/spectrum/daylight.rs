@@ -105,7 +105,7 @@ impl Daylight {
 
 impl Spectrum for Daylight {
     #[inline]
-    #[allow(
+    #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "between 0 and 47"

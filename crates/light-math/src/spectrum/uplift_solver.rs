@@ -35,7 +35,7 @@ pub struct UpliftSolver {
 impl UpliftSolver {
     /// The solver for a colour space. Costs an integral over the wavelengths, a few microseconds.
     #[must_use]
-    #[allow(
+    #[expect(
         clippy::cast_possible_truncation,
         reason = "rounds to single precision"
     )]

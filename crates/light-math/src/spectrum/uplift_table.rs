@@ -102,7 +102,7 @@ fn node_fraction(i: usize) -> f32 {
 
 /// The cell of a side that holds the fraction `x` in `[0, 1]`, and how far into it.
 #[inline]
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "between 0 and 23"

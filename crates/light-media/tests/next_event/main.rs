@@ -1,7 +1,7 @@
 //! Next-event scattering along a ray: unequal lights, emission, opaque media, the gain by
 //! stratification, and its queries of samplers and scenes.
 
-#![allow(clippy::cast_possible_truncation, reason = "quadrature in f64")]
+#![expect(clippy::cast_possible_truncation, reason = "quadrature in f64")]
 
 mod estimates;
 mod queries;

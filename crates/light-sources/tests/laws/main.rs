@@ -1,7 +1,7 @@
 //! The laws that every light obeys: densities against samples, estimates against integrals, power,
 //! bounds.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     reason = "doubles are rounded to what lights take"
 )]
