@@ -25,7 +25,8 @@ use lights::sources::{
 const PAGE: &str = "docs/light-sources.md";
 
 const HEADER: &str = "\
-| map | lights | ready, ms | pyramid | ns a sample | bias^2 | squared centroid | pyramid | variance | 16 samples | 64 | 256 | 1024 |
+| map | lights | ready, ms | pyramid | ns a sample | bias^2 | squared centroid | pyramid | \
+variance | 16 samples | 64 | 256 | 1024 |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 

@@ -1,5 +1,5 @@
-//! `cargo xtask coverage [CRATE...]`: which lines and regions of the core crates their tests reach, by
-//! `cargo-llvm-cov`.
+//! `cargo xtask coverage [CRATE...]`: which lines and regions of the core crates their tests reach,
+//! by `cargo-llvm-cov`.
 
 use std::path::PathBuf;
 use std::process::Command;

@@ -44,7 +44,8 @@ usage: cargo xtask [COMMAND]
   bench --table [TABLE...]    measure light hierarchies for docs/light-bvh.md: hierarchies,
                               receivers, adversarial, refits
                               (numbers instead: print the first of sets of so many lights)
-  counts [--write]            count the instructions of hot paths and compare with benches/counts.txt
+  counts [--write]            count the instructions of hot paths and compare with
+                              benches/counts.txt
   api [--write]               compare the public items of each library crate with docs/api, or
                               write them there
   arrows [--write]            compare the drawing of the crates in ARCHITECTURE.md with the

@@ -1,5 +1,5 @@
-//! `cargo xtask mutants [CRATE] [COUNT|all|missed|FILE] [OFFSET]`: breaks the core crates on purpose
-//! and sees whether a test notices.
+//! `cargo xtask mutants [CRATE] [COUNT|all|missed|FILE] [OFFSET]`: breaks the core crates on
+//! purpose and sees whether a test notices.
 //!
 //! `cargo-mutants` makes the mutants and runs the tests of the mutated crate, but for its doc
 //! tests; `.cargo/mutants.toml` lists those that are equivalent, each with its reason. Another

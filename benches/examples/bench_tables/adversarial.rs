@@ -24,7 +24,8 @@ const SAMPLERS: [SamplerKind; 3] = [
 const NAMES: [&str; 3] = ["reference", "default", "fast build"];
 
 const HEADER: &str = "\
-| set | sampler | depth | bytes a light | build ms | V median | energy lost | pmf mismatches | NaN | sum above 1 |
+| set | sampler | depth | bytes a light | build ms | V median | energy lost | pmf mismatches | \
+NaN | sum above 1 |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 

@@ -30,7 +30,8 @@ const LINES: [(SamplerKind, u32, &str); 4] = [
 ];
 
 const HEADER: &str = "\
-| set, lights | sampler | ns sample | ns pmf | V mean | V median | V 99 % | bytes a light | build ms |
+| set, lights | sampler | ns sample | ns pmf | V mean | V median | V 99 % | bytes a light | \
+build ms |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 

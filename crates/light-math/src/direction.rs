@@ -72,7 +72,10 @@ mod tests {
         fn a_direction_is_a_unit_vector(bits in prop::array::uniform3(any::<u32>())) {
             let v = Vec3::from_array(bits.map(f32::from_bits));
             match direction(v) {
-                Some(w) => prop_assert!((w.length_squared() - 1.0).abs() <= UNIT_TOLERANCE, "{v}: {w}"),
+                Some(w) => {
+                    let error = (w.length_squared() - 1.0).abs();
+                    prop_assert!(error <= UNIT_TOLERANCE, "{v}: {w}");
+                }
                 None => prop_assert!(!v.is_finite() || v == Vec3::ZERO, "{v}"),
             }
         }

@@ -103,7 +103,8 @@ mod tests {
             let p = Vec2::new(u, v);
             let back = uv(direction(p));
             let du = (back.x - u).abs();
-            prop_assert!(du.min(1.0 - du) < 1e-4 && (back.y - v).abs() < 1e-6, "{} came back as {}", p, back);
+            let is_near = du.min(1.0 - du) < 1e-4 && (back.y - v).abs() < 1e-6;
+            prop_assert!(is_near, "{} came back as {}", p, back);
         }
 
         #[test]

@@ -152,7 +152,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn directions_come_back_from_the_square(x in -1.0f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
+        fn directions_come_back_from_the_square(
+            x in -1.0f32..1.0,
+            y in -1.0f32..1.0,
+            z in -1.0f32..1.0,
+        ) {
             let v = Vec3::new(x, y, z);
             prop_assume!(v.length() > 0.1);
             let d = from_square(to_square(v));

@@ -206,9 +206,10 @@ proptest! {
         let expected = verdict(&weights);
         prop_assert_eq!(AliasTable::new(&weights).err(), expected, "alias table");
         prop_assert_eq!(PiecewiseConstant1D::new(&weights).err(), expected, "1d");
-        prop_assert_eq!(PiecewiseConstant2D::new(&weights, weights.len(), 1).err(), expected, "row");
-        prop_assert_eq!(PiecewiseConstant2D::new(&weights, 1, weights.len()).err(), expected, "column");
-        let sums = SummedAreaTable::new(&weights, weights.len(), 1).err();
+        let n = weights.len();
+        prop_assert_eq!(PiecewiseConstant2D::new(&weights, n, 1).err(), expected, "row");
+        prop_assert_eq!(PiecewiseConstant2D::new(&weights, 1, n).err(), expected, "column");
+        let sums = SummedAreaTable::new(&weights, n, 1).err();
         let expected = expected.filter(|&e| e != TableError::AllZero);
         prop_assert_eq!(sums, expected, "zeros have sums");
     }

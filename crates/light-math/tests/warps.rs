@@ -157,7 +157,8 @@ proptest! {
         let unit = |w: Vec3| (w.length() - 1.0).abs() < 1e-6;
         let near = |back: Vec2| (back - u).abs().max_element() < 2e-6;
         // At a pole the azimuth is lost.
-        let near_pole = |back: Vec2| near(back) || (back.x - u.x).abs() < 2e-6 && u.x.min(1.0 - u.x) < 1e-6;
+        let is_at_pole = u.x.min(1.0 - u.x) < 1e-6;
+        let near_pole = |back: Vec2| near(back) || is_at_pole && (back.x - u.x).abs() < 2e-6;
 
         let w = uniform_sphere::sample(u);
         prop_assert!(unit(w) && near_pole(uniform_sphere::invert(w)), "sphere {w}");
@@ -198,7 +199,8 @@ proptest! {
         let v = |i: usize| Vec3::new(x[i], x[i + 1], x[i + 2]);
         let u = Vec2::new(y[0], y[1]);
         let _ = (concentric_disk::invert(concentric_disk::sample(u)), polar_disk::sample(u));
-        let _ = (polar_disk::invert(u), uniform_sphere::invert(v(0)), uniform_hemisphere::invert(v(3)));
+        let _ = (polar_disk::invert(u), uniform_sphere::invert(v(0)));
+        let _ = uniform_hemisphere::invert(v(3));
         let _ = (cosine_hemisphere::sample(u), cosine_hemisphere::invert(v(6)));
         let _ = (uniform_cone::sample(u, y[2]), uniform_cone::invert(v(0), y[2]));
         let _ = (linear::sample(y[0], y[1], y[2]), linear::invert(y[0], y[1], y[2]));

@@ -78,7 +78,8 @@ fn lamps_of_obj_files() {
             format!("newmtl matt\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 3 3 3\n{alpha}\n");
         fs::write(folder.join(format!("{name}.mtl")), materials).expect("a file");
         let text = format!(
-            "mtllib {name}.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -2 3 -2\nv 2 3 -2\nv 2 3 2\n\
+            "mtllib {name}.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -2 3 -2\nv 2 3 -2\n\
+             v 2 3 2\n\
              v -2 3 2\nusemtl matt\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n"
         );
         let path = folder.join(format!("{name}.obj"));
@@ -121,7 +122,8 @@ fn lamps_of_gltf_files() {
                 {{"pbrMetallicRoughness": {{"baseColorFactor": [0.5, 0.5, 0.5, 1],
                     "metallicFactor": 0}}}},
                 {{"emissiveFactor": [1, 1, 1], {alpha},
-                    "extensions": {{"KHR_materials_emissive_strength": {{"emissiveStrength": 2000}}}},
+                    "extensions": {{"KHR_materials_emissive_strength":
+                    {{"emissiveStrength": 2000}}}},
                     "pbrMetallicRoughness": {{"baseColorFactor": [0, 0, 0, 0.5],
                         "metallicFactor": 0}}}}]}}"#
         );

@@ -167,7 +167,8 @@ illum 3
 /// Parts of glTF that the small rooms do not use.
 const GLTF: &str = r#"{
  "asset": { "version": "2.0" },
- "extensionsUsed": [ "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength" ],
+ "extensionsUsed": [ "KHR_texture_transform", "KHR_lights_punctual",
+ "KHR_materials_emissive_strength" ],
  "extensions": { "KHR_lights_punctual": { "lights": [
   { "type": "spot", "intensity": 20, "color": [ 1, 0.5, 0.25 ],
     "spot": { "innerConeAngle": 0.2, "outerConeAngle": 0.5 } },
@@ -180,8 +181,10 @@ const GLTF: &str = r#"{
   { "extensions": { "KHR_lights_punctual": { "light": 0 } }, "translation": [ 0, 3, 0 ] },
   { "extensions": { "KHR_lights_punctual": { "light": 1 } } },
   { "extensions": { "KHR_lights_punctual": { "light": 2 } } } ],
- "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0, "mode": 4 } ] } ],
- "materials": [ { "emissiveFactor": [ 1, 1, 1 ], "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
+ "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0,
+ "mode": 4 } ] } ],
+ "materials": [ { "emissiveFactor": [ 1, 1, 1 ], "doubleSided": true, "alphaMode": "MASK",
+ "alphaCutoff": 0.25,
   "emissiveTexture": { "index": 0, "extensions": { "KHR_texture_transform": {
    "offset": [ 0.5, 0.25 ], "rotation": 0.3, "scale": [ 2, 3 ] } } },
   "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 683 } } } ],
@@ -190,7 +193,8 @@ const GLTF: &str = r#"{
  "images": [ { "uri": "a.png" } ],
  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" },
   { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" } ],
- "bufferViews": [ { "buffer": 0, "byteLength": 36 }, { "buffer": 0, "byteOffset": 36, "byteLength": 24 } ],
+ "bufferViews": [ { "buffer": 0, "byteLength": 36 }, { "buffer": 0, "byteOffset": 36,
+ "byteLength": 24 } ],
  "buffers": [ { "byteLength": 60, "uri": "a.bin" } ]
 }
 "#;

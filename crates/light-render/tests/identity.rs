@@ -39,7 +39,8 @@ AttributeBegin
   Rotate 30 0 1 .5
   LightSource "infinite" "string filename" "square.exr" "float scale" 1.5
 AttributeEnd
-Texture "tiles" "spectrum" "imagemap" "string filename" "tiles.exr" "float uscale" 2 "float vscale" 3
+Texture "tiles" "spectrum" "imagemap" "string filename" "tiles.exr" "float uscale" 2
+    "float vscale" 3
 Material "diffuse" "rgb reflectance" [ .5 .4 .3 ]
 Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 .5  0 1 .25 ] "normal N" [ 0 0 1  0 .1 1  .1 0 1 ]
   "point2 uv" [ 0 0  1 .25  .5 1 ] "integer indices" [ 0 1 2  0 2 1 ] "float alpha" .75

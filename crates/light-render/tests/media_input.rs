@@ -100,11 +100,13 @@ fn steps_without_length_are_refused() {
 
 #[test]
 fn a_camera_in_fog_without_end_and_a_flame_without_lights_are_rendered() {
-    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .1 .1 .1 ]\n\
+    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" \
+        [ .1 .1 .1 ]\n\
                MediumInterface \"\" \"fog\"\nCamera \"perspective\"\nWorldBegin\n";
     let lit =
         format!("{fog}LightSource \"point\" \"point3 from\" [ 0 1 -2 ]\nLightSource \"infinite\"");
-    let flame = "WorldBegin\nMakeNamedMedium \"flame\" \"string type\" \"uniformgrid\" \"float density\" 5 \
+    let flame = "WorldBegin\nMakeNamedMedium \"flame\" \"string type\" \"uniformgrid\" \
+        \"float density\" 5 \
                  \"float temperature\" 2000 \"rgb sigma_s\" [ 0 0 0 ]\nMediumInterface \"flame\" \
                    \"\"\nMaterial \"interface\"";
     for (name, media) in [("fog", lit.as_str()), ("flame", flame)] {

@@ -42,7 +42,8 @@ light_testkit::sampler_laws! {
 
     /// The default hierarchy, built with lights that are off.
     mod bvh_dynamic {
-        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::DYNAMIC).expect("valid bounds")
+        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::DYNAMIC)
+            .expect("valid bounds")
     }
 
     /// The default hierarchy, refitted after lights have swapped positions.

@@ -67,7 +67,8 @@ fn refused<T>(
 
 const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nvt 0 1\nvn 0 0 1\no a\nusemtl a\n\
     f 1/1/1 2/1/1 3/1/1\nf -1//1 -2//1 -3//1\n";
-const MTL: &str = "newmtl a\nKd .5 .5 .5\nKe 1 2 3\nillum 5\nNi 1.5\nnewmtl b\nd .5\nTr .5\nPr .3\nKs .1\n\
+const MTL: &str = "newmtl a\nKd .5 .5 .5\nKe 1 2 3\nillum 5\nNi 1.5\nnewmtl b\nd .5\nTr .5\n\
+    Pr .3\nKs .1\n\
     map_d -s 2 2 1 -clamp on a.png\nmap_Kd -o .5 a.png\n";
 
 #[test]
@@ -91,11 +92,13 @@ fn obj_and_its_materials() {
 fn pbrt_and_its_meshes() {
     let pbrt = "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" [40]\n\
         Film \"rgb\" \"float cropwindow\" [0 .5 0 1] PixelFilter \"box\"\nWorldBegin\n\
-        MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \"string type\" \"conductor\"\n\
+        MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"b\" \
+        \"string type\" \"conductor\"\n\
         AttributeBegin Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .1\n\
         AreaLightSource \"diffuse\" \"blackbody L\" 3000 Rotate 30 0 1 0\n\
         Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [0 0 0 1 0 0 0 1 0]\n\
-        AttributeEnd LightSource \"infinite\" \"rgb L\" [1 1 1] Shape \"disk\" \"float alpha\" .5\n";
+        AttributeEnd LightSource \"infinite\" \"rgb L\" [1 1 1] Shape \"disk\" \
+        \"float alpha\" .5\n";
     let n = refused("pbrt", pbrt.as_bytes(), |bytes| {
         parse_scene(Path::new("a.pbrt"), bytes, Files::NONE)
     });
@@ -143,7 +146,8 @@ fn gltf_and_glb() {
 
 #[test]
 fn luminaires() {
-    let lm63 = "IESNA:LM-63-2002\n[TEST] a\n[MANUFAC] b\nTILT=NONE\n1 1000 1 3 2 1 2 0 0 0\n1 1 100\n\
+    let lm63 = "IESNA:LM-63-2002\n[TEST] a\n[MANUFAC] b\nTILT=NONE\n1 1000 1 3 2 1 2 0 0 0\n\
+        1 1 100\n\
         0 60 90\n0 90\n500 250 0\n400 200 0\n";
     // One plane of three intensities, symmetrical about the vertical.
     let zeros = |n: usize| "0\n".repeat(n);

@@ -83,23 +83,27 @@ fn pictures_stand_upright_in_every_format() {
     let pbrt = "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"
         Material \"diffuse\" \"texture reflectance\" \"t\"
         AreaLightSource \"diffuse\" \"string filename\" \"a.png\"
-        Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  1 1 0  0 1 0] \"integer indices\" [0 1 2 0 2 3]
+        Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  1 1 0  0 1 0] \"integer indices\" \
+        [0 1 2 0 2 3]
         \"point2 uv\" [0 0  1 0  1 1  0 1]";
     assert_upright(
         &parse_pbrt(Path::new("a"), pbrt, files).expect("a scene"),
         "pbrt",
     );
     // The upper left corner of an image has the texture coordinates (0, 0).
-    let gltf = br#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    let gltf =
+        br#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "buffers": [{"uri": "a.bin", "byteLength": 80}],
-        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48},
+        {"buffer": 0, "byteOffset": 48, "byteLength": 32}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4},
             {"bufferView": 1, "componentType": 5126, "type": "VEC2", "count": 4}],
         "images": [{"uri": "a.png"}], "textures": [{"source": 0}],
         "materials": [{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
             "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 683.002}},
             "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}}}],
-        "meshes": [{"primitives": [{"mode": 6, "material": 0, "attributes": {"POSITION": 0, "TEXCOORD_0": 1}}]}]}"#;
+        "meshes": [{"primitives": [{"mode": 6, "material": 0, "attributes": {"POSITION": 0,
+        "TEXCOORD_0": 1}}]}]}"#;
     assert_upright(
         &parse_gltf(Path::new("a.gltf"), gltf, files).expect("a scene"),
         "gltf",

@@ -46,7 +46,8 @@ pub(crate) fn li_agrees(
     let fault = |what: &str| {
         let (light, bounds) = (light.light_type(), light.extent());
         Err(format!(
-            "{what}: {sample:?}, queried {pdf}, for {u}, {coverage:?}, at {ctx:?} of {light:?} {bounds:?}"
+            "{what}: {sample:?}, queried {pdf}, for {u}, {coverage:?}, at {ctx:?} of {light:?} \
+             {bounds:?}"
         ))
     };
     if !is_light(sample.l) {

@@ -36,7 +36,8 @@ fn manifest(set: &FeatureSet) -> String {
     format!(
         "[package]\nname = \"probe\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n\
          [lib]\ncrate-type = [\"staticlib\"]\n\n\
-         [dependencies]\n{} = {{ path = {:?}, default-features = false, features = [\"{features}\"] }}\n\n\
+         [dependencies]\n{} = {{ path = {:?}, default-features = false, \
+         features = [\"{features}\"] }}\n\n\
          [profile.dev]\npanic = \"abort\"\n\n[workspace]\n",
         set.package, path,
     )

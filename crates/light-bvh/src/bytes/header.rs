@@ -32,8 +32,8 @@ pub(super) const HEADER: usize = size_of::<Header>();
 const _: () = assert!(HEADER == 32, "no padding");
 
 impl Header {
-    /// The header of a tree with so many nodes, lights in them, lights in all, and nodes with groups
-    /// of lights.
+    /// The header of a tree with so many nodes, lights in them, lights in all, and nodes with
+    /// groups of lights.
     #[cfg(feature = "alloc")]
     #[expect(
         clippy::cast_possible_truncation,

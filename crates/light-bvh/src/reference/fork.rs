@@ -82,7 +82,9 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_chosen_is_possible(
-            first in edge_cases::non_negative(), second in edge_cases::non_negative(), u in edge_cases::unit_f64(),
+            first in edge_cases::non_negative(),
+            second in edge_cases::non_negative(),
+            u in edge_cases::unit_f64(),
         ) {
             let fork = Fork::new(0.25 * first, 0.25 * second);
             match fork.choose(u) {

@@ -50,7 +50,8 @@ impl Narrow {
         (width, self.log2 + STEP_BITS as i32 - shift as i32)
     }
 
-    /// The position at `u`, of 2^32, of the interval, and the power of two of a texel that it counts.
+    /// The position at `u`, of 2^32, of the interval, and the power of two of a texel that this
+    /// counts.
     #[inline]
     pub(super) const fn at(&self, u: u32) -> (u64, i32) {
         let (high, low) = (self.extent >> STEP_BITS, self.extent & (STEPS - 1));

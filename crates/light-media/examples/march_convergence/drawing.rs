@@ -22,7 +22,8 @@ pub(super) fn drawing(media: &[MediumFigures]) -> String {
     let x = |step: f64| 70.0 + 420.0 * (step.log10() - X[0]) / (X[1] - X[0]);
     let y = |error: f64| 330.0 - 310.0 * (error.log10() - Y[0]) / (Y[1] - Y[0]);
     let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 660 380\" font-family=\"sans-serif\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 660 380\" \
+         font-family=\"sans-serif\" \
          font-size=\"12\">\n<rect width=\"660\" height=\"380\" fill=\"white\"/>\n",
     );
     let mut add = |text: String| {
@@ -77,9 +78,12 @@ pub(super) fn drawing(media: &[MediumFigures]) -> String {
             "<path d=\"M70 {at:.1}H490\" stroke=\"{color}\" stroke-dasharray=\"4 4\"/>"
         ));
     }
-    add("<text x=\"505\" y=\"40\">slopes</text><text x=\"505\" y=\"170\">dashed: error of the</text>\
+    add(
+        "<text x=\"505\" y=\"40\">slopes</text><text x=\"505\" y=\"170\">\
+        dashed: error of the</text>\
          <text x=\"505\" y=\"186\">mean of 131072 trackers</text>"
-        .into());
+            .into(),
+    );
     svg.push_str("</svg>\n");
     svg
 }

@@ -62,8 +62,8 @@ pub(crate) struct BenchArgs {
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
     #[arg(long = "truth", default_value = "centroid")]
     ground_truth: GroundTruth,
-    /// The receivers: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse, half
-    /// microfacets.
+    /// The receivers: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse,
+    /// half microfacets.
     #[arg(long, default_value = "diffuse")]
     receiver: BenchReceiverKind,
     /// Spheres that block light, a tenth of the set's volume together; at most 65536.
@@ -76,7 +76,12 @@ pub(crate) struct BenchArgs {
     occluders: u32,
     /// Move the lights in N steps, at most 20, each twice as far as the last, and compare
     /// hierarchies that follow with new ones.
-    #[arg(long, value_name = "N", conflicts_with = "k", value_parser = clap::value_parser!(u32).range(..=20))]
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with = "k",
+        value_parser = clap::value_parser!(u32).range(..=20)
+    )]
     refits: Option<u32>,
     /// One JSON object a line instead of a table.
     #[arg(long)]

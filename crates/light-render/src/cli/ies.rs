@@ -101,7 +101,8 @@ fn polar_plot(web: &PhotometricWeb) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIZE} {SIZE}\" \
          font-family=\"sans-serif\" font-size=\"11\">\n\
-         <rect width=\"{SIZE}\" height=\"{SIZE}\" fill=\"white\"/>\n<g fill=\"none\" stroke=\"#bbb\">\n"
+         <rect width=\"{SIZE}\" height=\"{SIZE}\" fill=\"white\"/>\n\
+         <g fill=\"none\" stroke=\"#bbb\">\n"
     );
     for ring in 1..=4u8 {
         let r = RADIUS * f32::from(ring) / 4.0;
@@ -131,7 +132,8 @@ fn polar_plot(web: &PhotometricWeb) -> String {
     }
     let caption = format!(
         "<text x=\"8\" y=\"16\">{:.0} lm, peak {:.0} cd, type {}</text>\n\
-         <text x=\"8\" y=\"{}\">solid: the plane of x, dashed: the plane of z; rings at quarters of the peak</text>\n\
+         <text x=\"8\" y=\"{}\">solid: the plane of x, dashed: the plane of z; \
+         rings at quarters of the peak</text>\n\
          </svg>\n",
         web.total_lumens(),
         web.peak_candelas(),

@@ -3,11 +3,12 @@ use crate::available_memory::available_memory;
 
 use super::failure::Failure;
 
-/// Bytes per pixel of a picture: the film, what it shows, what a screen shows of that, and the file.
+/// Bytes per pixel of a picture: the film, what it shows, what a screen shows of that, and the
+/// file.
 pub(crate) const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
 
-/// Makes sure that `bytes` of memory are available before they are allocated. `what` needs them: the
-/// words name the flags that ask for it.
+/// Makes sure that `bytes` of memory are available before they are allocated. `what` needs them:
+/// the words name the flags that ask for it.
 ///
 /// # Errors
 /// When there is less, with both figures.

@@ -24,7 +24,12 @@ pub(crate) struct SettingsArgs {
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 8,
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
     max_depth: u32,
     /// What scatters light: surfaces alone (path), or media as well (volpath), or either once
     /// (single-scattering, with lights for the ray as a whole, and -classic, in steps); without it

@@ -50,7 +50,8 @@ impl fmt::Display for WorldError {
             }
             Self::Copies { name, most } => write!(
                 f,
-                "object {name}: expected at most {most} emissive triangles and spheres in all instances"
+                "object {name}: expected at most {most} emissive triangles and spheres in all \
+                 instances"
             ),
         }
     }

@@ -57,11 +57,13 @@ const STOOLS: &str = r#"
         AreaLightSource "diffuse" "rgb L" [ 9 8 7 ] Translate 0 3 0 Rotate 90 1 0 0
         Shape "disk" "float radius" 1
     AttributeEnd
-    Shape "trianglemesh" "point3 P" [ -9 0 9  9 0 9  9 0 -9  -9 0 -9 ] "integer indices" [ 0 1 2 0 2 3 ]
+    Shape "trianglemesh" "point3 P" [ -9 0 9  9 0 9  9 0 -9  -9 0 -9 ]
+    "integer indices" [ 0 1 2 0 2 3 ]
     ObjectBegin "stool"
         Material "diffuse" "rgb reflectance" [ 0.5 0.3 0.1 ]
         Rotate 90 1 0 0 Shape "cylinder" "float zmin" -1 "float zmax" 0 "float radius" 0.3
-        Material "dielectric" Translate 0 0 -1.5 ReverseOrientation Shape "sphere" "float radius" 0.4
+        Material "dielectric" Translate 0 0 -1.5 ReverseOrientation Shape "sphere"
+        "float radius" 0.4
     ObjectEnd
     ObjectInstance "stool"
     AttributeBegin Translate -1.2 0 0.3 Scale 1 0.5 -0.7 ObjectInstance "stool" AttributeEnd

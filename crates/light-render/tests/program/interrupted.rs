@@ -48,7 +48,8 @@ fn the_crop_of_a_file_counts() {
     let folder = Folder::new("film-crop");
     let scene = folder.file(
         "crop.pbrt",
-        "Film \"rgb\" \"integer xresolution\" 20 \"integer yresolution\" 10 \"float cropwindow\" [0 .5 .2 1]\n\
+        "Film \"rgb\" \"integer xresolution\" 20 \"integer yresolution\" 10 \"float cropwindow\" \
+         [0 .5 .2 1]\n\
          Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n",
     );
     let out = folder.path("out.exr");

@@ -8,7 +8,8 @@ use crate::folder::{Folder, assert_refused, stdout};
 
 /// A floor below a lamp and a point, under a sky.
 fn scene(lights: &[&str]) -> String {
-    let floor = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 1 3 2] \"point3 P\" [-2 0 -2  2 0 -2  -2 0 2  2 0 2]\n";
+    let floor = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 1 3 2] \
+        \"point3 P\" [-2 0 -2  2 0 -2  -2 0 2  2 0 2]\n";
     let camera = "LookAt 0 3 4  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n";
     let grey = "MakeNamedMaterial \"grey\" \"string type\" \"diffuse\"\nNamedMaterial \"grey\"\n";
     format!("{camera}{grey}{floor}{}", lights.concat())

@@ -8,12 +8,15 @@ use crate::glam::Vec3;
 fn punctual_lights_in_candela_and_lux_shine_along_minus_z() {
     let scene = read(
         r#""scenes": [{"nodes": [0, 1, 2]}], "nodes": [
-            {"name": "bulb", "translation": [1, 2, 3], "scale": [7, 7, 7], "extensions": {"KHR_lights_punctual": {"light": 0}}},
-            {"rotation": [0.70710678, 0, 0, -0.70710678], "extensions": {"KHR_lights_punctual": {"light": 1}}},
+            {"name": "bulb", "translation": [1, 2, 3], "scale": [7, 7, 7],
+            "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"rotation": [0.70710678, 0, 0, -0.70710678],
+            "extensions": {"KHR_lights_punctual": {"light": 1}}},
             {"extensions": {"KHR_lights_punctual": {"light": 2}}}],
         "extensions": {"KHR_lights_punctual": {"lights": [
             {"type": "point", "intensity": 683, "color": [1, 0.5, 0], "range": 9},
-            {"type": "spot", "intensity": 1366, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
+            {"type": "spot", "intensity": 1366, "spot": {"innerConeAngle": 0.2,
+            "outerConeAngle": 0.4}},
             {"type": "directional", "intensity": 68.3}]}}"#,
     )
     .expect("a scene");

@@ -33,7 +33,8 @@ fn broken_documents_give_one_clear_line() {
         ),
         (
             r#""extensionsRequired": ["X_squeeze"]"#.into(),
-            "a.gltf: extensionsRequired[0]: expected an extension that is read, found \"X_squeeze\"",
+            "a.gltf: extensionsRequired[0]: expected an extension that is read, found \
+             \"X_squeeze\"",
         ),
         (
             primitive(r#"{"attributes": {}}"#),
@@ -62,7 +63,8 @@ fn broken_documents_give_one_clear_line() {
         ),
         (
             primitive(r#"{"attributes": {"POSITION": 0}, "material": 0}"#)
-                + r#", "materials": [{"emissiveTexture": {"index": 0}}], "textures": [{"source": 0}], "images": [{"uri": "no.png"}]"#,
+                + r#", "materials": [{"emissiveTexture": {"index": 0}}],
+                "textures": [{"source": 0}], "images": [{"uri": "no.png"}]"#,
             "a.gltf: images[0].uri: no.png: cannot be read: not allowed",
         ),
     ];
@@ -119,7 +121,8 @@ fn broken_accessors_are_named_and_ask_for_no_memory() {
         (
             "5126",
             "5124",
-            "a.gltf: accessors[0].componentType: expected 5120, 5121, 5122, 5123, 5125 or 5126, found 5124",
+            "a.gltf: accessors[0].componentType: expected 5120, 5121, 5122, 5123, 5125 or 5126, \
+             found 5124",
         ),
     ];
     for (good, bad, expected) in cases {

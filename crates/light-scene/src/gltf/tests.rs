@@ -23,9 +23,11 @@ fn square() -> Vec<u8> {
 
 /// Buffer, views and accessors of [`square`], before a comma.
 const SQUARE: &str = r#""asset": {"version": "2.0"},
-    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 32},
+    "bufferViews": [{"buffer": 0, "byteLength": 48},
+    {"buffer": 0, "byteOffset": 48, "byteLength": 32},
         {"buffer": 0, "byteOffset": 80, "byteLength": 12}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "max": [1, 1, 0]},
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+    "max": [1, 1, 0]},
         {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
         {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}],
     "buffers": [{"byteLength": 92 $URI}],"#;
@@ -41,16 +43,19 @@ pub(super) fn read(json: &str) -> Result<Scene, String> {
 }
 
 const LAMP: &str = r#""scene": 0, "scenes": [{"nodes": [0, 2]}],
-    "nodes": [{"translation": [0, 2, 0], "scale": [2, 2, 2], "children": [1]}, {"mesh": 0, "skin": 0},
+    "nodes": [{"translation": [0, 2, 0], "scale": [2, 2, 2], "children": [1]},
+    {"mesh": 0, "skin": 0},
         {"translation": [0, 0, 5], "camera": 0}],
-    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 1.5, "znear": 0.1}}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 1.5,
+    "znear": 0.1}}],
     "meshes": [{"name": "lamp", "primitives": [
         {"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 1}, "indices": 2, "material": 0},
         {"attributes": {"POSITION": 0}, "mode": 1}]}],
     "materials": [{"name": "glow", "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
         "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 1], "metallicFactor": 0},
         "normalTexture": {"index": 0},
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1366}, "X_glitter": {}}}]"#;
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1366},
+        "X_glitter": {}}}]"#;
 
 #[test]
 fn reads_nodes_meshes_materials_and_a_camera() {
@@ -123,7 +128,8 @@ fn meshes_of_several_nodes_are_instanced() {
     let json = r#""scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [{"mesh": 0, "scale": [2, 1, 1], "children": [3]}, {"mesh": 1}, {"mesh": 0},
             {"mesh": 0, "translation": [1, 0, 0]}],
-        "meshes": [{"name": "square", "primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]},
+        "meshes": [{"name": "square", "primitives": [{"attributes": {"POSITION": 0},
+        "indices": 2}]},
             {"primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]}]"#;
     let scene = read(json).expect("a scene");
     assert_eq!(scene.meshes.len(), 1, "one node shows the second");
@@ -165,8 +171,16 @@ fn sparse_accessors_replace_elements() {
     let sparse = r#""max": [1, 1, 0], "sparse": {"count": 1,
         "indices": {"bufferView": 3, "componentType": 5121}, "values": {"bufferView": 4}}"#;
     let json = SQUARE
-        .replace("\"byteLength\": 92 $URI", &format!("\"byteLength\": 108 {uri}"))
-        .replace("\"byteLength\": 12}]", "\"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 92, \"byteLength\": 1}, {\"buffer\": 0, \"byteOffset\": 96, \"byteLength\": 12}]")
+        .replace(
+            "\"byteLength\": 92 $URI",
+            &format!("\"byteLength\": 108 {uri}"),
+        )
+        .replace(
+            "\"byteLength\": 12}]",
+            "\"byteLength\": 12}, {\"buffer\": 0, \
+            \"byteOffset\": 92, \"byteLength\": 1}, \
+            {\"buffer\": 0, \"byteOffset\": 96, \"byteLength\": 12}]",
+        )
         .replace(r#""max": [1, 1, 0]"#, sparse);
     let json = format!(
         r#"{{{json} "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],

@@ -13,8 +13,10 @@ fn shown(info: &str, texture: &str, wrap: u32) -> Result<Scene, String> {
     read(&format!(
         r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
             {{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2, "material": 0}}]}}],
-        "materials": [{{"pbrMetallicRoughness": {{"metallicFactor": 0, "baseColorTexture": {{"index": 0 {info}}}}}}}],
-        "textures": [{{{texture}, "sampler": 0}}], "samplers": [{{"wrapS": {wrap}}}], "images": [{{"uri": "{image}"}}]"#
+        "materials": [{{"pbrMetallicRoughness": {{"metallicFactor": 0,
+        "baseColorTexture": {{"index": 0 {info}}}}}}}],
+        "textures": [{{{texture}, "sampler": 0}}], "samplers": [{{"wrapS": {wrap}}}],
+        "images": [{{"uri": "{image}"}}]"#
     ))
 }
 
@@ -36,7 +38,8 @@ fn transforms_move_texture_coordinates_as_the_extension_says() {
     assert_eq!(mapping(""), TextureMapping::REPEAT, "none");
     // Its first example: the lower left quarter of the image, turned clockwise by a right angle.
     let quarter = mapping(
-        r#", "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5]}}"#,
+        r#", "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1.57079632679,
+        "scale": [0.5, 0.5]}}"#,
     );
     // Corners by our texture coordinates, and the places that they show, of which (0, 0) is the
     // upper left corner.
@@ -160,16 +163,19 @@ fn an_image_that_is_listed_twice_is_decoded_once() {
     let image = data_uri(&png(image::GrayImage::new(1, 1)));
     let primitive = |material: u32| {
         format!(
-            r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2, "material": {material}}}"#
+            r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "indices": 2,
+            "material": {material}}}"#
         )
     };
     let material = |texture: u32| {
         format!(
-            r#"{{"pbrMetallicRoughness": {{"metallicFactor": 0, "baseColorTexture": {{"index": {texture}}}}}}}"#
+            r#"{{"pbrMetallicRoughness": {{"metallicFactor": 0,
+            "baseColorTexture": {{"index": {texture}}}}}}}"#
         )
     };
     let scene = read(&format!(
-        r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{}, {}]}}],
+        r#""scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{}, {}]}}],
         "materials": [{}, {}], "textures": [{{"source": 0}}, {{"source": 1}}],
         "images": [{{"uri": "{image}"}}, {{"uri": "{image}"}}]"#,
         primitive(0),
@@ -198,7 +204,8 @@ fn shares_lie_between_0_and_1() {
     for (material, expected) in [
         (
             r#""pbrMetallicRoughness": {"metallicFactor": 1.5}"#,
-            "materials[0].pbrMetallicRoughness.metallicFactor: expected a number from 0 to 1, found 1.5",
+            "materials[0].pbrMetallicRoughness.metallicFactor: expected a number from 0 to 1, \
+             found 1.5",
         ),
         (
             r#""pbrMetallicRoughness": {"baseColorFactor": [1, 1, 2, 1]}"#,

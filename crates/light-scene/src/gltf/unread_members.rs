@@ -84,7 +84,8 @@ mod tests {
     #[test]
     fn what_nobody_asked_for_is_named_once_a_kind() {
         let document = document(
-            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1, "c": {"d": 1},
+            r#"{"a": [{"x": 1, "y": 2}, {"x": 1, "y": {"z": 0}}], "b": 0, "extras": 1,
+            "c": {"d": 1},
             "extensions": {"E": {"f": 1}}}"#,
         );
         for item in document.root().list("a").expect("a list") {

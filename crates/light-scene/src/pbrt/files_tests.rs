@@ -6,12 +6,15 @@ use crate::{Alpha, Color, Diagnostic, Files, Scene, Surface};
 
 /// A scene in several files, as exporters write them: the first one lies in `dir`.
 fn read(first: &str) -> Result<Scene, String> {
-    const TRIANGLE: &[u8] = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
-        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const TRIANGLE: &[u8] = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n\
+        property float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n\
+        3 0 1 2\n";
     const GEOMETRY: &[u8] = b"Translate 0 0 3 NamedMaterial \"red\" Shape \"plymesh\" \"string \
                               filename\" \"geometry/a.ply\"";
     const MATERIALS: &[u8] =
-        b"MakeNamedMaterial \"red\" \"string type\" [ \"diffuse\" ] \"rgb reflectance\" [ .9 .1 .1 ]";
+        b"MakeNamedMaterial \"red\" \"string type\" [ \"diffuse\" ] \"rgb reflectance\" \
+            [ .9 .1 .1 ]";
     fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         match path.to_str() {
             Some("dir/geometry/all.pbrt") => Ok(GEOMETRY.into()),
@@ -53,7 +56,8 @@ fn what_an_imported_file_does_to_the_state_ends_with_it() {
 fn materials_may_be_described_after_their_use() {
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 1 1 ]";
     let text = format!(
-        "WorldBegin NamedMaterial \"red\" {light} {TRIANGLE} Material \"mix\" \"string materials\" [\"red\" \"blue\"] {TRIANGLE}
+        "WorldBegin NamedMaterial \"red\" {light} {TRIANGLE} Material \"mix\" \
+         \"string materials\" [\"red\" \"blue\"] {TRIANGLE}
         Include \"materials.pbrt\" MakeNamedMaterial \"blue\" \"string type\" \"interface\""
     );
     let scene = read(&text).expect("a scene");

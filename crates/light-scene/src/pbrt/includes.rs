@@ -19,7 +19,8 @@ impl Reader {
         let name = tokens.quoted("a file name")?.into_owned();
         if depth == DEEPEST {
             let message = format!(
-                "expected a file that does not include itself, or fewer than {DEEPEST} in each other"
+                "expected a file that does not include itself, or fewer than {DEEPEST} in each \
+                 other"
             );
             return Err(tokens.diagnostic(message));
         }

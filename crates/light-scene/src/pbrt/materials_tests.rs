@@ -32,7 +32,8 @@ fn spectra_come_from_files_and_by_name() {
     let text = |light: &str| {
         format!(
             "WorldBegin LightSource \"point\" \"spectrum I\" \"{light}\" \
-             Material \"conductor\" \"spectrum eta\" \"grey.spd\" \"spectrum k\" [300 4 900 4] Shape \"disk\""
+             Material \"conductor\" \"spectrum eta\" \"grey.spd\" \"spectrum k\" [300 4 900 4] \
+             Shape \"disk\""
         )
     };
     let read = |light: &str| {

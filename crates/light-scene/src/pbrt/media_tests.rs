@@ -22,14 +22,16 @@ fn read(name: &str, text: &str) -> Result<Scene, String> {
 const SCENE: &str = r#"
 MediumInterface "" "air"
 Camera "perspective"
-MakeNamedMedium "air" "string type" "homogeneous" "rgb sigma_a" [ 1 2 3 ] "rgb sigma_s" [ 4 5 6 ] "float scale" .5
+MakeNamedMedium "air" "string type" "homogeneous" "rgb sigma_a" [ 1 2 3 ] "rgb sigma_s" [ 4 5 6 ]
+    "float scale" .5
   "rgb Le" [ 1 0 0 ] "float Lescale" 2 "float g" -.3
 WorldBegin
 MakeNamedMedium "milk" "string type" "homogeneous" "string preset" "Skimmilk"
 AttributeBegin
   Translate 1 0 0
   MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "integer ny" 1 "integer nz" 1
-    "float density" [ 1 3 ] "float temperature" [ 0 1500 ] "rgb sigma_a" [ 1 1 1 ] "rgb sigma_s" [ 2 2 2 ]
+    "float density" [ 1 3 ] "float temperature" [ 0 1500 ] "rgb sigma_a" [ 1 1 1 ]
+    "rgb sigma_s" [ 2 2 2 ]
     "point3 p0" [ 0 0 0 ] "point3 p1" [ 2 1 1 ]
 AttributeEnd
 MakeNamedMedium "dye" "string type" "rgbgrid" "integer nx" 1 "integer ny" 1 "integer nz" 2
@@ -146,7 +148,8 @@ fn bad_media_are_refused_with_the_line() {
         ),
         (
             homogeneous("\"float g\" 1.5"),
-            "medium \"m\": the asymmetry of a phase function must lie between -1 and 1, both excluded",
+            "medium \"m\": the asymmetry of a phase function must lie between -1 and 1, \
+             both excluded",
         ),
         (
             grid("\"float density\" [ 1 ]"),

@@ -113,7 +113,8 @@ fn broken_files_give_one_clear_line() {
         ),
         (
             "Include \"a.pbrt\"",
-            "a.pbrt:1: expected a file that does not include itself, or fewer than 32 in each other",
+            "a.pbrt:1: expected a file that does not include itself, or fewer than 32 in each \
+             other",
         ),
     ];
     for (text, expected) in cases {

@@ -22,7 +22,8 @@ LookAt 0 0 -5  0 0 0  0 1 0
 Camera "perspective" "float fov" [ 40 ] "float lensradius" 0.1 "float focaldistance" 5
 Film "rgb" "integer xresolution" 64 "integer yresolution" [ 48 ] "string filename" "a.exr"
 WorldBegin
-MakeNamedMaterial "gold" "string type" "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k" "float roughness" 0.04
+MakeNamedMaterial "gold" "string type" "conductor" "spectrum eta" "metal-Au-eta"
+    "spectrum k" "metal-Au-k" "float roughness" 0.04
 AttributeBegin
   Material "diffuse" "rgb reflectance" [ .1 .2 .3 ]
   AreaLightSource "diffuse" "rgb L" [ 1 2 3 ] "float scale" 2 "bool twosided" true
@@ -93,7 +94,7 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     assert_eq!(warnings, expected, "named once");
     assert_eq!(
         scene.warnings[0].location,
-        crate::Location::Line(18),
+        crate::Location::Line(19),
         "with its line"
     );
 }

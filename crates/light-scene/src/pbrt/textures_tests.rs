@@ -89,7 +89,8 @@ fn images_are_scaled_inverted_and_decoded_as_files_say() {
 #[test]
 fn images_lie_where_the_mapping_puts_them() {
     let (_, shown) = reflectance(
-        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.png\" \"string filter\" \"ewa\"
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"grey.png\" \
+         \"string filter\" \"ewa\"
         \"string wrap\" \"black\" \"float uscale\" 2 \"float vscale\" 3 \"float udelta\" .5 \
           \"float vdelta\" -1",
     );
@@ -122,7 +123,8 @@ fn numbers_and_colors_have_names_of_their_own() {
 fn textures_are_put_together() {
     let images = "\"constant\" \"rgb value\" [.5 .5 .5]
         Texture \"red\" \"spectrum\" \"imagemap\" \"string filename\" \"red.png\"
-        Texture \"grey\" \"float\" \"imagemap\" \"string filename\" \"grey.png\" \"string encoding\" \"linear\"
+        Texture \"grey\" \"float\" \"imagemap\" \"string filename\" \"grey.png\" \
+        \"string encoding\" \"linear\"
         Texture \"t\" \"spectrum\"";
     for (texture, expected) in [
         (

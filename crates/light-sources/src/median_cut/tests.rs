@@ -173,7 +173,10 @@ proptest! {
 
     #[test]
     fn any_image_is_cut(
-        texels in proptest::collection::vec(prop_oneof![Just(0.0f32), 0.0f32..1.0, 0.0f32..1e6], 35),
+        texels in proptest::collection::vec(
+            prop_oneof![Just(0.0f32), 0.0f32..1.0, 0.0f32..1e6],
+            35,
+        ),
         n in 1usize..50,
     ) {
         let image = Image::from_f32([7, 5], Channels::Gray, texels.clone()).expect("valid");

@@ -92,8 +92,8 @@ impl Sphere {
         })
     }
 
-    /// Whether the receiver may be a point of the sphere, wherever rounding has put it: by its place
-    /// and its normal. Another surface that close is on the side where it is.
+    /// Whether the receiver may be a point of the sphere, wherever rounding has put it: by its
+    /// place and its normal. Another surface that close is on the side where it is.
     fn is_own(&self, ctx: &LightSampleContext) -> bool {
         let size = self.center().abs().max_element() + self.radius;
         let error = 2.0 * ctx.p_error + 8.0 * f32::EPSILON * size;

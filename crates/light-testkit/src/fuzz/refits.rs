@@ -162,7 +162,8 @@ fn compare(
     }
     assert!(
         (tree_of_refit - tree_of_rebuilt).abs() <= SHARE_ROUNDING,
-        "the tree emits with {tree_of_refit} after a refit, {tree_of_rebuilt} when rebuilt: {lights:?}"
+        "the tree emits with {tree_of_refit} after a refit, {tree_of_rebuilt} when rebuilt: \
+         {lights:?}"
     );
 }
 

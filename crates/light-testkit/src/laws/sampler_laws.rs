@@ -35,14 +35,22 @@ macro_rules! sampler_laws {
         $(#[$meta])*
         #[cfg(test)]
         mod $name {
-            #[allow(unused_imports, reason = "not every way to build a sampler needs what the file imports")]
+            #[allow(
+                unused_imports,
+                reason = "not every way to build a sampler needs what the file imports"
+            )]
             use super::*;
 
-            fn build($set: &$crate::SamplerCase) -> impl $crate::light_samplers::LightSampler + use<> {
+            fn build(
+                $set: &$crate::SamplerCase,
+            ) -> impl $crate::light_samplers::LightSampler + use<> {
                 $build
             }
 
-            fn check<S>(law: impl Fn(&$crate::SamplerCase, &S), build: impl Fn(&$crate::SamplerCase) -> S) {
+            fn check<S>(
+                law: impl Fn(&$crate::SamplerCase, &S),
+                build: impl Fn(&$crate::SamplerCase) -> S,
+            ) {
                 for set in $crate::laws::sampler_cases() {
                     law(&set, &build(&set));
                 }
@@ -85,10 +93,8 @@ macro_rules! sampler_laws {
 
             #[test]
             fn contributing_lights_can_be_chosen_whatever_the_normal() {
-                check(
-                    $crate::laws::sampler_contexts::contributing_lights_can_be_chosen_whatever_the_normal,
-                    build,
-                );
+                use $crate::laws::sampler_contexts as laws;
+                check(laws::contributing_lights_can_be_chosen_whatever_the_normal, build);
             }
 
             #[test]

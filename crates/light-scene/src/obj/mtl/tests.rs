@@ -142,8 +142,10 @@ fn surfaces_mean_what_the_documentation_says() {
 
 #[test]
 fn what_does_not_count_is_named_once() {
-    let mtl = "newmtl a\nKs .5\nnewmtl b\nKs .5\nnewmtl c\nillum 5\nKd 1\nnewmtl d\nillum 4\nmap_Kd a b.png\n\
-        newmtl e\nPm .6\nmap_Kd a b.png\nnewmtl f\nd .5\nTr .7\nbump a b.png\nTf 1\nTf 1\nnewmtl g\nmap_Kd c.dds\n";
+    let mtl = "newmtl a\nKs .5\nnewmtl b\nKs .5\nnewmtl c\nillum 5\nKd 1\nnewmtl d\nillum 4\n\
+        map_Kd a b.png\n\
+        newmtl e\nPm .6\nmap_Kd a b.png\nnewmtl f\nd .5\nTr .7\nbump a b.png\nTf 1\nTf 1\n\
+        newmtl g\nmap_Kd c.dds\n";
     let expected = [
         "dir/a.mtl:17: `bump` is not understood and was ignored",
         "dir/a.mtl:18: `Tf` is not understood and was ignored",

@@ -55,11 +55,13 @@ fn ply_in_text_and_binary() {
         ),
         ("ply\nend_header\n", "a.ply:3: expected a `format` line"),
         (
-            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+             end_header\n0 0\n",
             "a.ply:7: expected a property `z` of vertices",
         ),
         (
-            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int corners\nend_header\n3 0 0 0\n",
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int corners\nend_header\n\
+             3 0 0 0\n",
             "a.ply:6: expected a list `vertex_indices` of faces",
         ),
         (
