@@ -68,6 +68,7 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
     alloc("light-photometry", "libm,alloc"),
     std("light-photometry", "std"),
     alloc("light-gpu", "libm"),
+    std("light-gpu", "std"),
     core("lights", "libm"),
     alloc("lights", "libm,alloc,bytemuck"),
     core("lights", "libm,bytemuck"),
