@@ -172,16 +172,20 @@ fn compare_bounds(
     let unpack =
         |packed: u32| [packed & 0x7fff, packed >> 15 & 0x7fff, packed >> 30].map(i64::from);
 
-    // Codes of the axis.
-    let xy = |w: lights::math::OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
-    let w = findings.ours("node axis", xy(ours.w));
-    let is_exact = codes::is_octahedral(w, exact.cone.w);
-    let is_same = theirs.is_some_and(|t| w == xy(t.w));
-    judge("axis", is_same, is_exact, rule(&ROUNDED_CODE), findings);
-
-    // Both cosines, and the flag.
     let their_packed = theirs.map(|t| unpack(t.packed));
     let [cos_o, cos_e, two_sided] = unpack(ours.packed);
+
+    // Codes of the axis. A cone with the code 0 is the whole sphere, whatever its axis; the code
+    // itself is compared below.
+    if cos_o > 0 || their_packed.is_some_and(|t| t[0] > 0) {
+        let xy = |w: lights::math::OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
+        let w = findings.ours("node axis", xy(ours.w));
+        let is_exact = codes::is_octahedral(w, exact.cone.w);
+        let is_same = theirs.is_some_and(|t| w == xy(t.w));
+        judge("axis", is_same, is_exact, rule(&ROUNDED_CODE), findings);
+    }
+
+    // Both cosines, and the flag.
     let cos_o = findings.ours("node cos_theta_o", cos_o);
     let number = codes::cosine(exact.cone.cos_theta);
     let is_exact = codes::is_below(cos_o, number) || codes::is_below(cos_o + 1, number);
