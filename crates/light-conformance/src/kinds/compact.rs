@@ -54,7 +54,7 @@ fn compare_codes(
     let codes = compact_codes(theirs)?;
     let xy = |w: OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
     let w = findings.ours("w_oct", xy(ours.w()));
-    let is_exact = codes::is_octahedral(w, lb.w.as_dvec3());
+    let is_exact = codes::is_octahedral(w, lb.w.as_dvec3(), 0.0);
     judge("w", w == xy(codes.w), is_exact, &ROUNDED_CODE, findings);
     let phi = findings.ours("phi", ours.phi());
     findings.equal("phi", phi, theirs.get("phi")?.float()?);

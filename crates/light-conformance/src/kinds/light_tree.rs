@@ -7,6 +7,7 @@ use super::compact_codes::{Codes, ROUNDED_CODE, compact_codes, judge};
 use super::light_tree_splits;
 use super::sampler_set::light_id;
 use crate::oracle::cone::ExactCone;
+use crate::oracle::cone_rounding::ConeRounding;
 use crate::oracle::{Certainty, Jitter, codes};
 use crate::{Case, Findings, Malformed, Rule, Tolerance};
 
@@ -27,6 +28,8 @@ const EQUAL_COST: Rule = Rule {
 struct ExactNode {
     bounds: LightBounds,
     cone: ExactCone,
+    /// How far rounding may have moved our cone.
+    moved: ConeRounding,
 }
 
 /// Compares all nodes and trails.
@@ -112,7 +115,12 @@ fn exact_node(
         Link::Leaf(light) => {
             let bounds = *lights.get(light.index())?.bounded()?;
             let cone = ExactCone::new(bounds.w, bounds.cos_theta_o);
-            Some(ExactNode { bounds, cone })
+            let moved = ConeRounding::default();
+            Some(ExactNode {
+                bounds,
+                cone,
+                moved,
+            })
         }
         Link::Interior { second_child } => {
             let (a, b) = (exact[index + 1]?, exact[second_child as usize]?);
@@ -123,7 +131,12 @@ fn exact_node(
             bounds.cos_theta_e = bounds.cos_theta_e.min(b.bounds.cos_theta_e);
             bounds.two_sided |= b.bounds.two_sided;
             let cone = a.cone.union(b.cone, &mut Jitter::default());
-            Some(ExactNode { bounds, cone })
+            let moved = ConeRounding::of_union([a.cone, b.cone], [a.moved, b.moved]);
+            Some(ExactNode {
+                bounds,
+                cone,
+                moved,
+            })
         }
     }
 }
@@ -180,7 +193,7 @@ fn compare_bounds(
     if cos_o > 0 || their_packed.is_some_and(|t| t[0] > 0) {
         let xy = |w: lights::math::OctahedralVector| [w.xy().0, w.xy().1].map(i64::from);
         let w = findings.ours("node axis", xy(ours.w));
-        let is_exact = codes::is_octahedral(w, exact.cone.w);
+        let is_exact = codes::is_octahedral(w, exact.cone.w, exact.moved.axis);
         let is_same = theirs.is_some_and(|t| w == xy(t.w));
         judge("axis", is_same, is_exact, rule(&ROUNDED_CODE), findings);
     }

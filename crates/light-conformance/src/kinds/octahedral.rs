@@ -11,7 +11,7 @@ pub(super) fn check(case: &Case<'_>, findings: &mut Findings) -> Result<(), Malf
     let ours = findings.ours("codes", [x, y].map(i64::from));
     let enc = case.get("enc")?;
     let theirs = [enc.at(0)?.integer()?, enc.at(1)?.integer()?];
-    let is_exact = codes::is_octahedral(ours, v.as_dvec3());
+    let is_exact = codes::is_octahedral(ours, v.as_dvec3(), 0.0);
     judge(
         "direction",
         ours == theirs,

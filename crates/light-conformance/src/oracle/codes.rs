@@ -5,21 +5,27 @@ use glam::DVec3;
 /// How far rounding in single precision moves such a number, in codes.
 const ROUNDING: f64 = 0.06;
 
-/// Whether `code` is that of the direction `w`.
+/// Whether `code` is that of the direction `w`, which rounding has moved by an angle of up to
+/// `moved` before it is encoded.
 ///
 /// The lower half of the octahedron is unfolded to the outside of the square, each coordinate with
 /// the sign of its own: where one is zero, as +0 or as -0, the direction lies on the edge of the
 /// square and has a code on either side of it.
-pub(crate) fn is_octahedral(code: [i64; 2], w: DVec3) -> bool {
+pub(crate) fn is_octahedral(code: [i64; 2], w: DVec3, moved: f64) -> bool {
+    let slack = TURNED.max(ROUNDING + STRETCH * moved / CODE);
     let p = w / (w.x.abs() + w.y.abs() + w.z.abs());
     let signs = |x: f64| {
         [-1.0, 1.0]
             .into_iter()
-            .filter(move |s| s * x >= -TURNED * CODE)
+            .filter(move |s| s * x >= -slack * CODE)
     };
     let code_of = |x: f64| (x.clamp(-1.0, 1.0) + 1.0) / CODE;
-    let is_code =
-        |x: f64, y: f64| is_nearest(code[0], code_of(x)) && is_nearest(code[1], code_of(y));
+    let is_code = |x: f64, y: f64| {
+        [x, y]
+            .into_iter()
+            .zip(code)
+            .all(|(x, c)| is_nearest(c, code_of(x), slack))
+    };
     if p.z >= 0.0 {
         return is_code(p.x, p.y);
     }
@@ -80,12 +86,17 @@ pub(crate) fn coordinate(x: f32, min: f32, max: f32) -> Number {
     }
 }
 
-/// The same for an axis that unions have turned one after the other.
+/// The same for a direction, at least.
 const TURNED: f64 = 0.15;
 
-/// Whether `code` is a number rounded to the nearest code.
-fn is_nearest(code: i64, exact: f64) -> bool {
-    (code as f64 - exact).abs() <= 0.5 + TURNED
+/// A direction `w` has the coordinates `w[i] / L` on the square, where `L` is the sum of its absolute
+/// components, at least 1. If `w` moves by `d`, the numerator moves by at most `|d|`, and `L` by at
+/// most `sqrt(3) |d|`, so that no coordinate moves by more than `1 + sqrt(3)` times `|d|`.
+const STRETCH: f64 = 2.733;
+
+/// Whether `code` is a number rounded to the nearest code, which may be off by `slack` codes.
+fn is_nearest(code: i64, exact: f64, slack: f64) -> bool {
+    (code as f64 - exact).abs() <= 0.5 + slack
 }
 
 /// Whether `code` is a number rounded down.
@@ -110,24 +121,31 @@ mod tests {
         for zero in [0.0, -0.0] {
             let down = DVec3::new(zero, zero, -1.0);
             for code in [[0, 0], [0, top], [top, 0], [top, top]] {
-                assert!(is_octahedral(code, down), "{code:?} of {down}");
+                assert!(is_octahedral(code, down, 0.0), "{code:?} of {down}");
             }
             let slanted = DVec3::new(zero, -0.5, -0.5);
             for x in [16384, 49151] {
-                assert!(is_octahedral([x, 0], slanted), "{x} of {slanted}");
-                assert!(!is_octahedral([x, top], slanted), "the other end of {x}");
-                assert!(!is_octahedral([x + 1, 0], slanted), "beside {x}");
+                assert!(is_octahedral([x, 0], slanted, 0.0), "{x} of {slanted}");
+                assert!(
+                    !is_octahedral([x, top], slanted, 0.0),
+                    "the other end of {x}"
+                );
+                assert!(!is_octahedral([x + 1, 0], slanted, 0.0), "beside {x}");
             }
         }
         let beside = DVec3::new(1e-4, -0.5, -0.5);
-        assert!(is_octahedral([49153, 3], beside), "its code");
+        assert!(is_octahedral([49153, 3], beside, 0.0), "its code");
         assert!(
-            !is_octahedral([16382, 3], beside),
+            !is_octahedral([16382, 3], beside, 0.0),
             "that of its mirror image"
         );
         let up = DVec3::new(0.0, 0.5, 0.5);
-        assert!(is_octahedral([32768, 49151], up), "within the square");
-        assert!(!is_octahedral([32768, 16384], up), "its mirror image");
+        assert!(is_octahedral([32768, 49151], up, 0.0), "within the square");
+        assert!(!is_octahedral([32768, 16384], up, 0.0), "its mirror image");
+        // A direction that is moved by one code, 2 / 65535.
+        assert!(!is_octahedral([32768, 49152], up, 0.0), "not moved");
+        assert!(is_octahedral([32768, 49152], up, 2.0 / 65535.0), "moved");
+        assert!(!is_octahedral([32768, 49155], up, 2.0 / 65535.0), "too far");
     }
 
     #[test]

@@ -7,6 +7,7 @@
 
 pub(super) mod codes;
 pub(super) mod cone;
+pub(super) mod cone_rounding;
 pub(super) mod equal_area;
 mod jitter;
 pub(super) mod lights;
