@@ -71,6 +71,14 @@ impl<'a> LightCase<'a> {
         self.case.find("image").is_some()
     }
 
+    /// Whether the light is a patch that is no rectangle: its samples carry the density of their
+    /// direction, rounded as it is, to the bit. At a grazing angle that is far from the density at
+    /// the point of `u`.
+    fn is_twisted(&self) -> bool {
+        let is_rectangle = self.case.find("rectangle").and_then(|f| f.flag().ok());
+        self.kind == "area_patch" && is_rectangle == Some(false)
+    }
+
     fn is_area(&self) -> bool {
         self.kind.starts_with("area")
     }

@@ -52,6 +52,12 @@ pub(super) const OWN_SAMPLE: Rule = Rule {
              shape or a window",
 };
 
+pub(super) const OWN_DIRECTION: Rule = Rule {
+    name: "density_of_the_direction",
+    reason: "the reference gives the density at the point before its direction is rounded; ours is \
+             that where the rounded direction meets the patch",
+};
+
 pub(super) const SINGLE: Rule = Rule {
     name: "single_precision",
     reason: "the reference loses digits, or chooses by area where its solid angle has lost them",

@@ -1,5 +1,6 @@
 use super::rules::{
-    ANNULUS, DARK, MISSED, NO_SAMPLE, OWN_SAMPLE, SINGLE, SMALL_RECTANGLE, TEXEL_EDGE, WINDOW, WRAP,
+    ANNULUS, DARK, MISSED, NO_SAMPLE, OWN_DIRECTION, OWN_SAMPLE, SINGLE, SMALL_RECTANGLE,
+    TEXEL_EDGE, WINDOW, WRAP,
 };
 use super::{LightCase, color, number, number_of, vec3_of};
 use crate::comparison::{Comparison, settle_none};
@@ -99,7 +100,7 @@ impl LightCase<'_> {
         comparison.settle(
             findings,
             || self.rule_toward(theirs, pdf),
-            |jitter| self.exact_sample(&query_ctx.at, u, uv, jitter),
+            |jitter| self.exact_sample(&query_ctx.at, u, uv, ours.wi, jitter),
         );
 
         // The density of that direction, asked for.
@@ -118,9 +119,13 @@ impl LightCase<'_> {
         at: &Receiver,
         u: Vec2,
         uv: Vec2,
+        wi: Vec3,
         jitter: &mut Jitter,
     ) -> Option<Vec<DVec3>> {
-        let exact = self.exact.sample_li(at, u.as_dvec2(), jitter)?;
+        let mut exact = self.exact.sample_li(at, u.as_dvec2(), jitter)?;
+        if self.is_twisted() {
+            exact.pdf = self.exact.pdf_li(at, wi.as_dvec3(), jitter);
+        }
         Some(vec![
             exact.wi,
             exact.p,
@@ -137,6 +142,7 @@ impl LightCase<'_> {
             _ if theirs.is_none() => &NO_SAMPLE,
             _ if self.has_texels() => &TEXEL_EDGE,
             "area_disk" if self.is_annulus => &ANNULUS,
+            _ if self.is_twisted() => &OWN_DIRECTION,
             "area_patch" if pdf > 1e3 => &SMALL_RECTANGLE,
             _ => &SINGLE,
         }
