@@ -121,7 +121,10 @@ impl<S: Shape> ExactLight for Area<S> {
         let At { p, n, uv } = self.shape.sample(u1, jitter)?;
         let mut u = jitter.numbers(u2);
         let d = if self.side == 0.0 {
-            // The first number picks the side and is used again.
+            // The first number picks the side and is used again. The difference and the double of
+            // it are exact, so numbers that are not moved are as right, while others are: one half
+            // then stands for the rim itself.
+            u = jitter.either(u2, u);
             let side = if u.x < 0.5 { 1.0 } else { -1.0 };
             u.x = 2.0 * if u.x < 0.5 { u.x } else { u.x - 0.5 };
             let w = cosine_hemisphere(u.min(DVec2::splat(1.0)));
@@ -129,7 +132,10 @@ impl<S: Shape> ExactLight for Area<S> {
         } else {
             around(self.side * n, cosine_hemisphere(u), jitter)
         };
-        Some(Leaving { o: p, d, n, uv })
+        // The cosine is a sum of products of at most 1, which rounding may cancel to 0 as it moves
+        // any such sum. Rays without a cosine have no density, so there may be no sample then.
+        let is_lost = n.dot(d).abs() < jitter.at_scale(0.0, 1.0).abs();
+        (!is_lost).then_some(Leaving { o: p, d, n, uv })
     }
 
     fn sent(&self, ray: &Leaving, jitter: &mut Jitter) -> (DVec3, RayPdf) {
