@@ -1,5 +1,5 @@
-//! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver of
-//! this machine, or on Mesa's software driver from Debian.
+//! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver
+//! of this machine, or on Mesa's software driver from Debian.
 
 use std::fs;
 use std::path::Path;

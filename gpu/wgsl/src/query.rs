@@ -54,7 +54,8 @@ pub struct Mapped {
 }
 
 impl Query {
-    /// Query `i` of many about so many `lights` at the points of `set`, of each kind of receiver in turn.
+    /// Query `i` of many about so many `lights` at the points of `set`, of each kind of receiver in
+    /// turn.
     pub fn new(set: &BenchSet, lights: usize, i: u32) -> Self {
         let mut state = u64::from(i) << 8;
         let mut next = || {
