@@ -22,11 +22,10 @@ const DRIVER: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 /// # Errors
 /// When the shaders answer otherwise than they may, or the check does not build.
 pub fn gpu(arguments: &[String]) -> StepResult {
-    match status(check(arguments))? {
-        0 => return Ok(Outcome::Passed),
-        NO_DEVICE => println!("    no driver for Vulkan, Metal or DirectX 12"),
-        _ => return Err("the shaders answer otherwise than the crates".into()),
+    if holds(check(arguments))? {
+        return Ok(Outcome::Passed);
     }
+    println!("    no driver for Vulkan, Metal or DirectX 12");
     let folder = match unpacked("vulkan", &DRIVER.map(String::from)) {
         Ok(folder) => folder,
         Err(why) => {
@@ -39,11 +38,11 @@ pub fn gpu(arguments: &[String]) -> StepResult {
     with_driver
         .env("LD_LIBRARY_PATH", libraries(&folder))
         .env("VK_ICD_FILENAMES", description(&folder)?);
-    match status(with_driver)? {
-        0 => Ok(Outcome::Passed),
-        NO_DEVICE => Ok(Outcome::Skipped("Mesa's driver does not run here".into())),
-        _ => Err("the shaders answer otherwise than the crates".into()),
-    }
+    Ok(if holds(with_driver)? {
+        Outcome::Passed
+    } else {
+        Outcome::Skipped("Mesa's driver does not run here".into())
+    })
 }
 
 fn check(arguments: &[String]) -> Command {
@@ -56,9 +55,14 @@ fn check(arguments: &[String]) -> Command {
     command
 }
 
-fn status(mut command: Command) -> Result<i32, String> {
-    let status = command.status().map_err(|e| e.to_string())?;
-    status.code().ok_or_else(|| "the check was stopped".into())
+/// Whether the check ran and holds; false where there is no device.
+fn holds(mut command: Command) -> Result<bool, String> {
+    match command.status().map_err(|e| e.to_string())?.code() {
+        Some(0) => Ok(true),
+        Some(NO_DEVICE) => Ok(false),
+        Some(_) => Err("the shaders answer otherwise than the crates".into()),
+        None => Err("the check was stopped".into()),
+    }
 }
 
 /// The file that tells the loader where the driver is: Debian's, with the path of this folder.

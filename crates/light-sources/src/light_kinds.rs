@@ -16,9 +16,9 @@ use crate::spot::SpotLight;
 use crate::sun::SunLight;
 use crate::uniform_infinite::UniformInfiniteLight;
 
-/// Calls the macro `$table` with the kinds, those that are always at infinity last: the name of a kind, the list of
-/// a set that holds it, and what is in that list. What follows `$table`
-/// goes before them.
+/// Calls the macro `$table` with the kinds, those that are always at infinity last: the name of a
+/// kind, the list of a set that holds it, and what is in that list. What follows `$table` goes
+/// before them.
 macro_rules! light_kinds {
     ($table:ident! $($before:tt)*) => {
         $table! {

@@ -6,7 +6,7 @@ use light_math::glam::Vec3;
 use light_sets::BenchSet;
 
 /// Kinds of receivers, in the order of the shader's constants.
-pub const KINDS: [&str; 5] = ["surface", "two-sided", "glossy", "medium", "segment"];
+const KINDS: [&str; 5] = ["surface", "two-sided", "glossy", "medium", "segment"];
 
 /// Who asks for a light, by which random number, and whose probability is asked besides.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -82,11 +82,6 @@ impl Query {
         }
     }
 
-    /// The kind of receiver, an index into [`KINDS`].
-    pub const fn kind(&self) -> usize {
-        self.kind as usize
-    }
-
     /// The random number.
     pub const fn u(&self) -> u64 {
         light_math::fraction::from_words(self.u[0], self.u[1])
@@ -110,7 +105,7 @@ impl Query {
             alpha: self.alpha,
             diffuse: self.diffuse,
         };
-        match KINDS[self.kind()] {
+        match KINDS[self.kind as usize] {
             "surface" => LightSampleContext::surface(p, n, n),
             "two-sided" => LightSampleContext::two_sided(p, n, n),
             "glossy" => LightSampleContext::surface(p, n, n).with_gloss(gloss),

@@ -3,7 +3,7 @@
 use light_bounds::LightId;
 use light_samplers::{BvhLightSamplerRef, LightSampler};
 
-use crate::query::{Answer, KINDS, Query};
+use crate::query::{Answer, Query};
 
 /// The least share of queries for which the shader has to choose the same light.
 const SAME: f64 = 0.99;
@@ -12,8 +12,8 @@ const SAME: f64 = 0.99;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     queries: u32,
-    /// Choices of another light, or of one instead of none, by kind of receiver.
-    others: [u32; KINDS.len()],
+    /// Choices of another light, or of one instead of none.
+    others: u32,
     /// Probabilities that were compared.
     pmfs: u32,
     /// Those that are not the same bits.
@@ -42,7 +42,7 @@ impl Tally {
         let light = LightId(theirs.light);
         let theirs_chosen = (theirs.pmf > 0.0).then_some(light);
         if chosen != theirs_chosen {
-            self.others[query.kind()] += 1;
+            self.others += 1;
         }
         if theirs_chosen.is_some() {
             self.compare(sampler.pmf(ctx, light), theirs.pmf);
@@ -68,7 +68,7 @@ impl Tally {
     }
 
     fn same(&self) -> f64 {
-        1.0 - f64::from(self.others.iter().sum::<u32>()) / f64::from(self.queries)
+        1.0 - f64::from(self.others) / f64::from(self.queries)
     }
 
     /// A row of the table.
