@@ -37,13 +37,9 @@ impl Weights {
     /// The weights of the children of `node` for `receiver`.
     #[inline(always)]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        let weights = Self::in_frame(
-            node,
-            receiver,
-            &NodeFrame::in_codes(node, receiver.position()),
-            |_, _| (),
-        );
-        if is_trusted(weights.total) {
+        let frame = NodeFrame::in_codes(node, receiver.position());
+        let weights = Self::in_frame(node, receiver, &frame, |_, _| ());
+        if is_trusted(weights.total, &frame, receiver) {
             weights
         } else {
             Self::from_afar(node, receiver)
@@ -64,7 +60,7 @@ impl Weights {
             let width = hx + hy + hz;
             angular_size_sq[k] = width * width * (1.0 / child.dist_sq);
         });
-        if is_trusted(weights.total) {
+        if is_trusted(weights.total, &frame, receiver) {
             (weights, angular_size_sq)
         } else {
             // So far away, all are points.
@@ -140,10 +136,10 @@ pub(crate) fn irradiance(total: f32, inv_unit: f32, gain: f32) -> f32 {
 }
 
 /// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor
-/// infinite, nor not a number.
+/// infinite, nor not a number. Near a node nothing vanishes: there a sum of 0 is right.
 #[inline(always)]
-fn is_trusted(total: f32) -> bool {
-    (LEAST_TOTAL..=f32::MAX).contains(&total)
+fn is_trusted<R: Receiver>(total: f32, frame: &NodeFrame, receiver: &R) -> bool {
+    (LEAST_TOTAL..=f32::MAX).contains(&total) || (total == 0.0 && frame.is_near(receiver.reach()))
 }
 
 /// The sum of all lanes, in pairs.
