@@ -62,6 +62,7 @@ mod tests {
         let (a, b, c) = (LightGroups::of(0), LightGroups::of(1), LightGroups::of(30));
         assert!((a | b).is_wanted(b | c), "in common");
         assert!(!(a | b).is_wanted(c), "nothing in common");
+        assert_eq!((a | b) | (b | c), a | b | c, "a group twice is a group");
         assert!(!LightGroups::NONE.is_wanted(a | b | c), "in no group");
         assert!(LightGroups::NONE.is_wanted(LightGroups::ALL), "all lights");
         assert!(LightGroups::ALL.is_wanted(c), "in every group");
