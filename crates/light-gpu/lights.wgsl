@@ -1,4 +1,5 @@
-// The numbers of light-bvh (QUERY_CONSTANTS) and light-samplers. Generated.
+// The numbers of the Rust crates: light-bvh, light-samplers, light-math (warp),
+// light-sources (shape), and the kinds of rows. Generated.
 
 const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
@@ -23,6 +24,28 @@ const LIGHT_STEP_EDGE: f32 = 4.87;
 const LIGHT_UNIT: f32 = 127.25;
 const LIGHT_WIDENING: f32 = 0.375;
 const LIGHT_HORIZON_SLACK: f32 = 1e-5;
+const LIGHT_NEGLIGIBLE: f32 = 1e-20;
+const LIGHT_NEWTON_PRECISION: f32 = 1e-6;
+const LIGHT_NEWTON_REACH: f32 = 0.25;
+const LIGHT_CLOSE: f32 = 0.001;
+const LIGHT_DIRECTION_ERROR: f32 = 4.7683716e-7;
+const LIGHT_EDGE_ERROR: f32 = 9.536743e-7;
+const LIGHT_HIT_ERROR: f32 = 4.7683716e-7;
+const LIGHT_LEAST_COSINE: f32 = 0.01;
+const LIGHT_OWN_ERROR: f32 = 9.536743e-7;
+const LIGHT_SMALL_BOUND: f32 = 0.00059400004;
+const LIGHT_SMALL_SOLID_ANGLE: f32 = 0.0003;
+const LIGHT_SPHERE_ERROR: f32 = 4.7683716e-7;
+const LIGHT_WIDEST_SLACK: f32 = 0.5;
+const LIGHT_KIND_POINT: u32 = 1u;
+const LIGHT_KIND_SPOT: u32 = 2u;
+const LIGHT_KIND_DISTANT: u32 = 3u;
+const LIGHT_KIND_UNIFORM: u32 = 4u;
+const LIGHT_KIND_TRIANGLE: u32 = 5u;
+const LIGHT_KIND_RECTANGLE: u32 = 6u;
+const LIGHT_KIND_SPHERE: u32 = 7u;
+const LIGHT_SIDES_FRONT: u32 = 1u;
+const LIGHT_SIDES_BACK: u32 = 2u;
 
 // Fractions of 2^64, random numbers that choices use up: x is the upper, y the lower word.
 
@@ -889,4 +912,1050 @@ fn light_in_unit(weight: f32, unit: f32) -> f32 {
 
 fn light_infinite_id(sampler: LightSampler, index: u32) -> u32 {
     return light_row(sampler.infinite + 3u * index + 2u).x;
+}
+
+// Points of shapes by random numbers in [0, 1)^2: the warps of light-math.
+
+// 2^-k for x in [2^k, 2^(k+1)): a scale without any rounding.
+fn light_inverse_power_of_two(x: f32) -> f32 {
+    let exponent = bitcast<u32>(x) & 0x7f800000u;
+    return max(bitcast<f32>(0x7f000000u - min(exponent, 0x7f000000u)), LIGHT_MIN);
+}
+
+// Cosine and sine of a part of a full turn.
+fn light_azimuth(turn: f32) -> vec2<f32> {
+    let angle = 6.2831853071795864 * turn;
+    return vec2<f32>(cos(angle), sin(angle));
+}
+
+fn light_safe_sqrt(x: f32) -> f32 {
+    return sqrt(max(x, 0.0));
+}
+
+// The angle whose sine and cosine are in proportion to these, from 0 on: to the last digit where
+// it is small.
+fn light_angle_of(sin: f32, cos: f32) -> f32 {
+    if sin < 0.1 * cos {
+        let x = sin / cos;
+        let sq = x * x;
+        return x * (1.0 - sq * (1.0 / 3.0 - sq * (1.0 / 5.0 - sq * (1.0 / 7.0))));
+    }
+    return atan2(sin, cos);
+}
+
+// A unit vector.
+fn light_uniform_sphere(u: vec2<f32>) -> vec3<f32> {
+    let z = 1.0 - 2.0 * u.x;
+    return vec3<f32>(light_azimuth(u.y) * light_safe_sqrt(1.0 - z * z), z);
+}
+
+// Barycentric coordinates.
+fn light_uniform_triangle(u: vec2<f32>) -> vec3<f32> {
+    let half = 0.5 * u;
+    let b = select(vec2<f32>(u.x - half.y, half.y), vec2<f32>(half.x, u.y - half.x), u.x < u.y);
+    return vec3<f32>(b, 1.0 - b.x - b.y);
+}
+
+// x in [0, 1) in proportion to the line from a at 0 to b at 1.
+fn light_linear_sample(u: f32, start: f32, end: f32) -> f32 {
+    let largest = max(start, end);
+    if !(largest > 0.0 && largest <= LIGHT_MAX) {
+        return u;
+    }
+    let scale = light_inverse_power_of_two(largest);
+    let a = start * scale;
+    let b = end * scale;
+    let x = u * (a + b) / (a + sqrt((1.0 - u) * (a * a) + u * (b * b)));
+    return clamp(x, select(0x1p-24, 0.0, a > LIGHT_NEGLIGIBLE), 0x1.fffffep-1);
+}
+
+// The place of the unit square in proportion to what weights at its corners (0, 0), (1, 0),
+// (0, 1), (1, 1) interpolate; all of them are between 0.01 and 1.
+fn light_bilinear_sample(u: vec2<f32>, w: vec4<f32>) -> vec2<f32> {
+    let y = light_linear_sample(u.y, w.x + w.y, w.z + w.w);
+    let row = (1.0 - y) * w.xy + y * w.zw;
+    return vec2<f32>(light_linear_sample(u.x, row.x, row.y), y);
+}
+
+// The density of that place.
+fn light_bilinear_pdf(p: vec2<f32>, w: vec4<f32>) -> f32 {
+    if any(p < vec2<f32>(0.0)) || any(p > vec2<f32>(1.0)) {
+        return 0.0;
+    }
+    let row = (1.0 - p.y) * w.xy + p.y * w.zw;
+    return 4.0 * ((1.0 - p.x) * row.x + p.x * row.y) / (w.x + w.y + w.z + w.w);
+}
+
+// Axes of which the third is the unit vector z.
+fn light_frame(z: vec3<f32>) -> mat3x3<f32> {
+    let sign = select(-1.0, 1.0, z.z >= 0.0);
+    let a = -1.0 / (sign + z.z);
+    let b = z.x * z.y * a;
+    let x = vec3<f32>(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x);
+    return mat3x3<f32>(x, vec3<f32>(b, sign + z.y * z.y * a, -z.y), z);
+}
+
+// A triangle as it is seen from a point, and its solid angle: solid_angle of light-math.
+
+// In a unit in which no product of three lengths overflows.
+struct LightSeenTriangle {
+    // The corners relative to the second one, and to the point.
+    v: array<vec3<f32>, 3>,
+    r: array<vec3<f32>, 3>,
+    // Unit vectors toward the corners, and their distances.
+    directions: array<vec3<f32>, 3>,
+    dist: vec3<f32>,
+    // Of the angles at which the edges opposite to each corner are seen.
+    cosines: vec3<f32>,
+}
+
+fn light_seen_triangle(p: array<vec3<f32>, 3>, viewer: vec3<f32>) -> LightSeenTriangle {
+    let a = p[0] - viewer;
+    let b = p[1] - viewer;
+    let c = p[2] - viewer;
+    let farthest = max(max(abs(a), abs(b)), abs(c));
+    let scale = light_inverse_power_of_two(max(max(farthest.x, farthest.y), farthest.z));
+    let r = array<vec3<f32>, 3>(a * scale, b * scale, c * scale);
+    let dist = vec3<f32>(length(r[0]), length(r[1]), length(r[2]));
+    let d = array<vec3<f32>, 3>(r[0] / dist.x, r[1] / dist.y, r[2] / dist.z);
+    let v = array<vec3<f32>, 3>((p[0] - p[1]) * scale, vec3<f32>(0.0), (p[2] - p[1]) * scale);
+    let cosines = vec3<f32>(dot(d[1], d[2]), dot(d[2], d[0]), dot(d[0], d[1]));
+    return LightSeenTriangle(v, r, d, dist, cosines);
+}
+
+// Cosine and sine, in proportion, of half the signed solid angle.
+fn light_half_angle(seen: LightSeenTriangle) -> vec2<f32> {
+    let l = seen.dist;
+    // The nearest corner, whose rounding matters least.
+    var nearest = seen.r[2];
+    if l.x <= l.y && l.x <= l.z {
+        nearest = seen.r[0];
+    } else if l.y <= l.z {
+        nearest = seen.r[1];
+    }
+    let sin = dot(nearest, light_scaled_normal(seen.v)) / (l.x * l.y * l.z);
+    let c = seen.cosines;
+    if all(c > vec3<f32>(0.0)) {
+        return vec2<f32>(1.0 + ((c.x + c.y) + c.z), sin);
+    }
+    let s0 = light_direction_sum(seen, 1u, 2u);
+    let s1 = light_direction_sum(seen, 2u, 0u);
+    let s2 = light_direction_sum(seen, 0u, 1u);
+    let sq = vec3<f32>(dot(s0, s0), dot(s1, s1), dot(s2, s2));
+    var cos = dot(s0, s1);
+    if sq.x >= sq.y && sq.x >= sq.z {
+        cos = dot(s1, s2);
+    } else if sq.y >= sq.z {
+        cos = dot(s2, s0);
+    }
+    return vec2<f32>(select(cos, abs(cos), sin == 0.0), sin);
+}
+
+// The solid angle of a half angle, without its sign.
+fn light_solid_angle(half: vec2<f32>) -> f32 {
+    return 2.0 * light_angle_of(abs(half.y), half.x);
+}
+
+// 1 + cos of the angle at which the edge between the first two corners is seen.
+fn light_one_plus_first_cosine(seen: LightSeenTriangle) -> f32 {
+    if seen.cosines.z > 0.0 {
+        return 1.0 + seen.cosines.z;
+    }
+    let sum = light_direction_sum(seen, 0u, 1u);
+    return 0.5 * dot(sum, sum);
+}
+
+// The sum of the unit vectors toward two corners. Where it is small, what counts is how far the
+// edge passes from the point.
+fn light_direction_sum(seen: LightSeenTriangle, i: u32, j: u32) -> vec3<f32> {
+    var triangle = seen;
+    let r0 = triangle.r[i];
+    let r1 = triangle.r[j];
+    let l0 = triangle.dist[i];
+    let l1 = triangle.dist[j];
+    if dot(r0, r1) > 0.0 {
+        return r0 / l0 + r1 / l1;
+    }
+    let along = normalize(triangle.v[j] - triangle.v[i]);
+    let near = select(r1, r0, l0 < l1);
+    let once = near - along * dot(near, along);
+    let foot = once - along * dot(once, along);
+    let s0 = -dot(r0, along);
+    let s1 = dot(r1, along);
+    let excess = 1.0 / (l0 * (l0 + s0)) - 1.0 / (l1 * (l1 + s1));
+    return foot * (1.0 / l0 + 1.0 / l1) + along * (dot(foot, foot) * excess);
+}
+
+// The normal, as long as twice the area, by the two shorter edges.
+fn light_scaled_normal(v: array<vec3<f32>, 3>) -> vec3<f32> {
+    let e0 = v[1] - v[0];
+    let e1 = v[2] - v[1];
+    let e2 = v[0] - v[2];
+    let l = vec3<f32>(dot(e0, e0), dot(e1, e1), dot(e2, e2));
+    if l.x >= l.y && l.x >= l.z {
+        return cross(e1, e2);
+    } else if l.y >= l.z {
+        return cross(e2, e0);
+    }
+    return cross(e0, e1);
+}
+
+// Directions toward a triangle, uniform in solid angle: SphericalTriangle of light-math.
+
+// An edge seen from a point: places on it are fractions.
+struct LightSide {
+    edge: vec3<f32>,
+    start_dist: f32,
+    // What the edge adds along the direction of its start, and at right angles.
+    along: f32,
+    across: f32,
+}
+
+struct LightSphericalTriangle {
+    opposite: LightSide,
+    second_to_first: vec3<f32>,
+    second_dist: f32,
+    directions: array<vec3<f32>, 3>,
+    volume: f32,
+    along_tangent: f32,
+    one_plus_cos: f32,
+    // 0 where it covers none.
+    solid_angle: f32,
+}
+
+fn light_spherical_triangle(p: array<vec3<f32>, 3>, at: vec3<f32>) -> LightSphericalTriangle {
+    let seen = light_seen_triangle(p, at);
+    let half = light_half_angle(seen);
+    let first_to_second = seen.v[1] - seen.v[0];
+    let side = seen.v[2] - seen.v[0];
+    let first = seen.directions[0];
+    let rejected = light_rejection(side, first);
+    let opposite = LightSide(side, seen.dist.x, dot(side, first), length(rejected));
+    let volume = abs(half.y) * seen.dist.z / opposite.across;
+    let solid_angle = light_solid_angle(half);
+    let is_usable = solid_angle > 0.0 && volume > 0.0 && volume <= LIGHT_MAX;
+    return LightSphericalTriangle(
+        opposite,
+        -first_to_second,
+        seen.dist.y,
+        seen.directions,
+        volume,
+        dot(first_to_second, rejected) / (seen.dist.y * opposite.across),
+        light_one_plus_first_cosine(seen),
+        select(0.0, solid_angle, is_usable),
+    );
+}
+
+// Barycentric coordinates for u.
+fn light_spherical_triangle_sample(t: LightSphericalTriangle, u: vec2<f32>) -> vec3<f32> {
+    let half = light_sin_cos_of_small(0.5 * u.x * t.solid_angle);
+    let cut = light_place_of_half_angle(
+        t.opposite,
+        half.x * t.one_plus_cos,
+        half.y * t.volume - half.x * t.along_tangent,
+    );
+    let arc = light_arc_to(t, cut);
+    let sq = light_half_angle_squares(arc, 1.0);
+    let sin_sq = u.y * sq.x;
+    let cos_sq = (1.0 - u.y) + u.y * sq.y;
+    let walked = light_place_of_angle(arc, 2.0 * sqrt(sin_sq * cos_sq), cos_sq - sin_sq);
+    return vec3<f32>((1.0 - cut) * walked, 1.0 - walked, cut * walked);
+}
+
+// The u of barycentric coordinates.
+fn light_spherical_triangle_invert(t: LightSphericalTriangle, b: vec3<f32>) -> vec2<f32> {
+    let walked = b.x + b.z;
+    if !(walked > 0.0) {
+        return vec2<f32>(0.0);
+    }
+    let cut = b.z / walked;
+    let half = light_side_half_angle(t.opposite, cut);
+    let angle = atan2(half.x * t.volume, half.y * t.one_plus_cos + half.x * t.along_tangent);
+    let arc = light_arc_to(t, cut);
+    let share = light_half_angle_squares(arc, walked).x / light_half_angle_squares(arc, 1.0).x;
+    return clamp(vec2<f32>(2.0 * angle / t.solid_angle, share), vec2<f32>(0.0), vec2<f32>(1.0));
+}
+
+// The side from the second corner to a place on the opposite one.
+fn light_arc_to(t: LightSphericalTriangle, cut: f32) -> LightSide {
+    let edge = t.second_to_first + t.opposite.edge * cut;
+    let second = t.directions[1];
+    let across = length(light_rejection(edge, second));
+    return LightSide(edge, t.second_dist, dot(edge, second), across);
+}
+
+// Sine and cosine, in proportion, of half the angle between the start and a place.
+fn light_side_half_angle(side: LightSide, place: f32) -> vec2<f32> {
+    let x = side.start_dist + place * side.along;
+    let y = place * side.across;
+    let dist = sqrt(x * x + y * y);
+    return select(vec2<f32>(dist - x, y), vec2<f32>(y, dist + x), x > 0.0);
+}
+
+// Their squares.
+fn light_half_angle_squares(side: LightSide, place: f32) -> vec2<f32> {
+    let half = light_side_half_angle(side, place);
+    let sq = half * half;
+    return sq * (1.0 / (sq.x + sq.y));
+}
+
+fn light_place_of_half_angle(side: LightSide, sin_half: f32, cos_half: f32) -> f32 {
+    let scale = light_inverse_power_of_two(max(sin_half, cos_half));
+    let s = sin_half * scale;
+    let c = max(cos_half, 0.0) * scale;
+    return light_place_of_angle(side, 2.0 * s * c, (c - s) * (c + s));
+}
+
+// The place seen at an angle from the start, given its sine and cosine up to a factor.
+fn light_place_of_angle(side: LightSide, sin: f32, cos: f32) -> f32 {
+    let place = side.start_dist * sin / (side.across * cos - side.along * sin);
+    if place >= 0.0 {
+        return min(place, 1.0);
+    }
+    return select(0.0, 1.0, sin > 0.0);
+}
+
+fn light_sin_cos_of_small(x: f32) -> vec2<f32> {
+    if !(x < 0.1) {
+        return vec2<f32>(sin(x), cos(x));
+    }
+    let sq = x * x;
+    let sine = x * (1.0 - sq * (1.0 / 6.0 - sq * (1.0 / 120.0)));
+    return vec2<f32>(sine, 1.0 - sq * (0.5 - sq * (1.0 / 24.0)));
+}
+
+// What is left of v at right angles to a unit vector; twice, for the digits.
+fn light_rejection(v: vec3<f32>, axis: vec3<f32>) -> vec3<f32> {
+    let once = v - axis * dot(axis, v);
+    return once - axis * dot(axis, once);
+}
+
+// Directions toward a rectangle, uniform in solid angle: SphericalRectangle of light-math.
+
+struct LightSphericalRectangle {
+    // The lower corner in the frame of the rectangle, with the point as origin, and its edges.
+    low: vec2<f32>,
+    size: vec2<f32>,
+    // Of the point over the plane.
+    height: f32,
+    // 0 where it covers none.
+    solid_angle: f32,
+}
+
+// A line segment seen from a point: from low to low + size along it.
+struct LightLine {
+    low: f32,
+    size: f32,
+    dist_sq: f32,
+}
+
+fn light_spherical_rectangle(
+    corner: vec3<f32>,
+    ex: vec3<f32>,
+    ey: vec3<f32>,
+    p: vec3<f32>,
+) -> LightSphericalRectangle {
+    let size = vec2<f32>(length(ex), length(ey));
+    let x = ex / size.x;
+    let y = ey / size.y;
+    let d = corner - p;
+    let height = abs(dot(d, cross(x, y)));
+    var seen = LightSphericalRectangle(vec2<f32>(dot(d, x), dot(d, y)), size, height, 0.0);
+    if height > 0.0 {
+        seen.solid_angle = light_area_between(seen, 0.0, 1.0);
+    }
+    return seen;
+}
+
+// The place in [0, 1]^2 for u: the line across by the paper's formula, then by Newton's method on
+// areas that have their digits.
+fn light_spherical_rectangle_sample(s: LightSphericalRectangle, u: vec2<f32>) -> vec2<f32> {
+    let area = u.x * s.solid_angle;
+    var x = light_cut(s, area);
+    for (var i = 0u; i < 2u; i++) {
+        let line = light_line(s, x);
+        let slope = s.size.x * s.height * light_line_share(line, 0.0, 1.0) / line.dist_sq;
+        var excess = (1.0 - u.x) * s.solid_angle;
+        if u.x <= 0.5 {
+            excess = light_area_between(s, 0.0, x) - area;
+        } else {
+            excess -= light_area_between(s, x, 1.0);
+        }
+        let step = excess / slope;
+        let reach = sqrt(line.dist_sq) / s.size.x;
+        if !(abs(step) < LIGHT_NEWTON_REACH * reach) {
+            break;
+        }
+        x = light_unit(x - step);
+        if step * step < LIGHT_NEWTON_PRECISION * reach {
+            break;
+        }
+    }
+
+    let line = light_line(s, x);
+    let share = light_line_share(line, 0.0, 1.0);
+    var y = light_line_place(line, u.y);
+    for (var i = 0u; i < 2u; i++) {
+        let dist = light_line_dist(line, s.low.y + y * s.size.y);
+        let slope = s.size.y * line.dist_sq / (dist * dist * dist);
+        var excess = (1.0 - u.y) * share;
+        if u.y <= 0.5 {
+            excess = light_line_share(line, 0.0, y) - u.y * share;
+        } else {
+            excess -= light_line_share(line, y, 1.0);
+        }
+        let step = excess / slope;
+        let reach = dist / s.size.y;
+        if !(abs(step) < LIGHT_NEWTON_REACH * reach) {
+            break;
+        }
+        y = light_unit(y - step);
+        if step * step < LIGHT_NEWTON_PRECISION * reach {
+            break;
+        }
+    }
+    return vec2<f32>(x, y);
+}
+
+// The u of a place.
+fn light_spherical_rectangle_invert(s: LightSphericalRectangle, at: vec2<f32>) -> vec2<f32> {
+    let line = light_line(s, at.x);
+    let u = vec2<f32>(
+        light_area_between(s, 0.0, at.x) / s.solid_angle,
+        light_line_share(line, 0.0, at.y) / light_line_share(line, 0.0, 1.0),
+    );
+    return clamp(u, vec2<f32>(0.0), vec2<f32>(1.0));
+}
+
+// The solid angle of the part between two places of x.
+fn light_area_between(s: LightSphericalRectangle, start: f32, end: f32) -> f32 {
+    let columns = light_halves(s.low.x + start * s.size.x, (end - start) * s.size.x);
+    let rows = light_halves(s.low.y, s.size.y);
+    return light_quadrant(columns.xy, rows.xy, s.height)
+        + light_quadrant(columns.xy, rows.zw, s.height)
+        + light_quadrant(columns.zw, rows.xy, s.height)
+        + light_quadrant(columns.zw, rows.zw, s.height);
+}
+
+// The place of the cut with the given area below it.
+fn light_cut(s: LightSphericalRectangle, area: f32) -> f32 {
+    let h = s.height;
+    let x = s.low.x;
+    let y0 = s.low.y;
+    let y1 = y0 + s.size.y;
+    let difference = atan2(h * s.size.y, h * h + y0 * y1);
+    let sum = atan2(h * abs(y0 + y1), y0 * y1 - h * h);
+    let line = light_line(s, 0.0);
+    let r = light_line_dist(line, y0) * light_line_dist(line, y1);
+    let share = light_line_share(line, 0.0, 1.0);
+    let angle = atan2(x * h * share * r, h * h * r + x * x * y0 * y1) + area;
+    let excess = sin(0.5 * (difference + angle)) * sin(0.5 * (difference - angle));
+    let other = sin(0.5 * (sum + angle)) * sin(0.5 * (sum - angle));
+    let place = h * sin(angle) / sqrt(max(4.0 * excess * other, LIGHT_MIN));
+    return light_unit((place - x) / s.size.x);
+}
+
+// The line across the rectangle at the place x.
+fn light_line(s: LightSphericalRectangle, place: f32) -> LightLine {
+    let x = s.low.x + place * s.size.x;
+    return LightLine(s.low.y, s.size.y, x * x + s.height * s.height);
+}
+
+// The difference of the sines of the elevation between two places.
+fn light_line_share(line: LightLine, start: f32, end: f32) -> f32 {
+    let low = line.low + start * line.size;
+    let width = (end - start) * line.size;
+    let high = low + width;
+    let r0 = light_line_dist(line, low);
+    let r1 = light_line_dist(line, high);
+    if low * high > 0.0 {
+        return width * (low + high) * line.dist_sq / (r0 * r1 * (high * r0 + low * r1));
+    }
+    return high / r1 - low / r0;
+}
+
+// The place with the share u of the whole below it.
+fn light_line_place(line: LightLine, u: f32) -> f32 {
+    let share = light_line_share(line, 0.0, 1.0);
+    let sine = line.low / light_line_dist(line, line.low) + u * share;
+    let below = light_one_minus_sine(line, -line.low) + u * share;
+    let above = light_one_minus_sine(line, line.low + line.size) + (1.0 - u) * share;
+    let y = sine * sqrt(line.dist_sq / max(below * above, LIGHT_MIN));
+    return light_unit((y - line.low) / line.size);
+}
+
+fn light_one_minus_sine(line: LightLine, y: f32) -> f32 {
+    let r = light_line_dist(line, y);
+    return select(1.0 - y / r, line.dist_sq / (r * (r + y)), y > 0.0);
+}
+
+fn light_line_dist(line: LightLine, y: f32) -> f32 {
+    return sqrt(line.dist_sq + y * y);
+}
+
+// The parts of an interval on both sides of 0, each as its distance from 0 and its width.
+fn light_halves(low: f32, width: f32) -> vec4<f32> {
+    let high = low + width;
+    if low >= 0.0 {
+        return vec4<f32>(low, width, 0.0, 0.0);
+    } else if high <= 0.0 {
+        return vec4<f32>(-high, width, 0.0, 0.0);
+    }
+    return vec4<f32>(0.0, high, 0.0, -low);
+}
+
+// The solid angle of a rectangle within one quadrant around the foot of the point.
+fn light_quadrant(x: vec2<f32>, y: vec2<f32>, height: f32) -> f32 {
+    let sin = height * x.y * y.y;
+    if !(sin > 0.0) {
+        return 0.0;
+    }
+    let r0 = vec3<f32>(x.x, y.x, height);
+    let r1 = vec3<f32>(x.x + x.y, y.x, height);
+    let r2 = vec3<f32>(x.x + x.y, y.x + y.y, height);
+    let r3 = vec3<f32>(x.x, y.x + y.y, height);
+    let l0 = length(r0);
+    let l2 = length(r2);
+    let diagonal = l0 * l2 + dot(r0, r2);
+    let cos1 = diagonal * length(r1) + dot(r1, r0) * l2 + dot(r1, r2) * l0;
+    let cos3 = diagonal * length(r3) + dot(r3, r0) * l2 + dot(r3, r2) * l0;
+    return 2.0 * (light_angle_of(sin, cos1) + light_angle_of(sin, cos3));
+}
+
+fn light_unit(x: f32) -> f32 {
+    return clamp(x, 0.0, 1.0);
+}
+
+// Points of triangles and rectangles as seen from a receiver: the shapes of light-sources.
+
+// A point of a surface, its unit normal, the unit direction toward it and the density of that;
+// 0 where there is none.
+struct LightShapeSample {
+    p: vec3<f32>,
+    pdf: f32,
+    n: vec3<f32>,
+    wi: vec3<f32>,
+}
+
+struct LightTriangle {
+    p: array<vec3<f32>, 3>,
+    n: vec3<f32>,
+    // 0 without area: it is never sampled then.
+    inv_area: f32,
+}
+
+struct LightRectangle {
+    corner: vec3<f32>,
+    x: vec3<f32>,
+    y: vec3<f32>,
+    n: vec3<f32>,
+}
+
+fn light_triangle(p: array<vec3<f32>, 3>) -> LightTriangle {
+    let normal = cross(p[1] - p[0], p[2] - p[0]);
+    let largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
+    if !(largest > 0.0) {
+        return LightTriangle(p, vec3<f32>(0.0), 0.0);
+    }
+    // Divided by the largest component first, so that no square vanishes.
+    let twice_area = largest * length(normal / largest);
+    let n = light_unit_or(normal, vec3<f32>(0.0));
+    return LightTriangle(p, n, select(0.0, 2.0 / twice_area, twice_area >= LIGHT_MIN));
+}
+
+fn light_rectangle(corner: vec3<f32>, x: vec3<f32>, y: vec3<f32>) -> LightRectangle {
+    return LightRectangle(corner, x, y, normalize(cross(normalize(x), normalize(y))));
+}
+
+fn light_triangle_sample(
+    t: LightTriangle,
+    receiver: LightReceiver,
+    u: vec2<f32>,
+) -> LightShapeSample {
+    var found: LightShapeSample;
+    if t.inv_area == 0.0 {
+        return found;
+    }
+    let seen = light_triangle_seen(t, receiver.p);
+    var b = light_uniform_triangle(u);
+    var density = 1.0;
+    if seen.solid_angle > 0.0 {
+        let weights = light_triangle_cosines(receiver, seen);
+        let place = light_bilinear_sample(u, weights);
+        density = light_bilinear_pdf(place, weights) / seen.solid_angle;
+        b = light_spherical_triangle_sample(seen, place);
+    }
+    found.p = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
+    found.n = t.n;
+    let to_light = found.p - receiver.p;
+    let by_area = light_area_to_solid_angle(t.inv_area, to_light, t.n);
+    let by_angle = vec4<f32>(light_unit_or(to_light, vec3<f32>(0.0)), density);
+    let direction = select(by_area, by_angle, seen.solid_angle > 0.0);
+    found.wi = direction.xyz;
+    found.pdf = direction.w;
+    if found.pdf > 0.0 && light_is_within_rounding(to_light, found.p) {
+        let hit = light_triangle_hit(t, receiver.p, found.wi);
+        found.p = t.p[0] * hit.x + t.p[1] * hit.y + t.p[2] * hit.z;
+        found.pdf = light_triangle_pdf(t, receiver, found.wi);
+    }
+    return found;
+}
+
+fn light_triangle_pdf(t: LightTriangle, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
+    let b = light_triangle_hit(t, receiver.p, wi);
+    if t.inv_area == 0.0 || all(b == vec3<f32>(0.0)) {
+        return 0.0;
+    }
+    let seen = light_triangle_seen(t, receiver.p);
+    if seen.solid_angle > 0.0 {
+        let place = light_spherical_triangle_invert(seen, b);
+        return light_bilinear_pdf(place, light_triangle_cosines(receiver, seen)) / seen.solid_angle;
+    }
+    let at = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
+    return light_area_to_solid_angle(t.inv_area, at - receiver.p, t.n).w;
+}
+
+// The triangle on the sphere of directions around p; without solid angle where it is so small that
+// it is sampled by area.
+fn light_triangle_seen(t: LightTriangle, p: vec3<f32>) -> LightSphericalTriangle {
+    var seen: LightSphericalTriangle;
+    let e1 = t.p[1] - t.p[0];
+    let e2 = t.p[2] - t.p[0];
+    let to_p = p - t.p[0];
+    let r = length(to_p) - sqrt(max(dot(e1, e1), dot(e2, e2)));
+    if r > 0.0 && abs(dot(cross(e1, e2), to_p)) < LIGHT_SMALL_BOUND * (r * r * r) {
+        return seen;
+    }
+    seen = light_spherical_triangle(t.p, p);
+    if !(seen.solid_angle > LIGHT_SMALL_SOLID_ANGLE) {
+        seen.solid_angle = 0.0;
+    }
+    return seen;
+}
+
+// The square of a spherical triangle has the second corner all along its lower side.
+fn light_triangle_cosines(receiver: LightReceiver, seen: LightSphericalTriangle) -> vec4<f32> {
+    let d = seen.directions;
+    return light_receiver_cosines(receiver, d[1], d[1], d[0], d[2]);
+}
+
+// Barycentric coordinates of the point that the ray meets, 0 where there is none. Edges are wider
+// by the rounding error of the products.
+fn light_triangle_hit(t: LightTriangle, origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let v0 = t.p[0] - origin;
+    let v1 = t.p[1] - origin;
+    let v2 = t.p[2] - origin;
+    let e0 = v2 - v1;
+    let e1 = v0 - v2;
+    let e2 = v1 - v0;
+    let sides = vec3<f32>(
+        dot(direction, cross(v1, e0)),
+        dot(direction, cross(v2, e1)),
+        dot(direction, cross(v0, e2)),
+    );
+    let slack = LIGHT_EDGE_ERROR * vec3<f32>(
+        length(v1) * length(e0),
+        length(v2) * length(e1),
+        length(v0) * length(e2),
+    );
+    let sum = sides.x + sides.y + sides.z;
+    if (!all(sides >= -slack) && !all(sides <= slack)) || sum == 0.0 {
+        return vec3<f32>(0.0);
+    }
+    let b = sides / sum;
+    let at = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
+    return select(vec3<f32>(0.0), b, dot(at - origin, direction) > 0.0);
+}
+
+fn light_rectangle_sample(
+    s: LightRectangle,
+    receiver: LightReceiver,
+    u: vec2<f32>,
+) -> LightShapeSample {
+    var found: LightShapeSample;
+    let seen = light_rectangle_seen(s, receiver.p);
+    var place = u;
+    var density = 1.0;
+    if seen.solid_angle > 0.0 {
+        let weights = light_rectangle_cosines(receiver, s);
+        let warped = light_bilinear_sample(u, weights);
+        density = light_bilinear_pdf(warped, weights) / seen.solid_angle;
+        place = light_spherical_rectangle_sample(seen, warped);
+    }
+    found.p = s.corner + s.x * place.x + s.y * place.y;
+    found.n = s.n;
+    let to_light = found.p - receiver.p;
+    let by_area = light_area_to_solid_angle(1.0 / (length(s.x) * length(s.y)), to_light, s.n);
+    let by_angle = vec4<f32>(light_unit_or(to_light, vec3<f32>(0.0)), density);
+    let direction = select(by_area, by_angle, seen.solid_angle > 0.0);
+    found.wi = direction.xyz;
+    found.pdf = direction.w;
+    if found.pdf > 0.0 && light_is_within_rounding(to_light, found.p) {
+        let hit = light_rectangle_hit(s, receiver.p, found.wi);
+        found.p = s.corner + s.x * hit.x + s.y * hit.y;
+        found.pdf = light_rectangle_pdf(s, receiver, found.wi);
+    }
+    return found;
+}
+
+fn light_rectangle_pdf(s: LightRectangle, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
+    let hit = light_rectangle_hit(s, receiver.p, wi);
+    if hit.z == 0.0 {
+        return 0.0;
+    }
+    let seen = light_rectangle_seen(s, receiver.p);
+    if seen.solid_angle > 0.0 {
+        let place = light_spherical_rectangle_invert(seen, hit.xy);
+        return light_bilinear_pdf(place, light_rectangle_cosines(receiver, s)) / seen.solid_angle;
+    }
+    let at = s.corner + s.x * hit.x + s.y * hit.y;
+    return light_area_to_solid_angle(1.0 / (length(s.x) * length(s.y)), at - receiver.p, s.n).w;
+}
+
+fn light_rectangle_seen(s: LightRectangle, p: vec3<f32>) -> LightSphericalRectangle {
+    var seen = light_spherical_rectangle(s.corner, s.x, s.y, p);
+    if !(seen.solid_angle > LIGHT_SMALL_SOLID_ANGLE) {
+        seen.solid_angle = 0.0;
+    }
+    return seen;
+}
+
+fn light_rectangle_cosines(receiver: LightReceiver, s: LightRectangle) -> vec4<f32> {
+    let d = s.corner - receiver.p;
+    let none = vec3<f32>(0.0);
+    return light_receiver_cosines(
+        receiver,
+        light_unit_or(d, none),
+        light_unit_or(d + s.x, none),
+        light_unit_or(d + s.y, none),
+        light_unit_or(d + (s.x + s.y), none),
+    );
+}
+
+// The place of the rectangle that the ray meets, and 1; or 0.
+fn light_rectangle_hit(s: LightRectangle, origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    let to_corner = s.corner - origin;
+    let cos_theta = dot(direction, s.n);
+    let t = dot(to_corner, s.n) / cos_theta;
+    if !(t > 0.0 && t <= LIGHT_MAX) {
+        return vec3<f32>(0.0);
+    }
+    let p = direction * t - to_corner;
+    let magnitude = t + length(to_corner) + length(s.corner);
+    let error = LIGHT_HIT_ERROR * magnitude / abs(cos_theta);
+    let edges_sq = vec2<f32>(dot(s.x, s.x), dot(s.y, s.y));
+    let place = vec2<f32>(dot(p, s.x), dot(p, s.y)) / edges_sq;
+    let slack = min(error / sqrt(edges_sq), vec2<f32>(LIGHT_WIDEST_SLACK));
+    let is_hit = all(place >= -slack) && all(place <= 1.0 + slack);
+    let at = clamp(place, vec2<f32>(0.0), vec2<f32>(1.0));
+    return select(vec3<f32>(0.0), vec3<f32>(at, 1.0), is_hit);
+}
+
+// What a surface weighs directions by, at the corners of the square; all alike in a medium.
+fn light_receiver_cosines(
+    receiver: LightReceiver,
+    d00: vec3<f32>,
+    d10: vec3<f32>,
+    d01: vec3<f32>,
+    d11: vec3<f32>,
+) -> vec4<f32> {
+    if receiver.kind != LIGHT_SURFACE && receiver.kind != LIGHT_TWO_SIDED
+        && receiver.kind != LIGHT_GLOSSY {
+        return vec4<f32>(1.0);
+    }
+    let n = receiver.n;
+    let cosines = abs(vec4<f32>(dot(d00, n), dot(d10, n), dot(d01, n), dot(d11, n)));
+    return max(cosines, vec4<f32>(LIGHT_LEAST_COSINE));
+}
+
+// The unit vector along to_light, and the density per solid angle of a density per area; 0 edge-on.
+fn light_area_to_solid_angle(pdf_area: f32, to_light: vec3<f32>, n: vec3<f32>) -> vec4<f32> {
+    let dist_sq = dot(to_light, to_light);
+    if !(dist_sq >= LIGHT_MIN && dist_sq <= LIGHT_MAX) {
+        return vec4<f32>(0.0);
+    }
+    let wi = to_light * (1.0 / sqrt(dist_sq));
+    let cos_theta = abs(dot(n, wi));
+    let pdf = pdf_area * dist_sq / cos_theta;
+    let has_pdf = cos_theta > 0.0 && pdf > 0.0 && pdf <= LIGHT_MAX;
+    return select(vec4<f32>(0.0), vec4<f32>(wi, pdf), has_pdf);
+}
+
+// Whether a point is so close, compared with its coordinates, that their rounding turns the
+// direction toward it.
+fn light_is_within_rounding(to_light: vec3<f32>, at: vec3<f32>) -> bool {
+    return dot(to_light, to_light) < LIGHT_CLOSE * LIGHT_CLOSE * dot(at, at);
+}
+
+// Points of a sphere as seen from a receiver: Sphere of light-sources.
+
+struct LightSphere {
+    center: vec3<f32>,
+    radius: f32,
+    // From the sphere's space to the scene.
+    axes: mat3x3<f32>,
+}
+
+// The directions toward a sphere from outside; without height from inside and from its surface.
+struct LightSphereCone {
+    axis: vec3<f32>,
+    sin_max: f32,
+    one_minus_cos_max: f32,
+}
+
+fn light_sphere_sample(s: LightSphere, receiver: LightReceiver, u: vec2<f32>) -> LightShapeSample {
+    var found: LightShapeSample;
+    let cone = light_sphere_cone(s, receiver);
+    if cone.one_minus_cos_max == 0.0 {
+        found.n = s.axes * light_uniform_sphere(u);
+        found.p = s.center + found.n * s.radius;
+        let inv_area = 1.0 / light_sphere_area(s);
+        let direction = light_area_to_solid_angle(inv_area, found.p - receiver.p, found.n);
+        found.wi = direction.xyz;
+        found.pdf = select(0.0, direction.w, dot(found.n, found.wi) > 0.0);
+        found.p -= found.n * light_sphere_error(s);
+        return found;
+    }
+    found.pdf = light_cone_pdf(cone.one_minus_cos_max);
+    // The angle at the receiver, and from it the one at the centre.
+    let one_minus_cos = cone.one_minus_cos_max * u.x;
+    let sin = light_safe_sqrt(one_minus_cos * (2.0 - one_minus_cos));
+    let cos = 1.0 - one_minus_cos;
+    let sin_sum = min(sin / cone.sin_max, 1.0);
+    let cos_sum = light_safe_sqrt(1.0 - sin_sum * sin_sum);
+    let sin_alpha = sin_sum * cos - cos_sum * sin;
+    let cos_alpha = cos_sum * cos + sin_sum * sin;
+    let around = light_azimuth(u.y);
+    let frame = light_frame(cone.axis);
+    found.n = normalize(frame * -vec3<f32>(around * sin_alpha, cos_alpha));
+    found.wi = normalize(frame * vec3<f32>(-around * sin, cos));
+    found.p = s.center + found.n * (s.radius + light_sphere_error(s));
+    return found;
+}
+
+fn light_sphere_pdf(s: LightSphere, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
+    let cone = light_sphere_cone(s, receiver);
+    if cone.one_minus_cos_max > 0.0 {
+        let sin = length(cross(cone.axis, wi));
+        let is_hit = dot(cone.axis, wi) > 0.0 && sin <= cone.sin_max + LIGHT_DIRECTION_ERROR;
+        return select(0.0, light_cone_pdf(cone.one_minus_cos_max), is_hit);
+    }
+    // By area, where the way out of the sphere counts.
+    let to_center = s.center - receiver.p;
+    let nearest = dot(to_center, wi);
+    let offset = wi * nearest - to_center;
+    let half_chord_sq = s.radius * s.radius - dot(offset, offset);
+    if !(half_chord_sq >= 0.0) {
+        return 0.0;
+    }
+    let half_chord = sqrt(half_chord_sq);
+    let t = nearest + half_chord;
+    let n = light_unit_or(offset + wi * half_chord, vec3<f32>(0.0));
+    let pdf = light_area_to_solid_angle(1.0 / light_sphere_area(s), wi * t, n).w;
+    return select(0.0, pdf, t > 0.0);
+}
+
+fn light_sphere_cone(s: LightSphere, receiver: LightReceiver) -> LightSphereCone {
+    var cone: LightSphereCone;
+    let to_center = s.center - receiver.p;
+    let distance = length(to_center);
+    if !(distance > s.radius) || light_sphere_is_own(s, receiver) {
+        return cone;
+    }
+    cone.axis = to_center / distance;
+    cone.sin_max = s.radius / distance;
+    let sin_sq = cone.sin_max * cone.sin_max;
+    cone.one_minus_cos_max = sin_sq / (1.0 + light_safe_sqrt(1.0 - sin_sq));
+    return cone;
+}
+
+// Whether the receiver may be a point of the sphere, wherever rounding has put it.
+fn light_sphere_is_own(s: LightSphere, receiver: LightReceiver) -> bool {
+    if receiver.kind != LIGHT_SURFACE && receiver.kind != LIGHT_TWO_SIDED
+        && receiver.kind != LIGHT_GLOSSY {
+        return false;
+    }
+    let error = vec3<f32>(LIGHT_OWN_ERROR * light_sphere_size(s));
+    let from_center = receiver.p - s.center;
+    let own = receiver.n * s.radius;
+    return all(abs(own - from_center) <= error) || all(abs(own + from_center) <= error);
+}
+
+// By how much a point is moved to the side from which it is seen: more than its rounding.
+fn light_sphere_error(s: LightSphere) -> f32 {
+    return LIGHT_SPHERE_ERROR * light_sphere_size(s);
+}
+
+fn light_sphere_size(s: LightSphere) -> f32 {
+    let c = abs(s.center);
+    return max(max(c.x, c.y), c.z) + s.radius;
+}
+
+fn light_sphere_area(s: LightSphere) -> f32 {
+    return 12.566370614359172 * s.radius * s.radius;
+}
+
+fn light_cone_pdf(one_minus_cos: f32) -> f32 {
+    let pdf = 1.0 / (6.2831853071795864 * one_minus_cos);
+    return select(0.0, pdf, one_minus_cos > 0.0 && pdf <= LIGHT_MAX);
+}
+
+// The light that arrives from each light of a lights: LightSet of light-sources.
+
+const LIGHT_INV_SPHERE: f32 = 0.07957747154594767;
+
+struct LightSet {
+    // The row of the first light, of four each.
+    lights: u32,
+    count: u32,
+    // Of the scene.
+    radius: f32,
+}
+
+// Light that arrives, as LightLiSample of the crate has it; there is none where pdf is 0.
+struct LightLiSample {
+    // Radiance; of a point light intensity over the squared distance, of a distant one irradiance.
+    l: vec3<f32>,
+    // Of the direction, per solid angle; 1 where a light has but one.
+    pdf: f32,
+    // The unit direction toward the light.
+    wi: vec3<f32>,
+    // Where a shadow ray ends.
+    p_light: vec3<f32>,
+    // Of the surface there, 0 without one.
+    n_light: vec3<f32>,
+}
+
+// Four rows of a light.
+struct LightRecord {
+    kind: u32,
+    sides: u32,
+    // Where it is, or the direction toward it.
+    a: vec3<f32>,
+    // What it emits, and a number besides.
+    l: vec4<f32>,
+    b: vec4<f32>,
+    c: vec4<f32>,
+}
+
+// The set whose rows begin in row `first`: light_set_rows of the crate makes them.
+fn light_set(first: u32) -> LightSet {
+    let head = light_row(first);
+    return LightSet(first + 1u, head.x, bitcast<f32>(head.y));
+}
+
+// A direction from which `light` arrives at the receiver, by u in [0, 1)^2. As on the CPU, the side
+// of the receiver is not tested.
+fn light_set_sample_li(
+    lights: LightSet,
+    light: u32,
+    receiver: LightReceiver,
+    u: vec2<f32>,
+) -> LightLiSample {
+    var sample: LightLiSample;
+    if light >= lights.count {
+        return sample;
+    }
+    let it = light_record(lights, light);
+    if it.kind == LIGHT_KIND_POINT || it.kind == LIGHT_KIND_SPOT {
+        return light_point_li(it, receiver);
+    }
+    if it.kind == LIGHT_KIND_DISTANT || it.kind == LIGHT_KIND_UNIFORM {
+        let is_distant = it.kind == LIGHT_KIND_DISTANT;
+        sample.wi = select(light_uniform_sphere(u), it.a, is_distant);
+        sample.pdf = select(LIGHT_INV_SPHERE, 1.0, is_distant);
+        sample.l = it.l.xyz;
+        sample.p_light = receiver.p + sample.wi * (2.0 * lights.radius);
+        return sample;
+    }
+    var at: LightShapeSample;
+    if it.kind == LIGHT_KIND_TRIANGLE {
+        at = light_triangle_sample(light_record_triangle(it), receiver, u);
+    } else if it.kind == LIGHT_KIND_RECTANGLE {
+        at = light_rectangle_sample(light_rectangle(it.a, it.b.xyz, it.c.xyz), receiver, u);
+    } else if it.kind == LIGHT_KIND_SPHERE {
+        at = light_sphere_sample(light_record_sphere(it), receiver, u);
+    }
+    let front = -dot(at.n, at.wi);
+    let is_dark = (it.sides == LIGHT_SIDES_FRONT && !(front > 0.0))
+        || (it.sides == LIGHT_SIDES_BACK && !(front < 0.0))
+        || all(it.l.xyz == vec3<f32>(0.0));
+    if at.pdf > 0.0 && !is_dark {
+        sample = LightLiSample(it.l.xyz, at.pdf, at.wi, at.p, at.n);
+    }
+    return sample;
+}
+
+// The density with which light_set_sample_li chooses the direction wi; 0 for lights that have but
+// one.
+fn light_set_pdf_li(lights: LightSet, light: u32, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
+    if light >= lights.count {
+        return 0.0;
+    }
+    let it = light_record(lights, light);
+    if it.kind == LIGHT_KIND_UNIFORM {
+        return LIGHT_INV_SPHERE;
+    } else if it.kind == LIGHT_KIND_TRIANGLE {
+        return light_triangle_pdf(light_record_triangle(it), receiver, wi);
+    } else if it.kind == LIGHT_KIND_RECTANGLE {
+        return light_rectangle_pdf(light_rectangle(it.a, it.b.xyz, it.c.xyz), receiver, wi);
+    } else if it.kind == LIGHT_KIND_SPHERE {
+        return light_sphere_pdf(light_record_sphere(it), receiver, wi);
+    }
+    return 0.0;
+}
+
+fn light_record(lights: LightSet, light: u32) -> LightRecord {
+    let first = lights.lights + 4u * light;
+    let head = light_row(first);
+    return LightRecord(
+        head.w & 0xffu,
+        head.w >> 8u,
+        bitcast<vec3<f32>>(head.xyz),
+        bitcast<vec4<f32>>(light_row(first + 1u)),
+        bitcast<vec4<f32>>(light_row(first + 2u)),
+        bitcast<vec4<f32>>(light_row(first + 3u)),
+    );
+}
+
+fn light_record_triangle(it: LightRecord) -> LightTriangle {
+    return light_triangle(array<vec3<f32>, 3>(it.a, it.b.xyz, it.c.xyz));
+}
+
+// The second axis is that of the other two, or its mirror image.
+fn light_record_sphere(it: LightRecord) -> LightSphere {
+    let y = cross(it.c.xyz, it.b.xyz) * it.b.w;
+    return LightSphere(it.a, it.l.w, mat3x3<f32>(it.b.xyz, y, it.c.xyz));
+}
+
+fn light_point_li(it: LightRecord, receiver: LightReceiver) -> LightLiSample {
+    var sample: LightLiSample;
+    let to_light = it.a - receiver.p;
+    let dist_sq = dot(to_light, to_light);
+    if !(dist_sq >= LIGHT_MIN && dist_sq <= LIGHT_MAX) {
+        return sample;
+    }
+    let wi = to_light * (1.0 / sqrt(dist_sq));
+    var intensity = it.l.xyz;
+    if it.kind == LIGHT_KIND_SPOT {
+        intensity *= light_spot_falloff(it, -wi);
+    }
+    let l = intensity * (1.0 / dist_sq);
+    if any(l > vec3<f32>(0.0)) && all(l <= vec3<f32>(LIGHT_MAX)) {
+        sample = LightLiSample(l, 1.0, wi, it.a, vec3<f32>(0.0));
+    }
+    return sample;
+}
+
+// The relative intensity of a spot in the unit direction w, by its distance from the axis, which
+// keeps its digits near it.
+fn light_spot_falloff(it: LightRecord, w: vec3<f32>) -> f32 {
+    let axis = it.b.xyz;
+    let start = it.l.w;
+    let end = it.b.w;
+    let z = dot(axis, w);
+    let aside = cross(axis, w);
+    let x = select(1.0 - z, dot(aside, aside) / (1.0 + z), z > 0.0);
+    let t = clamp((end - x) / (end - start), 0.0, 1.0);
+    return select(select(t * t * (3.0 - 2.0 * t), 0.0, x >= end), 1.0, x <= start);
 }

@@ -8,10 +8,13 @@ extern crate alloc;
 
 pub use light_samplers;
 pub use light_samplers::light_bvh;
+pub use light_sources;
 
+mod light_rows;
 mod rows;
 mod source;
 
+pub use light_rows::{UnsupportedLight, light_set_rows};
 pub use rows::{
     TooManyInfiniteLights, alias_table_rows, light_sampler_rows, light_tree_rows, node_rows,
 };

@@ -1,8 +1,11 @@
 use alloc::format;
 use alloc::string::String;
 
+use crate::light_rows::KINDS;
 use light_samplers::HORIZON_SLACK;
 use light_samplers::light_bvh::QUERY_CONSTANTS;
+use light_sources::light_math::warp::WARP_CONSTANTS;
+use light_sources::shape::SHAPE_CONSTANTS;
 
 /// All functions in one text of plain WGSL, which needs one of yours:
 /// `fn light_row(i: u32) -> vec4<u32>`, row `i` of the buffer that holds trees and tables.
@@ -12,7 +15,7 @@ use light_samplers::light_bvh::QUERY_CONSTANTS;
 pub const LIGHTS_WGSL: &str = include_str!("../lights.wgsl");
 
 /// The modules, in the order of the text, each after what it needs.
-const MODULES: [&str; 8] = [
+const MODULES: [&str; 15] = [
     include_str!("../wesl/fraction.wesl"),
     include_str!("../wesl/alias_table.wesl"),
     include_str!("../wesl/sphere_maps.wesl"),
@@ -21,18 +24,32 @@ const MODULES: [&str; 8] = [
     include_str!("../wesl/importance.wesl"),
     include_str!("../wesl/light_tree.wesl"),
     include_str!("../wesl/light_sampler.wesl"),
+    include_str!("../wesl/warps.wesl"),
+    include_str!("../wesl/seen_triangle.wesl"),
+    include_str!("../wesl/spherical_triangle.wesl"),
+    include_str!("../wesl/spherical_rectangle.wesl"),
+    include_str!("../wesl/flat_lights.wesl"),
+    include_str!("../wesl/sphere_light.wesl"),
+    include_str!("../wesl/light_set.wesl"),
 ];
 
 /// The module of constants, with the numbers of the Rust crates: `wesl/constants.wesl`.
 #[must_use]
 pub fn constants() -> String {
-    let head = "// The numbers of light-bvh (QUERY_CONSTANTS) and light-samplers. Generated.\n\n";
-    QUERY_CONSTANTS
+    let head = "// The numbers of the Rust crates: light-bvh, light-samplers, light-math (warp),\n\
+                // light-sources (shape), and the kinds of rows. Generated.\n\n";
+    let numbers = QUERY_CONSTANTS
         .iter()
         .chain(&[("HORIZON_SLACK", HORIZON_SLACK)])
-        .fold(head.into(), |text: String, (name, value)| {
-            text + &format!("const LIGHT_{name}: f32 = {value:?};\n")
-        })
+        .chain(&WARP_CONSTANTS)
+        .chain(&SHAPE_CONSTANTS)
+        .map(|(name, value)| format!("const LIGHT_{name}: f32 = {value:?};\n"));
+    let kinds = KINDS
+        .iter()
+        .map(|(name, kind)| format!("const LIGHT_{name}: u32 = {kind}u;\n"));
+    numbers
+        .chain(kinds)
+        .fold(head.into(), |text: String, line| text + &line)
 }
 
 /// [`LIGHTS_WGSL`], made anew from the modules and the constants.

@@ -159,6 +159,16 @@ impl<C: ColorModel> DiffuseEmission<C> {
         }
     }
 
+    /// Radiance that leaves every point of the surface on the sides that emit, in W m^-2 sr^-1;
+    /// `None` where an image or an alpha mask varies it.
+    #[must_use]
+    pub fn uniform_radiance(&self, wavelengths: &C::Wavelengths) -> Option<C::Radiance> {
+        match (&self.color, &self.mask) {
+            (_, EmissionMask::Alpha(_)) | (Color::Image { .. }, _) => None,
+            (Color::Uniform(radiance), _) => Some(radiance.at(wavelengths)),
+        }
+    }
+
     /// Power in W that a shape emits, on all sides.
     #[must_use]
     pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {

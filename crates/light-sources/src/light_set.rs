@@ -95,6 +95,12 @@ impl<C: ColorModel> LightSet<C> {
         self.len() == 0
     }
 
+    /// The sphere of the scene that the set was made for.
+    #[must_use]
+    pub const fn scene(&self) -> SceneSphere {
+        self.scene
+    }
+
     /// The light with the given id; `None` for an unknown one.
     #[inline]
     #[must_use]

@@ -62,6 +62,18 @@ impl<C: ColorModel> SpotLight<C> {
         })
     }
 
+    /// From light space to the scene: the light shines along +z.
+    #[must_use]
+    pub const fn transform(&self) -> &RigidTransform {
+        &self.transform
+    }
+
+    /// 1 minus the cosine of the angle where the falloff starts, and of that of the rim.
+    #[must_use]
+    pub const fn one_minus_cosines(&self) -> [f32; 2] {
+        [self.start, self.end]
+    }
+
     /// The relative intensity in the direction `w` away from the light, in `[0, 1]`.
     fn falloff(&self, w: Vec3) -> f32 {
         let w = self.transform.inverse_vector(w);

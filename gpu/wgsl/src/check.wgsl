@@ -4,6 +4,7 @@
 @group(0) @binding(1) var<storage, read> queries: array<Query>;
 @group(0) @binding(2) var<storage, read_write> answers: array<Answer>;
 @group(0) @binding(3) var<storage, read_write> mapped: array<Mapped>;
+@group(0) @binding(4) var<storage, read_write> arrived: array<Arrived>;
 
 struct Query {
     p: vec3<f32>,
@@ -41,6 +42,19 @@ struct Mapped {
     unused: u32,
     place: vec2<f32>,
     unused_too: vec2<u32>,
+}
+
+struct Arrived {
+    // Of the light `other` by the place u: a sample, and what light_set_pdf_li says of its direction.
+    l: vec3<f32>,
+    pdf: f32,
+    wi: vec3<f32>,
+    again: f32,
+    p_light: vec3<f32>,
+    // What it says of the direction wo.
+    toward: f32,
+    n_light: vec3<f32>,
+    unused: u32,
 }
 
 fn light_row(i: u32) -> vec4<u32> {
@@ -102,5 +116,28 @@ fn map(@builtin(global_invocation_id) id: vec3<u32>) {
         0u,
         light_sphere_to_square(direction),
         vec2<u32>(0u),
+    );
+}
+
+// The rows are those of a set of lights here.
+@compute @workgroup_size(64)
+fn arrive(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&queries) {
+        return;
+    }
+    let query = queries[id.x];
+    let lights = light_set(0u);
+    let asked = receiver(query);
+    let u = vec2<f32>(query.u >> vec2<u32>(8u)) / 16777216.0;
+    let sample = light_set_sample_li(lights, query.other, asked, u);
+    arrived[id.x] = Arrived(
+        sample.l,
+        sample.pdf,
+        sample.wi,
+        light_set_pdf_li(lights, query.other, asked, sample.wi),
+        sample.p_light,
+        light_set_pdf_li(lights, query.other, asked, query.wo),
+        sample.n_light,
+        0u,
     );
 }

@@ -3,8 +3,10 @@
 //! Sets of four kinds and three sizes, each with so many queries (default: 2^20) by all kinds of
 //! receivers in turn. The shader has to choose the same light for at least 99 % of them, to have
 //! the probability 0 where the crates have it and nowhere else, and to find its own samples'
-//! probabilities again, bit for bit. Then alias tables, octahedral codes and the equal-area map.
+//! probabilities again, bit for bit. Then alias tables, octahedral codes and the equal-area map, and
+//! the light that arrives from lights of each kind.
 
+mod arrivals;
 mod device;
 mod maps;
 mod query;
@@ -73,6 +75,7 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
     let set = BenchSet::generate(SetKind::Uniform, 100, 1);
     let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, 100, i)).collect();
     all &= maps::check(device, &queries)?;
+    all &= arrivals::check(device, count)?;
     println!("\n{}", if all { "all of it holds" } else { "FAILED" });
     Ok(all)
 }

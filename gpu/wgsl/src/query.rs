@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use light_bounds::{Gloss, LightId, LightSampleContext};
-use light_math::glam::Vec3;
+use light_math::glam::{Vec2, Vec3};
 use light_sets::BenchSet;
 
 /// Kinds of receivers, in the order of the shader's constants.
@@ -53,7 +53,58 @@ pub struct Mapped {
     unused_too: [u32; 2],
 }
 
+/// What the shader says of the light of a query.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Arrived {
+    pub l: [f32; 3],
+    pub pdf: f32,
+    pub wi: [f32; 3],
+    /// The density of that direction by a query of the shader.
+    pub again: f32,
+    pub p_light: [f32; 3],
+    /// That of the direction to the viewer.
+    pub toward: f32,
+    pub n_light: [f32; 3],
+    unused: u32,
+}
+
 impl Query {
+    /// Query `i` about the light `light`, at a point of a cube of the edge 4 about the origin, of
+    /// each kind of receiver in turn.
+    pub fn about(light: u32, i: u32) -> Self {
+        let mut state = u64::from(i) << 8;
+        let mut next = || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            mixed(state)
+        };
+        let mut unit = || (next() >> 40) as f32 / 8_388_608.0 - 1.0;
+        let mut vector = || Vec3::new(unit(), unit(), unit());
+        let (p, n, wo) = (2.0 * vector(), vector(), vector().normalize());
+        Self {
+            p: p.to_array(),
+            kind: i % KINDS.len() as u32,
+            n: n.to_array(),
+            alpha: 0.5,
+            wo: wo.to_array(),
+            diffuse: 0.5,
+            u: [(next() >> 32) as u32, (next() >> 32) as u32],
+            other: light,
+            unused: 0,
+        }
+    }
+
+    /// The direction to the viewer.
+    pub fn wo(&self) -> Vec3 {
+        self.wo.into()
+    }
+
+    /// The random numbers of a place, as the shader takes them.
+    pub fn place(&self) -> Vec2 {
+        let [x, y] = self.u.map(|word| (word >> 8) as f32 / 16_777_216.0);
+        Vec2::new(x, y)
+    }
+
     /// Query `i` of many about so many `lights` at the points of `set`, of each kind of receiver in
     /// turn.
     pub fn new(set: &BenchSet, lights: usize, i: u32) -> Self {

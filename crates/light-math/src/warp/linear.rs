@@ -7,7 +7,7 @@ use crate::float::{ONE_MINUS_EPSILON, inverse_power_of_two, sqrt};
 
 /// A start of the line, over its end, that counts as zero: products of two such densities would
 /// vanish.
-const NEGLIGIBLE: f32 = 1e-20;
+pub(super) const NEGLIGIBLE: f32 = 1e-20;
 
 /// The `x` in `[0, 1)` for `u`.
 ///

@@ -28,6 +28,13 @@ use crate::float::{atan2, sin_cos};
 use core::f32::consts::TAU;
 use glam::Vec2;
 
+/// The numbers of the maps above, by name, for ports of them to another language.
+pub const WARP_CONSTANTS: [(&str, f32); 3] = [
+    ("NEGLIGIBLE", linear::NEGLIGIBLE),
+    ("NEWTON_PRECISION", spherical_rectangle::NEWTON_PRECISION),
+    ("NEWTON_REACH", spherical_rectangle::NEWTON_REACH),
+];
+
 /// The unit vector at the azimuth `u * 2 pi`.
 fn azimuth(u: f32) -> Vec2 {
     let (sin_phi, cos_phi) = sin_cos(TAU * u);

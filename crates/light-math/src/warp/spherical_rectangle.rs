@@ -243,17 +243,23 @@ fn quadrant([x, width]: [f32; 2], [y, length]: [f32; 2], height: f32) -> f32 {
     2.0 * (atan2(sin, cos(1)) + atan2(sin, cos(3)))
 }
 
+/// The part of the reach below which a step of Newton's method is taken.
+pub(super) const NEWTON_REACH: f32 = 0.25;
+
+/// The square of a step, over the reach, below which the next step would change nothing.
+pub(super) const NEWTON_PRECISION: f32 = 1e-6;
+
 /// Newton's method within `[0, 1]` from `x` on, for the step at a place and its reach, the scale on
 /// which slopes change: a step that is not well within it means that `x` is as good as `u` allows
 /// already. One step does, unless it is so long that the slope changed on its way.
 fn newton(mut x: f32, step_and_reach: impl Fn(f32) -> (f32, f32)) -> f32 {
     for _ in 0..2 {
         let (step, reach) = step_and_reach(x);
-        if !(step.abs() < 0.25 * reach) {
+        if !(step.abs() < NEWTON_REACH * reach) {
             break;
         }
         x = unit(x - step);
-        if step * step < 1e-6 * reach {
+        if step * step < NEWTON_PRECISION * reach {
             break;
         }
     }

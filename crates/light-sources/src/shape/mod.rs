@@ -34,6 +34,21 @@ use light_bounds::LightSampleContext;
 use light_math::float::{ONE_MINUS_EPSILON, atan2, sqrt};
 use light_math::{Aabb, DirectionCone};
 
+/// The numbers of the samples toward triangles, rectangles and spheres, by name, for ports of them
+/// to another language.
+pub const SHAPE_CONSTANTS: [(&str, f32); 10] = [
+    ("CLOSE", CLOSE),
+    ("DIRECTION_ERROR", sphere::DIRECTION_ERROR),
+    ("EDGE_ERROR", triangle::EDGE_ERROR),
+    ("HIT_ERROR", HIT_ERROR),
+    ("LEAST_COSINE", receiver_cosine::SMALLEST),
+    ("OWN_ERROR", sphere::OWN_ERROR),
+    ("SMALL_BOUND", triangle::SMALL_BOUND),
+    ("SMALL_SOLID_ANGLE", SMALL),
+    ("SPHERE_ERROR", sphere::SPHERE_ERROR),
+    ("WIDEST_SLACK", rectangle::WIDEST_SLACK),
+];
+
 /// The shape of an area light.
 pub trait Shape {
     /// Area in length^2.
@@ -147,11 +162,13 @@ pub(crate) fn area_to_solid_angle(pdf_area: f32, to_light: Vec3, n: Vec3) -> Opt
     (pdf > 0.0 && pdf.is_finite()).then_some((wi, pdf))
 }
 
+/// The distance, as a part of the coordinates, within which their rounding shows.
+const CLOSE: f32 = 1e-3;
+
 /// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the
 /// direction `to_light` visibly.
 #[inline]
 fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
-    const CLOSE: f32 = 1e-3;
     to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
 }
 
@@ -164,13 +181,16 @@ fn met_by(shape: &impl Shape, ctx: &LightSampleContext, wi: Vec3) -> Option<Dire
     (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
 }
 
+/// The rounding error of a hit, as a part of the coordinates that were subtracted.
+const HIT_ERROR: f32 = 4.0 * f32::EPSILON;
+
 /// Rounding error of the intersection of a ray with a surface at the given distance, as a length
 /// along the surface; it grows at grazing angles. Edges are extended by it, so that a direction
 /// toward any point hits.
 ///
 /// `magnitude` is the size of the coordinates that were subtracted.
 fn hit_slack(magnitude: f32, cos_theta: f32) -> f32 {
-    4.0 * f32::EPSILON * magnitude / cos_theta.abs()
+    HIT_ERROR * magnitude / cos_theta.abs()
 }
 
 /// The angle around the axis z of the point at `p`, as a part of a full turn, in `[0, 1)`.

@@ -16,7 +16,7 @@ use light_math::warp::bilinear;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReceiverCosine(Option<[f32; 4]>);
 
-const SMALLEST: f32 = 0.01;
+pub(super) const SMALLEST: f32 = 0.01;
 
 impl ReceiverCosine {
     /// The map for a receiver, where the corners (0, 0), (1, 0), (0, 1), (1, 1) of the square stand

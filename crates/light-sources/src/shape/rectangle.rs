@@ -38,6 +38,9 @@ pub enum RectangleError {
 /// Tolerance of the cosine between the edges: files write few digits.
 const TOLERANCE: f32 = 1e-4;
 
+/// The most that an edge is extended by, as a part of its length.
+pub(super) const WIDEST_SLACK: f32 = 0.5;
+
 impl Rectangle {
     /// The rectangle with one corner and the edges from there along u and v.
     ///
@@ -65,6 +68,18 @@ impl Rectangle {
             return Err(RectangleError::Edge);
         }
         Ok(rectangle)
+    }
+
+    /// The corner at (u, v) = (0, 0).
+    #[must_use]
+    pub const fn corner(&self) -> Vec3 {
+        self.corner
+    }
+
+    /// The edges from the corner along u and v, exactly perpendicular.
+    #[must_use]
+    pub const fn edges(&self) -> [Vec3; 2] {
+        self.edges
     }
 
     fn corners(&self) -> [Vec3; 4] {
@@ -165,7 +180,7 @@ impl Shape for Rectangle {
         let slack = hit_slack(magnitude, cos_theta);
         let along = |edge: Vec3| {
             let x = p.dot(edge) / edge.length_squared();
-            let slack = (slack / edge.length()).min(0.5);
+            let slack = (slack / edge.length()).min(WIDEST_SLACK);
             (x >= -slack && x <= 1.0 + slack).then(|| x.clamp(0.0, 1.0))
         };
         Some(self.at(Vec2::new(along(self.edges[0])?, along(self.edges[1])?)))

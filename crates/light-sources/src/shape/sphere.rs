@@ -30,7 +30,12 @@ pub enum SphereError {
 }
 
 /// The sine of the rounding error of a direction in single precision.
-const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
+pub(super) const DIRECTION_ERROR: f32 = 4.0 * f32::EPSILON;
+
+/// How far rounding moves a point of the sphere, and one that a ray has met, as parts of its
+/// coordinates.
+pub(super) const SPHERE_ERROR: f32 = 4.0 * f32::EPSILON;
+pub(super) const OWN_ERROR: f32 = 8.0 * f32::EPSILON;
 
 impl Sphere {
     /// The sphere around the origin of the transform. Its axis +z only matters for the surface
@@ -57,6 +62,12 @@ impl Sphere {
     #[must_use]
     pub const fn radius(&self) -> f32 {
         self.radius
+    }
+
+    /// From the sphere's space to the scene.
+    #[must_use]
+    pub const fn transform(&self) -> &RigidTransform {
+        &self.transform
     }
 
     /// The point of the surface with unit normal `n`.
@@ -96,7 +107,7 @@ impl Sphere {
     /// place and its normal. Another surface that close is on the side where it is.
     fn is_own(&self, ctx: &LightSampleContext) -> bool {
         let size = self.center().abs().max_element() + self.radius;
-        let error = 2.0 * ctx.p_error + 8.0 * f32::EPSILON * size;
+        let error = 2.0 * ctx.p_error + OWN_ERROR * size;
         ctx.n().is_some_and(|n| {
             [n, -n].into_iter().any(|n| {
                 let own = self.center() + n * self.radius;
@@ -108,7 +119,7 @@ impl Sphere {
     /// The point, moved by more than its rounding error to the side from which it is seen, so that
     /// the sphere does not occlude its own light.
     fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
-        let error = 4.0 * f32::EPSILON * (self.center().abs().max_element() + self.radius);
+        let error = SPHERE_ERROR * (self.center().abs().max_element() + self.radius);
         let p = at.p + at.n * (side * error);
         SurfacePoint { p, ..at }
     }

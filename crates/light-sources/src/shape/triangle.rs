@@ -10,6 +10,13 @@ use light_math::float::sqrt;
 use light_math::warp::{SphericalTriangle, uniform_triangle};
 use light_math::{Aabb, DirectionCone};
 
+/// Twice the solid angle below which a triangle is small, as a normal is twice as long as the area,
+/// but for a hundredth for rounding.
+pub(super) const SMALL_BOUND: f32 = 0.99 * 2.0 * SMALL;
+
+/// The rounding error of the volume that a ray and an edge span, as a part of it.
+pub(super) const EDGE_ERROR: f32 = 8.0 * f32::EPSILON;
+
 /// A triangle; its front is the side from which the vertices run counter-clockwise.
 ///
 /// Directions toward it are chosen by solid angle and nearly by the receiver's cosine, or by area
@@ -109,13 +116,10 @@ impl Triangle {
     /// covers at most `h A / r^3`.
     #[inline]
     fn is_small_from(&self, p: Vec3) -> bool {
-        /// Twice the limit, as a normal is twice as long as the area, but for a hundredth for
-        /// rounding.
-        const LIMIT: f32 = 0.99 * 2.0 * SMALL;
         let [a, b, c] = self.p;
         let edge_sq = (b - a).length_squared().max((c - a).length_squared());
         let r = (p - a).length() - sqrt(edge_sq);
-        r > 0.0 && self.scaled_normal().dot(p - a).abs() < LIMIT * (r * r * r)
+        r > 0.0 && self.scaled_normal().dot(p - a).abs() < SMALL_BOUND * (r * r * r)
     }
 
     /// The square of a [`SphericalTriangle`] has the second vertex all along its lower side.
@@ -147,7 +151,7 @@ impl Triangle {
         let v = self.p.map(|p| p - origin);
         let side = |i: usize, j: usize| {
             let edge = v[j] - v[i];
-            let slack = 8.0 * f32::EPSILON * v[i].length() * edge.length();
+            let slack = EDGE_ERROR * v[i].length() * edge.length();
             (direction.dot(v[i].cross(edge)), slack)
         };
         let sides = [side(1, 2), side(2, 0), side(0, 1)];

@@ -1,0 +1,185 @@
+//! What arrives from lights of each kind, against light-sources.
+
+use light_gpu::light_set_rows;
+use light_math::glam::{Affine3A, Quat, Vec3};
+use light_sources::shape::ShapeDesc;
+use light_sources::{
+    AreaLightDesc, DiffuseEmissionDesc, DistantLightDesc, IntensityAmount, IrradianceAmount, Light,
+    LightDesc, LightDescError, LightSet, LightSetBuilder, MediumInterface, MeshLightDesc,
+    PdfCoverage, PointLightDesc, RadianceAmount, Rgb, SceneSphere, Sides, SpotLightDesc,
+    SurfaceAmount, SurfaceColor, UniformInfiniteLightDesc,
+};
+
+use crate::device::Device;
+use crate::query::{Arrived, Query};
+
+/// The kinds of lights.
+const KINDS: [&str; 8] = [
+    "point", "spot", "distant", "uniform", "triangle", "mesh", "rectangle", "sphere",
+];
+
+/// Lights of each kind.
+const LIGHTS: u32 = 1000;
+
+/// How far radiance, density and direction may be off, as a part of themselves.
+const ERROR: f32 = 1e-4;
+
+/// The share of the queries of a kind that may be off by more, and that of those that only one side
+/// answers.
+const OFF: f64 = 1e-3;
+
+/// What differs between the answers about the lights of a kind.
+#[derive(Clone, Copy, Debug, Default)]
+struct Kind {
+    queries: u32,
+    /// Samples of which one side has none.
+    unlike: u32,
+    /// Samples of which density, radiance, direction or place are off by more than [`ERROR`].
+    off: u32,
+    /// Densities of a sample's direction that are off by more, or 0 on one side alone.
+    pdf_off: u32,
+    /// Those of a direction that has nothing to do with the light.
+    other_off: u32,
+    /// The largest differences of a density and of a direction among the samples.
+    largest: [f32; 2],
+}
+
+/// Prints a row a kind; whether all of them keep what is promised.
+///
+/// # Errors
+/// One line by the driver, or by a light.
+pub fn check(device: &Device, count: u32) -> Result<bool, String> {
+    let head = "\
+| lights | alike within 1e-4 | largest density, direction | one side alone | pdf_li off | \
+of any direction |
+| --- | ---: | ---: | ---: | ---: | ---: |";
+    println!("\n{head}");
+    let mut all = true;
+    for kind in KINDS {
+        let lights = lights(kind).map_err(|e| e.to_string())?;
+        let rows = light_set_rows(&lights).map_err(|e| e.to_string())?;
+        let queries: Vec<Query> = (0..count)
+            .map(|i| Query::about((i / 5) % LIGHTS, i))
+            .collect();
+        let (answers, _) = device.run::<Arrived>(("arrive", 4), &rows, &queries)?;
+        let mut tally = Kind::default();
+        for (query, theirs) in queries.iter().zip(&answers) {
+            tally.add(&lights, query, theirs);
+        }
+        println!("{}", tally.row(kind));
+        all &= tally.holds();
+    }
+    Ok(all)
+}
+
+impl Kind {
+    fn add(&mut self, lights: &LightSet<Rgb>, query: &Query, theirs: &Arrived) {
+        self.queries += 1;
+        let light = lights.get(query.other()).expect("a light");
+        let ctx = &query.context();
+        let complete = PdfCoverage::Complete;
+        let toward = light.pdf_li(ctx, query.wo(), complete);
+        self.other_off += u32::from(!is_near(toward, theirs.toward));
+        let ours = light.sample_li(ctx, query.place(), &(), complete);
+        let Some(ours) = ours.filter(|_| theirs.pdf > 0.0) else {
+            self.unlike += u32::from(ours.is_some() || theirs.pdf > 0.0);
+            return;
+        };
+        let wi = Vec3::from(theirs.wi);
+        let pdf = (theirs.pdf / ours.pdf - 1.0).abs();
+        let turn = wi.distance(ours.wi);
+        self.largest = [self.largest[0].max(pdf), self.largest[1].max(turn)];
+        let l = Vec3::from(theirs.l).distance(ours.l) / ours.l.length();
+        let way = (ours.p_light - ctx.p).length();
+        let place = Vec3::from(theirs.p_light).distance(ours.p_light) / way.max(1.0);
+        let n = Vec3::from(theirs.n_light).distance(ours.n_light);
+        let is_off = !([pdf, l, turn, place].iter().all(|&error| error <= ERROR) && n <= 0.01);
+        self.off += u32::from(is_off);
+        self.pdf_off += u32::from(!is_near(light.pdf_li(ctx, wi, complete), theirs.again));
+    }
+
+    fn holds(&self) -> bool {
+        let few = |count: u32| f64::from(count) <= OFF * f64::from(self.queries);
+        few(self.unlike) && few(self.off) && few(self.pdf_off) && few(self.other_off)
+    }
+
+    fn row(&self, kind: &str) -> String {
+        let percent = |count: u32| 100.0 * f64::from(count) / f64::from(self.queries);
+        let [pdf, turn] = self.largest;
+        format!(
+            "| {kind} | {:.4} % | {pdf:.1e}, {turn:.1e} | {:.4} % | {:.4} % | {:.4} % |",
+            100.0 - percent(self.off),
+            percent(self.unlike),
+            percent(self.pdf_off),
+            percent(self.other_off),
+        )
+    }
+}
+
+/// Whether both are 0, or within [`ERROR`] of each other.
+fn is_near(ours: f32, theirs: f32) -> bool {
+    (ours > 0.0) == (theirs > 0.0) && (ours - theirs).abs() <= ERROR * ours
+}
+
+/// Lights of a kind, of all sizes from 0.001 to 3, in a cube of the edge 4.
+fn lights(kind: &str) -> Result<LightSet<Rgb>, LightDescError> {
+    let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
+    let mut lights = LightSetBuilder::<Rgb>::new(scene);
+    let mut random = light_sets::Random::new(7);
+    for i in 0..LIGHTS {
+        lights.add(light(kind, i, &mut || random.f32()))?;
+    }
+    Ok(lights.build())
+}
+
+fn light(kind: &str, i: u32, unit: &mut impl FnMut() -> f32) -> LightDesc<Rgb> {
+    let mut vector = || Vec3::new(unit(), unit(), unit()) * 2.0 - 1.0;
+    let (place, turn, color) = (2.0 * vector(), vector(), (vector() + 1.1) * 3.0);
+    let [a, b] = [vector(), vector()];
+    let size = 1e-3 * 3e3f32.powf(unit());
+    let turn = Quat::from_scaled_axis(3.0 * turn);
+    let sides = [Sides::Front, Sides::Back, Sides::Both][i as usize % 3];
+    let emission = DiffuseEmissionDesc {
+        sides,
+        ..DiffuseEmissionDesc::new(
+            SurfaceColor::Uniform(color),
+            RadianceAmount::Radiometric(1.0),
+        )
+    };
+    let corners = [place, place + size * a, place + size * b];
+    let transform = Affine3A::from_rotation_translation(turn, place);
+    let shape = match kind {
+        "point" => {
+            let amount = IntensityAmount::Radiometric(1.0);
+            return PointLightDesc::new(place, color, amount).into();
+        }
+        "spot" => {
+            let angle = 0.01 + 2.0 * unit();
+            return SpotLightDesc {
+                transform,
+                angle,
+                falloff_start: angle * unit(),
+                emission: color,
+                amount: IntensityAmount::Radiometric(1.0),
+                media: MediumInterface::default(),
+            }
+            .into();
+        }
+        "distant" => {
+            let amount = IrradianceAmount::Radiometric(1.0);
+            return DistantLightDesc::new(a, color, amount).into();
+        }
+        "uniform" => {
+            let amount = RadianceAmount::Radiometric(1.0);
+            return UniformInfiniteLightDesc::new(color, amount).into();
+        }
+        "mesh" => return MeshLightDesc::new(corners, vec![[0, 1, 2]], emission).into(),
+        "triangle" => ShapeDesc::Triangle(corners),
+        "rectangle" => {
+            let edges = [turn * Vec3::X * size, turn * Vec3::Y * (size * (0.1 + unit()))];
+            ShapeDesc::Rectangle { corner: place, edges }
+        }
+        _ => ShapeDesc::Sphere { transform, radius: 0.5 * size },
+    };
+    AreaLightDesc::new(shape, emission).into()
+}
