@@ -7,11 +7,11 @@ use light_sources::{
     AreaLightDesc, DiffuseEmissionDesc, DistantLightDesc, IntensityAmount, IrradianceAmount, Light,
     LightDesc, LightDescError, LightSet, LightSetBuilder, MediumInterface, MeshLightDesc,
     PdfCoverage, PointLightDesc, RadianceAmount, Rgb, SceneSphere, Sides, SpotLightDesc,
-    SurfaceAmount, SurfaceColor, UniformInfiniteLightDesc,
+    SurfaceColor, UniformInfiniteLightDesc,
 };
 
 use crate::device::Device;
-use crate::query::{Arrived, Query};
+use crate::query::{Arrived, Query, Random};
 
 /// The kinds of lights.
 const KINDS: [&str; 8] = [
@@ -125,9 +125,9 @@ fn is_near(ours: f32, theirs: f32) -> bool {
 fn lights(kind: &str) -> Result<LightSet<Rgb>, LightDescError> {
     let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
     let mut lights = LightSetBuilder::<Rgb>::new(scene);
-    let mut random = light_sets::Random::new(7);
+    let mut random = Random(7);
     for i in 0..LIGHTS {
-        lights.add(light(kind, i, &mut || random.f32()))?;
+        lights.add(light(kind, i, &mut || random.unit()))?;
     }
     Ok(lights.build())
 }

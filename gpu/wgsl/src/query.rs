@@ -73,13 +73,8 @@ impl Query {
     /// Query `i` about the light `light`, at a point of a cube of the edge 4 about the origin, of
     /// each kind of receiver in turn.
     pub fn about(light: u32, i: u32) -> Self {
-        let mut state = u64::from(i) << 8;
-        let mut next = || {
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            mixed(state)
-        };
-        let mut unit = || (next() >> 40) as f32 / 8_388_608.0 - 1.0;
-        let mut vector = || Vec3::new(unit(), unit(), unit());
+        let mut random = Random(u64::from(i) << 8);
+        let mut vector = || Vec3::new(random.unit(), random.unit(), random.unit()) * 2.0 - 1.0;
         let (p, n, wo) = (2.0 * vector(), vector(), vector().normalize());
         Self {
             p: p.to_array(),
@@ -88,7 +83,7 @@ impl Query {
             alpha: 0.5,
             wo: wo.to_array(),
             diffuse: 0.5,
-            u: [(next() >> 32) as u32, (next() >> 32) as u32],
+            u: [(); 2].map(|()| (random.next() >> 32) as u32),
             other: light,
             unused: 0,
         }
@@ -108,11 +103,8 @@ impl Query {
     /// Query `i` of many about so many `lights` at the points of `set`, of each kind of receiver in
     /// turn.
     pub fn new(set: &BenchSet, lights: usize, i: u32) -> Self {
-        let mut state = u64::from(i) << 8;
-        let mut next = || {
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            mixed(state)
-        };
+        let mut random = Random(u64::from(i) << 8);
+        let mut next = || random.next();
         let at = &set.points[(next() % set.points.len() as u64) as usize];
         let (high, low) = (next(), next());
         let unit = |bits: u64| (bits >> 40) as f32 / 8_388_608.0 - 1.0;
@@ -163,6 +155,21 @@ impl Query {
             "medium" => LightSampleContext::medium(p),
             _ => LightSampleContext::segment(p, n),
         }
+    }
+}
+
+/// A row of random numbers.
+pub struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        mixed(self.0)
+    }
+
+    /// The next in [0, 1).
+    pub fn unit(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / 16_777_216.0
     }
 }
 
