@@ -1,5 +1,6 @@
 //! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver
-//! of this machine, or on Mesa's software driver from Debian.
+//! of this machine, or on Mesa's software driver from Debian; then
+//! the picture of `examples/gbuffer`.
 
 use std::fs;
 use std::path::Path;
@@ -23,7 +24,7 @@ const DRIVER: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 /// When the shaders answer otherwise than they may, or the check does not build.
 pub fn gpu(arguments: &[String]) -> StepResult {
     if holds(check(arguments))? {
-        return Ok(Outcome::Passed);
+        return picture(&[]);
     }
     println!("    no driver for Vulkan, Metal or DirectX 12");
     let folder = match unpacked("vulkan", &DRIVER.map(String::from)) {
@@ -34,24 +35,40 @@ pub fn gpu(arguments: &[String]) -> StepResult {
             )));
         }
     };
+    let driver = [
+        ("LD_LIBRARY_PATH", libraries(&folder)),
+        ("VK_ICD_FILENAMES", description(&folder)?),
+    ];
     let mut with_driver = check(arguments);
-    with_driver
-        .env("LD_LIBRARY_PATH", libraries(&folder))
-        .env("VK_ICD_FILENAMES", description(&folder)?);
-    Ok(if holds(with_driver)? {
-        Outcome::Passed
+    with_driver.envs(driver.clone());
+    if !holds(with_driver)? {
+        return Ok(Outcome::Skipped("Mesa's driver does not run here".into()));
+    }
+    picture(&driver)
+}
+
+/// Lights the picture of the example, which holds it against the CPU's.
+fn picture(driver: &[(&str, String)]) -> StepResult {
+    let mut command = program(["--example", "gbuffer"]);
+    command.envs(driver.iter().cloned());
+    if command.status().map_err(|e| e.to_string())?.success() {
+        Ok(Outcome::Passed)
     } else {
-        Outcome::Skipped("Mesa's driver does not run here".into())
-    })
+        Err("the example `gbuffer` fails".into())
+    }
 }
 
 fn check(arguments: &[String]) -> Command {
+    let mut command = program(["--bin", "light-gpu-check"]);
+    command.arg("--").args(arguments);
+    command
+}
+
+/// A program of the workspace of the check.
+fn program(which: [&str; 2]) -> Command {
     let mut command = cargo(["run", "--quiet", "--release", "--manifest-path", MANIFEST]);
     let target = root().join("target").join("gpu");
-    command
-        .env("CARGO_TARGET_DIR", target)
-        .arg("--")
-        .args(arguments);
+    command.env("CARGO_TARGET_DIR", target).args(which);
     command
 }
 
