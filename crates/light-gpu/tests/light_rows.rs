@@ -42,8 +42,16 @@ fn a_light_is_four_rows_after_the_head() {
     assert_eq!(rows.len(), 1 + 3 * 4, "rows");
     assert_eq!(rows[0], [3, 7.0f32.to_bits(), 0, 0], "count and radius");
     assert_eq!(vector(rows[2]), [2.0, 4.0, 6.0], "radiance");
-    assert_eq!(vector(rows[5]), [0.0, 1.0, 0.0], "the second triangle's corners");
-    assert_eq!(vector(rows[7]), [1.0, 0.0, 0.0], "the second triangle's corners");
+    assert_eq!(
+        vector(rows[5]),
+        [0.0, 1.0, 0.0],
+        "the second triangle's corners"
+    );
+    assert_eq!(
+        vector(rows[7]),
+        [1.0, 0.0, 0.0],
+        "the second triangle's corners"
+    );
     assert_eq!(rows[1][3], rows[5][3], "kind and sides of both triangles");
     assert_ne!(rows[1][3] & 0xff, rows[9][3] & 0xff, "kind of a point");
     assert_eq!(vector(rows[9]), [0.0, 0.0, 1.0], "the place of a point");

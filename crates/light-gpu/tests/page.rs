@@ -13,7 +13,10 @@ const PAGE: &str = include_str!("../README.md");
 #[test]
 fn the_host_code_is_that_of_the_example() {
     let host = example("lit.rs");
-    assert!(PAGE.contains(&format!("```rust,ignore\n{host}```")), "lit.rs");
+    assert!(
+        PAGE.contains(&format!("```rust,ignore\n{host}```")),
+        "lit.rs"
+    );
     let (_, body) = host.split_once("\npub fn ").expect("a function");
     assert!(body.lines().count() <= 40, "{} lines", body.lines().count());
 }
@@ -22,5 +25,8 @@ fn the_host_code_is_that_of_the_example() {
 fn the_shader_is_that_of_the_example() {
     let shader = example("gbuffer.wgsl");
     let at = shader.find("@compute").expect("an entry point");
-    assert!(PAGE.contains(&format!("```wgsl\n{}```", &shader[at..])), "gbuffer.wgsl");
+    assert!(
+        PAGE.contains(&format!("```wgsl\n{}```", &shader[at..])),
+        "gbuffer.wgsl"
+    );
 }

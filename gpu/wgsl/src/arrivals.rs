@@ -15,7 +15,14 @@ use crate::query::{Arrived, Query, Random};
 
 /// The kinds of lights.
 const KINDS: [&str; 8] = [
-    "point", "spot", "distant", "uniform", "triangle", "mesh", "rectangle", "sphere",
+    "point",
+    "spot",
+    "distant",
+    "uniform",
+    "triangle",
+    "mesh",
+    "rectangle",
+    "sphere",
 ];
 
 /// Lights of each kind.
@@ -176,10 +183,19 @@ fn light(kind: &str, i: u32, unit: &mut impl FnMut() -> f32) -> LightDesc<Rgb> {
         "mesh" => return MeshLightDesc::new(corners, vec![[0, 1, 2]], emission).into(),
         "triangle" => ShapeDesc::Triangle(corners),
         "rectangle" => {
-            let edges = [turn * Vec3::X * size, turn * Vec3::Y * (size * (0.1 + unit()))];
-            ShapeDesc::Rectangle { corner: place, edges }
+            let edges = [
+                turn * Vec3::X * size,
+                turn * Vec3::Y * (size * (0.1 + unit())),
+            ];
+            ShapeDesc::Rectangle {
+                corner: place,
+                edges,
+            }
         }
-        _ => ShapeDesc::Sphere { transform, radius: 0.5 * size },
+        _ => ShapeDesc::Sphere {
+            transform,
+            radius: 0.5 * size,
+        },
     };
     AreaLightDesc::new(shape, emission).into()
 }

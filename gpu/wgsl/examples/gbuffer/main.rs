@@ -37,10 +37,8 @@ fn main() -> Result<()> {
     let start = std::time::Instant::now();
     let sums = lit::lit(&lights, &pixels, frames)?;
     let seconds = start.elapsed().as_secs_f64();
-    let theirs: Vec<Vec3> = sums
-        .chunks_exact(4)
-        .map(|sum| Vec3::new(sum[0], sum[1], sum[2]) / sum[3])
-        .collect();
+    let theirs: Vec<Vec3> =
+        sums.chunks_exact(4).map(|sum| Vec3::new(sum[0], sum[1], sum[2]) / sum[3]).collect();
     let ours = by_the_cpu(&lights, &pixels, frames)?;
     let differs = |(a, b): &(&Vec3, &Vec3)| a.distance(**b) > ERROR * b.length();
     let off = theirs.iter().zip(&ours).filter(differs).count() as f64 / ours.len() as f64;
