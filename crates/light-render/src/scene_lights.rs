@@ -6,8 +6,8 @@ use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Image, Light, LightDesc, LightDescError, LightRef, LightSet, LightSetBuilder,
-    LightType, Rgb, SceneSphere, SceneSphereError,
+    self as sources, Image, Light, LightDesc, LightDescError, LightSet, LightSetBuilder, LightType,
+    Rgb, SceneSphere, SceneSphereError,
 };
 
 use crate::emitter_ids::EmitterIds;
@@ -27,8 +27,12 @@ pub(crate) struct SceneLights {
     pub(crate) infinite: Vec<LightId>,
     /// Those with an alpha mask, in the order of their ids.
     pub(crate) masked: Vec<AlphaMaskedLights>,
-    /// The own lights that rays hit, in the order of their ids.
-    pub(crate) own: Vec<LightId>,
+    /// The area lights and own lights of the scene's list that rays hit, in the order of their
+    /// ids.
+    pub(crate) listed: Vec<LightId>,
+    /// The surfaces of the mesh lights of the scene's list. Their emitters are numbered behind
+    /// those of the meshes.
+    pub(crate) listed_meshes: Vec<WorldMesh>,
 }
 
 /// What a source of lights is in the scene.
@@ -38,7 +42,7 @@ pub(crate) enum SceneSource {
     Mesh(usize),
     /// An emissive sphere in world space.
     Sphere(usize),
-    /// A light without geometry.
+    /// A light of the scene's list.
     Light(usize),
 }
 
@@ -102,13 +106,22 @@ impl SceneLights {
                 sources.push(SceneSource::Sphere(index));
             }
         }
-        let mut without_geometry = Vec::new();
+        let mut listed = Vec::new();
+        let mut listed_meshes = Vec::new();
         for (number, light) in scene_lights.into_iter().enumerate() {
-            without_geometry.push(add(&mut builder, &numbered(number), light)?);
+            let mesh = WorldMesh::of_light(&light, materials.len());
+            let source = add(&mut builder, &numbered(number), light)?;
+            match mesh {
+                Some(mesh) => listed_meshes.push((source, mesh)),
+                None => listed.push(source),
+            }
             sources.push(SceneSource::Light(number));
         }
         let lights = builder.build();
-        let mut emitters = EmitterIds::new(meshes.len(), spheres.len());
+        let mut emitters = EmitterIds::new(meshes.len() + listed_meshes.len(), spheres.len());
+        for (index, (source, _)) in (meshes.len()..).zip(&listed_meshes) {
+            emitters.set_mesh(index, lights.first_id(*source));
+        }
         let mut masked = Vec::new();
         let mut add_masked = |first: Option<LightId>, count, material, is_masked| {
             if let (Some(LightId(first)), true) = (first, is_masked) {
@@ -135,15 +148,14 @@ impl SceneLights {
                 .is_some_and(|light| light.light_type() == light_type)
         };
         let infinite = lights.infinite_ids();
-        let own = without_geometry.into_iter();
-        let own = own
-            .filter_map(|source| lights.first_id(source))
-            .filter(|id| matches!(lights.get(*id), Some(LightRef::Own(_))));
+        let listed = listed.into_iter();
+        let listed = listed.filter_map(|source| lights.first_id(source));
         Ok(Self {
             infinite: infinite
                 .filter(|id| has_type(id, LightType::Infinite))
                 .collect(),
-            own: own.filter(|id| has_type(id, LightType::Area)).collect(),
+            listed: listed.filter(|id| has_type(id, LightType::Area)).collect(),
+            listed_meshes: listed_meshes.into_iter().map(|(_, mesh)| mesh).collect(),
             lights,
             emitters,
             sources,
@@ -163,7 +175,7 @@ fn add(
     })
 }
 
-/// What a light without geometry is called if it has no name.
+/// What a light of the scene's list is called if it has no name.
 pub(crate) fn numbered(light: usize) -> String {
     format!("light {light}")
 }

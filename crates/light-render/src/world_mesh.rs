@@ -2,8 +2,8 @@ use alloc::sync::Arc;
 
 use light_scene::Mesh;
 use lights::glam::{Vec2, Vec3};
-use lights::sources::MeshIndices;
 use lights::sources::shape::Triangle;
+use lights::sources::{EmissionMask, LightDesc, MeshIndices, Rgb};
 
 /// The triangles of one material, with vertices that the lights share.
 #[derive(Debug)]
@@ -49,6 +49,25 @@ impl WorldMesh {
     /// The corners of all triangles.
     pub(super) fn triangles(&self) -> impl Iterator<Item = [Vec3; 3]> {
         self.indices.iter().map(|triangle| self.corners(triangle))
+    }
+}
+
+impl WorldMesh {
+    /// The surface of a mesh light that rays hit, of a material. It is not validated.
+    pub(crate) fn of_light(light: &LightDesc<Rgb>, material: usize) -> Option<Self> {
+        match light {
+            LightDesc::Mesh(light) if light.emission.mask != EmissionMask::Invisible => {
+                Some(Self {
+                    name: String::new(),
+                    positions: light.positions.clone(),
+                    normals: None,
+                    uvs: light.uvs.clone(),
+                    indices: light.indices.clone(),
+                    material,
+                })
+            }
+            _ => None,
+        }
     }
 }
 

@@ -1,8 +1,9 @@
 use lights::math::Aabb;
 use lights::media::AnyMedium;
+use lights::sources::shape::Shape;
 use lights::sources::{
-    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId, OwnLight,
-    RadianceAmount, Rgb,
+    self as sources, EmissionMask, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId,
+    OwnLight, RadianceAmount, Rgb,
 };
 
 use crate::glam::{Affine3A, Vec3};
@@ -38,8 +39,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Images, each stored once however often it is used.
     pub images: Vec<Image>,
-    /// Lights without geometry: points, spots, distant lights, environments. No reader makes own
-    /// lights; a program may add them.
+    /// Lights beside those of emissive materials: points, spots, distant lights, environments. No
+    /// reader makes area lights, mesh lights and own lights here; a program may add them.
     pub lights: Vec<LightDesc<Rgb>>,
     /// The names of these lights in the file, in their order; empty for a light without one, as for
     /// lights beyond the end.
@@ -57,12 +58,12 @@ pub struct Scene {
 impl Scene {
     /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
     /// spheres; an instance counts by the transformed corners of the boxes of its prototype, an own
-    /// light that rays hit by its bounds.
+    /// light that rays hit by its bounds; an invisible area or mesh light counts not at all.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);
         let own = meshes.chain(self.spheres.iter().map(Sphere::bounds));
-        let own = own.chain(self.lights.iter().filter_map(own_box));
+        let own = own.chain(self.lights.iter().filter_map(light_box));
         let own = own.fold(Aabb::EMPTY, Aabb::union);
         let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
         let instances = self.instances.iter();
@@ -236,10 +237,21 @@ impl Scene {
     }
 }
 
-/// The box of an own light that rays hit.
-fn own_box(light: &LightDesc<Rgb>) -> Option<Aabb> {
+/// The box of a light that rays hit. A surface that is not valid has none: building the lights
+/// refuses it, and names it.
+fn light_box(light: &LightDesc<Rgb>) -> Option<Aabb> {
+    let is_visible = |mask: &EmissionMask| *mask != EmissionMask::Invisible;
     match light {
         LightDesc::Own(OwnLight::Area(light)) => Some(light.bounds()?.bounds),
+        LightDesc::Area(light) if is_visible(&light.emission.mask) => {
+            Some(light.shape.build().ok()?.bounds())
+        }
+        LightDesc::Mesh(light) if is_visible(&light.emission.mask) => {
+            let corners = light.indices.iter().flatten();
+            let corners = corners.filter_map(|vertex| light.positions.get(vertex as usize));
+            let corners = corners.filter(|p| p.is_finite());
+            Some(corners.fold(Aabb::EMPTY, |all, &p| all.union(Aabb::new(p, p))))
+        }
         _ => None,
     }
 }

@@ -2,10 +2,10 @@ mod alpha_mask;
 mod count;
 mod error;
 mod light_names;
+mod listed_lights;
 mod materials;
 mod mixtures;
 mod objects;
-mod own_lights;
 mod primitives;
 mod rays;
 
@@ -40,18 +40,19 @@ pub struct World {
     /// Those in world space, then those of prototypes.
     spheres: Vec<WorldSphere>,
     accel: Accel,
-    /// Those of the scene, and behind them that of own lights, if there are any.
+    /// Those of the scene, and behind them that of listed lights, if rays hit any.
     materials: Vec<Material>,
     images: Vec<Image>,
     bounds: Aabb,
     lights: LightSet<Rgb>,
     emitters: EmitterIds,
     sources: Vec<SceneSource>,
-    /// Names of the lights without geometry, as in a scene.
+    /// Names of the lights of the scene's list.
     light_names: Vec<String>,
     infinite: Vec<LightId>,
-    /// The own lights that rays hit. Their surfaces have the numbers behind those of spheres.
-    own_lights: Vec<LightId>,
+    /// The area lights and own lights of the scene's list that rays hit. Their surfaces have the
+    /// numbers behind those of spheres.
+    listed_lights: Vec<LightId>,
     media: WorldMedia,
     /// Whether any material has an alpha mask.
     has_alpha_masks: bool,
@@ -68,8 +69,10 @@ struct MeshTriangle {
 impl World {
     /// The world that `scene` describes.
     ///
-    /// Lights of the scene's list that are [`OwnLight::Area`](lights::sources::OwnLight) are seen
-    /// and cast shadows as black bodies that emit; every ray asks each of them.
+    /// Lights of the scene's list that have a surface (area lights, mesh lights and
+    /// [`OwnLight::Area`](lights::sources::OwnLight)) are seen and cast shadows as black bodies that
+    /// emit. Meshes are in the acceleration structure; every ray asks each of the others. A mask of
+    /// such a light darkens its emission and opens no holes. Invisible ones only send light.
     ///
     /// # Errors
     /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there
@@ -98,11 +101,13 @@ impl World {
             emitters,
             sources,
             masked: masked_lights,
-            own: own_lights,
+            listed: listed_lights,
+            listed_meshes,
         } = SceneLights::new(&meshes, &spheres, &materials, &images, lights, &bounds)?;
-        if !own_lights.is_empty() {
-            materials.push(Material::diffuse("own light", Vec3::ZERO));
+        if !(listed_lights.is_empty() && listed_meshes.is_empty()) {
+            materials.push(Material::diffuse("listed light", Vec3::ZERO));
         }
+        meshes.extend(listed_meshes);
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_spheres = shapes(&spheres);
         let mut prototypes = Vec::with_capacity(instanced.len());
@@ -137,7 +142,7 @@ impl World {
             sources,
             light_names,
             infinite,
-            own_lights,
+            listed_lights,
             media,
         })
     }

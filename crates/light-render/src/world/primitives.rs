@@ -15,23 +15,23 @@ enum Stored<'a> {
     Triangle { mesh: &'a WorldMesh, index: u32 },
     /// A sphere.
     Sphere(&'a WorldSphere),
-    /// The surface of an own light.
-    Own,
+    /// The surface of a light of the scene's list.
+    Listed,
 }
 
 impl World {
     /// The point of a primitive at the coordinates of [`Hit::coords`](crate::Hit::coords).
     ///
     /// # Panics
-    /// Panics if there is no such primitive, or for the surface of an own light, which has no
-    /// coordinates.
+    /// Panics if there is no such primitive, or for the surface of an area light or an own light
+    /// of the scene's list, which has no coordinates.
     #[inline]
     #[must_use]
     pub fn surface(&self, primitive: PrimitiveId, coords: Vec2) -> Surface {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, coords),
             Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, coords),
-            Stored::Own => panic!("own lights have no coordinates"),
+            Stored::Listed => panic!("listed lights have no coordinates"),
         }
     }
 
@@ -77,7 +77,7 @@ impl World {
         let id = match self.stored(primitive) {
             Stored::Triangle { mesh, .. } => mesh.material,
             Stored::Sphere(sphere) => sphere.material,
-            Stored::Own => self.materials.len() - 1,
+            Stored::Listed => self.materials.len() - 1,
         };
         (id, &self.materials[id])
     }
@@ -90,7 +90,7 @@ impl World {
                 mesh.uv(indices, weights)
             }
             Stored::Sphere(sphere) => sphere.at(coords).uv,
-            Stored::Own => coords,
+            Stored::Listed => coords,
         }
     }
 
@@ -118,7 +118,7 @@ impl World {
                         let id = self.emitters.sphere(number)?;
                         (id, sphere.front_normal(surface.n))
                     }
-                    None => (self.own_light(number - self.spheres.len())?, surface.n),
+                    None => (self.listed_light(number - self.spheres.len())?, surface.n),
                 }
             }
         };
@@ -148,7 +148,7 @@ impl World {
             },
             None => match self.spheres.get(number - self.triangles.len()) {
                 Some(sphere) => Stored::Sphere(sphere),
-                None => Stored::Own,
+                None => Stored::Listed,
             },
         }
     }

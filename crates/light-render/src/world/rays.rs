@@ -15,11 +15,11 @@ impl World {
             self.accel.closest(ray, from)
         };
         let surface = |hit: Hit| self.surface(hit.primitive, hit.coords);
-        if self.own_lights.is_empty() {
+        if self.listed_lights.is_empty() {
             return hit.map(surface);
         }
         let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
-        self.closest_own(ray, t_max).or_else(|| hit.map(surface))
+        self.closest_listed(ray, t_max).or_else(|| hit.map(surface))
     }
 
     /// Whether anything but the primitive `from` lies within `distance` along `ray`.
@@ -31,7 +31,8 @@ impl World {
         } else {
             self.accel.occluded(ray, distance, from)
         };
-        is_blocked || (!self.own_lights.is_empty() && self.closest_own(ray, distance).is_some())
+        is_blocked
+            || (!self.listed_lights.is_empty() && self.closest_listed(ray, distance).is_some())
     }
 
     /// Whether nothing lies between two points; a surface through the second is ignored.

@@ -4,14 +4,14 @@ use super::World;
 use crate::{PrimitiveId, Ray, Surface};
 
 impl World {
-    /// The first point nearer than `t_max` where `ray` hits an own light of the scene: each says
-    /// itself where, one after the other.
-    // Not inlined: most scenes have no own lights.
+    /// The first point nearer than `t_max` where `ray` hits a light of the scene's list that is no
+    /// mesh: each says itself where, one after the other.
+    // Not inlined: most scenes have no such lights.
     #[inline(never)]
-    pub(super) fn closest_own(&self, ray: &Ray, mut t_max: f32) -> Option<Surface> {
+    pub(super) fn closest_listed(&self, ray: &Ray, mut t_max: f32) -> Option<Surface> {
         let mut closest = None;
         let first = u32::try_from(self.triangles.len() + self.spheres.len()).ok()?;
-        for (number, &id) in (first..).zip(&self.own_lights) {
+        for (number, &id) in (first..).zip(&self.listed_lights) {
             let light = self.lights.get(id)?;
             let Some(at) = light.hit(ray.origin, ray.direction) else {
                 continue;
@@ -26,7 +26,7 @@ impl World {
     }
 
     /// The light of the surface with this number behind those of triangles and spheres.
-    pub(super) fn own_light(&self, number: usize) -> Option<LightId> {
-        self.own_lights.get(number).copied()
+    pub(super) fn listed_light(&self, number: usize) -> Option<LightId> {
+        self.listed_lights.get(number).copied()
     }
 }
