@@ -193,7 +193,7 @@ fn invalid_listed_lights_are_named() {
         let mut scene = cornell();
         let mesh = MeshLightDesc::new(positions, indices, glow());
         scene.lights.push(LightDesc::Mesh(mesh));
-        let error = World::new(scene).err().expect("refused");
+        let error = World::new(scene).expect_err("refused");
         error.to_string()
     };
     let corners = vec![Vec3::ZERO, Vec3::X, far];

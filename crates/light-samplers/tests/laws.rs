@@ -2,12 +2,14 @@
 
 use light_bvh::LightBvhOptions;
 use light_samplers::light_bounds::glam::Vec3;
-use light_samplers::light_bounds::{Gloss, LightExtent, LightId, LightSampleContext, SampledLight};
-use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightChoices, LightSampler, PowerLightSampler,
-    ReferenceBvhLightSampler, UniformLightSampler,
+use light_samplers::light_bounds::{
+    Gloss, LightExtent, LightGroups, LightId, LightSampleContext, SampledLight,
 };
-use light_testkit::SamplerCase;
+use light_samplers::{
+    BvhLightSampler, ExhaustiveLightSampler, GroupedLightSampler, LightChoices, LightSampler,
+    PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler,
+};
+use light_testkit::{SamplerCase, stored};
 
 light_testkit::sampler_laws! {
     /// Every light alike.
@@ -48,11 +50,43 @@ light_testkit::sampler_laws! {
 
     /// The default hierarchy, refitted after lights have swapped positions.
     mod bvh_refitted {
+        |set| refitted(set)
+    }
+
+    /// The default hierarchy in bytes, refitted before.
+    mod bvh_stored {
+        |set| stored(&refitted(set))
+    }
+
+    /// The default hierarchy of two groups, of which contexts ask for one.
+    mod bvh_grouped {
         |set| {
-            let mut sampler = BvhLightSampler::with(&exchanged(set), &LightBvhOptions::DYNAMIC)
-                .expect("valid bounds");
-            sampler.refit(&set.extents()).expect("as many lights");
-            sampler
+            let (extents, groups) = twice(set);
+            let mut of_two = BvhLightSampler::new(&extents).expect("valid bounds");
+            of_two.set_groups(groups).expect("as many groups");
+            let plain = BvhLightSampler::new(&set.extents()).expect("valid bounds");
+            OfGroup { of_two, plain }
+        }
+    }
+
+    /// The same in bytes.
+    mod bvh_grouped_stored {
+        |set| {
+            let (extents, groups) = twice(set);
+            let mut of_two = BvhLightSampler::new(&extents).expect("valid bounds");
+            of_two.set_groups(groups).expect("as many groups");
+            let plain = BvhLightSampler::new(&set.extents()).expect("valid bounds");
+            OfGroup { of_two: stored(&of_two), plain: stored(&plain) }
+        }
+    }
+
+    /// The published hierarchy, restricted to one of two groups.
+    mod reference_bvh_grouped {
+        |set| {
+            let (extents, groups) = twice(set);
+            let [of_two, plain] = [extents, set.extents()]
+                .map(|extents| ReferenceBvhLightSampler::new(&extents).expect("valid bounds"));
+            OfGroup { of_two: GroupedLightSampler::new(of_two, groups), plain }
         }
     }
 
@@ -93,15 +127,50 @@ light_testkit::sampler_laws! {
     }
 }
 
-/// The lights of a set, those that are somewhere in reverse order.
-fn exchanged(set: &SamplerCase) -> Vec<LightExtent> {
+/// A tree that has followed the lights of the set to where they are.
+fn refitted(set: &SamplerCase) -> BvhLightSampler {
+    let before = set.exchanged_extents();
+    let sampler = BvhLightSampler::with(&before, &LightBvhOptions::DYNAMIC);
+    let mut sampler = sampler.expect("valid bounds");
+    sampler.refit(&set.extents()).expect("as many lights");
+    sampler
+}
+
+const OURS: LightGroups = LightGroups::of(3);
+
+/// The lights of a set in one group, and the same in another.
+fn twice(set: &SamplerCase) -> (Vec<LightExtent>, Vec<LightGroups>) {
     let extents = set.extents();
-    let mut bounded = extents.iter().rev().filter(|e| e.bounded().is_some());
-    let other = |e: &LightExtent| match e {
-        LightExtent::Bounded(_) | LightExtent::Lobe(..) => *bounded.next().expect("as many"),
-        LightExtent::Infinite(_) => *e,
-    };
-    extents.iter().map(other).collect()
+    let groups = [OURS, LightGroups::of(4)].map(|group| vec![group; extents.len()]);
+    ([&*extents, &*extents].concat(), groups.concat())
+}
+
+/// The choice of [`OURS`] among lights of two groups; without a receiver that of the set alone.
+struct OfGroup<S, P> {
+    of_two: S,
+    plain: P,
+}
+
+impl<S: LightSampler, P: LightSampler> LightSampler for OfGroup<S, P> {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.of_two.sample(&ctx.with_groups(OURS), u)
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.of_two.pmf(&ctx.with_groups(OURS), light)
+    }
+
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        self.of_two.at(&ctx.with_groups(OURS), count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        self.plain.sample_emitter(u)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.plain.pmf_emitter(light)
+    }
 }
 
 /// Single choices by the rule of several.

@@ -48,6 +48,8 @@ mod sampler_case;
 mod significance;
 #[cfg(feature = "soak")]
 pub mod soak;
+#[cfg(feature = "stored")]
+mod stored_tree;
 
 pub use cap::Cap;
 pub use chi_squared::{ChiSquared, chi_squared, chi_squared_survival};
@@ -66,3 +68,5 @@ pub use rng::Rng;
 #[cfg(feature = "samplers")]
 pub use sampler_case::SamplerCase;
 pub use significance::{FAMILY_ERROR, PROGRAMS, SIGNIFICANCE, TESTS_PER_PROGRAM, tests_taken};
+#[cfg(feature = "stored")]
+pub use stored_tree::stored;

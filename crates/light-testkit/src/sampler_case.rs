@@ -86,6 +86,19 @@ impl SamplerCase {
         self.emitters.iter().map(Emitter::extent).collect()
     }
 
+    /// The same with those that have a position in reverse order: what a tree is built of, before a
+    /// refit to [`extents`](Self::extents) moves nearly all of its lights.
+    #[must_use]
+    pub fn exchanged_extents(&self) -> Vec<LightExtent> {
+        let extents = self.extents();
+        let mut bounded = extents.iter().rev().filter(|e| e.bounded().is_some());
+        let other = |e: &LightExtent| match e {
+            LightExtent::Infinite(_) => Some(*e),
+            LightExtent::Bounded(_) | LightExtent::Lobe(..) => bounded.next().copied(),
+        };
+        extents.iter().filter_map(other).collect()
+    }
+
     /// The emitted powers, in W.
     #[must_use]
     pub fn powers(&self) -> Vec<f32> {

@@ -1,3 +1,4 @@
+use crate::gunzip::tests::gzipped;
 use std::path::Path;
 
 use super::parse_pbrt;
@@ -161,6 +162,34 @@ fn files_that_double_are_refused_by_a_limit() {
     let error = scene.map(|_| ()).expect_err("too many").to_string();
     assert!(
         error.ends_with(": expected at most 65536 included files"),
+        "{error}"
+    );
+}
+
+/// A compressed mesh of 2 kB that unpacks to 0.6 of the most: it may be named once.
+#[test]
+fn compressed_meshes_count_together() {
+    fn mesh(_: &Path) -> Result<Vec<u8>, Diagnostic> {
+        let spaces = " ".repeat(650_000);
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+             property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+             end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n{spaces}"
+        );
+        Ok(gzipped(text.as_bytes()))
+    }
+    let read = |count| {
+        let shape = "Shape \"plymesh\" \"string filename\" \"a.ply.gz\"\n";
+        let text = format!("WorldBegin\n{}", shape.repeat(count));
+        parse_pbrt(Path::new("a.pbrt"), &text, Files::new(&mesh))
+    };
+    let scene = read(1).expect("one mesh");
+    assert_eq!(scene.triangle_count(), 1, "a triangle");
+    let error = read(2).map(|_| ()).expect_err("two meshes").to_string();
+    assert!(
+        error.contains("a.ply.gz")
+            && error
+                .ends_with(": expected at most 1048576 bytes in all compressed meshes together"),
         "{error}"
     );
 }

@@ -38,7 +38,7 @@ impl Reader {
             "plymesh" => {
                 let name = typed.parameters.string("filename");
                 let name = name.ok_or_else(|| at.diagnostic("expected \"string filename\""))?;
-                read_ply(&self.resolve(name), self.files)
+                read_ply(&self.resolve(name), self.files, &mut self.included)
                     .map_err(|error| at.diagnostic(error.to_string()))?
             }
             "sphere" => self.rounded(at, kind, sphere(typed)),

@@ -40,6 +40,12 @@ pub fn invalid_contexts(ctx: &LightSampleContext) -> Vec<LightSampleContext> {
             all.push(on_surface(p, up, up).with_error(up * x));
         }
         all.push(LightSampleContext::medium(Vec3::new(p.x, x, -x)));
+        all.extend([
+            surface.with_error(Vec3::splat(-x)),
+            surface.with_error(Vec3::new(x, -x, f32::NAN)),
+            LightSampleContext::medium(p).with_error(Vec3::new(0.0, -x, x)),
+            LightSampleContext::segment(p, up).with_error(Vec3::new(-x, x, 1.0)),
+        ]);
         for way in [up, -up, Vec3::X] {
             all.push(LightSampleContext::segment(p, way * x));
         }

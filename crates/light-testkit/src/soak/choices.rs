@@ -1,17 +1,13 @@
-use light_bounds::{LightSampleContext, SampledLight};
-use light_bvh::LightBvhOptions;
-use light_math::fraction;
-use light_math::glam::Vec3;
-use light_samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
-    ReferenceBvhLightSampler, UniformLightSampler,
+use light_bounds::{
+    LightGroups, LightId, LightSampleContext, ReceiverKind, ReceiverSides, SampledLight,
 };
+use light_math::fraction;
+use light_samplers::LightSampler;
 
 use super::receivers::receiver;
 use super::report::Row;
-use light_sets::SetKind;
-
-use crate::{Emitter, Rng, SamplerCase};
+use super::sets::SoakSet;
+use crate::Rng;
 
 /// Choices for one receiver, one by one.
 const SINGLE: u32 = 8;
@@ -22,89 +18,28 @@ const SEVERAL: [u32; 3] = [2, 4, 8];
 /// `None` results that are allowed for each choice that is compared.
 const MOST_NONE: u64 = 8;
 
+/// How a choice without a receiver is named.
+const EMITTER: &str = "emitter, ";
+
+/// How far a sum of pmfs may be above one by rounding.
+const ROUNDING: f64 = 2e-5;
+
+/// The pmfs of at most so many lights are summed.
+const FEW: usize = 64;
+
+/// The groups that contexts ask for.
+const WANTED: [LightGroups; 5] = [
+    LightGroups::of(0),
+    LightGroups::of(1),
+    LightGroups::of(30),
+    LightGroups(LightGroups::of(0).0 | LightGroups::of(1).0),
+    LightGroups::ALL,
+];
+
 /// The least probability of which the place in its interval of `u` is tested, and how far that may
 /// be off: probabilities are rounded at each level.
 const LEAST_PMF: f64 = 1e-9;
 const PLACE_ERROR: f64 = 1e-4;
-
-/// Above so many lights a sampler that looks at all of them is left out.
-const FEW: usize = 64;
-
-/// A set of lights and every sampler of it.
-pub(super) struct SoakSet {
-    set: SamplerCase,
-    samplers: Vec<(&'static str, Box<dyn LightSampler + Sync + Send>)>,
-}
-
-/// Generated sets of several sizes, the same below a sky and two suns, and the adversarial ones.
-pub(super) fn sets() -> Vec<SoakSet> {
-    let mut sets = Vec::new();
-    for n in [40, 1000, 30_000] {
-        let generated = [
-            SamplerCase::generated(SetKind::Uniform, n, 51),
-            SamplerCase::generated(SetKind::Clusters, n, 52),
-            SamplerCase::generated(SetKind::Spots, n, 53),
-            SamplerCase::mixed(n, 54),
-        ];
-        for set in generated {
-            sets.push(below_a_sky(&set));
-            sets.push(set);
-        }
-    }
-    let adversarial = SamplerCase::adversarial(60);
-    sets.extend(
-        adversarial
-            .into_iter()
-            .filter(|set| !set.emitters.is_empty()),
-    );
-    sets.into_iter().map(SoakSet::new).collect()
-}
-
-/// One empty row a set.
-pub(super) fn rows(sets: &[SoakSet]) -> Vec<Row> {
-    let name = |set: &SoakSet| format!("{}, {} lights", set.set.name, set.set.emitters.len());
-    sets.iter().map(|set| Row::new(name(set))).collect()
-}
-
-fn below_a_sky(set: &SamplerCase) -> SamplerCase {
-    let mut set = set.clone();
-    let sun = |wi: Vec3, irradiance| Emitter::Sun { wi, irradiance };
-    set.emitters.push(Emitter::Sky { radiance: 0.1 });
-    set.emitters.push(sun(Vec3::new(0.6, 0.0, 0.8), 2.0));
-    set.emitters.push(sun(Vec3::new(0.0, 0.8, -0.6), 1e-3));
-    SamplerCase {
-        name: match set.name {
-            "uniform" => "uniform below a sky",
-            "clusters" => "clusters below a sky",
-            "spots" => "spots below a sky",
-            _ => "mixed below a sky",
-        },
-        ..set
-    }
-}
-
-impl SoakSet {
-    fn new(set: SamplerCase) -> Self {
-        let extents = set.extents();
-        let valid = "generated lights are valid";
-        let tree = BvhLightSampler::new(&extents).expect(valid);
-        let fast = BvhLightSampler::with(&extents, &LightBvhOptions::FAST).expect(valid);
-        let reference = ReferenceBvhLightSampler::new(&extents).expect(valid);
-        let power = PowerLightSampler::new(&set.powers()).expect(valid);
-        let mut samplers: Vec<(&'static str, Box<dyn LightSampler + Sync + Send>)> = vec![
-            ("default", Box::new(tree)),
-            ("fast", Box::new(fast)),
-            ("reference", Box::new(reference)),
-            ("power", Box::new(power)),
-            ("uniform", Box::new(UniformLightSampler::new(set.count()))),
-        ];
-        if extents.len() <= FEW {
-            let exhaustive = ExhaustiveLightSampler::new(&extents).expect(valid);
-            samplers.push(("exhaustive", Box::new(exhaustive)));
-        }
-        Self { set, samplers }
-    }
-}
 
 /// Takes `count` choices, half of them by the default sampler, the others by each of the rest in
 /// turn.
@@ -120,12 +55,17 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
         } else {
             receiver(&mut rng, low, high)
         };
+        let ctx = match set.groups.is_empty() {
+            true => ctx,
+            false => ctx.with_groups(WANTED[rng.below(WANTED.len())]),
+        };
         turn += 1;
         let other = turn / 2 % set.samplers.len();
         let (name, sampler) = &set.samplers[if turn % 2 == 0 { 0 } else { other }];
         let mut query = SoakQuery {
             name,
             sampler: &**sampler,
+            set: Some(set),
             known: set.set.count(),
             ctx: &ctx,
             row: &mut row,
@@ -139,14 +79,30 @@ pub(super) fn soak(set: &SoakSet, count: u64, seed: u64) -> Row {
         query.emitter(rng.u64());
         let k = SEVERAL[rng.below(SEVERAL.len())];
         query.several(rng.u64(), k);
+        query.contribution(LightId(rng.below(set.set.emitters.len()) as u32));
+        if set.set.emitters.len() <= FEW {
+            query.sum();
+        }
     }
     row
+}
+
+/// Whether the contribution of a light to the receiver is known: that of segments is another, and
+/// what a surface transmits or mirrors is left out of it.
+fn has_contribution(ctx: &LightSampleContext) -> bool {
+    match ctx.kind() {
+        ReceiverKind::Surface { sides, .. } => *sides == ReceiverSides::Front,
+        ReceiverKind::Medium => true,
+        _ => false,
+    }
 }
 
 /// A sampler, the context it is queried at, and the row that records the results.
 struct SoakQuery<'a> {
     name: &'a str,
     sampler: &'a dyn LightSampler,
+    /// `None` where only choices are looked at.
+    set: Option<&'a SoakSet>,
     known: u32,
     ctx: &'a LightSampleContext,
     row: &'a mut Row,
@@ -187,7 +143,35 @@ impl SoakQuery<'_> {
         let chosen = self.sampler.sample_emitter(u);
         let pmf = |chosen: &SampledLight| self.sampler.pmf_emitter(chosen.light);
         let pmf = chosen.as_ref().map(pmf);
-        self.note(chosen, pmf, "emitter, ", u);
+        self.note(chosen, pmf, EMITTER, u);
+    }
+
+    /// A light that contributes at a surface or in a medium, and is asked for, has a pmf above 0;
+    /// one that is not asked for has none.
+    fn contribution(&mut self, light: LightId) {
+        let Some(set) = self.set else { return };
+        let (pmf, ctx) = (self.sampler.pmf(self.ctx, light), self.ctx);
+        let holds = if !set.is_wanted(light, ctx) {
+            pmf == 0.0
+        } else if has_contribution(ctx) {
+            pmf > 0.0 || set.set.emitters[light.index()].contribution(ctx) == 0.0
+        } else {
+            pmf >= 0.0
+        };
+        if !holds {
+            let fault = format!("{}: {light:?} has pmf {pmf} at {ctx:?}", self.name);
+            self.row.count(Some(fault));
+        }
+    }
+
+    /// The pmfs of all lights sum to one at most.
+    fn sum(&mut self) {
+        let pmf = |id| f64::from(self.sampler.pmf(self.ctx, LightId(id)));
+        let sum: f64 = (0..self.known).map(pmf).sum();
+        if !(sum <= 1.0 + ROUNDING) {
+            let fault = format!("{}: pmfs sum to {sum} at {:?}", self.name, self.ctx);
+            self.row.count(Some(fault));
+        }
     }
 
     /// Checks all choices by what is known at the context, and the last also by what is computed
@@ -212,6 +196,10 @@ impl SoakQuery<'_> {
         self.row.none += u64::from(k) - count;
     }
 
+    fn is_wanted(&self, light: LightId) -> bool {
+        self.set.is_none_or(|set| set.is_wanted(light, self.ctx))
+    }
+
     fn note(&mut self, chosen: Option<SampledLight>, pmf: Option<f32>, how: &str, u: u64) {
         let (Some(chosen), Some(pmf)) = (chosen, pmf) else {
             self.row.none += 1;
@@ -220,7 +208,8 @@ impl SoakQuery<'_> {
         let holds = chosen.pmf.to_bits() == pmf.to_bits()
             && chosen.pmf > 0.0
             && chosen.pmf <= 1.0
-            && chosen.light.0 < self.known;
+            && chosen.light.0 < self.known
+            && (how == EMITTER || self.is_wanted(chosen.light));
         let fault = || {
             let (name, ctx) = (self.name, self.ctx);
             format!("{name}, {how}u = {u}: {chosen:?}, queried pmf {pmf}, at {ctx:?}")
@@ -231,66 +220,4 @@ impl SoakQuery<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use light_bounds::LightId;
-    use light_samplers::LightChoices;
-
-    /// A uniform choice of four lights that leaves the same `u`, or states another pmf.
-    #[derive(Clone, Copy, PartialEq)]
-    enum Broken {
-        Right,
-        SameU,
-        OtherPmf,
-    }
-
-    impl LightSampler for Broken {
-        fn sample(&self, _: &LightSampleContext, u: u64) -> Option<SampledLight> {
-            self.sample_emitter(u)
-        }
-
-        fn pmf(&self, _: &LightSampleContext, light: LightId) -> f32 {
-            self.pmf_emitter(light)
-        }
-
-        fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-            LightChoices::one_by_one(self, ctx, count)
-        }
-
-        fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
-            let (light, rest) = fraction::choose(4, u);
-            Some(SampledLight {
-                light: LightId(light),
-                pmf: 0.25,
-                u: if *self == Self::SameU { u } else { rest },
-            })
-        }
-
-        fn pmf_emitter(&self, _: LightId) -> f32 {
-            if *self == Self::OtherPmf { 0.2 } else { 0.25 }
-        }
-    }
-
-    #[test]
-    fn faults_are_counted() {
-        let ctx = LightSampleContext::medium(Vec3::ZERO);
-        let mismatches = |sampler: Broken| {
-            let mut row = Row::default();
-            let mut query = SoakQuery {
-                name: "broken",
-                sampler: &sampler,
-                known: 4,
-                ctx: &ctx,
-                row: &mut row,
-            };
-            query.single(1 << 60);
-            query.emitter(1 << 60);
-            query.middle(1 << 60);
-            query.several(1 << 60, 2);
-            (row.samples, row.mismatches)
-        };
-        assert_eq!(mismatches(Broken::Right), (6, 0), "none");
-        assert_eq!(mismatches(Broken::SameU), (6, 1), "the middle");
-        assert_eq!(mismatches(Broken::OtherPmf), (6, 5), "all but the middle");
-    }
-}
+mod tests;

@@ -11,7 +11,7 @@ use light_sources::{
     Sides, SpotLightDesc, SunAmount, SunLightDesc, SurfaceColor, Texture, UniformInfiniteLightDesc,
 };
 
-use crate::Rng;
+use crate::{Rng, own_twin};
 
 /// Lights of every kind, each with a name.
 pub(super) struct Lights {
@@ -36,6 +36,7 @@ pub(super) fn lights() -> Lights {
         .chain(shapes())
         .chain(textured())
         .chain(at_infinity())
+        .chain(own(scene))
     {
         let source = builder.add(desc).unwrap_or_else(|e| panic!("{name}: {e}"));
         sources.push((name, source));
@@ -196,6 +197,30 @@ fn textured() -> Vec<Named> {
         emission: emission(picture(), Sides::Front),
     });
     vec![("masked triangle", masked), ("textured mesh", mesh)]
+}
+
+/// Some of these as lights of a type that sets do not know.
+fn own(scene: SceneSphere) -> Vec<Named> {
+    let all = at_points()
+        .into_iter()
+        .chain(shapes())
+        .chain(textured())
+        .chain(at_infinity());
+    let own = all.filter_map(|(name, desc)| {
+        let name = match name {
+            "spot" => "own spot",
+            "sphere" => "own sphere",
+            "cylinder" => "own cylinder",
+            "masked triangle" => "own masked triangle",
+            "wide sun" => "own wide sun",
+            "sky" => "own sky",
+            "portal" => "own portal",
+            _ => return None,
+        };
+        let twin = own_twin(desc, scene).unwrap_or_else(|e| panic!("{name}: {e}"));
+        Some((name, LightDesc::Own(twin)))
+    });
+    own.collect()
 }
 
 fn at_infinity() -> Vec<Named> {

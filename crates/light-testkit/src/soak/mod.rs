@@ -7,6 +7,7 @@ mod light_samples;
 pub mod octahedral_codes;
 mod receivers;
 mod report;
+mod sets;
 
 pub use report::{Report, Row};
 
@@ -37,9 +38,9 @@ impl Soak {
         let total = self.choices + self.light_samples;
         let tell = |count: u64| progress(done.fetch_add(count, Ordering::Relaxed) + count, total);
         let mut report = Report::default();
-        let sets = choices::sets();
+        let sets = sets::sets();
         let lights = described_lights::lights();
-        report.rows = choices::rows(&sets);
+        report.rows = sets::rows(&sets);
         report.rows.extend(light_samples::rows(&lights));
         let first_light = sets.len();
         let chunks = (0..self.choices.div_ceil(CHUNK)).map(|i| {

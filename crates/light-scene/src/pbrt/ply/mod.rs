@@ -4,18 +4,30 @@ mod body;
 mod element;
 mod header;
 
+use alloc::borrow::Cow;
 use std::path::Path;
 
 use self::body::{Body, index};
 use self::element::{Element, Format, Property};
+use super::included::Included;
 use crate::glam::{Vec2, Vec3};
 use crate::gunzip::gunzipped;
 use crate::text::shown;
 use crate::{Diagnostic, Files, MaterialId, Mesh, polygon};
 
-/// Reads a PLY file's vertices and faces.
-pub(super) fn read_ply(path: &Path, files: Files<'_>) -> Result<Mesh, Diagnostic> {
-    parse_ply(path, &files.read(path)?)
+/// Reads a PLY file's vertices and faces, and counts its bytes if they are compressed.
+pub(super) fn read_ply(
+    path: &Path,
+    files: Files<'_>,
+    included: &mut Included,
+) -> Result<Mesh, Diagnostic> {
+    let bytes = files.read(path)?;
+    let plain = gunzipped(path, &bytes)?;
+    if let Cow::Owned(unpacked) = &plain {
+        let counted = included.add_unpacked(unpacked.len());
+        counted.map_err(|message| Diagnostic::file(path, message))?;
+    }
+    parse_unpacked(path, &plain)
 }
 
 /// The vertices and faces in the bytes of a PLY file, compressed by gzip or not; `path` names it in
@@ -25,7 +37,10 @@ pub(super) fn read_ply(path: &Path, files: Files<'_>) -> Result<Mesh, Diagnostic
 /// When the file is broken, or a face names a vertex that is not there: with line or byte, and what
 /// was expected.
 pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
-    let bytes = &*gunzipped(path, bytes)?;
+    parse_unpacked(path, &gunzipped(path, bytes)?)
+}
+
+fn parse_unpacked(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
     let mut body = Body {
         path,
         bytes,
