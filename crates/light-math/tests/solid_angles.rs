@@ -6,32 +6,14 @@
     reason = "doubles are rounded to what the tested code takes"
 )]
 
+mod real3;
+
 use light_math::float::ONE_MINUS_EPSILON;
 use light_math::glam::{Vec2, Vec3};
 use light_math::solid_angle;
 use light_math::warp::{SphericalRectangle, SphericalTriangle, uniform_triangle};
 use light_testkit::{DensityTest, Rng};
-
-type Real3 = [f64; 3];
-
-fn minus(a: Vec3, b: Vec3) -> Real3 {
-    core::array::from_fn(|i| f64::from(a[i]) - f64::from(b[i]))
-}
-
-fn dot(a: Real3, b: Real3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Real3, b: Real3) -> Real3 {
-    core::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-fn length(a: Real3) -> f64 {
-    dot(a, a).sqrt()
-}
+use real3::{Real3, cross, dot, length, minus};
 
 /// A triangle in double precision, from the same corners.
 struct Exact {

@@ -1,7 +1,7 @@
 //! Directions toward a triangle, uniform in solid angle.
 
 use crate::float::{atan2, inverse_power_of_two, sin_cos, sqrt};
-use crate::solid_angle::SeenTriangle;
+use crate::seen_triangle::SeenTriangle;
 use glam::{Vec2, Vec3};
 
 /// A triangle projected to the unit sphere around a point.
@@ -45,7 +45,7 @@ impl SphericalTriangle {
 
         let first_to_second = seen.v[1] - seen.v[0];
         let side = seen.v[2] - seen.v[0];
-        let rejected = rejection(side, first);
+        let rejected = rejection(seen.across_first(2), first);
         let opposite = Side::new(side, side.dot(first), rejected, l0);
         let this = Self {
             opposite,
@@ -53,7 +53,7 @@ impl SphericalTriangle {
             directions: seen.directions,
             second_dist: l1,
             volume: half.sin.abs() * l2 / opposite.across,
-            along_tangent: first_to_second.dot(rejected) / (l1 * opposite.across),
+            along_tangent: seen.across_first(1).dot(rejected) / (l1 * opposite.across),
             one_plus_cos: seen.one_plus_first_cosine(),
             solid_angle,
         };
