@@ -38,7 +38,7 @@ pub(crate) struct Jitter {
 }
 
 impl Jitter {
-    const fn new(way: u32) -> Self {
+    pub(crate) const fn new(way: u32) -> Self {
         Self { way, drawn: 0 }
     }
 

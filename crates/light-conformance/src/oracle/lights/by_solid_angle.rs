@@ -62,6 +62,17 @@ pub(super) trait BySolidAngle: Shape {
 
     /// The place that a ray passes, if it hits.
     fn hit(&self, o: DVec3, d: DVec3) -> Option<<Self::Seen as Seen>::Place>;
+
+    /// The place on an edge that a ray passes at a distance that the inputs round off; none where
+    /// they are not moved.
+    fn hit_edge(
+        &self,
+        _o: DVec3,
+        _d: DVec3,
+        _jitter: &mut Jitter,
+    ) -> Option<<Self::Seen as Seen>::Place> {
+        None
+    }
 }
 
 /// [`Shape::toward`] of such a shape.
@@ -92,7 +103,9 @@ pub(super) fn pdf_toward<S: BySolidAngle>(
     wi: DVec3,
     jitter: &mut Jitter,
 ) -> f64 {
-    let Some(place) = shape.hit(from.p, jitter.vector(wi, 1.0)) else {
+    let edge = shape.hit_edge(from.p, wi, jitter);
+    let hit = shape.hit(from.p, jitter.vector(wi, 1.0));
+    let Some(place) = hit.or(edge) else {
         return 0.0;
     };
     match shape.seen(from, jitter) {
