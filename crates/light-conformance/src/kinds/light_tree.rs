@@ -202,18 +202,12 @@ fn compare_bounds(
     let cos_o = findings.ours("node cos_theta_o", cos_o);
     let number = codes::cosine(exact.cone.cos_theta);
     let is_exact = codes::is_below(cos_o, number) || codes::is_below(cos_o + 1, number);
-    let is_same = their_packed.is_some_and(|t| cos_o == t[0]);
-    if is_exact {
-        // The code below or above is right as well, and may be the reference's.
-        findings.settled(Certainty::Undetermined);
+    findings.check(is_exact, || "code of cos_theta_o is not exact".to_owned());
+    // The code below or above is right as well, and may be the reference's.
+    findings.settled(Certainty::Undetermined);
+    if their_packed.is_none_or(|t| cos_o != t[0]) {
+        findings.exempt(rule(&NARROW_CONE));
     }
-    judge(
-        "cos_theta_o",
-        is_same,
-        is_exact,
-        rule(&NARROW_CONE),
-        findings,
-    );
     let cos_e = findings.ours("node cos_theta_e", cos_e);
     let is_exact = codes::is_below(cos_e, codes::cosine(f64::from(exact.bounds.cos_theta_e)));
     let is_same = their_packed.is_some_and(|t| cos_e == t[1]);
