@@ -2,6 +2,7 @@
 
 use lights::bounds::{LightBounds, LightExtent};
 use lights::bvh::reference::{Link, ReferenceLightBvhRef, ReferenceNode, Side};
+use std::collections::BTreeMap;
 
 use super::compact_codes::{Codes, ROUNDED_CODE, compact_codes, judge};
 use super::light_tree_splits;
@@ -49,7 +50,7 @@ pub(super) fn compare(
         |(ours, theirs): (&ReferenceNode, &Case<'_>)| Ok(link(ours) == their_link(theirs)?);
     let same: Result<Vec<bool>, _> = tree.nodes().iter().zip(&nodes).map(is_same_link).collect();
     if same?.contains(&false) {
-        return check_alone(tree, lights, &exact, findings);
+        return check_alone(tree, lights, &exact, &nodes, findings);
     }
     for (index, (ours, theirs)) in tree.nodes().iter().zip(&nodes).enumerate() {
         compare_link(ours, theirs, findings)?;
@@ -69,25 +70,38 @@ pub(super) fn compare(
 }
 
 /// Holds a tree that divides its lights another way than the reference's to the published cost, and
-/// to its lights.
+/// to its lights. Subtrees that the reference has too are compared with its own.
 fn check_alone(
     tree: &ReferenceLightBvhRef<'_>,
     lights: &[LightExtent],
     exact: &[Option<ExactNode>],
+    nodes: &[Case<'_>],
     findings: &mut Findings,
 ) -> Result<(), Malformed> {
     if let Err(message) = light_tree_splits::check(tree, lights) {
         findings.fail(message);
     }
-    for (ours, exact) in tree.nodes().iter().zip(exact) {
+    let links: Vec<_> = tree.nodes().iter().map(link).collect();
+    let their_links: Result<Vec<_>, _> = nodes.iter().map(their_link).collect();
+    let their_links = their_links?;
+    let their_subtrees = (0..nodes.len()).map(|index| (subtree(&their_links, index), index));
+    let their_subtrees: BTreeMap<_, _> = their_subtrees.collect();
+    for (index, (ours, exact)) in tree.nodes().iter().zip(exact).enumerate() {
         let Some(exact) = exact else {
             findings.fail("a node holds nothing".to_owned());
             continue;
         };
+        let theirs = their_subtrees.get(&subtree(&links, index));
+        let theirs = theirs.map(|&index| &nodes[index]);
         let phi = findings.ours("node phi", ours.bounds().phi());
         findings.near("phi", phi, exact.bounds.phi, Tolerance::GENERAL);
+        if let Some(theirs) = theirs {
+            let their_phi = theirs.get("phi")?.float()?;
+            findings.near("their phi", phi, their_phi, Tolerance::GENERAL);
+        }
         findings.settled(Certainty::Determined);
-        compare_bounds(tree, ours, None, exact, findings);
+        let codes = theirs.map(compact_codes).transpose()?;
+        compare_bounds(tree, ours, codes.as_ref(), exact, findings);
         if let Link::Leaf(light) = ours.link() {
             let mut index = 0;
             for side in tree.trail(light).sides() {
@@ -102,6 +116,18 @@ fn check_alone(
     }
     findings.exempt(&EQUAL_COST);
     Ok(())
+}
+
+/// A node and all below it, in their order: a light each, or -1 for a node with two children.
+fn subtree(links: &[[i64; 2]], index: usize) -> Vec<i64> {
+    let mut missing = 1;
+    let below = links[index..].iter().map_while(|&[is_leaf, light]| {
+        (missing > 0).then(|| {
+            missing += 1 - 2 * is_leaf;
+            if is_leaf == 1 { light } else { -1 }
+        })
+    });
+    below.collect()
 }
 
 /// The union of what is below a node; its children come after it.
@@ -232,5 +258,21 @@ fn compare_bounds(
         let is_exact = codes::is_above(high, number(exact.bounds.bounds.max[axis]));
         let is_same = theirs.is_some_and(|t| high == i64::from(t.bounds.max[axis]));
         judge("max", is_same, is_exact, rule(&ROUNDED_CODE), findings);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::subtree;
+
+    #[test]
+    fn subtrees_are_alike_wherever_they_are() {
+        // A light beside two, and the same two below another node.
+        let ours = [[0, 2], [1, 7], [0, 4], [1, 3], [1, 5]];
+        let theirs = [[0, 4], [0, 3], [1, 3], [1, 5], [1, 7]];
+        assert_eq!(subtree(&ours, 2), [-1, 3, 5], "two lights");
+        assert_eq!(subtree(&ours, 2), subtree(&theirs, 1), "the same two");
+        assert_eq!(subtree(&ours, 1), subtree(&theirs, 4), "a leaf");
+        assert_ne!(subtree(&ours, 0), subtree(&theirs, 0), "the roots");
     }
 }
