@@ -78,7 +78,7 @@ fn solid_angles_keep_their_digits() {
 /// if that one is opposite.
 #[test]
 fn areas_are_cut_where_they_should_be() {
-    let mut sums = std::collections::BTreeMap::<_, [f64; 2]>::new();
+    let mut sums = std::collections::HashMap::<_, [f64; 2]>::new();
     for_all(|rng, off, first, v| {
         if first == 1 {
             return;
