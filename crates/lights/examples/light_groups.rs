@@ -119,6 +119,36 @@ mod tests {
         Ok(())
     }
 
+    /// All lamps at once, as the inverse square of the distance and the cosine say.
+    #[test]
+    fn layers_are_the_sums_over_their_lamps() -> Result<()> {
+        let scene = Scene::new()?;
+        for groups in [LightGroups::ALL, STREET, WINDOWS] {
+            let found = mean(&scene.layer(24, groups));
+            let lamps = scene.lights.iter().filter(|&(id, _)| {
+                let of = scene.lights.groups()[id.index()];
+                of.is_wanted(groups)
+            });
+            let lamps: Vec<_> = lamps.collect();
+            let mut exact = Vec3::ZERO;
+            for pixel in 0..24 * 24u16 {
+                let at = Vec2::new(f32::from(pixel % 24), f32::from(pixel / 24)) + 0.5;
+                let at = at / 24.0 * 20.0 - 10.0;
+                for (_, light) in &lamps {
+                    let LightRef::Point(lamp) = light else {
+                        continue;
+                    };
+                    let to_lamp = PointSource::position(*lamp) - Vec3::new(at.x, 0.0, at.y);
+                    let intensity = light.phi(&()) / (4.0 * core::f32::consts::PI);
+                    exact += intensity * (to_lamp.y / to_lamp.length().powi(3)) / (24.0 * 24.0);
+                }
+            }
+            let off = (found - exact).abs().max_element() / exact.max_element();
+            assert!(off < 0.01, "{found}, not {exact}, of {groups:?}");
+        }
+        Ok(())
+    }
+
     #[test]
     fn what_asks_for_one_group_gets_no_light_of_the_other() -> Result<()> {
         let scene = Scene::new()?;

@@ -183,6 +183,29 @@ fn main() -> Result<()> {
 mod tests {
     use super::*;
 
+    /// Below the middle of the panel, a square of half side 1 at height 1, in closed form: what it
+    /// sends, what it leaves of the sky, and the lamp.
+    #[test]
+    fn means_are_those_of_closed_forms() -> Result<()> {
+        let scene = Scene::new()?;
+        for height in [0.0, 0.3] {
+            let p = Vec3::Y * height;
+            let a = 1.0 / (1.0 - height);
+            let root = (1.0 + a * a).sqrt();
+            let panel = 4.0 * a / root * (a / root).atan();
+            let to_lamp = Vec3::new(0.3, 0.5, 0.3) - p;
+            let lamp = 0.1 * to_lamp.y / to_lamp.length().powi(3);
+            // Lamp and sky have one of three colours.
+            let sky = 0.5 * (core::f32::consts::PI - panel);
+            let exact = f64::from(BSDF * (panel + (sky + lamp) / 3.0));
+            for (mean, _) in estimates(&scene, p, 1 << 14) {
+                let off = (mean / exact - 1.0).abs();
+                assert!(off < 0.01, "{mean}, not {exact}, at {p}");
+            }
+        }
+        Ok(())
+    }
+
     /// Both means agree within four standard errors, and weighting never costs much.
     #[test]
     fn both_estimates_have_one_mean() -> Result<()> {

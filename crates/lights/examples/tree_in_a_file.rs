@@ -68,5 +68,12 @@ fn the_tree_that_comes_back_chooses_the_same_light() {
     let choices = write_and_read(1000, &path);
     fs::remove_file(&path).expect("was written");
     let [before, after] = choices.expect("a tree");
-    assert_eq!(before, after, "the same light");
+    let before = before.expect("a light, for all lamps shine on the floor");
+    assert_eq!(after, Some(before), "the same light");
+    // The lamps are alike, so that the near ones have the largest probabilities.
+    let LightExtent::Bounded(lamp) = lamps(1000)[before.light.index()] else {
+        panic!("a lamp is bounded");
+    };
+    let apart = lamp.bounds.center().distance(Vec3::new(20.0, 30.0, 0.0));
+    assert!(apart < 30.0 && before.pmf > 1e-3, "{apart}: {before:?}");
 }
