@@ -2,7 +2,13 @@
 //!
 //! The only place that chooses between the platform's functions (feature `std`) and software ones
 //! (feature `libm`). `libm` wins when both are on: it is how a caller asks for the same bits on
-//! every platform. Only the square root is everywhere the same anyway. Angles are radians.
+//! every platform, and without routines of 64-bit floats. Only the square root is everywhere the
+//! same anyway. Angles are radians.
+
+#[cfg(any(feature = "libm", test))]
+mod cube_root;
+#[cfg(any(feature = "libm", test))]
+mod sin_cos;
 
 /// Only compiled where `lib.rs` refuses to: its error is then the only one.
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -11,14 +17,14 @@ const fn without_backend(_: &[f32]) -> f32 {
 }
 
 macro_rules! forward {
-    ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $std:ident, $libm:ident;)+) => {$(
+    ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $std:ident, $software:path;)+) => {$(
         $(#[$doc])*
         #[inline]
         #[must_use]
         pub fn $name($($arg: f32),+) -> f32 {
             #[cfg(feature = "libm")]
             {
-                libm::$libm($($arg),+)
+                $software($($arg),+)
             }
             #[cfg(all(feature = "std", not(feature = "libm")))]
             {
@@ -34,35 +40,41 @@ macro_rules! forward {
 
 forward! {
     /// Sine.
-    sin(x) = sin, sinf;
+    sin(x) = sin, sin_cos::sin;
     /// Cosine.
-    cos(x) = cos, cosf;
+    cos(x) = cos, sin_cos::cos;
     /// Tangent.
-    tan(x) = tan, tanf;
+    tan(x) = tan, sin_cos::tan;
     /// Arc sine in `[-pi/2, pi/2]`; NaN outside `[-1, 1]`.
-    asin(x) = asin, asinf;
+    asin(x) = asin, arc_sine;
     /// Arc cosine in `[0, pi]`; NaN outside `[-1, 1]`.
-    acos(x) = acos, acosf;
+    acos(x) = acos, libm::acosf;
     /// Arc tangent in `[-pi/2, pi/2]`.
-    atan(x) = atan, atanf;
+    atan(x) = atan, libm::atanf;
     /// Angle of the point `(x, y)` in `[-pi, pi]`.
-    atan2(y, x) = atan2, atan2f;
+    atan2(y, x) = atan2, libm::atan2f;
     /// `e^x`.
-    exp(x) = exp, expf;
+    exp(x) = exp, libm::expf;
     /// `e^x - 1`, accurate near 0.
-    exp_m1(x) = exp_m1, expm1f;
+    exp_m1(x) = exp_m1, libm::expm1f;
     /// Natural logarithm.
-    ln(x) = ln, logf;
+    ln(x) = ln, libm::logf;
     /// `x^y`.
-    powf(x, y) = powf, powf;
+    powf(x, y) = powf, libm::powf;
     /// Cube root.
-    cbrt(x) = cbrt, cbrtf;
+    cbrt(x) = cbrt, cube_root::cbrt;
     /// Largest integer not above `x`.
-    floor(x) = floor, floorf;
+    floor(x) = floor, libm::floorf;
     /// Smallest integer not below `x`.
-    ceil(x) = ceil, ceilf;
+    ceil(x) = ceil, libm::ceilf;
     /// Nearest integer, ties away from zero.
-    round(x) = round, roundf;
+    round(x) = round, libm::roundf;
+}
+
+/// That of `libm` takes the square root of a 64-bit float.
+#[cfg(feature = "libm")]
+fn arc_sine(x: f32) -> f32 {
+    atan2(x, sqrt((1.0 - x) * (1.0 + x)))
 }
 
 /// The product of two numbers of at least 0, such as probabilities: 0 only if one of them is, and
@@ -102,7 +114,7 @@ pub fn sqrt(x: f32) -> f32 {
 pub fn sin_cos(x: f32) -> (f32, f32) {
     #[cfg(feature = "libm")]
     {
-        libm::sincosf(x)
+        sin_cos::sin_cos(x)
     }
     #[cfg(all(feature = "std", not(feature = "libm")))]
     {
@@ -200,6 +212,18 @@ mod tests {
             -core::f32::consts::FRAC_PI_2,
             "below minus one"
         );
+    }
+
+    #[test]
+    fn arc_sines_are_those_of_wide_floats() {
+        for x in (0..=1.0f32.to_bits()).step_by(1009).map(f32::from_bits) {
+            let exact = f64::from(x).asin();
+            let off = (f64::from(asin(x)) - exact).abs();
+            assert!(off <= 2e-7 * exact, "{x}: {off}");
+            assert_eq!(asin(-x), -asin(x), "{x}: an odd function");
+        }
+        assert_eq!(asin(1.0), core::f32::consts::FRAC_PI_2, "a right angle");
+        assert!(asin(1.0 + f32::EPSILON).is_nan(), "no such angle");
     }
 
     #[test]
