@@ -17,7 +17,7 @@ pub enum WorkspaceTests {
 /// Adds the steps: format, lints, tests, documentation, each over every feature set that can make a
 /// difference.
 pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
-    steps.run("format", || passes(&["fmt", "--all", "--check"]));
+    steps.run("format", format);
     steps.run("references", references::check);
     steps.run("arrows between crates", || arrows::arrows(&[]));
     steps.run("lints of the workspace", || {
@@ -44,6 +44,18 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     });
 }
 
+/// The workspaces of their own, which cargo does not know from the root.
+const OTHER_WORKSPACES: [&str; 3] = ["embedded", "fuzz", "gpu/wgsl"];
+
+fn format() -> StepResult {
+    passes(&["fmt", "--all", "--check"])?;
+    let mut others = OTHER_WORKSPACES.iter();
+    others.try_fold(Outcome::Passed, |_, folder| {
+        let manifest = format!("{folder}/Cargo.toml");
+        passes(&["fmt", "--check", "--manifest-path", &manifest])
+    })
+}
+
 /// Documents the crates that have feature sets, with the same features each.
 fn documents_libraries(features: &[&str]) -> StepResult {
     let packages = FEATURE_SETS
@@ -67,4 +79,38 @@ fn lints(selection: &[&str]) -> Result<(), String> {
 
 fn passes(arguments: &[&str]) -> StepResult {
     run(&mut cargo(arguments)).map(|()| Outcome::Passed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steps::root;
+    use std::fs::{self, read_to_string};
+    use std::path::Path;
+
+    /// The folders below one, itself among them, whose manifest begins a workspace.
+    fn workspaces(folder: &Path, found: &mut Vec<String>) {
+        let manifest = read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        if manifest.lines().any(|line| line == "[workspace]") {
+            let path = folder.strip_prefix(root()).expect("below the root");
+            found.push(path.display().to_string());
+        }
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let entry = entry.expect("an entry");
+            let name = entry.file_name();
+            let is_source = name != "target" && !name.to_string_lossy().starts_with('.');
+            if is_source && entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                workspaces(&entry.path(), found);
+            }
+        }
+    }
+
+    #[test]
+    fn every_workspace_is_listed() {
+        let mut found = Vec::new();
+        workspaces(&root(), &mut found);
+        found.retain(|path| !path.is_empty());
+        found.sort();
+        assert_eq!(found, OTHER_WORKSPACES, "folders with a workspace");
+    }
 }

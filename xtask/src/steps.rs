@@ -1,7 +1,9 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
-use std::time::Instant;
+use std::process::{Command, ExitCode, Output, Stdio};
+use std::sync::mpsc;
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// How a step ended that did not fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -142,6 +144,39 @@ pub fn output(command: &mut Command) -> Result<String, String> {
         .stdin(Stdio::null())
         .output()
         .map_err(|e| cannot_start(command, &e))?;
+    text_of(command, &out)
+}
+
+/// As [`output`], and stops a command that takes longer than `limit`.
+///
+/// # Errors
+/// As [`output`], or that it was stopped.
+pub fn output_within(limit: Duration, command: &mut Command) -> Result<String, String> {
+    let pipes = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let child = pipes.spawn().map_err(|e| cannot_start(command, &e))?;
+    let id = child.id();
+    // The thread reads both pipes, so that none fills up.
+    let (sender, receiver) = mpsc::channel();
+    let reader = thread::spawn(move || sender.send(child.wait_with_output()));
+    let Ok(out) = receiver.recv_timeout(limit) else {
+        let id = id.to_string();
+        // It may have ended just now.
+        let _ = run(Command::new("kill").arg(&id));
+        let _ = reader.join();
+        let seconds = limit.as_secs();
+        return Err(format!(
+            "{}: stopped after {seconds} s",
+            command_line(command)
+        ));
+    };
+    text_of(command, &out.map_err(|e| cannot_start(command, &e))?)
+}
+
+/// What a command that succeeded wrote to both of its outputs.
+fn text_of(command: &Command, out: &Output) -> Result<String, String> {
     let text = String::from_utf8_lossy(&out.stdout) + String::from_utf8_lossy(&out.stderr);
     if out.status.success() {
         return Ok(text.into_owned());
@@ -195,6 +230,20 @@ mod tests {
         assert_eq!(steps.verdict(), "failed: fails", "one failed");
         let counts = (steps.passed, steps.failed.len(), steps.skipped.len());
         assert_eq!(counts, (1, 1, 1), "one of each kind");
+    }
+
+    #[test]
+    fn what_takes_too_long_is_stopped() {
+        let limit = Duration::from_millis(300);
+        let start = Instant::now();
+        let stopped = output_within(limit, Command::new("sleep").arg("60"));
+        assert!(
+            stopped.is_err_and(|e| e.starts_with("sleep 60: stopped")),
+            "its line"
+        );
+        assert!(start.elapsed() < 30 * limit, "{:?}", start.elapsed());
+        let text = output_within(Duration::from_secs(60), Command::new("echo").arg("done"));
+        assert_eq!(text.as_deref(), Ok("done\n"), "in time");
     }
 
     #[test]

@@ -67,7 +67,7 @@ fn sizes(measured: &[Measured]) -> String {
         let doubles = if program.doubles().is_empty() {
             "none"
         } else {
-            "in sines"
+            "linked"
         };
         table += &format!(
             "| `{}` | {} | {} | {} | {doubles} | {} |\n",
