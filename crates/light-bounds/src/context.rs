@@ -121,7 +121,8 @@ impl LightSampleContext {
         Self { p_error, ..self }
     }
 
-    /// The same context for the lights of some groups only.
+    /// The same context for the lights of some groups only: light linking, as in
+    /// `crates/lights/examples/light_groups.rs`.
     #[inline]
     #[must_use]
     pub const fn with_groups(self, groups: LightGroups) -> Self {

@@ -25,7 +25,8 @@ pub trait LightSampler {
     ///
     /// A sampler may keep what it has computed for `ctx`, and refine its estimates for several
     /// choices: the probabilities are then those of [`LightChoices::pmf`]. One without such work
-    /// returns [`LightChoices::one_by_one`].
+    /// returns [`LightChoices::one_by_one`]. `crates/lights/examples/many_lights.rs` lights a plain
+    /// by it.
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a>;
 
     /// One light to emit from, without a receiver, as in light tracing; `None` if nothing emits.

@@ -22,7 +22,7 @@ impl LightChoices<'_> {
     /// best into its target: any weights that add up to 1 are unbiased.
     ///
     /// The reservoir can be kept and [merged](WeightedReservoir::merge) with those of other points
-    /// or frames. The example `resampling` of the crate `lights` measures what resampling gains.
+    /// or frames. `crates/lights/examples/resampling.rs` measures what resampling gains.
     ///
     /// ```
     /// # use light_samplers::{LightSampler, UniformLightSampler, light_bounds};

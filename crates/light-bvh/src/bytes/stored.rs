@@ -6,7 +6,7 @@ use crate::query::bvh_ref::LightBvhRef;
 ///
 /// 32 bytes of head, the nodes, the entries of [`LightBvhRef::order`] and [`LightBvhRef::slots`],
 /// and the groups of the lights if they have some, as little-endian machines hold them. Nothing is
-/// copied.
+/// copied. `crates/lights/examples/tree_in_a_file.rs` writes a tree and reads it.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredLightBvh<'a> {
     view: LightBvhRef<'a>,
