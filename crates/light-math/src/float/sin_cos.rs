@@ -77,8 +77,8 @@ const TWO_OVER_PI: [u32; 8] = [
     0xfe51_63ab,
 ];
 
-/// The same for any angle of at least 1, by whole numbers: the mantissa times those bits of `2 / pi`
-/// that give less than four quadrants.
+/// The same for any angle of at least 1, by whole numbers: the mantissa times those bits of
+/// `2 / pi` that give less than four quadrants.
 ///
 /// # Source
 /// M. Payne, R. Hanek, "Radian reduction for trigonometric functions", SIGNUM Newsletter 18 (1983).
