@@ -19,7 +19,9 @@ pub fn sample(u: f32, a: f32, b: f32) -> f32 {
     let Some((a, b)) = scaled(a, b) else {
         return u;
     };
-    let x = u * (a + b) / (a + sqrt((1.0 - u) * (a * a) + u * (b * b)));
+    // Of the smallest `u` the square may vanish: a quotient by 0 would be the other end.
+    let square = (1.0 - u) * (a * a) + u * (b * b);
+    let x = u * (a + b) / (a + sqrt(square.max(f32::MIN_POSITIVE)));
     // Where the line starts at zero, so does the density: stay off that end as the other end does.
     let lowest = if a > NEGLIGIBLE {
         0.0
@@ -70,6 +72,7 @@ mod tests {
         assert_eq!(sample(0.0, 1.0, 3.0), 0.0, "start");
         assert_eq!(sample(0.25, 2.0, 2.0), 0.25, "constant");
         assert!((sample(0.25, 0.0, 1.0) - 0.5).abs() < 1e-7, "square root");
+        assert!(sample(1e-45, 0.0, 3.5e-39) < 1e-7, "the smallest number");
         assert_eq!(pdf(0.25, 0.0, 1.0), 0.5, "2 x");
         assert_eq!(pdf(1.5, 1.0, 1.0), 0.0, "outside");
     }
