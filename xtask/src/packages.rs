@@ -87,8 +87,9 @@ fn build_packages(names: &[&str]) -> Result<(), String> {
     for name in names {
         let unpacked = format!("{name}-{}", env!("CARGO_PKG_VERSION"));
         let archive = root().join(format!("target/package/{unpacked}.crate"));
+        // Times of now: those in a package are all the same, and cargo would take the last build.
         let mut tar = Command::new("tar");
-        output(tar.arg("-xzf").arg(archive).arg("-C").arg(&folder))?;
+        output(tar.arg("-xzmf").arg(archive).arg("-C").arg(&folder))?;
         manifest += &format!("{name} = {{ path = \"{unpacked}\" }}\n");
     }
     fs::write(folder.join("Cargo.toml"), manifest).map_err(failed)?;
