@@ -126,11 +126,12 @@ pub const fn divide(r: u32, u: u64, g: u32) -> u64 {
 
 /// [`divide`] in two divisions.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "both are below 2^32")]
 const fn divide_by_u64(r: u32, u: u64, g: u32) -> u64 {
     let g = g as u64;
     let x = (r as u64) << 48 | u >> 16;
     let rest = (x % g) << 16 | (u & 0xffff);
-    ((x / g) << 16) | (rest / g)
+    ((x / g) << 16) | (rest as u32 / g as u32) as u64
 }
 
 /// [`divide`] for machines that divide no 64-bit numbers.

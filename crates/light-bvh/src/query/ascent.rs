@@ -5,6 +5,7 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
+use crate::query::weights::Weights;
 
 /// Probabilities that are known before the ascent.
 ///
@@ -67,7 +68,9 @@ impl LightBvhRef<'_> {
             else {
                 return 0.0;
             };
-            *share = self.weights(index, node, receiver).probability(child);
+            let mut weights = Weights::new(node, receiver);
+            self.leave_out(index, &mut weights);
+            *share = weights.probability(child);
             levels += 1;
             slot = node.parent;
         }

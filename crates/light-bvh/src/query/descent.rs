@@ -6,6 +6,7 @@ use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
 use crate::query::select::Choice;
+use crate::query::weights::Weights;
 
 /// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
@@ -41,7 +42,9 @@ impl LightBvhRef<'_> {
             if level >= CACHED_LEVELS {
                 self.prefetch_below(node);
             }
-            let choice = self.weights(index, node, receiver).choose(u)?;
+            let mut weights = Weights::new(node, receiver);
+            self.leave_out(index, &mut weights);
+            let choice = weights.choose(u)?;
             pmf = positive_product(pmf, choice.probability);
             u = choice.u;
             match self.child(node, choice.child)? {

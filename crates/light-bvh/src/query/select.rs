@@ -12,6 +12,10 @@ const ALL: f32 = PARTS as f32;
 /// How many parts are left over on average.
 const LEFT_OVER: f32 = 0.5 * WIDTH as f32;
 
+/// Whether the machine computes several lanes at once, as all with 64-bit addresses do. Without
+/// vectors a guess and sums in pairs are slower; the choices are the same.
+const HAS_VECTORS: bool = cfg!(target_pointer_width = "64");
+
 /// A child chosen in proportion to its weight.
 pub(crate) struct Choice {
     pub(crate) child: usize,
@@ -31,9 +35,13 @@ impl Weights {
         let place = (u >> 48) as f32;
         // Running sums of the weights guess the child without waiting for the division that makes
         // them parts: the processor goes on down the tree meanwhile.
-        let guess = ended(&ends(&self.lanes), (place - LEFT_OVER) * self.total / ALL);
+        let guess = if HAS_VECTORS {
+            ended(&ends(self.lanes), (place - LEFT_OVER) * self.total / ALL)
+        } else {
+            0
+        };
         let parts = self.parts();
-        let ends = ends(&parts);
+        let ends = ends(parts);
         let left_over = ALL - ends[WIDTH - 1];
         // What is left over belongs to the first child and comes before its own parts.
         let within = place.max(left_over) - left_over;
@@ -63,32 +71,34 @@ impl Weights {
             return 0.0;
         }
         let child = child & (WIDTH - 1);
-        if child > 0 && self.lanes[0] > 0.0 {
-            PART * parts_of(self.lanes[child], self.scale())
+        if child == self.first() {
+            // What is left over by all others.
+            let parts = self.parts();
+            PART * (ALL - (total(parts) - parts[child]))
         } else {
-            self.probability_with_left_over(child)
+            PART * parts_of(self.lanes[child], self.scale())
         }
     }
 
-    /// The probability of a child that may be the first, which takes the parts that are left over.
+    /// The first child that can contribute, which takes the parts that are left over. Without
+    /// branches: which one it is cannot be predicted.
     #[inline(always)]
-    fn probability_with_left_over(&self, child: usize) -> f32 {
-        let parts = self.parts();
-        let is_first = parts.iter().position(|&parts| parts > 0.0) == Some(child);
-        if is_first {
-            PART * (ALL - (total(parts) - parts[child]))
-        } else {
-            PART * parts[child]
+    fn first(&self) -> usize {
+        let mut positive = 0;
+        for first in (0..WIDTH).step_by(4) {
+            let four = Vec4::from_slice(&self.lanes[first..]);
+            positive |= four.cmpgt(Vec4::ZERO).bitmask() << first;
         }
+        positive.trailing_zeros() as usize
     }
 
     /// The parts of each child, before those that are left over go to the first.
     #[inline(always)]
     fn parts(&self) -> [f32; WIDTH] {
         let scale = self.scale();
-        let mut parts = [0.0; WIDTH];
-        for (parts, &weight) in parts.iter_mut().zip(&self.lanes) {
-            *parts = parts_of(weight, scale);
+        let mut parts = self.lanes;
+        for parts in &mut parts {
+            *parts = parts_of(*parts, scale);
         }
         parts
     }
@@ -110,8 +120,14 @@ fn parts_of(weight: f32, scale: f32) -> f32 {
 
 /// Running sums: exact for parts.
 #[inline(always)]
-fn ends(lanes: &[f32; WIDTH]) -> [f32; WIDTH] {
-    let mut ends = [0.0; WIDTH];
+fn ends(lanes: [f32; WIDTH]) -> [f32; WIDTH] {
+    let mut ends = lanes;
+    if !HAS_VECTORS {
+        for k in 1..WIDTH {
+            ends[k] += ends[k - 1];
+        }
+        return ends;
+    }
     let mut before = Vec4::ZERO;
     for first in (0..WIDTH).step_by(4) {
         let x = Vec4::from_slice(&lanes[first..]);
@@ -138,7 +154,11 @@ fn ended(ends: &[f32; WIDTH], place: f32) -> usize {
 /// The child whose parts `within` falls on.
 #[cold]
 fn search(ends: &[f32; WIDTH], within: f32) -> usize {
-    ended(ends, within)
+    let is_beyond = |&end: &f32| within < end;
+    ends[..WIDTH - 1]
+        .iter()
+        .position(is_beyond)
+        .unwrap_or(WIDTH - 1)
 }
 
 /// A whole number below 2^23, without the tests of a cast.

@@ -1,4 +1,5 @@
 use light_bounds::LightGroups;
+use light_math::glam::Vec4;
 
 use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
@@ -69,11 +70,10 @@ impl Weights {
     }
 
     /// Sets the weights of children without a light in a `wanted` group to 0.
+    #[inline(always)]
     pub(crate) fn keep(&mut self, groups: &[LightGroups; WIDTH], wanted: LightGroups) {
         for (weight, groups) in self.lanes.iter_mut().zip(groups) {
-            if !groups.is_wanted(wanted) {
-                *weight = 0.0;
-            }
+            *weight = LaneMask::when(groups.is_wanted(wanted)).keep(*weight);
         }
         self.total = total(self.lanes);
     }
@@ -145,6 +145,7 @@ fn is_trusted<R: Receiver>(total: f32, frame: &NodeFrame, receiver: &R) -> bool 
 /// The sum of all lanes, in pairs.
 #[inline(always)]
 pub(crate) fn total(lanes: [f32; WIDTH]) -> f32 {
-    let w: [f32; WIDTH / 2] = core::array::from_fn(|k| lanes[k] + lanes[k + WIDTH / 2]);
-    ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7]))
+    let four = |first: usize| Vec4::from_slice(&lanes[first..]);
+    let sums = (four(0) + four(8)) + (four(4) + four(12));
+    (sums.x + sums.z) + (sums.y + sums.w)
 }
