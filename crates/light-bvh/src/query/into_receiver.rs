@@ -1,6 +1,6 @@
 use light_bounds::{LightGroups, LightSampleContext};
 
-use crate::importance::context_receiver::ContextReceiver;
+use crate::importance::context_receiver::{AnyKind, ContextReceiver, with_kind};
 use crate::importance::receiver::Receiver;
 use crate::simd::VectorWork;
 
@@ -47,12 +47,11 @@ impl<R: Receiver> KeptReceiver for R {
 impl KeptReceiver for ContextReceiver {
     #[inline(always)]
     fn run<Q: Query>(&self, query: Q) -> Q::Output {
-        match self {
-            Self::Surface(receiver) => query.run(receiver),
-            Self::Glossy(receiver) => query.run(receiver),
-            Self::TwoSided(receiver) => query.run(receiver),
-            Self::Medium(receiver) => query.run(receiver),
-            Self::Segment(receiver) => query.run(receiver),
+        // Without an operating system memory for code is short.
+        if cfg!(target_os = "none") {
+            query.run(&AnyKind(self))
+        } else {
+            with_kind!(self, receiver => query.run(receiver))
         }
     }
 }
@@ -98,9 +97,52 @@ mod tests {
     use super::*;
     use crate::LightBvh;
     use crate::importance::position::FAR;
-    use light_bounds::{LightBounds, LightExtent, LightId};
+    use alloc::vec::Vec;
+    use light_bounds::{Gloss, LightBounds, LightExtent, LightId};
     use light_math::Aabb;
+    use light_math::fraction::stratum;
     use light_math::glam::Vec3;
+
+    #[test]
+    fn one_type_for_all_kinds_answers_as_each_kind() {
+        let lights: Vec<_> = (0..40)
+            .map(|i| {
+                let p = Vec3::new((i * 7 % 40) as f32, (i * 11 % 40) as f32, i as f32);
+                LightExtent::Bounded(LightBounds {
+                    bounds: Aabb::from_point(p),
+                    w: Vec3::X,
+                    phi: 1.0,
+                    cos_theta_o: -1.0,
+                    cos_theta_e: 0.0,
+                    two_sided: false,
+                })
+            })
+            .collect();
+        let tree = LightBvh::build(&lights).expect("valid lights");
+        let (p, n) = (Vec3::new(20.0, 20.0, 5.0), Vec3::Z);
+        let surface = LightSampleContext::surface(p, n, n);
+        let gloss = Gloss {
+            wo: Vec3::Z,
+            alpha: 0.1,
+            diffuse: 0.5,
+        };
+        for ctx in [
+            surface.with_gloss(gloss),
+            LightSampleContext::two_sided(p, n, n),
+            LightSampleContext::medium(p),
+            LightSampleContext::segment(p, Vec3::new(1.0, 2.0, 30.0)),
+            surface,
+        ] {
+            let kept = (&ctx).keep();
+            let any = AnyKind(&kept);
+            for u in (0..64).map(|i| stratum(i, 64, 1 << 63)) {
+                assert_eq!(tree.sample(&any, u), tree.sample(&ctx, u), "{ctx:?}");
+            }
+            for light in (0..40).map(LightId) {
+                assert_eq!(tree.pmf(&any, light), tree.pmf(&ctx, light), "{ctx:?}");
+            }
+        }
+    }
 
     /// Beyond the reach of the tree a point is taken to be nearer. A light that is above its
     /// horizon may seem to be below it then, so that the normal does not count.
