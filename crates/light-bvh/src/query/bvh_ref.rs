@@ -68,7 +68,7 @@ impl<'a> LightBvhRef<'a> {
     }
 
     /// The weights of the children of the node `index`: 0 for those without a light in the
-    /// requested groups.
+    /// requested groups. A descent does both steps itself: what this returns goes through memory.
     #[inline(always)]
     pub(crate) fn weights<R: Receiver>(
         &self,
