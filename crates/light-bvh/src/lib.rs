@@ -41,6 +41,7 @@ mod query_constants;
 pub mod reference;
 mod simd;
 mod validate;
+pub mod visibility;
 
 #[cfg(feature = "alloc")]
 pub use build::options::{BuildMode, DarkLights, LightBvhOptions};

@@ -1,0 +1,117 @@
+use alloc::vec::Vec;
+
+use light_bounds::{LightId, LightSampleContext};
+use light_math::float::sqrt;
+use light_math::glam::Vec2;
+
+use crate::node::wide_node::WIDTH;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
+use crate::visibility::cell_key::CellKey;
+use crate::visibility::gain::Gain;
+use crate::visibility::learn::{Learnt, learn};
+use crate::visibility::mean_importance::mean_importance;
+use crate::visibility::options::FillOptions;
+use crate::visibility::ray_log::RayLog;
+use crate::visibility::rays::Rays;
+use crate::visibility::share_code::encode_share;
+use crate::visibility::worth::factors;
+
+/// A coarse cell: which nodes of the tree are told apart, the factors of their children, and what
+/// share of their lights is seen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CoarseCell {
+    pub(super) key: CellKey,
+    pub(super) shape: Vec<CopiedNode>,
+    pub(super) factors: Vec<[u8; WIDTH]>,
+    /// The share of each child's lights that is seen, in 255ths.
+    pub(super) seen: Vec<[u8; WIDTH]>,
+}
+
+impl CoarseCell {
+    /// The cell of `key` by rays from `places` in it; `None` if it is plain, that is to be asked as
+    /// the tree without a cell.
+    ///
+    /// `visible(place, light, u)` says whether `place` sees the point of `light` that `u` in
+    /// `[0, 1)^2` chooses; a light that emits nothing there counts as not seen. The same arguments
+    /// give the same bytes, on every machine where `visible` answers alike: random numbers come from
+    /// the key, and all sums are in a fixed order. 128 places, in the tests of many lamps; as many
+    /// calls of `visible` as the options tell.
+    ///
+    /// # Source
+    /// Choices in proportion to the root of a second moment, as in `[Vevoda2018]`: that of a light
+    /// whose visibility is a bit is the share of it that is seen. Shares from few rays count what
+    /// was expected before as one ray more: a conjugate prior, of the lights of the node above.
+    #[must_use]
+    pub fn fill(
+        tree: LightBvhRef<'_>,
+        key: CellKey,
+        places: &[LightSampleContext],
+        options: &FillOptions,
+        visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
+    ) -> Option<Self> {
+        let mut rays = Rays {
+            tree,
+            places,
+            key,
+            visible,
+            log: RayLog::default(),
+        };
+        rays.by_cuts(0, 0..options.first_rays);
+        let sent = rays.log.rays().len();
+        if sent == 0 || rays.log.seen() as f32 >= options.plain_share * sent as f32 {
+            return None;
+        }
+        rays.by_cuts(0, options.first_rays..options.exploring_rays);
+        for round in 1..=2 {
+            let cell = Self::learnt(tree, key, places, options, &rays.log);
+            let mut gain = Gain::default();
+            rays.in_cell(
+                round,
+                options.guided_rays,
+                cell.factors(),
+                |place, choice, is_seen| {
+                    if round == 2 && is_seen && options.least_gain > 0.0 {
+                        gain.add(tree.pmf(place, choice.light), choice.pmf);
+                    }
+                },
+            );
+            if round == 2 && gain.is_below(options.least_gain) {
+                return None;
+            }
+        }
+        Some(Self::learnt(tree, key, places, options, &rays.log))
+    }
+
+    /// What the rays so far tell.
+    fn learnt(
+        tree: LightBvhRef<'_>,
+        key: CellKey,
+        places: &[LightSampleContext],
+        options: &FillOptions,
+        log: &RayLog,
+    ) -> Self {
+        let Learnt { shape, visibility } = learn(&tree, log);
+        let nodes = copied_nodes(&tree, &shape).unwrap_or_default();
+        let mean = mean_importance(&tree, &nodes[..shape.len()], places);
+        let shares: Vec<_> = visibility.iter().map(|v| v.map(sqrt)).collect();
+        Self {
+            key,
+            factors: factors(&shape, &mean, &shares, options.floor),
+            seen: visibility.iter().map(|v| v.map(encode_share)).collect(),
+            shape,
+        }
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub const fn key(&self) -> CellKey {
+        self.key
+    }
+
+    /// What queries of the tree need.
+    #[must_use]
+    pub fn factors(&self) -> CellFactors<'_> {
+        CellFactors::of(&self.shape, &self.factors)
+    }
+}

@@ -1,0 +1,118 @@
+use alloc::vec::Vec;
+
+use light_bounds::{LightId, LightSampleContext};
+use light_math::float::sqrt;
+use light_math::glam::Vec2;
+
+use crate::node::wide_node::WIDTH;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
+use crate::visibility::cell_key::CellKey;
+use crate::visibility::coarse_cell::CoarseCell;
+use crate::visibility::counts::NodeCounts;
+use crate::visibility::mean_importance::mean_importance;
+use crate::visibility::options::FillOptions;
+use crate::visibility::ray_log::RayLog;
+use crate::visibility::rays::Rays;
+use crate::visibility::share_code::decode_share;
+use crate::visibility::worth::factors;
+
+/// A fine cell: factors of its own for the children that its coarse cell tells apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FineCell {
+    pub(super) key: CellKey,
+    /// Empty if the coarse cell's serve.
+    pub(super) factors: Vec<[u8; WIDTH]>,
+}
+
+impl CoarseCell {
+    /// The fine cell of `key` in this one, by rays from `places` in it. Without places, or rays, it
+    /// has the factors of this cell.
+    ///
+    /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). The
+    /// rays go where this cell does not know what is seen.
+    #[must_use]
+    pub fn fill_fine(
+        &self,
+        tree: LightBvhRef<'_>,
+        key: CellKey,
+        places: &[LightSampleContext],
+        options: &FillOptions,
+        visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
+    ) -> FineCell {
+        let nodes = copied_nodes(&tree, &self.shape).unwrap_or_default();
+        let mean = mean_importance(&tree, &nodes[..self.shape.len()], places);
+        let known: Vec<_> = self
+            .seen
+            .iter()
+            .map(|codes| codes.map(decode_share))
+            .collect();
+        let doubts: Vec<_> = known.iter().map(|shares| shares.map(doubt)).collect();
+        let towards = factors(&self.shape, &mean, &doubts, options.floor);
+        let mut rays = Rays {
+            tree,
+            places,
+            key,
+            visible,
+            log: RayLog::default(),
+        };
+        let cell = CellFactors::of(&self.shape, &towards);
+        rays.in_cell(0, options.fine_rays, cell, |_, _, _| ());
+        if rays.log.rays().is_empty() {
+            let factors = Vec::new();
+            return FineCell { key, factors };
+        }
+        let shares = seen_again(&self.shape, known, &rays.log);
+        FineCell {
+            key,
+            factors: factors(&self.shape, &mean, &shares, options.floor),
+        }
+    }
+}
+
+impl FineCell {
+    /// Where it is.
+    #[must_use]
+    pub const fn key(&self) -> CellKey {
+        self.key
+    }
+
+    /// What queries of the tree need; `coarse` is the cell that it was made from.
+    #[must_use]
+    pub fn factors<'a>(&'a self, coarse: &'a CoarseCell) -> CellFactors<'a> {
+        if self.factors.is_empty() {
+            coarse.factors()
+        } else {
+            CellFactors::of(&coarse.shape, &self.factors)
+        }
+    }
+}
+
+/// How much a ray to lights of this visibility tells, and a little for those that are seen anyway.
+fn doubt(visibility: f32) -> f32 {
+    sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
+}
+
+/// The roots of the visibility of each closed child, of which `known` was known before these rays.
+fn seen_again(
+    shape: &[CopiedNode],
+    mut known: Vec<[f32; WIDTH]>,
+    log: &RayLog,
+) -> Vec<[f32; WIDTH]> {
+    let mut counts = alloc::vec![NodeCounts::default(); shape.len()];
+    for ray in log.rays() {
+        let (mut place, mut level) = (0, 0);
+        let mut child = ray.child(level);
+        while let Some(copy) = shape[place].copy_of(child) {
+            (place, level) = (copy, level + 1);
+            child = ray.child(level);
+        }
+        counts[place][child].add(ray.is_seen());
+    }
+    for (known, counts) in known.iter_mut().zip(counts) {
+        for (known, counts) in known.iter_mut().zip(counts) {
+            *known = sqrt(counts.visibility(*known));
+        }
+    }
+    known
+}

@@ -1,0 +1,70 @@
+//! What the children of copied nodes mean to the places of a cell, on average.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use light_bounds::LightSampleContext;
+use light_math::float::positive_product;
+
+use crate::importance::receiver::Receiver;
+use crate::node::wide_node::WIDTH;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::query::into_receiver::{IntoReceiver, Query, QueryFor};
+use crate::simd::dispatch;
+
+/// The largest ratio of units of length that counts in full: its square and what is multiplied by
+/// it stay floats.
+const MAX_ZOOM: f32 = 1_073_741_824.0;
+
+/// The largest importance: sums of all children of all copied nodes stay floats.
+const MAX_IMPORTANCE: f32 = 1e30;
+
+/// The mean importance of each child of the nodes of these indices, in a unit that all share.
+pub(super) fn mean_importance(
+    tree: &LightBvhRef<'_>,
+    nodes: &[u32],
+    places: &[LightSampleContext],
+) -> Vec<[f32; WIDTH]> {
+    let mut sums = vec![[0.0; WIDTH]; nodes.len()];
+    let share = 1.0 / places.len().max(1) as f32;
+    for place in places {
+        let add = Add {
+            tree: &tree.wanting(place.groups),
+            nodes,
+            share,
+            sums: &mut sums,
+        };
+        dispatch(QueryFor(&place.keep(), add));
+    }
+    sums
+}
+
+/// Adds the importance of one place.
+struct Add<'a, 'b> {
+    tree: &'b LightBvhRef<'a>,
+    nodes: &'b [u32],
+    share: f32,
+    sums: &'b mut [[f32; WIDTH]],
+}
+
+impl Query for Add<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Receiver>(self, receiver: &R) {
+        let root = self.tree.nodes().first();
+        let unit = root.map_or(1.0, |root| root.inv_scale);
+        for (&index, sums) in self.nodes.iter().zip(self.sums) {
+            let Some(node) = self.tree.nodes().get(index as usize) else {
+                return;
+            };
+            let weights = self.tree.weights(index as usize, node, receiver);
+            let zoom = (weights.inv_unit / unit).min(MAX_ZOOM);
+            let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            for (sum, weight) in sums.iter_mut().zip(weights.lanes) {
+                let importance = positive_product(weight, scale).min(MAX_IMPORTANCE);
+                *sum += importance * self.share;
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+use crate::lane_math::{LaneMask, larger};
+use crate::node::wide_node::WIDTH;
+use crate::query::weights::{Weights, total};
+use crate::visibility::factor_code::{UNIT, decode_scaled};
+
+/// How much shorter the unit of length of products is, so that they are irradiances again: the root
+/// of one over the unit of factors.
+const SHORTER: f32 = 16.0;
+
+const _: () = assert!(SHORTER * SHORTER * UNIT == 1.0, "the unit of factors");
+
+/// Multiplies the weights of the children of a node by their factors.
+///
+/// A weight of 0 stays 0, a positive one positive, also where the product underflows. Factors of 1
+/// scale all weights by a power of two: choices keep their bits.
+#[inline(always)]
+pub(super) fn multiply(weights: &mut Weights, factors: &[u8; WIDTH]) {
+    for (weight, &code) in weights.lanes.iter_mut().zip(factors) {
+        let product = larger(*weight * decode_scaled(code), f32::MIN_POSITIVE);
+        *weight = LaneMask::when(*weight > 0.0).keep(product);
+    }
+    weights.total = total(weights.lanes);
+    weights.inv_unit *= SHORTER;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::visibility::factor_code::ONE;
+
+    fn weights(lanes: [f32; WIDTH]) -> Weights {
+        Weights {
+            lanes,
+            total: total(lanes),
+            inv_unit: 1.0,
+        }
+    }
+
+    #[test]
+    fn no_factor_changes_which_children_can_be_chosen() {
+        let lanes = core::array::from_fn(|k| [0.0, 1e-38, 1.0, 2e37][k % 4]);
+        for code in 0..=u8::MAX {
+            let mut product = weights(lanes);
+            multiply(&mut product, &[code; WIDTH]);
+            assert!(product.total.is_finite(), "{code}: {}", product.total);
+            for child in 0..WIDTH {
+                let is_there = product.probability(child) > 0.0;
+                assert_eq!(is_there, lanes[child] > 0.0, "{code}: child {child}");
+            }
+        }
+    }
+
+    #[test]
+    fn factors_of_one_keep_choices_and_irradiances() {
+        let lanes = core::array::from_fn(|k| 1e-12 + 3.7 * k as f32);
+        let (plain, mut product) = (weights(lanes), weights(lanes));
+        multiply(&mut product, &[ONE; WIDTH]);
+        for child in 0..WIDTH {
+            assert_eq!(
+                product.probability(child),
+                plain.probability(child),
+                "{child}"
+            );
+        }
+        let node = crate::WideNode {
+            gain: 0x3f80,
+            ..crate::WideNode::EMPTY
+        };
+        assert_eq!(
+            product.irradiance(&node),
+            plain.irradiance(&node),
+            "irradiance"
+        );
+    }
+}

@@ -1,0 +1,51 @@
+//! From what is seen of each child to the factors of a cell.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::node::wide_node::WIDTH;
+use crate::visibility::cell_factors::CopiedNode;
+use crate::visibility::factor_code::{ONE, encode_factor};
+
+/// Codes of the factors that give each closed child its share of `mean` importance times `share`,
+/// and at least `floor` of the mean share; what is opened gets the sum of its children, so that the
+/// choice is the same at every level.
+///
+/// Importance is corrected on the way: what the parent makes of a child counts no more than what the
+/// child's own children add up to.
+pub(super) fn factors(
+    shape: &[CopiedNode],
+    mean: &[[f32; WIDTH]],
+    share: &[[f32; WIDTH]],
+    floor: f32,
+) -> Vec<[u8; WIDTH]> {
+    let least = floor * mean_share(shape, mean, share);
+    let mut codes = vec![[ONE; WIDTH]; shape.len()];
+    let mut worths = vec![0.0; shape.len()];
+    // Copies come after their parents.
+    for (place, copied) in shape.iter().enumerate().rev() {
+        for child in 0..WIDTH {
+            let importance = mean[place][child];
+            let closed = share[place][child].max(least);
+            let factor = match copied.copy_of(child) {
+                Some(copy) if importance > 0.0 => worths[copy] / importance,
+                _ => closed,
+            };
+            worths[place] += importance * factor;
+            codes[place][child] = encode_factor(factor);
+        }
+    }
+    codes
+}
+
+/// The mean of the shares of all closed children, by importance; 1 if nothing has importance.
+fn mean_share(shape: &[CopiedNode], mean: &[[f32; WIDTH]], share: &[[f32; WIDTH]]) -> f32 {
+    let (mut all, mut worth) = (0.0, 0.0);
+    for ((copied, mean), share) in shape.iter().zip(mean).zip(share) {
+        for child in (0..WIDTH).filter(|&child| copied.copy_of(child).is_none()) {
+            all += mean[child];
+            worth += mean[child] * share[child];
+        }
+    }
+    if all > 0.0 { worth / all } else { 1.0 }
+}
