@@ -61,8 +61,7 @@ impl<'a> CellFactors<'a> {
         Ok(Self { shape, factors })
     }
 
-    /// The same without a look at the tree, for what was made here.
-    #[cfg(feature = "alloc")]
+    /// The same without a look at the tree, for what was made or checked here.
     pub(super) const fn of(shape: &'a [CopiedNode], factors: &'a [[u8; WIDTH]]) -> Self {
         Self { shape, factors }
     }

@@ -18,7 +18,8 @@ use crate::visibility::share_code::encode_share;
 use crate::visibility::worth::factors;
 
 /// A coarse cell: which nodes of the tree are told apart, the factors of their children, and what
-/// share of their lights is seen.
+/// share of their lights is seen. A plain one has none of it: there the tree is asked without
+/// factors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CoarseCell {
     pub(super) key: CellKey,
@@ -29,8 +30,7 @@ pub struct CoarseCell {
 }
 
 impl CoarseCell {
-    /// The cell of `key` by rays from `places` in it; `None` if it is plain, that is to be asked as
-    /// the tree without a cell.
+    /// The cell of `key` by rays from `places` in it.
     ///
     /// `visible(place, light, u)` says whether `place` sees the point of `light` that `u` in
     /// `[0, 1)^2` chooses; a light that emits nothing there counts as not seen. The same arguments
@@ -49,7 +49,7 @@ impl CoarseCell {
         places: &[LightSampleContext],
         options: &FillOptions,
         visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
-    ) -> Option<Self> {
+    ) -> Self {
         let mut rays = Rays {
             tree,
             places,
@@ -60,7 +60,7 @@ impl CoarseCell {
         rays.by_cuts(0, 0..options.first_rays);
         let sent = rays.log.rays().len();
         if sent == 0 || rays.log.seen() as f32 >= options.plain_share * sent as f32 {
-            return None;
+            return Self::plain(key);
         }
         rays.by_cuts(0, options.first_rays..options.exploring_rays);
         for round in 1..=2 {
@@ -77,10 +77,21 @@ impl CoarseCell {
                 },
             );
             if round == 2 && gain.is_below(options.least_gain) {
-                return None;
+                return Self::plain(key);
             }
         }
-        Some(Self::learnt(tree, key, places, options, &rays.log))
+        Self::learnt(tree, key, places, options, &rays.log)
+    }
+
+    /// A plain cell: one where nothing is in the way, or nothing is known.
+    #[must_use]
+    pub const fn plain(key: CellKey) -> Self {
+        Self {
+            key,
+            shape: Vec::new(),
+            factors: Vec::new(),
+            seen: Vec::new(),
+        }
     }
 
     /// What the rays so far tell.
@@ -107,6 +118,12 @@ impl CoarseCell {
     #[must_use]
     pub const fn key(&self) -> CellKey {
         self.key
+    }
+
+    /// Whether the tree is asked without factors.
+    #[must_use]
+    pub const fn is_plain(&self) -> bool {
+        self.shape.is_empty()
     }
 
     /// What queries of the tree need.

@@ -27,7 +27,7 @@ pub struct FineCell {
 
 impl CoarseCell {
     /// The fine cell of `key` in this one, by rays from `places` in it. Without places, or rays, it
-    /// has the factors of this cell.
+    /// has the factors of this cell; in a plain cell it is plain, and no ray is sent.
     ///
     /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). The
     /// rays go where this cell does not know what is seen.
@@ -40,6 +40,10 @@ impl CoarseCell {
         options: &FillOptions,
         visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
     ) -> FineCell {
+        if self.is_plain() {
+            let factors = Vec::new();
+            return FineCell { key, factors };
+        }
         let nodes = copied_nodes(&tree, &self.shape).unwrap_or_default();
         let mean = mean_importance(&tree, &nodes[..self.shape.len()], places);
         let known: Vec<_> = self

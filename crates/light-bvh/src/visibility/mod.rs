@@ -27,6 +27,10 @@ mod ray_log;
 mod rays;
 #[cfg(feature = "alloc")]
 mod share_code;
+#[cfg(feature = "alloc")]
+mod table;
+mod table_error;
+mod table_ref;
 mod walk;
 mod way;
 #[cfg(feature = "alloc")]
@@ -43,3 +47,7 @@ pub use fine_cell::FineCell;
 pub use in_cell::LightBvhInCell;
 #[cfg(feature = "alloc")]
 pub use options::FillOptions;
+#[cfg(feature = "alloc")]
+pub use table::CellTable;
+pub use table_error::CellTableError;
+pub use table_ref::{CellEntry, CellTableParts, CellTableRef};
