@@ -72,4 +72,34 @@ mod tests {
             "irradiance"
         );
     }
+
+    /// Products of a node as every vector width computes them.
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    #[derive(Clone, Copy)]
+    struct Product([f32; WIDTH], [u8; WIDTH]);
+
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    impl crate::simd::VectorWork for Product {
+        type Output = [u32; WIDTH + 1];
+
+        #[inline(always)]
+        fn run(self) -> Self::Output {
+            let mut product = weights(self.0);
+            multiply(&mut product, &self.1);
+            let bits = |k| product.lanes.get(k).copied().unwrap_or(product.total);
+            core::array::from_fn(|k| bits(k).to_bits())
+        }
+    }
+
+    /// Trivially true where the machine has no wider vectors than the build's target.
+    #[test]
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    fn wide_vectors_give_the_bits_of_narrow_ones() {
+        for code in 0..=u8::MAX {
+            let lanes = core::array::from_fn(|k| [0.0, 1e-37, 3.1, 7e30][k % 4] * k as f32);
+            let codes = core::array::from_fn(|k| code.wrapping_mul(k.to_le_bytes()[0]));
+            let results = crate::simd::run_with_each_width(Product(lanes, codes));
+            assert!(results.iter().all(|bits| *bits == results[0]), "{code}");
+        }
+    }
 }

@@ -1,0 +1,146 @@
+//! Tables of cells: cells that do not fit each other, and arrays that are no table, are refused.
+#![cfg(feature = "alloc")]
+
+use light_bvh::light_bounds::glam::Vec3;
+use light_bvh::visibility::{
+    CellEntry, CellKey, CellTable, CellTableError, CellTableParts, CellTableRef, CoarseCell,
+    CopiedNode, FillOptions, FineCell,
+};
+
+mod support;
+#[path = "support/two_rooms.rs"]
+mod two_rooms;
+use two_rooms::Rooms;
+
+/// Cells of a few places in a row, of which the first is plain.
+fn cells(rooms: &Rooms) -> (Vec<CoarseCell>, Vec<FineCell>) {
+    let options = FillOptions {
+        exploring_rays: 400,
+        guided_rays: 50,
+        ..FillOptions::default()
+    };
+    let (mut coarse, mut fine): (Vec<CoarseCell>, Vec<FineCell>) = Default::default();
+    for i in 0..24u8 {
+        let p = Vec3::new(-0.3 - 0.25 * f32::from(i), 2.0, 0.0);
+        let key = CellKey::fine(&Rooms::floor(p), 1.0);
+        if !coarse.iter().any(|cell| cell.key() == key.coarse()) {
+            let places = Rooms::places(key.coarse(), 32);
+            let is_plain = coarse.is_empty();
+            let see = |p: Vec3, light| is_plain || rooms.sees(p, light);
+            let (view, key) = (rooms.tree.view(), key.coarse());
+            let cell = CoarseCell::fill(view, key, &places, &options, |at, l, _| see(at.p, l));
+            coarse.push(cell);
+        }
+        let of = coarse.last().expect("just made");
+        let places = Rooms::places(key, 16);
+        let visible =
+            |at: &light_bvh::light_bounds::LightSampleContext, light, _| rooms.sees(at.p, light);
+        fine.push(of.fill_fine(rooms.tree.view(), key, &places, &options, visible));
+    }
+    (coarse, fine)
+}
+
+#[test]
+fn cells_that_do_not_fit_make_no_table() {
+    let rooms = Rooms::new(300, true);
+    let (coarse, fine) = cells(&rooms);
+    assert!(coarse[0].is_plain() && !coarse[1].is_plain(), "{coarse:?}");
+    assert!(CellTable::new(&coarse, &fine).is_ok(), "a table");
+    assert!(CellTable::new(&[], &[]).is_ok(), "no cell");
+    let key = coarse[3].key();
+    let twice: Vec<_> = coarse.iter().chain(&coarse[3..4]).cloned().collect();
+    let found = CellTable::new(&twice, &fine);
+    assert_eq!(found, Err(CellTableError::Twice { key }), "coarse");
+    let key = fine[5].key();
+    let again: Vec<_> = fine.iter().chain(&fine[5..6]).cloned().collect();
+    let found = CellTable::new(&coarse, &again);
+    assert_eq!(found, Err(CellTableError::Twice { key }), "fine");
+    let without: Vec<_> = fine
+        .iter()
+        .filter(|f| f.key().coarse() == coarse[1].key())
+        .collect();
+    let found = CellTable::new(&coarse[2..], &[without[0].clone()]);
+    let key = without[0].key();
+    assert_eq!(found, Err(CellTableError::NoCoarseCell { key }), "missing");
+    let plain = [CoarseCell::plain(coarse[1].key())];
+    let found = CellTable::new(&plain, &[without[0].clone()]);
+    assert_eq!(
+        found,
+        Err(CellTableError::NoCoarseCell { key }),
+        "of another"
+    );
+}
+
+/// The arrays of a table, to be damaged.
+#[derive(Clone)]
+struct Arrays {
+    keys: Vec<CellKey>,
+    entries: Vec<CellEntry>,
+    starts: Vec<u32>,
+    shapes: Vec<CopiedNode>,
+    factors: Vec<[u8; 16]>,
+}
+
+impl Arrays {
+    fn of(parts: CellTableParts<'_>) -> Self {
+        Self {
+            keys: parts.keys.to_vec(),
+            entries: parts.entries.to_vec(),
+            starts: parts.starts.to_vec(),
+            shapes: parts.shapes.to_vec(),
+            factors: parts.factors.to_vec(),
+        }
+    }
+
+    /// What a damage makes of them.
+    fn check(&self, rooms: &Rooms, damage: impl FnOnce(&mut Self)) -> Result<(), CellTableError> {
+        let mut damaged = self.clone();
+        damage(&mut damaged);
+        let parts = CellTableParts {
+            keys: &damaged.keys,
+            entries: &damaged.entries,
+            starts: &damaged.starts,
+            shapes: &damaged.shapes,
+            factors: &damaged.factors,
+        };
+        CellTableRef::new(&rooms.tree.view(), parts).map(|_| ())
+    }
+}
+
+#[test]
+fn arrays_that_are_no_table_are_refused() {
+    let rooms = Rooms::new(300, true);
+    let (coarse, fine) = cells(&rooms);
+    let table = CellTable::new(&coarse, &fine).expect("a table");
+    let whole = Arrays::of(table.view().parts());
+    assert_eq!(whole.check(&rooms, |_| ()), Ok(()), "a table");
+    let refused = |error, damage: &dyn Fn(&mut Arrays)| {
+        assert_eq!(whole.check(&rooms, damage), Err(error), "damaged");
+    };
+    refused(CellTableError::Lengths, &|t| drop(t.entries.pop()));
+    refused(CellTableError::Lengths, &|t| drop(t.starts.pop()));
+    refused(CellTableError::Links, &|t| drop(t.shapes.pop()));
+    refused(CellTableError::Links, &|t| drop(t.factors.pop()));
+    for k in 0..whole.starts.len() {
+        refused(CellTableError::Order, &|t| t.starts[k] ^= 1);
+    }
+    for k in 1..whole.keys.len() {
+        refused(CellTableError::Order, &|t| t.keys.swap(k - 1, k));
+        refused(CellTableError::Order, &|t| t.keys[k] = t.keys[k - 1]);
+    }
+    let last = whole.factors.len() - 1;
+    refused(CellTableError::Factor, &|t| t.factors[last][3] = 7);
+    for (k, entry) in whole.entries.iter().enumerate() {
+        if entry.nodes > 0 {
+            refused(CellTableError::Links, &|t| t.entries[k].nodes += 1);
+            refused(CellTableError::Links, &|t| t.entries[k].shape = u32::MAX);
+            refused(CellTableError::Links, &|t| t.entries[k].factors = u32::MAX);
+        }
+    }
+    let other = Rooms::new(5, true);
+    assert_eq!(
+        whole.check(&other, |_| ()),
+        Err(CellTableError::Links),
+        "another tree"
+    );
+}
