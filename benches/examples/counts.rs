@@ -10,7 +10,9 @@ use light_testkit::light_sets::SetKind;
 use light_testkit::{Rng, SamplerCase};
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
 use lights::bvh::reference::ReferenceLightBvh;
+use lights::bvh::visibility::{CellKey, CoarseCell, FillOptions, LightBvhInCell};
 use lights::bvh::{LightBvh, LightBvhOptions};
+use lights::glam::Vec3;
 use lights::math::OctahedralVector;
 use lights::math::distribution::AliasTable;
 use lights::samplers::{BvhLightSampler, LightSampler, ReferenceBvhLightSampler};
@@ -25,7 +27,7 @@ const LIGHTS: usize = 2000;
 const LIGHTS_TO_BUILD: usize = 10_000;
 
 /// Names, calls, and what makes them.
-const PATHS: [(&str, u32, fn()); 11] = [
+const PATHS: [(&str, u32, fn()); 13] = [
     ("alias_sample", CALLS, alias_sample),
     ("build", 1, build),
     ("build_morton", 1, build_morton),
@@ -33,9 +35,11 @@ const PATHS: [(&str, u32, fn()); 11] = [
     ("importance", CALLS, importance),
     ("octahedral_decode", CALLS, octahedral_decode),
     ("pmf", CALLS, pmf),
+    ("pmf_in_cell", CALLS, pmf_in_cell),
     ("pmf_reference", CALLS, pmf_reference),
     ("refit", 1, refit),
     ("sample", CALLS, sample),
+    ("sample_in_cell", CALLS, sample_in_cell),
     ("sample_reference", CALLS, sample_reference),
 ];
 
@@ -177,6 +181,44 @@ fn pmf() {
 #[inline(never)]
 fn count_pmf(sampler: &BvhLightSampler, ctx: &LightSampleContext, light: LightId) {
     black_box(sampler.pmf(ctx, light));
+}
+
+/// A cell that sees every second light: it copies as many nodes as a cell may.
+fn cell(tree: &LightBvh) -> CoarseCell {
+    let places = [LightSampleContext::medium(Vec3::ZERO)];
+    let key = CellKey::fine(&places[0], 1.0);
+    let options = FillOptions::default();
+    CoarseCell::fill(tree.view(), key, &places, &options, |_, light, _| {
+        light.0 % 2 == 0
+    })
+}
+
+fn sample_in_cell() {
+    let (set, sampler) = bvh();
+    let cell = cell(sampler.tree());
+    let tree = sampler.tree().view().in_cell(cell.factors());
+    calls(queries_of(&set), |(ctx, u)| {
+        count_sample_in_cell(&tree, &ctx, u)
+    });
+}
+
+#[inline(never)]
+fn count_sample_in_cell(tree: &LightBvhInCell<'_>, ctx: &LightSampleContext, u: u64) {
+    black_box(tree.sample(ctx, u));
+}
+
+fn pmf_in_cell() {
+    let (set, sampler) = bvh();
+    let cell = cell(sampler.tree());
+    let tree = sampler.tree().view().in_cell(cell.factors());
+    calls(chosen(&set, &sampler), |(ctx, light)| {
+        count_pmf_in_cell(&tree, &ctx, light)
+    });
+}
+
+#[inline(never)]
+fn count_pmf_in_cell(tree: &LightBvhInCell<'_>, ctx: &LightSampleContext, light: LightId) {
+    black_box(tree.pmf(ctx, light));
 }
 
 fn pmf_reference() {

@@ -39,9 +39,10 @@ impl CoarseCell {
     /// calls of `visible` as the options tell.
     ///
     /// # Source
-    /// Choices in proportion to the root of a second moment, as in `[Vevoda2018]`: that of a light
+    /// Choices in proportion to the root of a second moment, as in `[Rath2020]`: that of a light
     /// whose visibility is a bit is the share of it that is seen. Shares from few rays count what
-    /// was expected before as one ray more: a conjugate prior, of the lights of the node above.
+    /// was expected before as one ray more, from the lights of the node above: a conjugate prior, as
+    /// `[Vevoda2018]` has them for what clusters of lights contribute.
     #[must_use]
     pub fn fill(
         tree: LightBvhRef<'_>,

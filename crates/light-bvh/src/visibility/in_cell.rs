@@ -12,8 +12,7 @@ use crate::visibility::way::Way;
 /// multiplied by its factor.
 ///
 /// Choices, and what can be chosen, are otherwise those of the tree: a light that can contribute
-/// has a probability above 0 whatever the factors are. Costs about a tenth more than a query of the
-/// tree. A `receiver` is a reference to a
+/// has a probability above 0 whatever the factors are. A `receiver` is a reference to a
 /// [`LightSampleContext`](light_bounds::LightSampleContext), or to a [`Receiver`](crate::Receiver).
 #[derive(Clone, Copy, Debug)]
 pub struct LightBvhInCell<'a> {

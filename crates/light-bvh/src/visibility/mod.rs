@@ -1,4 +1,86 @@
-//! Which lights are seen, as a pure function of a place.
+//! Which lights are seen, as a pure function of a place: cells of space, in which a tree chooses
+//! lights that arrive.
+//!
+//! A [`CellKey`] is a quantised position, the side that a surface faces, and a size. Its cell holds
+//! a copy of the top of the tree, with one byte a child that multiplies the child's importance:
+//! [`CellFactors`]. [`LightBvhRef::in_cell`](crate::LightBvhRef::in_cell) asks the tree with them,
+//! and below the copy without. Every light that can contribute keeps a probability above 0, and that
+//! of a sample has the bits of that of a query.
+//!
+//! Cells are made by rays of the caller's. A [`CoarseCell`] learns which groups of lights are seen
+//! from it, and opens those that are seen in part; eight times smaller, a [`FineCell`] tests what
+//! the coarse one does not know. Random numbers come from the key and nothing else: whoever makes a
+//! cell, on whichever thread, makes the same bytes. Where nothing is in the way a cell is plain after
+//! 48 rays. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`] looks them up without an
+//! allocator.
+//!
+//! ```
+//! # #[cfg(feature = "alloc")] {
+//! use light_bvh::LightBvh;
+//! use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
+//! use light_bvh::light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext};
+//! use light_bvh::visibility::{CellKey, CellTable, CoarseCell, FillOptions};
+//!
+//! // Lamps in a row, and a wall in the middle that hides every lamp beyond it.
+//! let lamp = |i: u16| LightBounds {
+//!     bounds: Aabb::from_point(Vec3::new(f32::from(i), 0.0, 3.0)),
+//!     w: Vec3::NEG_Z,
+//!     phi: 60.0,
+//!     cos_theta_o: 1.0,
+//!     cos_theta_e: 0.0,
+//!     two_sided: false,
+//! };
+//! let lights: Vec<_> = (0..100).map(|i| LightExtent::Bounded(lamp(i))).collect();
+//! let tree = LightBvh::build(&lights).expect("valid lights");
+//! let visible = |p: Vec3, light: LightId| (p.x < 50.0) == (light.0 < 50);
+//!
+//! let floor = |x| LightSampleContext::surface(Vec3::X * x, Vec3::Z, Vec3::Z);
+//! let places: Vec<_> = (0..64).map(|i| floor(47.5 + i as f32 / 64.0)).collect();
+//! let (here, coarse_size) = (floor(48.0), 2.0);
+//! let key = CellKey::fine(&here, coarse_size);
+//! let options = FillOptions::default();
+//! let see = |place: &LightSampleContext, light, _| visible(place.p, light);
+//! let coarse = CoarseCell::fill(tree.view(), key.coarse(), &places, &options, see);
+//! let fine = coarse.fill_fine(tree.view(), key, &places[..16], &options, see);
+//! let table = CellTable::new(&[coarse], &[fine]).expect("the fine cell is in the coarse one");
+//!
+//! let within = tree.view().in_cell(table.view().factors(key));
+//! let (hidden, seen) = (LightId(50), LightId(46));
+//! assert!(within.pmf(&here, hidden) < 0.2 * tree.pmf(&here, hidden));
+//! assert!(within.pmf(&here, seen) > 1.2 * tree.pmf(&here, seen));
+//! # }
+//! ```
+//!
+//! # Costs
+//!
+//! With the deepest copy a sample takes a hundredth more instructions than one of the tree, and a pmf
+//! a fifth more (`cargo xtask counts`); looking a cell up is a hash and a few loads. By default a
+//! coarse cell takes 5,120 rays and a fine one 96. In a room of which one door leads to another,
+//! where most lamps are and the brightest, the relative variance V of one choice falls so (mean of
+//! 400 points; cells of an eighth of the room):
+//!
+//! | lamps | V, tree | coarse cells | fine cells | tree that knows visibility |
+//! | --- | --- | --- | --- | --- |
+//! | 100 | 2.03 | 0.20 | 0.11 | 0.03 |
+//! | 3000 | 4.12 | 0.50 | 0.48 | 0.03 |
+//!
+//! # Limits
+//!
+//! A cell belongs to one tree: a new build of it needs new cells, and after a refit they are only as
+//! good as the old places of the lights. Light that is seen from a corner of a cell alone may not be
+//! found by any ray of it: it keeps about [`FillOptions::floor`] of its probability, and is noisy.
+//! What changes within a fine cell, as the bars of a grille, cannot be learnt;
+//! [`FillOptions::least_gain`] notices that. Visibility is a yes or no; transmittance counts as the
+//! caller says. The choice of what size cells have, of which cells are made, and of the places in
+//! them is the caller's, and has to depend on the scene alone if pictures shall.
+//!
+//! # Source
+//!
+//! Keys by hashed positions and normals: `[Binder2019]`. What clusters of lights contribute, learnt
+//! by region with a prior for few observations: `[Vevoda2018]`. Choices in proportion to the root of
+//! a second moment: `[Rath2020]`. Probabilities learnt for the nodes of a light tree, by cells:
+//! `[Pantaleoni2019]`. Two levels, factors in bytes on the importance of the tree, and cells that
+//! depend on their key alone are this crate's.
 
 mod at_cell;
 mod cell_factors;
