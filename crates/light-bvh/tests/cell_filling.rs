@@ -1,7 +1,9 @@
 //! Cells that are filled by rays: a pure function of the key that chooses lights that are seen.
 #![cfg(feature = "alloc")]
 
-use std::collections::{BTreeMap, BTreeSet};
+extern crate alloc;
+
+use alloc::collections::BTreeMap;
 
 use light_bvh::LightBvh;
 use light_bvh::light_bounds::{LightId, glam::Vec3};
@@ -77,13 +79,32 @@ impl<'a> Filled<'a> {
             ];
             for (sum, cell) in sums.iter_mut().zip(cells) {
                 let within = view.in_cell(cell);
-                *sum += self.rooms.variance(p, |light| within.pmf(&ctx, light)) / 400.0;
+                *sum += variance(self.rooms, p, |light| within.pmf(&ctx, light)) / 400.0;
             }
-            let seen: f32 = self.rooms.seen(p).map(|light| view.pmf(&ctx, light)).sum();
-            sums[3] += self.rooms.variance(p, |light| view.pmf(&ctx, light) / seen) / 400.0;
+            let seen: f32 = seen(self.rooms, p).map(|light| view.pmf(&ctx, light)).sum();
+            sums[3] += variance(self.rooms, p, |light| view.pmf(&ctx, light) / seen) / 400.0;
         }
         sums
     }
+}
+
+/// The lamps that a point of the floor sees.
+fn seen(rooms: &Rooms, p: Vec3) -> impl Iterator<Item = LightId> + use<'_> {
+    let all = (0..).map(LightId).take(rooms.lamps.len());
+    all.filter(move |&light| rooms.sees(p, light))
+}
+
+/// The relative variance of one choice at a point of the floor, all lamps tried.
+fn variance(rooms: &Rooms, p: Vec3, pmf: impl Fn(LightId) -> f32) -> f64 {
+    let (mut mean, mut moment) = (0.0, 0.0);
+    for light in seen(rooms, p) {
+        let (q, phi) = rooms.lamps[light.index()];
+        let (height, dist_sq) = (f64::from(q.z - p.z), f64::from(q.distance_squared(p)));
+        let arrives = f64::from(phi) * height * height / (dist_sq * dist_sq);
+        mean += arrives;
+        moment += arrives * arrives / f64::from(pmf(light));
+    }
+    moment / (mean * mean) - 1.0
 }
 
 fn keys() -> impl Iterator<Item = CellKey> {
@@ -216,7 +237,7 @@ fn cells_that_do_not_pay_become_plain() {
             "{key:?}: behind a grille"
         );
         let (ungated, gated) = (fill(key, 0.0, &walls), fill(key, 1.5, &walls));
-        let moment = |cell| 1.0 + rooms.variance(p, |light| view.in_cell(cell).pmf(&ctx, light));
+        let moment = |cell| 1.0 + variance(&rooms, p, |light| view.in_cell(cell).pmf(&ctx, light));
         let gain = moment(CellFactors::PLAIN) / moment(ungated.factors());
         if gated.is_plain() {
             assert!(gain < 1.8, "{key:?}: given up a gain of {gain}");

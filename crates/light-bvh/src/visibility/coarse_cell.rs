@@ -123,7 +123,7 @@ impl CoarseCell {
 
     /// Whether the tree is asked without factors.
     #[must_use]
-    pub const fn is_plain(&self) -> bool {
+    pub fn is_plain(&self) -> bool {
         self.shape.is_empty()
     }
 

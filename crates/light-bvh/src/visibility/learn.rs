@@ -96,8 +96,8 @@ fn visibilities(opened: &[Opened]) -> Vec<[f32; WIDTH]> {
     let mut visibilities = vec![[0.0; WIDTH]; opened.len()];
     let mut before = vec![of_all.visibility(0.5); opened.len()];
     for (place, node) in opened.iter().enumerate() {
-        for child in 0..WIDTH {
-            let visibility = node.counts[child].visibility(before[place]);
+        for (child, counts) in node.counts.iter().enumerate() {
+            let visibility = counts.visibility(before[place]);
             visibilities[place][child] = visibility;
             if let Some(copy) = node.copies[child] {
                 before[copy] = visibility;

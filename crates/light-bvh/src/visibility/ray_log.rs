@@ -43,7 +43,7 @@ impl RayLog {
             return;
         };
         let mut bits = u128::from(is_seen);
-        for (level, (_, child)) in way.from_root().enumerate() {
+        for (level, (_, child)) in way.down().enumerate() {
             bits |= (child as u128) << (128 - CHILD_BITS * (level + 1));
         }
         self.rays.push(Ray(bits));

@@ -79,7 +79,7 @@ pub(super) fn pmf_along<R: Receiver>(
     root: &Weights,
 ) -> f32 {
     let (mut pmf, mut place) = (1.0, Some(0));
-    for (level, (index, child)) in way.from_root().enumerate() {
+    for (level, (index, child)) in way.down().enumerate() {
         let share = if level == 0 {
             root.probability(child)
         } else {

@@ -26,7 +26,7 @@ impl Way {
 
     /// Node and child of each level, from the root down.
     #[inline(always)]
-    pub(super) fn from_root(&self) -> impl Iterator<Item = (usize, usize)> + use<'_> {
+    pub(super) fn down(&self) -> impl Iterator<Item = (usize, usize)> + use<'_> {
         let slots = self.slots[..self.levels].iter().rev();
         slots.map(|&slot| (slot as usize / WIDTH, slot as usize % WIDTH))
     }

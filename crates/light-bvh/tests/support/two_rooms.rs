@@ -16,7 +16,8 @@ const DOOR: [f32; 3] = [3.5, 4.5, 2.0];
 
 pub(crate) struct Rooms {
     pub(crate) tree: LightBvh,
-    lamps: Vec<(Vec3, f32)>,
+    /// Where each is, and its power.
+    pub(crate) lamps: Vec<(Vec3, f32)>,
     has_wall: bool,
 }
 
@@ -48,30 +49,6 @@ impl Rooms {
         }
         let at = p.lerp(q, p.x / (p.x - q.x));
         at.y > DOOR[0] && at.y < DOOR[1] && at.z < DOOR[2]
-    }
-
-    /// What arrives at a point of the floor from a lamp if nothing is between them, times pi.
-    fn unblocked(&self, p: Vec3, light: LightId) -> f64 {
-        let (q, phi) = self.lamps[light.index()];
-        let (height, dist_sq) = (f64::from(q.z - p.z), f64::from(q.distance_squared(p)));
-        f64::from(phi) * height * height / (dist_sq * dist_sq)
-    }
-
-    /// The lamps that a point of the floor sees.
-    pub(crate) fn seen(&self, p: Vec3) -> impl Iterator<Item = LightId> + use<'_> {
-        let all = (0..).map(LightId).take(self.lamps.len());
-        all.filter(move |&light| self.sees(p, light))
-    }
-
-    /// The relative variance of one choice at a point of the floor, all lamps tried.
-    pub(crate) fn variance(&self, p: Vec3, pmf: impl Fn(LightId) -> f32) -> f64 {
-        let (mut mean, mut moment) = (0.0, 0.0);
-        for light in self.seen(p) {
-            let arrives = self.unblocked(p, light);
-            mean += arrives;
-            moment += arrives * arrives / f64::from(pmf(light));
-        }
-        moment / (mean * mean) - 1.0
     }
 
     /// A point of the floor.
