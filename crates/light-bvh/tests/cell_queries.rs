@@ -207,6 +207,16 @@ fn what_is_no_cell_of_the_tree_is_refused() {
         Err(CellFactorsError::Links),
         "one less"
     );
+    let orphan = CopiedNode {
+        opened: 1,
+        first: 1,
+    };
+    let apart = [CopiedNode::default(), orphan];
+    assert_eq!(
+        of(&apart, &ones[..2]),
+        Err(CellFactorsError::Links),
+        "a node that no other leads to"
+    );
     let empty = LightBvh::default();
     let found = CellFactors::new(&empty.view(), &shape, &ones).map(|_| ());
     assert_eq!(found, Err(CellFactorsError::Links), "no tree");
