@@ -142,8 +142,8 @@ fn variance_falls_where_lights_are_behind_a_wall() {
     }
 }
 
-/// Cells in any order, each twice, have the same bytes, and so has a table of them, which knows what
-/// the cells know.
+/// Cells in any order, each twice, have the same bytes, and so has a table of them, which knows
+/// what the cells know.
 #[test]
 fn filling_is_a_function_of_the_key() {
     let rooms = Rooms::new(100, true);

@@ -1,5 +1,5 @@
-//! Pins what cells are and what they answer, bit for bit and on every platform: a change here breaks
-//! reproducibility and belongs in the changelog as value-breaking.
+//! Pins what cells are and what they answer, bit for bit and on every platform: a change here
+//! breaks reproducibility and belongs in the changelog as value-breaking.
 #![cfg(all(feature = "libm", feature = "alloc"))]
 
 use light_bvh::LightBvh;

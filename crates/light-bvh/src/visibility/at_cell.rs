@@ -36,8 +36,8 @@ impl<'a> LightBvhInCell<'a> {
 
 impl<R: KeptReceiver> LightBvhInCellAt<'_, R> {
     /// About the irradiance by all lights of a tree of power 1, as
-    /// [`LightBvhAt::irradiance`](crate::LightBvhAt::irradiance), that arrives: times the factors of
-    /// the root's children. 0 only if no light can contribute.
+    /// [`LightBvhAt::irradiance`](crate::LightBvhAt::irradiance), that arrives: times the factors
+    /// of the root's children. 0 only if no light can contribute.
     #[inline]
     #[must_use]
     pub fn irradiance(&self) -> f32 {

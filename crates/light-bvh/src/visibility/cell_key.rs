@@ -7,8 +7,8 @@ use crate::visibility::hash::mix;
 
 /// Where the grid of fine cells begins, in their size, and in eighths that of the coarse ones.
 ///
-/// Even numbers and a fraction near 0.88: planes at multiples of a quarter of either size lie inside
-/// cells, at least a tenth of the size from their border.
+/// Even numbers and a fraction near 0.88: planes at multiples of a quarter of either size lie
+/// inside cells, at least a tenth of the size from their border.
 const OFFSET: Vec3 = Vec3::new(0.894_427, 2.888_819, 4.877_496);
 
 /// Fine cells along the edge of a coarse one: 2^3.
@@ -50,8 +50,8 @@ pub struct CellKey {
 }
 
 impl CellKey {
-    /// The fine cell that `ctx` lies in, where coarse cells are as large as the power of two that is
-    /// nearest to `coarse_size`, within `[2^-100, 2^100]` scene units.
+    /// The fine cell that `ctx` lies in, where coarse cells are as large as the power of two that
+    /// is nearest to `coarse_size`, within `[2^-100, 2^100]` scene units.
     ///
     /// Of a segment it is the cell of its origin. Positions beyond 2^31 fine cells from the origin
     /// share the last of them, and what is not a number counts as 0.
@@ -154,8 +154,8 @@ fn nearest_level(size: f32) -> i32 {
     (exponent - 127).clamp(-MAX_LEVEL, MAX_LEVEL)
 }
 
-/// Twice the axis of the largest component of a vector, the first of equal ones, and 1 more if it is
-/// negative.
+/// Twice the axis of the largest component of a vector, the first of equal ones, and 1 more if it
+/// is negative.
 #[inline]
 fn face_of(ns: Vec3) -> u32 {
     let [x, y, z] = ns.abs().to_array();

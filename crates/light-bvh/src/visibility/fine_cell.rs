@@ -6,6 +6,7 @@ use light_math::glam::Vec2;
 
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
+use crate::visibility::bottom_up::factors;
 use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
 use crate::visibility::cell_key::CellKey;
 use crate::visibility::coarse_cell::CoarseCell;
@@ -15,7 +16,6 @@ use crate::visibility::options::FillOptions;
 use crate::visibility::ray_log::RayLog;
 use crate::visibility::rays::Rays;
 use crate::visibility::share_code::decode_share;
-use crate::visibility::worth::factors;
 
 /// A fine cell: factors of its own for the children that its coarse cell tells apart.
 #[derive(Clone, Debug, PartialEq, Eq)]

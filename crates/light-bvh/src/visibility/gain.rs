@@ -2,8 +2,8 @@
 /// cell chose and that were not used to learn it.
 ///
 /// A ray that was blocked adds to neither. What arrives is taken to be in proportion to the tree's
-/// probability `p` where it is seen: chosen with probability `q`, the moment of the cell is the mean
-/// of `p^2 / q^2`, and that of the tree the mean of `p / q`.
+/// probability `p` where it is seen: chosen with probability `q`, the moment of the cell is the
+/// mean of `p^2 / q^2`, and that of the tree the mean of `p / q`.
 ///
 /// # Source
 /// Importance sampling of both moments, `[Veach1997]`, 2.2.

@@ -4,15 +4,15 @@
 //! A [`CellKey`] is a quantised position, the side that a surface faces, and a size. Its cell holds
 //! a copy of the top of the tree, with one byte a child that multiplies the child's importance:
 //! [`CellFactors`]. [`LightBvhRef::in_cell`](crate::LightBvhRef::in_cell) asks the tree with them,
-//! and below the copy without. Every light that can contribute keeps a probability above 0, and that
-//! of a sample has the bits of that of a query.
+//! and below the copy without. Every light that can contribute keeps a probability above 0, and
+//! that of a sample has the bits of that of a query.
 //!
 //! Cells are made by rays of the caller's. A [`CoarseCell`] learns which groups of lights are seen
 //! from it, and opens those that are seen in part; eight times smaller, a [`FineCell`] tests what
 //! the coarse one does not know. Random numbers come from the key and nothing else: whoever makes a
-//! cell, on whichever thread, makes the same bytes. Where nothing is in the way a cell is plain after
-//! 48 rays. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`] looks them up without an
-//! allocator.
+//! cell, on whichever thread, makes the same bytes. Where nothing is in the way a cell is plain
+//! after 48 rays. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`] looks them up
+//! without an allocator.
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] {
@@ -53,9 +53,9 @@
 //!
 //! # Costs
 //!
-//! With the deepest copy a sample takes a hundredth more instructions than one of the tree, and a pmf
-//! a fifth more (`cargo xtask counts`); looking a cell up is a hash and a few loads. By default a
-//! coarse cell takes 5,120 rays and a fine one 96. In a room of which one door leads to another,
+//! With the deepest copy a sample takes a hundredth more instructions than one of the tree, and a
+//! pmf a fifth more (`cargo xtask counts`); looking a cell up is a hash and a few loads. By default
+//! a coarse cell takes 5,120 rays and a fine one 96. In a room of which one door leads to another,
 //! where most lamps are and the brightest, the relative variance V of one choice falls so (mean of
 //! 400 points; cells of an eighth of the room):
 //!
@@ -66,10 +66,10 @@
 //!
 //! # Limits
 //!
-//! A cell belongs to one tree: a new build of it needs new cells, and after a refit they are only as
-//! good as the old places of the lights. Light that is seen from a corner of a cell alone may not be
-//! found by any ray of it: it keeps about [`FillOptions::floor`] of its probability, and is noisy.
-//! What changes within a fine cell, as the bars of a grille, cannot be learnt;
+//! A cell belongs to one tree: a new build of it needs new cells, and after a refit they are only
+//! as good as the old places of the lights. Light that is seen from a corner of a cell alone may
+//! not be found by any ray of it: it keeps about [`FillOptions::floor`] of its probability, and is
+//! noisy. What changes within a fine cell, as the bars of a grille, cannot be learnt;
 //! [`FillOptions::least_gain`] notices that. Visibility is a yes or no; transmittance counts as the
 //! caller says. The choice of what size cells have, of which cells are made, and of the places in
 //! them is the caller's, and has to depend on the scene alone if pictures shall.
@@ -77,12 +77,14 @@
 //! # Source
 //!
 //! Keys by hashed positions and normals: `[Binder2019]`. What clusters of lights contribute, learnt
-//! by region with a prior for few observations: `[Vevoda2018]`. Choices in proportion to the root of
-//! a second moment: `[Rath2020]`. Probabilities learnt for the nodes of a light tree, by cells:
+//! by region with a prior for few observations: `[Vevoda2018]`. Choices in proportion to the root
+//! of a second moment: `[Rath2020]`. Probabilities learnt for the nodes of a light tree, by cells:
 //! `[Pantaleoni2019]`. Two levels, factors in bytes on the importance of the tree, and cells that
 //! depend on their key alone are this crate's.
 
 mod at_cell;
+#[cfg(feature = "alloc")]
+mod bottom_up;
 mod cell_factors;
 mod cell_key;
 #[cfg(feature = "alloc")]
@@ -115,8 +117,6 @@ mod table_error;
 mod table_ref;
 mod walk;
 mod way;
-#[cfg(feature = "alloc")]
-mod worth;
 
 pub use at_cell::LightBvhInCellAt;
 pub use cell_factors::{CellFactors, CellFactorsError, CopiedNode, MAX_COPIED_NODES};

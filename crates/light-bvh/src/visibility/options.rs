@@ -19,8 +19,8 @@ pub struct FillOptions {
     /// light costs that no ray has found.
     pub floor: f32,
     /// A coarse cell is plain unless its factors make the second moment of one choice this many
-    /// times less, as its last rays tell; 0 to ask nothing. Coarse cells do not know what their fine
-    /// cells will find: numbers above 1 give up what these would gain.
+    /// times less, as its last rays tell; 0 to ask nothing. Coarse cells do not know what their
+    /// fine cells will find: numbers above 1 give up what these would gain.
     pub least_gain: f32,
 }
 

@@ -61,8 +61,8 @@ impl<F: FnMut(&LightSampleContext, LightId, Vec2) -> bool> Rays<'_, F> {
         }
     }
 
-    /// `count` rays to lights that a cell chooses; `note` is told the place, the choice, and whether
-    /// it was seen.
+    /// `count` rays to lights that a cell chooses; `note` gets the place, the choice, and
+    /// whether it was seen.
     pub(super) fn in_cell(
         &mut self,
         stage: u64,

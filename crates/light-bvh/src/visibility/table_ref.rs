@@ -92,8 +92,8 @@ impl<'a> CellTableRef<'a> {
         Some(CellFactors::of(shape, factors))
     }
 
-    /// The factors at a receiver in the fine cell `key`: those of the cell, or of its coarse cell if
-    /// it is not in the table, or none.
+    /// The factors at a receiver in the fine cell `key`: those of the cell, or of its coarse cell
+    /// if it is not in the table, or none.
     #[inline]
     #[must_use]
     pub fn factors(&self, key: CellKey) -> CellFactors<'a> {

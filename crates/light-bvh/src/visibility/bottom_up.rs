@@ -11,8 +11,8 @@ use crate::visibility::factor_code::{ONE, encode_factor};
 /// and at least `floor` of the mean share; what is opened gets the sum of its children, so that the
 /// choice is the same at every level.
 ///
-/// Importance is corrected on the way: what the parent makes of a child counts no more than what the
-/// child's own children add up to.
+/// Importance is corrected on the way: what the parent makes of a child counts no more than what
+/// the child's own children add up to.
 pub(super) fn factors(
     shape: &[CopiedNode],
     mean: &[[f32; WIDTH]],
@@ -21,17 +21,17 @@ pub(super) fn factors(
 ) -> Vec<[u8; WIDTH]> {
     let least = floor * mean_share(shape, mean, share);
     let mut codes = vec![[ONE; WIDTH]; shape.len()];
-    let mut worths = vec![0.0; shape.len()];
+    let mut sums = vec![0.0; shape.len()];
     // Copies come after their parents.
     for (place, copied) in shape.iter().enumerate().rev() {
         for child in 0..WIDTH {
             let importance = mean[place][child];
             let closed = share[place][child].max(least);
             let factor = match copied.copy_of(child) {
-                Some(copy) if importance > 0.0 => worths[copy] / importance,
+                Some(copy) if importance > 0.0 => sums[copy] / importance,
                 _ => closed,
             };
-            worths[place] += importance * factor;
+            sums[place] += importance * factor;
             codes[place][child] = encode_factor(factor);
         }
     }
@@ -40,12 +40,12 @@ pub(super) fn factors(
 
 /// The mean of the shares of all closed children, by importance; 1 if nothing has importance.
 fn mean_share(shape: &[CopiedNode], mean: &[[f32; WIDTH]], share: &[[f32; WIDTH]]) -> f32 {
-    let (mut all, mut worth) = (0.0, 0.0);
+    let (mut all, mut kept) = (0.0, 0.0);
     for ((copied, mean), share) in shape.iter().zip(mean).zip(share) {
         for child in (0..WIDTH).filter(|&child| copied.copy_of(child).is_none()) {
             all += mean[child];
-            worth += mean[child] * share[child];
+            kept += mean[child] * share[child];
         }
     }
-    if all > 0.0 { worth / all } else { 1.0 }
+    if all > 0.0 { kept / all } else { 1.0 }
 }
