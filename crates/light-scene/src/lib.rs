@@ -41,7 +41,7 @@ mod test_folder;
 mod text;
 
 pub use atomic_file::{exit_without_outputs, write_atomically};
-pub use builtin::{BuiltinScene, UnknownScene};
+pub use builtin::{BuiltinScene, OcclusionKind, OcclusionScene, OcclusionSize, UnknownScene};
 pub use camera::{Camera, CameraError, Crop, Lens};
 pub use diagnostic::{Diagnostic, Location};
 pub use emissive_copies::MAX_EMISSIVE_COPIES;

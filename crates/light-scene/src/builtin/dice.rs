@@ -27,13 +27,18 @@ impl Dice {
     }
 
     /// One of the values; there must be at least one.
+    pub(super) fn pick<T: Copy>(&mut self, values: &[T]) -> T {
+        values[self.below(values.len())]
+    }
+
+    /// A whole number below `end`, which is at least 1 and not above a million.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "between 0 and the number of values"
+        reason = "between 0 and the end"
     )]
-    pub(super) fn pick<T: Copy>(&mut self, values: &[T]) -> T {
-        let index = (self.unit() * values.len() as f32) as usize;
-        values[index.min(values.len() - 1)]
+    pub(super) fn below(&mut self, end: usize) -> usize {
+        let index = (self.unit() * end as f32) as usize;
+        index.min(end - 1)
     }
 }
