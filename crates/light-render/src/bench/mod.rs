@@ -3,28 +3,39 @@
 //!
 //! The estimator is that of one unoccluded shading point: the contribution of the chosen light over
 //! its probability. Its variance is summed over all lights, not sampled, so that a rare large term
-//! cannot hide.
+//! cannot hide. [`scene_variance`] does the same for the receivers that a camera sees, with true
+//! visibility; [`PictureBench`] times whole pictures.
 
 mod build_time;
 mod candidate;
+mod cpu_time;
 mod ground_truth;
 mod laws;
 mod occluders;
+mod pictures;
 mod query;
 mod receiver;
 mod refits;
 mod row;
+mod scene_variance;
 mod statistics;
 mod timing;
+mod unlit_pixels;
 mod variance;
+mod variance_split;
 
+pub use cpu_time::CpuTimer;
 pub use ground_truth::GroundTruth;
 pub use laws::Laws;
+pub use pictures::{PictureBench, RelativeError, TimedPicture};
 pub use receiver::BenchReceiverKind;
 pub use refits::{RefitRow, refits};
 pub use row::BenchRow;
+pub use scene_variance::{ChoiceKind, RelativeVariance, SceneVariance, scene_variance};
 pub use timing::QueryTime;
-pub use variance::Variance;
+pub use unlit_pixels::pixels_without_lights;
+pub use variance::{Ceiling, Variance};
+pub use variance_split::{LightMoments, VarianceSplit};
 
 use light_sets::BenchSet;
 use lights::bounds::LightExtent;
@@ -186,6 +197,37 @@ mod tests {
             exact.variance.mean
         );
         assert!(repeated.variance.mean > 0.0, "but noisy");
+    }
+
+    #[test]
+    fn occluders_and_areas_show_in_the_split() {
+        let set = BenchSet::generate(SetKind::Uniform, 50, 1);
+        let split = |occluders, ground_truth| {
+            let options = BenchOptions {
+                occluders,
+                ground_truth,
+                ..options(1)
+            };
+            let row = &bench("uniform", &set, &options).expect("valid lights")[0];
+            row.variance.ceiling.expect("one sample a call")
+        };
+        let open = split(0, GroundTruth::Centroid);
+        assert_eq!(
+            [open.within, open.best, open.arriving],
+            [0.0, 0.0, 1.0],
+            "points, all seen"
+        );
+        let behind = split(64, GroundTruth::Centroid);
+        assert!(behind.arriving < 0.95, "{behind:?}");
+        let areas = split(64, GroundTruth::Area);
+        assert!(
+            areas.within > 0.0 && areas.best > 0.0,
+            "penumbrae: {areas:?}"
+        );
+        let total = bench("uniform", &set, &options(1)).expect("valid lights")[0]
+            .variance
+            .mean;
+        assert!(areas.best < total, "better than by chance: {areas:?}");
     }
 
     /// An invalid light gives an error, not a panic.

@@ -3,6 +3,7 @@ use lights::bounds::LightSampleContext;
 
 use super::occluders::Occluders;
 use super::receiver::BenchReceiver;
+use super::variance_split::LightMoments;
 use super::{BenchOptions, GroundTruth};
 
 /// The query at the points of a set, with the exact contributions.
@@ -29,18 +30,19 @@ impl Query {
 
     /// The contribution of `light` at the receiver.
     pub(super) fn contribution(&self, light: &SetLight, receiver: &BenchReceiver) -> f64 {
+        self.moments(light, receiver).mean
+    }
+
+    /// What the points of `light` give to the receiver.
+    pub(super) fn moments(&self, light: &SetLight, receiver: &BenchReceiver) -> LightMoments {
         let points = self.ground_truth.points(light);
-        let count = points.len() as f64;
-        let sum: f64 = points
-            .map(|p| {
-                let f = light.contribution_from(p, receiver.at.p, 0.0, |wi| receiver.response(wi));
-                if f > 0.0 && self.occluders.block(receiver.at.p.as_dvec3(), p) {
-                    0.0
-                } else {
-                    f
-                }
-            })
-            .sum();
-        sum / count
+        LightMoments::over(points.map(|p| {
+            let f = light.contribution_from(p, receiver.at.p, 0.0, |wi| receiver.response(wi));
+            if f > 0.0 && self.occluders.block(receiver.at.p.as_dvec3(), p) {
+                [f, 0.0]
+            } else {
+                [f; 2]
+            }
+        }))
     }
 }

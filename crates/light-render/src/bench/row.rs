@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::laws::Laws;
 use super::timing::QueryTime;
-use super::variance::Variance;
+use super::variance::{Ceiling, Variance};
 use crate::SamplerKind;
 
 /// The measurements of one sampler on one set.
@@ -40,7 +40,7 @@ impl BenchRow {
     pub fn header() -> String {
         format!(
             "{:<11} {:>8} {:<14} {:>3} {:>10} {:>9} {:>8} {:>5} {:>9} {:>8} {:>9} {:>9} {:>9} \
-             {:>9} {:>8}",
+             {:>9} {:>9} {:>9} {:>8}",
             "set",
             "lights",
             "sampler",
@@ -54,6 +54,8 @@ impl BenchRow {
             "V mean",
             "V median",
             "V 99 %",
+            "V within",
+            "V best",
             "lost",
             "no light"
         )
@@ -79,6 +81,9 @@ impl BenchRow {
             "v_p99": self.variance.p99,
             "v_flux": self.variance.flux_weighted,
             "v_se": self.variance.standard_error,
+            "v_within": self.variance.ceiling.map(|ceiling| ceiling.within),
+            "v_best": self.variance.ceiling.map(|ceiling| ceiling.best),
+            "arriving": self.variance.ceiling.map(|ceiling| ceiling.arriving),
             "lost_energy": self.variance.lost_energy,
             "no_light": self.laws.no_light,
             "pmf_mismatch": self.laws.pmf_mismatch,
@@ -90,10 +95,14 @@ impl BenchRow {
 
 impl fmt::Display for BenchRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ceiling = |of: fn(Ceiling) -> f64| {
+            let value = self.variance.ceiling.map(of);
+            value.map_or_else(String::new, |value| format!("{value:.3}"))
+        };
         write!(
             f,
             "{:<11} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9.3} \
-             {:>9.3} {:>9.2} {:>9.1e} {:>8.4}",
+             {:>9.3} {:>9.2} {:>9} {:>9} {:>9.1e} {:>8.4}",
             self.set,
             self.n_lights,
             self.sampler.name(),
@@ -108,6 +117,8 @@ impl fmt::Display for BenchRow {
             self.variance.mean,
             self.variance.median,
             self.variance.p99,
+            ceiling(|ceiling| ceiling.within),
+            ceiling(|ceiling| ceiling.best),
             self.variance.lost_energy,
             self.laws.no_light,
         )?;

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::candidate::Candidate;
 use super::query::Query;
 use super::statistics::Summary;
+use super::variance_split::{LightMoments, VarianceSplit};
 
 /// Calls of `k` samples that the variance at one point is estimated from.
 const CALLS: usize = 16;
@@ -28,12 +29,28 @@ pub struct Variance {
     pub flux_weighted: f64,
     /// Share of the contribution, mean over the points, in lights of probability 0.
     pub lost_energy: f64,
+    /// What no choice can remove; `None` for several samples a call. The fields above are the
+    /// variance between lights alone.
+    pub ceiling: Option<Ceiling>,
+}
+
+/// What is left of the variance of one choice at its best, mean over the points that any light
+/// reaches. Within a light there is none if its ground truth is a single point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ceiling {
+    /// Relative variance within lights, by the sampler.
+    pub within: f64,
+    /// Relative variance between and within lights, by the best choice there is.
+    pub best: f64,
+    /// The share of the contribution that is not occluded.
+    pub arriving: f64,
 }
 
 struct AtPoint {
     total: f64,
     lost: f64,
     relative: f64,
+    ceiling: Option<Ceiling>,
 }
 
 /// The variance of one sample, summed over all lights.
@@ -46,27 +63,37 @@ pub(super) fn exact(
     let at_points = query.receivers[..points]
         .par_iter()
         .map(|receiver| {
-            let (mut total, mut reached, mut second_moment) = (0.0, 0.0, 0.0);
-            for (id, light) in (0u32..).zip(&set.lights) {
-                let f = query.contribution(light, receiver);
-                if f <= 0.0 {
-                    continue;
-                }
-                total += f;
-                let pmf = f64::from(candidate.sampler().pmf(&receiver.ctx, LightId(id)));
-                if pmf > 0.0 {
-                    reached += f;
-                    second_moment += f * f / pmf;
-                }
-            }
-            AtPoint {
-                total,
-                lost: (total - reached) / total,
-                relative: (second_moment - reached * reached) / (total * total),
-            }
+            let lights: Vec<(LightMoments, f64)> = (0u32..)
+                .zip(&set.lights)
+                .map(|(id, light)| (id, query.moments(light, receiver)))
+                .filter(|(_, light)| light.unoccluded > 0.0)
+                .map(|(id, light)| {
+                    let seen = light.mean > 0.0;
+                    let pmf = || candidate.sampler().pmf(&receiver.ctx, LightId(id));
+                    (light, if seen { f64::from(pmf()) } else { 0.0 })
+                })
+                .collect();
+            at_point(&lights)
         })
         .collect();
     summarise(at_points)
+}
+
+fn at_point(lights: &[(LightMoments, f64)]) -> AtPoint {
+    let split = VarianceSplit::of(lights.iter().copied());
+    let moments: Vec<LightMoments> = lights.iter().map(|(light, _)| *light).collect();
+    let unoccluded: f64 = moments.iter().map(|light| light.unoccluded).sum();
+    let relative = |variance: f64| variance / (split.total * split.total);
+    AtPoint {
+        total: split.total,
+        lost: split.lost / split.total,
+        relative: relative(split.between),
+        ceiling: Some(Ceiling {
+            within: relative(split.within),
+            best: relative(VarianceSplit::best(&moments).sum()),
+            arriving: split.total / unoccluded,
+        }),
+    }
 }
 
 /// `k` times the variance of the mean of `k` samples, from repeated calls.
@@ -101,6 +128,7 @@ pub(super) fn repeated(
                 total,
                 lost: 0.0,
                 relative: f64::from(k) * squares / (total * total),
+                ceiling: None,
             }
         })
         .collect();
@@ -125,5 +153,32 @@ fn summarise(at_points: Vec<AtPoint>) -> Variance {
             0.0
         },
         lost_energy: lost / count,
+        ceiling: lit
+            .iter()
+            .map(|v| v.ceiling)
+            .sum::<Option<Ceiling>>()
+            .map(|sum| sum / count),
+    }
+}
+
+impl core::iter::Sum for Ceiling {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |a, b| Self {
+            within: a.within + b.within,
+            best: a.best + b.best,
+            arriving: a.arriving + b.arriving,
+        })
+    }
+}
+
+impl core::ops::Div<f64> for Ceiling {
+    type Output = Self;
+
+    fn div(self, count: f64) -> Self {
+        Self {
+            within: self.within / count,
+            best: self.best / count,
+            arriving: self.arriving / count,
+        }
     }
 }

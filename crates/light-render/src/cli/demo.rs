@@ -3,6 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use crate::bench::pixels_without_lights;
 use crate::integrator::{Estimator, Integrator, PathSettings};
 use crate::{
     AnyLightSampler, Comparison, Progress, RenderSettings, SamplerKind, ToneMap, View, World,
@@ -134,7 +135,7 @@ impl Stage {
         let world = World::new(description).map_err(Failure::input)?;
         Ok(Self {
             scene,
-            measured: sees_no_light(&world, &view)?,
+            measured: pixels_without_lights(&world, &view).map_err(Failure::input)?,
             world,
             view,
             tone_map: camera.exposure.map_or_else(fit, ToneMap::new),
@@ -189,31 +190,6 @@ impl Stage {
             rel_mse,
         })
     }
-}
-
-/// Where neither a pixel nor one beside it shows a light.
-fn sees_no_light(world: &World, view: &View) -> Result<Vec<bool>, Failure> {
-    let sampler = AnyLightSampler::new(SamplerKind::Uniform, world.lights());
-    let settings = RenderSettings {
-        samples: 0..32,
-        time_limit: None,
-        seed: 1,
-        path: PathSettings {
-            max_depth: 1,
-            estimator: Estimator::Bsdf,
-            light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
-            integrator: Integrator::Path,
-        },
-    };
-    let sampler = sampler.map_err(Failure::input)?;
-    let film = render(world, view, &sampler, &settings, |_| ()).film;
-    let (width, height) = film.resolution();
-    let seen = film.develop();
-    let is_dark = |x: u32, y: u32| seen[(y * width + x) as usize] == Vec3::ZERO;
-    let around = |i: u32, end: u32| i.saturating_sub(1)..(i + 2).min(end);
-    let dark = |x, y| around(y, height).all(|v| around(x, width).all(|u| is_dark(u, v)));
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    Ok(pixels.map(|(x, y)| dark(x, y)).collect())
 }
 
 /// Says what the table shows about many lights.

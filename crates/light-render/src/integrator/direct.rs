@@ -213,7 +213,7 @@ fn unshadowed<V: Scatters>(
 /// does not light its own back. Rays start beyond that error, so that BSDF samples do not find such
 /// light either.
 #[inline]
-fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
+pub(crate) fn is_in_the_surface(ctx: &LightSampleContext, p_light: Vec3) -> bool {
     ctx.n()
         .is_some_and(|n| (p_light - ctx.p).dot(n).abs() < n.abs().dot(ctx.p_error))
 }

@@ -15,6 +15,7 @@ mod transmittance;
 mod volpath;
 mod volume_vertex;
 
+pub(crate) use direct::is_in_the_surface;
 pub use estimator::Estimator;
 pub(crate) use li::add_li;
 pub use li::li;

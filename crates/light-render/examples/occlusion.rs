@@ -1,0 +1,218 @@
+//! How noisy direct light is after equal time where most lights are hidden: relMSE times seconds of
+//! each way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance
+//! of one choice, split into what better choices can remove and what not.
+//!
+//! Each picture is compared with both halves of a reference of many more samples, so that the noise
+//! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and
+//! those beside them, are left out; relMSE has a floor of the square of a tenth of the mean. Seconds
+//! are those of all threads, without building the scene and the hierarchy of lights.
+
+use core::error::Error;
+use core::num::NonZeroU32;
+use std::time::Instant;
+
+use clap::Parser;
+use light_render::bench::{ChoiceKind, PictureBench, scene_variance};
+use light_render::integrator::{Estimator, Integrator, PathSettings};
+use light_render::{AnyLightSampler, SamplerKind, View, World};
+use light_scene::BuiltinScene;
+
+/// Measures choices of lights where most lights are hidden.
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// The scenes, with commas between; all kinds of occlusion, small and large, by default.
+    #[arg(long, value_delimiter = ',', default_values_t = occluded())]
+    scenes: Vec<BuiltinScene>,
+    /// Samples a pixel, with commas between.
+    #[arg(long, value_delimiter = ',', default_values_t = [16, 64, 256])]
+    samples: Vec<u32>,
+    /// Width and height of the pictures.
+    #[arg(long, default_value = "96x64", value_parser = size)]
+    size: (u32, u32),
+    /// Samples a pixel of each half of the reference.
+    #[arg(long, default_value_t = 2048)]
+    reference: u32,
+    /// Pictures of other seeds that each figure is the mean of.
+    #[arg(long, default_value_t = 2)]
+    seeds: u32,
+    /// Print the variance of one choice instead, exact over all lights.
+    #[arg(long)]
+    ceilings: bool,
+    /// With --ceilings: receivers, one for each pixel of a picture of this size.
+    #[arg(long, default_value = "24x16", value_parser = size)]
+    receivers: (u32, u32),
+    /// With --ceilings: the points of each light are the square of this.
+    #[arg(long, default_value_t = 3)]
+    strata: u16,
+}
+
+/// A way to choose lights at the first vertex.
+struct Method {
+    name: &'static str,
+    sampler: SamplerKind,
+    choices: NonZeroU32,
+}
+
+/// What is compared; the others are set against the first.
+const METHODS: [Method; 3] = [
+    Method {
+        name: "one choice",
+        sampler: SamplerKind::Bvh,
+        choices: NonZeroU32::MIN,
+    },
+    Method {
+        name: "two choices",
+        sampler: SamplerKind::Bvh,
+        choices: PathSettings::DEFAULT_LIGHT_SAMPLES,
+    },
+    Method {
+        name: "reference tree",
+        sampler: SamplerKind::BvhReference,
+        choices: NonZeroU32::MIN,
+    },
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    if arguments.ceilings {
+        ceilings(&arguments)
+    } else {
+        pictures(&arguments)
+    }
+}
+
+/// The scenes that are measured by default.
+fn occluded() -> Vec<BuiltinScene> {
+    let is_occluded = |scene: &BuiltinScene| matches!(scene, BuiltinScene::Occlusion(..));
+    let scenes = BuiltinScene::ALL.into_iter();
+    scenes.filter(is_occluded).collect()
+}
+
+/// `WIDTHxHEIGHT`.
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let read = |part: &str| part.parse().ok().filter(|&n: &u32| n > 0 && n <= 1 << 12);
+    let ends = text
+        .split_once('x')
+        .and_then(|(width, height)| Some((read(width)?, read(height)?)));
+    ends.ok_or_else(|| "expected WIDTHxHEIGHT, each 1 to 4096".to_owned())
+}
+
+/// A scene, seen by its camera.
+fn load(scene: BuiltinScene, (width, height): (u32, u32)) -> Result<(World, View), Box<dyn Error>> {
+    let scene = scene.load();
+    let view = View::new(&scene.camera_or_default(), width, height)?;
+    Ok((World::new(scene)?, view))
+}
+
+/// Direct light with so many choices.
+const fn direct(choices: NonZeroU32) -> PathSettings {
+    PathSettings {
+        max_depth: 2,
+        estimator: Estimator::Mis,
+        light_samples: choices,
+        integrator: Integrator::Path,
+    }
+}
+
+/// A table of relMSE, seconds and their product.
+fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let half = arguments.reference;
+    println!("Reference: two halves of {half} samples a pixel.");
+    let mut title = "| scene | samples | reference".to_owned();
+    let mut line = "| --- | --- | ---".to_owned();
+    for (i, method) in METHODS.iter().enumerate() {
+        title += &format!(" | {}: relMSE | s | relMSE x s", method.name);
+        line += " | --- | --- | ---";
+        if i > 0 {
+            title += &format!(" | {} / {}", method.name, METHODS[0].name);
+            line += " | ---";
+        }
+    }
+    println!("{title} |\n{line} |");
+    for &scene in &arguments.scenes {
+        let start = Instant::now();
+        let (world, view) = load(scene, arguments.size)?;
+        let bench = PictureBench::new(world, view)?;
+        let lights = bench.world().lights();
+        let samplers: Vec<AnyLightSampler> = METHODS
+            .iter()
+            .map(|method| AnyLightSampler::new(method.sampler, lights))
+            .collect::<Result<_, _>>()?;
+        eprintln!("{scene}: {} lights, reference", lights.len());
+        // The first method is the quietest in most scenes.
+        let [a, b] = [1001, 1002].map(|seed| {
+            bench
+                .picture(&samplers[0], direct(METHODS[0].choices), half, seed)
+                .pixels
+        });
+        let reference: Vec<_> = a.iter().zip(&b).map(|(a, b)| 0.5 * (*a + *b)).collect();
+        let relative = bench.error(&reference, bench.tenth_of_mean(&reference));
+        let own = 0.5 * relative.of_pair(&a, &b);
+        for &samples in &arguments.samples {
+            eprintln!("{scene}: {samples} samples, {:.0?}", start.elapsed());
+            print!("| {scene} | {samples} | {}", figure(own));
+            let mut first = None;
+            for (method, sampler) in METHODS.iter().zip(&samplers) {
+                let (mut error, mut seconds) = (0.0, 0.0);
+                for seed in 1..=arguments.seeds {
+                    let picture = bench.picture(sampler, direct(method.choices), samples, seed);
+                    error += relative.against(&picture.pixels, [&a, &b]);
+                    seconds += picture.seconds;
+                }
+                let count = f64::from(arguments.seeds.max(1));
+                let (error, seconds) = (error / count, seconds / count);
+                let product = error * seconds;
+                print!(" | {} | {seconds:.2} | {}", figure(error), figure(product));
+                if let Some(first) = first {
+                    print!(" | {:.2}", product / first);
+                }
+                first = first.or(Some(product));
+            }
+            println!(" |");
+        }
+    }
+    Ok(())
+}
+
+/// A table of the variance of one choice.
+fn ceilings(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let mut title = "| scene | lights | receivers | arriving".to_owned();
+    let mut line = "| --- | --- | --- | ---".to_owned();
+    for kind in ChoiceKind::ALL {
+        title += &format!(" | {}", kind.name());
+        line += " | ---";
+    }
+    println!("{title} |\n{line} |");
+    for &scene in &arguments.scenes {
+        let start = Instant::now();
+        let (world, view) = load(scene, arguments.receivers)?;
+        eprintln!("{scene}: {} lights", world.lights().len());
+        let variance = scene_variance(&world, &view, arguments.strata, 1)?;
+        print!(
+            "| {scene} | {} | {} | {:.2}",
+            world.lights().len(),
+            variance.receivers,
+            variance.arriving
+        );
+        for (kind, v) in &variance.rows {
+            print!(" | {} + {}", figure(v.between), figure(v.within));
+            if v.lost > 0.0 {
+                eprintln!("{scene}: {} loses {:e} of the light", kind.name(), v.lost);
+            }
+        }
+        println!(" |");
+        eprintln!("{scene}: {:.0?}", start.elapsed());
+    }
+    Ok(())
+}
+
+/// Two or three significant digits.
+fn figure(x: f64) -> String {
+    match x.abs() {
+        a if a >= 100.0 => format!("{x:.0}"),
+        a if a >= 10.0 => format!("{x:.1}"),
+        a if a >= 0.1 => format!("{x:.2}"),
+        a if a >= 0.001 => format!("{x:.4}"),
+        _ => format!("{x:.1e}"),
+    }
+}
