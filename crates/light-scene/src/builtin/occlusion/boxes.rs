@@ -33,7 +33,7 @@ pub(super) fn boxes(lamps: usize, dice: &mut Dice) -> Scene {
             let height = 1.0 + LAYER * layer as f32 + dice.between(-0.12, 0.12);
             let center = Vec3::new(place.x, height, place.y);
             let turn = dice.between(0.0, core::f32::consts::TAU);
-            let down = dice.between(-0.1, 1.2);
+            let down = dice.between(-0.3, 0.5);
             let toward = Vec3::new(turn.cos(), -down, turn.sin()).normalize_or(Vec3::X);
             open_box(m, card, center, toward);
             let size = dice.between(0.06, 0.1);

@@ -120,10 +120,10 @@ fn window(m: &mut Modeller, slat: MaterialId, side: f32) {
     for k in 0..count(GRILLE[0] / (0.5 * PITCH)) {
         let y = 0.5 * PITCH * (f32::from(k) + 0.5);
         let corners = [
-            Vec3::new(-half, y - 0.06, 0.05 - half),
-            Vec3::new(half, y - 0.06, 0.05 - half),
-            Vec3::new(half, y + 0.06, -0.05 - half),
-            Vec3::new(-half, y + 0.06, -0.05 - half),
+            Vec3::new(-half, y - 0.1, 0.07 - half),
+            Vec3::new(half, y - 0.1, 0.07 - half),
+            Vec3::new(half, y + 0.1, -0.07 - half),
+            Vec3::new(-half, y + 0.1, -0.07 - half),
         ];
         m.quad(slat, corners);
     }

@@ -41,9 +41,9 @@ pub(super) fn slabs(lamps: usize, dice: &mut Dice) -> Scene {
         light(m, &shape, dice, floor, part(k + 1) - part(k));
     }
     let floor = STOREY * f32::from(SLABS / 2);
-    let eye = Vec3::new(-5.6, floor + 1.65, 5.4);
+    let eye = Vec3::new(-4.8, floor + 1.75, 1.2);
     let mut scene = modeller.finish();
-    scene.camera = Some(camera(eye, Vec3::new(4.5, floor - 1.2, -4.0), 68.0));
+    scene.camera = Some(camera(eye, Vec3::new(4.0, floor - 0.9, -1.2), 72.0));
     scene
 }
 

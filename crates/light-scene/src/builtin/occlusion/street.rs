@@ -6,10 +6,10 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::{Material, MaterialId, Scene};
 
 /// Width of a street from front to front.
-const STREET: f32 = 9.0;
+const STREET: f32 = 7.0;
 
 /// From the front of a house to its other front.
-const DEPTH: f32 = 9.0;
+const DEPTH: f32 = 6.0;
 
 /// From one window to the next, and from one storey to the next.
 const BAY: Vec2 = Vec2::new(1.7, 2.9);
@@ -40,10 +40,10 @@ struct Window {
 }
 
 /// Rows of houses with gaps between them, and streets between the rows: half of the lamps are
-/// windows, a fifth lanterns, the others hang on strings across the streets.
+/// windows, a fifth lanterns, the others hang on strings across the streets but that of the camera.
 pub(super) fn street(lamps: usize, dice: &mut Dice) -> Scene {
     // Enough houses that a third of the windows are lit.
-    let streets = (2..).find(|s| 90 * s * s >= lamps).unwrap_or(2);
+    let streets = (3..).find(|s| 90 * s * s >= lamps).unwrap_or(3);
     let per_row = 3 * streets + 4;
     let mut modeller = Modeller::default();
     let m = &mut modeller;
@@ -86,13 +86,19 @@ pub(super) fn street(lamps: usize, dice: &mut Dice) -> Scene {
     }
     let lanterns = lamps / 5;
     let hung = lamps - lit - lanterns;
-    for s in 0..streets {
-        let part = |of: usize| of * (s + 1) / streets - of * s / streets;
-        let middle = (STREET + DEPTH) * s as f32 + DEPTH + 0.5 * STREET;
-        town.lanterns(m, dice, &shape, [middle, length], part(lanterns));
-        town.strings(m, dice, &shape, [middle, length], part(hung));
+    let part = |of: usize, k: usize, parts: usize| of * (k + 1) / parts - of * k / parts;
+    let middle = |street: usize| (STREET + DEPTH) * street as f32 + DEPTH + 0.5 * STREET;
+    let own = streets / 2;
+    for street in 0..streets {
+        let here = part(lanterns, street, streets);
+        town.lanterns(m, dice, &shape, [middle(street), length], here);
     }
-    let middle = (STREET + DEPTH) * (streets / 2) as f32 + DEPTH + 0.5 * STREET;
+    let others = (0..streets).filter(|&street| street != own);
+    for (k, street) in others.enumerate() {
+        let here = part(hung, k, streets - 1);
+        town.strings(m, dice, &shape, [middle(street), length], here);
+    }
+    let middle = middle(own);
     let start = -0.25 * length + 8.0;
     let eye = Vec3::new(middle + 1.2, 1.7, start);
     let target = Vec3::new(middle - 0.8, 2.4, start - 12.0);

@@ -9,7 +9,11 @@ use crate::{Material, Scene};
 const SIDE: f32 = 30.0;
 
 /// From one trunk to the next, about.
-const CELL: f32 = 1.5;
+const CELL: f32 = 1.4;
+
+/// The camera, and how far from it the first trunks are.
+const EYE: Vec3 = Vec3::new(0.0, 1.7, 7.0);
+const CLEARING: f32 = 2.2;
 
 /// How far a lamp is from the bark of a trunk, at least.
 const CLEAR: f32 = 0.25;
@@ -36,25 +40,26 @@ pub(super) fn trunks(lamps: usize, dice: &mut Dice) -> Scene {
         let corner = Vec2::new((k % across) as f32, (k / across) as f32);
         let jitter = Vec2::new(dice.between(0.05, 0.95), dice.between(0.05, 0.95));
         let foot = (corner + jitter) * forest.cell - half;
-        let radius = dice.between(0.1, 0.3);
+        let radius = dice.between(0.12, 0.35);
         let [a, b] = [foot, foot + dice.between(-0.03, 0.03)];
         let ends = [Vec3::new(a.x, 0.0, a.y), Vec3::new(b.x, 14.0, b.y)];
-        m.bar(bark, ends, [radius, 0.8 * radius], 9);
+        if foot.distance(Vec2::new(EYE.x, EYE.z)) > CLEARING {
+            m.bar(bark, ends, [radius, 0.8 * radius], 9);
+        }
         forest.trunks.push((foot, radius));
     }
     let spread = Spread::new(dice, lamps, [-half, half]);
     for place in spread.places {
         let place = forest.clear(place, half);
         let turn = dice.between(0.0, core::f32::consts::TAU);
-        let up = dice.between(-1.2, 0.3);
+        let up = dice.between(-0.5, 0.3);
         let toward = Vec3::new(turn.cos(), up, turn.sin()).normalize_or(Vec3::X);
         let center = Vec3::new(place.x, dice.between(0.5, 3.0), place.y);
         let half_lamp = dice.between(0.05, 0.1);
         shape.add_square(m, dice, center, toward, half_lamp);
     }
     let mut scene = modeller.finish();
-    let eye = Vec3::new(0.0, 1.7, 7.0);
-    scene.camera = Some(camera(eye, Vec3::new(0.0, 1.1, 0.0), 60.0));
+    scene.camera = Some(camera(EYE, Vec3::new(0.0, 1.1, 0.0), 60.0));
     scene
 }
 
