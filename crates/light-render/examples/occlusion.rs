@@ -4,8 +4,8 @@
 //!
 //! Each picture is compared with both halves of a reference of many more samples, so that the noise
 //! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and
-//! those beside them, are left out; relMSE has a floor of the square of a tenth of the mean. Seconds
-//! are those of all threads, without building the scene and the hierarchy of lights.
+//! those beside them, are left out; relMSE has a floor of the square of a tenth of the mean.
+//! Seconds are those of all threads, without building the scene and the hierarchy of lights.
 
 use core::error::Error;
 use core::num::NonZeroU32;
