@@ -5,17 +5,19 @@
 //! Each picture is compared with both halves of a reference of many more samples, so that the noise
 //! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and
 //! those beside them, are left out; relMSE has a floor of the square of a tenth of the mean.
-//! Seconds are those of all threads, without building the scene and the hierarchy of lights.
+//! Seconds are those of all threads, without building the scene and the hierarchy of lights, but
+//! with filling the cells of visibility.
 
 use core::error::Error;
 use core::num::NonZeroU32;
 use std::time::Instant;
 
 use clap::Parser;
-use light_render::bench::{ChoiceKind, PictureBench, scene_variance};
+use light_render::bench::{ChoiceKind, CpuTimer, PictureBench, TimedPicture, scene_variance};
 use light_render::integrator::{Estimator, Integrator, PathSettings};
-use light_render::{AnyLightSampler, SamplerKind, View, World};
+use light_render::{AnyLightSampler, SamplerKind, View, VisibilityCells, World};
 use light_scene::BuiltinScene;
+use lights::samplers::VisibilityLightSampler;
 
 /// Measures choices of lights where most lights are hidden.
 #[derive(Debug, Parser)]
@@ -51,24 +53,35 @@ struct Method {
     name: &'static str,
     sampler: SamplerKind,
     choices: NonZeroU32,
+    /// Whether cells of visibility guide the choices of the default tree.
+    cells: bool,
 }
 
 /// What is compared; the others are set against the first.
-const METHODS: [Method; 3] = [
+const METHODS: [Method; 4] = [
     Method {
         name: "one choice",
         sampler: SamplerKind::Bvh,
         choices: NonZeroU32::MIN,
+        cells: false,
     },
     Method {
         name: "two choices",
         sampler: SamplerKind::Bvh,
         choices: PathSettings::DEFAULT_LIGHT_SAMPLES,
+        cells: false,
     },
     Method {
         name: "reference tree",
         sampler: SamplerKind::BvhReference,
         choices: NonZeroU32::MIN,
+        cells: false,
+    },
+    Method {
+        name: "cells",
+        sampler: SamplerKind::Bvh,
+        choices: NonZeroU32::MIN,
+        cells: true,
     },
 ];
 
@@ -155,7 +168,7 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             for (method, sampler) in METHODS.iter().zip(&samplers) {
                 let (mut error, mut seconds) = (0.0, 0.0);
                 for seed in 1..=arguments.seeds {
-                    let picture = bench.picture(sampler, direct(method.choices), samples, seed);
+                    let picture = picture(&bench, method, sampler, samples, seed)?;
                     error += relative.against(&picture.pixels, [&a, &b]);
                     seconds += picture.seconds;
                 }
@@ -172,6 +185,27 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// One picture by one method, with the time that it takes to fill its cells.
+fn picture(
+    bench: &PictureBench,
+    method: &Method,
+    sampler: &AnyLightSampler,
+    samples: u32,
+    seed: u32,
+) -> Result<TimedPicture, Box<dyn Error>> {
+    let path = direct(method.choices);
+    let (AnyLightSampler::Bvh(lights), true) = (sampler, method.cells) else {
+        return Ok(bench.picture(sampler, path, samples, seed));
+    };
+    let timer = CpuTimer::start();
+    let cells = VisibilityCells::fill(bench.world(), bench.view(), lights)?;
+    let filling = timer.seconds();
+    let guided = VisibilityLightSampler::new(lights.view(), &cells);
+    let mut picture = bench.picture(&guided, path, samples, seed);
+    picture.seconds += filling;
+    Ok(picture)
 }
 
 /// A table of the variance of one choice.

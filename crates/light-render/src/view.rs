@@ -105,6 +105,12 @@ impl View {
         (self.width, self.height)
     }
 
+    /// The width of a pixel in the middle of the picture, at distance 1.
+    #[must_use]
+    pub(crate) const fn pixel_angle(&self) -> f32 {
+        1.0 / self.screen_distance
+    }
+
     /// The ray through the point `film` of the picture, in pixels from its top left corner, and
     /// through the point of the lens that `u_lens` in `[0, 1)^2` chooses.
     #[inline]

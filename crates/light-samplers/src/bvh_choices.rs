@@ -1,4 +1,5 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
 use light_math::float::positive_product;
 
@@ -43,6 +44,8 @@ pub(crate) enum TreeChoices<'a> {
     Single(LightBvhAt<'a>),
     /// From groups that were opened before.
     Cut(LightCut<'a>),
+    /// Each from the root, with the factors of a cell.
+    InCell(LightBvhInCellAt<'a>),
 }
 
 impl<'a> BvhChoices<'a> {
@@ -61,6 +64,33 @@ impl<'a> BvhChoices<'a> {
             TreeChoices::Cut(tree.cut(ctx, CutDetail::default()))
         };
         Self::of(tree, power, infinite, ctx)
+    }
+
+    /// The same with the factors of `cell`.
+    #[inline]
+    pub(crate) fn in_cell(
+        tree: LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        cell: CellFactors<'a>,
+        ctx: &LightSampleContext,
+    ) -> Self {
+        let tree = TreeChoices::InCell(tree.in_cell(cell).at(ctx));
+        Self::of(tree, power, infinite, ctx)
+    }
+}
+
+impl<'a> BvhChoices<'a, LightBvhInCellAt<'a>> {
+    /// The same for a single choice.
+    #[inline]
+    pub(crate) fn single_in_cell(
+        tree: LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        cell: CellFactors<'a>,
+        ctx: &LightSampleContext,
+    ) -> Self {
+        Self::of(tree.in_cell(cell).at(ctx), power, infinite, ctx)
     }
 }
 
@@ -133,12 +163,30 @@ impl InTree for LightBvhAt<'_> {
     }
 }
 
+impl InTree for LightBvhInCellAt<'_> {
+    #[inline]
+    fn irradiance(&self) -> f32 {
+        self.irradiance()
+    }
+
+    #[inline]
+    fn sample(&self, u: u64) -> Option<SampledLight> {
+        self.sample(u)
+    }
+
+    #[inline]
+    fn pmf(&self, light: LightId) -> f32 {
+        self.pmf(light)
+    }
+}
+
 impl InTree for TreeChoices<'_> {
     #[inline]
     fn irradiance(&self) -> f32 {
         match self {
             Self::Single(tree) => tree.irradiance(),
             Self::Cut(tree) => tree.irradiance(),
+            Self::InCell(tree) => tree.irradiance(),
         }
     }
 
@@ -147,6 +195,7 @@ impl InTree for TreeChoices<'_> {
         match self {
             Self::Single(tree) => tree.sample(u),
             Self::Cut(tree) => tree.sample(u),
+            Self::InCell(tree) => tree.sample(u),
         }
     }
 
@@ -155,6 +204,7 @@ impl InTree for TreeChoices<'_> {
         match self {
             Self::Single(tree) => tree.pmf(light),
             Self::Cut(tree) => tree.pmf(light),
+            Self::InCell(tree) => tree.pmf(light),
         }
     }
 }

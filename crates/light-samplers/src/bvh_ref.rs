@@ -1,4 +1,5 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use light_bvh::{LightBvhAt, LightBvhRef};
 use light_math::float::positive_product;
 
@@ -64,6 +65,34 @@ impl<'a> BvhLightSamplerRef<'a> {
     #[must_use]
     pub(crate) fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         let choices = BvhChoices::new(self.tree, self.power, self.infinite, ctx, count);
+        LightChoices::bvh(choices, count)
+    }
+
+    /// What is known for a single choice in `cell`.
+    #[inline]
+    pub(crate) fn choice_in<'b>(
+        &self,
+        cell: CellFactors<'b>,
+        ctx: &LightSampleContext,
+    ) -> BvhChoices<'b, LightBvhInCellAt<'b>>
+    where
+        'a: 'b,
+    {
+        BvhChoices::single_in_cell(self.tree, self.power, self.infinite, cell, ctx)
+    }
+
+    /// `count` choices in `cell`, each from the root.
+    #[inline]
+    pub(crate) fn choices_in<'b>(
+        &self,
+        cell: CellFactors<'b>,
+        ctx: &LightSampleContext,
+        count: u32,
+    ) -> LightChoices<'b>
+    where
+        'a: 'b,
+    {
+        let choices = BvhChoices::in_cell(self.tree, self.power, self.infinite, cell, ctx);
         LightChoices::bvh(choices, count)
     }
 }

@@ -38,6 +38,7 @@ mod power;
 mod reference_bvh;
 mod resampled;
 mod uniform;
+mod visibility;
 
 #[cfg(feature = "alloc")]
 pub use bvh::BvhLightSampler;
@@ -52,3 +53,4 @@ pub use power::{PowerLightSampler, PowerLightSamplerError};
 #[cfg(feature = "alloc")]
 pub use reference_bvh::ReferenceBvhLightSampler;
 pub use uniform::UniformLightSampler;
+pub use visibility::{VisibilityCache, VisibilityLightSampler};

@@ -51,6 +51,12 @@ impl PictureBench {
         &self.world
     }
 
+    /// Its camera.
+    #[must_use]
+    pub const fn view(&self) -> &View {
+        &self.view
+    }
+
     /// Renders `samples` samples a pixel. The time is that of the rendering alone: preparations of
     /// `sampler` are the caller's to count.
     #[must_use]

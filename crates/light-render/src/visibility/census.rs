@@ -1,0 +1,51 @@
+use lights::bounds::LightSampleContext;
+use lights::bvh::visibility::CellKey;
+use lights::glam::Vec2;
+use rayon::prelude::*;
+
+use super::cells::CellSize;
+use crate::{View, World};
+
+/// A pixel, and the cell of what it shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Sighting {
+    pub(super) coarse: CellKey,
+    pub(super) fine: CellKey,
+    pub(super) pixel: u32,
+}
+
+/// The cells that the camera sees, by one ray through the middle of each pixel of the whole
+/// picture, in the order of coarse cells, fine cells and pixels.
+///
+/// Not of the part that is rendered: a pixel has the same cells in a picture and in its parts.
+pub(super) fn take(world: &World, view: &View, size: &CellSize) -> Vec<Sighting> {
+    let (width, height) = view.resolution();
+    let mut sightings: Vec<_> = (0..width * height)
+        .into_par_iter()
+        .filter_map(|pixel| {
+            let fine = size.fine_key(&place(world, view, pixel)?);
+            let coarse = fine.coarse();
+            Some(Sighting {
+                coarse,
+                fine,
+                pixel,
+            })
+        })
+        .collect();
+    sightings.par_sort_unstable();
+    sightings
+}
+
+/// What lights are chosen for at the first surface behind the middle of a pixel; `None` if there is
+/// none, or a mirror.
+pub(super) fn place(world: &World, view: &View, pixel: u32) -> Option<LightSampleContext> {
+    let (width, _) = view.resolution();
+    let corner = Vec2::new((pixel % width) as f32, (pixel / width) as f32);
+    let ray = view.ray(corner + 0.5, Vec2::splat(0.5));
+    let surface = world.closest(&ray, None)?;
+    let scattering = world.scattering(&surface);
+    if scattering.bsdf().is_dirac() {
+        return None;
+    }
+    Some(world.light_context(&surface, &scattering, -ray.direction))
+}

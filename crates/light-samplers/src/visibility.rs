@@ -1,0 +1,91 @@
+use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
+
+use crate::bvh_choices::BvhChoices;
+use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
+
+/// What is known of the visibility of lights, by place.
+pub trait VisibilityCache {
+    /// The factors at `ctx`; `None` where the tree alone is asked. A pure function of `ctx`: a
+    /// sample and a later pmf have to see the same factors.
+    fn factors<'a>(&'a self, ctx: &LightSampleContext) -> Option<CellFactors<'a>>;
+}
+
+/// The default light hierarchy, where the importance of lights is multiplied by what a
+/// [`VisibilityCache`] knows of their visibility.
+///
+/// It obeys the laws of all samplers whatever the cache returns: factors change probabilities, but
+/// a light that contributes keeps one above 0. Lights at infinity have no factors.
+#[derive(Debug)]
+pub struct VisibilityLightSampler<'a, V: ?Sized> {
+    lights: BvhLightSamplerRef<'a>,
+    cache: &'a V,
+}
+
+impl<'a, V: VisibilityCache + ?Sized> VisibilityLightSampler<'a, V> {
+    /// The sampler of `lights` with the factors of `cache`, which was made for their tree.
+    #[must_use]
+    pub const fn new(lights: BvhLightSamplerRef<'a>, cache: &'a V) -> Self {
+        Self { lights, cache }
+    }
+
+    /// [`LightSampler::at`], for as long as the memory is borrowed: by a cut where nothing is known
+    /// of the visibility, and one by one from the root where it is.
+    ///
+    /// Several candidates for one shadow ray undo what factors gain, because the brightest is the
+    /// likeliest to be tested, seen or not: choose one, or trace a ray to each.
+    #[inline]
+    #[must_use]
+    pub fn choices(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        match self.cache.factors(ctx) {
+            Some(cell) => self.lights.choices_in(cell, ctx, count),
+            None => self.lights.choices_at(ctx, count),
+        }
+    }
+
+    /// The choice of one light at `ctx`; `None` where the cache knows no factors.
+    #[inline]
+    fn choice_at(&self, ctx: &LightSampleContext) -> Option<BvhChoices<'a, LightBvhInCellAt<'a>>> {
+        let cell = self.cache.factors(ctx)?;
+        Some(self.lights.choice_in(cell, ctx))
+    }
+}
+
+impl<V: VisibilityCache + ?Sized> LightSampler for VisibilityLightSampler<'_, V> {
+    #[inline]
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        match self.choice_at(ctx) {
+            Some(choice) => choice.sample(u),
+            None => self.lights.sample(ctx, u),
+        }
+    }
+
+    #[inline]
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        match self.choice_at(ctx) {
+            Some(choice) => choice.pmf(light),
+            None => self.lights.pmf(ctx, light),
+        }
+    }
+
+    #[inline]
+    fn at<'b>(&'b self, ctx: &LightSampleContext, count: u32) -> LightChoices<'b> {
+        self.choices(ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        self.lights.sample_emitter(u)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.lights.pmf_emitter(light)
+    }
+}
+
+impl<V: ?Sized> Clone for VisibilityLightSampler<'_, V> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<V: ?Sized> Copy for VisibilityLightSampler<'_, V> {}
