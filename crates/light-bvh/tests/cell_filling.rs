@@ -257,7 +257,8 @@ fn nothing_to_see_is_plain() {
     let view = rooms.tree.view();
     let key = keys().next().expect("a point");
     let options = FillOptions::default();
-    let nobody = CoarseCell::fill(view, key, &[], &options, |_, _, _| panic!("no places"));
+    let none: [LightSampleContext; 0] = [];
+    let nobody = CoarseCell::fill(view, key, &none, &options, |_, _, _| panic!("no places"));
     assert!(nobody.is_plain(), "no places");
     let places = Rooms::places(key, 8);
     let dark = LightBvh::default();
@@ -266,7 +267,7 @@ fn nothing_to_see_is_plain() {
     });
     assert!(dark.is_plain(), "no lights");
     let blind = CoarseCell::fill(view, key.coarse(), &places, &options, |_, _, _| false);
-    let without = blind.fill_fine(view, key, &[], &options, |_, _, _| panic!("no places"));
+    let without = blind.fill_fine(view, key, &none, &options, |_, _, _| panic!("no places"));
     assert_eq!(
         without.factors(&blind).factors(),
         blind.factors().factors(),

@@ -1,4 +1,5 @@
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 
 use light_bounds::{LightId, LightSampleContext};
 use light_math::float::sqrt;
@@ -30,7 +31,8 @@ pub struct CoarseCell {
 }
 
 impl CoarseCell {
-    /// The cell of `key` by rays from `places` in it.
+    /// The cell of `key` by rays from `places` in it: contexts, or what a ray needs to start from one
+    /// beside it.
     ///
     /// `visible(place, light, u)` says whether `place` sees the point of `light` that `u` chooses,
     /// of the unit square; a light that emits nothing there counts as not seen. The same arguments
@@ -44,12 +46,12 @@ impl CoarseCell {
     /// was expected before as one ray more, from the lights of the node above: a conjugate prior,
     /// as `[Vevoda2018]` has them for what clusters of lights contribute.
     #[must_use]
-    pub fn fill(
+    pub fn fill<P: Borrow<LightSampleContext>>(
         tree: LightBvhRef<'_>,
         key: CellKey,
-        places: &[LightSampleContext],
+        places: &[P],
         options: &FillOptions,
-        visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
+        visible: impl FnMut(&P, LightId, Vec2) -> bool,
     ) -> Self {
         let mut rays = Rays {
             tree,
@@ -73,7 +75,7 @@ impl CoarseCell {
                 cell.factors(),
                 |place, choice, is_seen| {
                     if round == 2 && is_seen && options.least_gain > 0.0 {
-                        gain.add(tree.pmf(place, choice.light), choice.pmf);
+                        gain.add(tree.pmf(place.borrow(), choice.light), choice.pmf);
                     }
                 },
             );
@@ -96,10 +98,10 @@ impl CoarseCell {
     }
 
     /// What the rays so far tell.
-    fn learnt(
+    fn learnt<P: Borrow<LightSampleContext>>(
         tree: LightBvhRef<'_>,
         key: CellKey,
-        places: &[LightSampleContext],
+        places: &[P],
         options: &FillOptions,
         log: &RayLog,
     ) -> Self {

@@ -1,4 +1,5 @@
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 
 use light_bounds::{LightId, LightSampleContext};
 use light_math::float::sqrt;
@@ -32,13 +33,13 @@ impl CoarseCell {
     /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). The
     /// rays go where this cell does not know what is seen.
     #[must_use]
-    pub fn fill_fine(
+    pub fn fill_fine<P: Borrow<LightSampleContext>>(
         &self,
         tree: LightBvhRef<'_>,
         key: CellKey,
-        places: &[LightSampleContext],
+        places: &[P],
         options: &FillOptions,
-        visible: impl FnMut(&LightSampleContext, LightId, Vec2) -> bool,
+        visible: impl FnMut(&P, LightId, Vec2) -> bool,
     ) -> FineCell {
         if self.is_plain() {
             let factors = Vec::new();

@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 
 use light_bounds::LightSampleContext;
 use light_math::float::positive_product;
@@ -20,14 +21,14 @@ const MAX_ZOOM: f32 = 1_073_741_824.0;
 const MAX_IMPORTANCE: f32 = 1e30;
 
 /// The mean importance of each child of the nodes of these indices, in a unit that all share.
-pub(super) fn mean_importance(
+pub(super) fn mean_importance<P: Borrow<LightSampleContext>>(
     tree: &LightBvhRef<'_>,
     nodes: &[u32],
-    places: &[LightSampleContext],
+    places: &[P],
 ) -> Vec<[f32; WIDTH]> {
     let mut sums = vec![[0.0; WIDTH]; nodes.len()];
     let share = 1.0 / places.len().max(1) as f32;
-    for place in places {
+    for place in places.iter().map(Borrow::borrow) {
         let add = Add {
             tree: &tree.wanting(place.groups),
             nodes,

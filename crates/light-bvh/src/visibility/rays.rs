@@ -2,6 +2,7 @@
 //! alone.
 
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 use core::ops::Range;
 
 use light_bounds::{LightId, LightSampleContext, SampledLight};
@@ -23,9 +24,9 @@ use crate::visibility::ray_log::RayLog;
 const STEPS: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
 
 /// What rays are sent from and to. `visible` says whether a place sees a point of a light.
-pub(super) struct Rays<'a, F> {
+pub(super) struct Rays<'a, P, F> {
     pub(super) tree: LightBvhRef<'a>,
-    pub(super) places: &'a [LightSampleContext],
+    pub(super) places: &'a [P],
     pub(super) key: CellKey,
     pub(super) visible: F,
     pub(super) log: RayLog,
@@ -41,7 +42,11 @@ struct Numbers {
     point: Vec2,
 }
 
-impl<F: FnMut(&LightSampleContext, LightId, Vec2) -> bool> Rays<'_, F> {
+impl<P, F> Rays<'_, P, F>
+where
+    P: Borrow<LightSampleContext>,
+    F: FnMut(&P, LightId, Vec2) -> bool,
+{
     /// The rays of these numbers to lights that cuts of the tree choose: those of each place
     /// together, so that it makes one cut.
     pub(super) fn by_cuts(&mut self, stage: u64, range: Range<u32>) {
@@ -53,7 +58,7 @@ impl<F: FnMut(&LightSampleContext, LightId, Vec2) -> bool> Rays<'_, F> {
             let Some(place) = of_place.first().and_then(|ray| self.places.get(ray.0)) else {
                 continue;
             };
-            let cut: LightCut<'_> = self.tree.cut(place, CutDetail::default());
+            let cut: LightCut<'_> = self.tree.cut(place.borrow(), CutDetail::default());
             for &(_, ray) in of_place {
                 let numbers = self.numbers(stage, ray);
                 self.send(place, cut.sample(numbers.u), &numbers);
@@ -68,14 +73,14 @@ impl<F: FnMut(&LightSampleContext, LightId, Vec2) -> bool> Rays<'_, F> {
         stage: u64,
         count: u32,
         cell: CellFactors<'_>,
-        mut note: impl FnMut(&LightSampleContext, SampledLight, bool),
+        mut note: impl FnMut(&P, SampledLight, bool),
     ) {
         for ray in 0..count {
             let numbers = self.numbers(stage, ray);
             let Some(place) = self.places.get(numbers.place) else {
                 return;
             };
-            let choice = self.tree.in_cell(cell).sample(place, numbers.u);
+            let choice = self.tree.in_cell(cell).sample(place.borrow(), numbers.u);
             if let (Some(choice), Some(is_seen)) = (choice, self.send(place, choice, &numbers)) {
                 note(place, choice, is_seen);
             }
@@ -83,12 +88,7 @@ impl<F: FnMut(&LightSampleContext, LightId, Vec2) -> bool> Rays<'_, F> {
     }
 
     /// A ray to a chosen light, if there is one: whether it is seen.
-    fn send(
-        &mut self,
-        place: &LightSampleContext,
-        choice: Option<SampledLight>,
-        numbers: &Numbers,
-    ) -> Option<bool> {
+    fn send(&mut self, place: &P, choice: Option<SampledLight>, numbers: &Numbers) -> Option<bool> {
         let light = choice?.light;
         let is_seen = (self.visible)(place, light, numbers.point);
         self.log.push(&self.tree, light, is_seen);

@@ -1,10 +1,12 @@
+use core::borrow::Borrow;
+
 use lights::bounds::LightSampleContext;
 use lights::bvh::visibility::CellKey;
 use lights::glam::Vec2;
 use rayon::prelude::*;
 
 use super::cells::CellSize;
-use crate::{View, World};
+use crate::{Surface, View, World};
 
 /// A pixel, and the cell of what it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -12,6 +14,19 @@ pub(super) struct Sighting {
     pub(super) coarse: CellKey,
     pub(super) fine: CellKey,
     pub(super) pixel: u32,
+}
+
+/// A point that a pixel shows, and what lights are chosen for there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) surface: Surface,
+    pub(super) ctx: LightSampleContext,
+}
+
+impl Borrow<LightSampleContext> for Place {
+    fn borrow(&self) -> &LightSampleContext {
+        &self.ctx
+    }
 }
 
 /// The cells that the camera sees, by one ray through the middle of each pixel of the whole
@@ -23,7 +38,7 @@ pub(super) fn take(world: &World, view: &View, size: &CellSize) -> Vec<Sighting>
     let mut sightings: Vec<_> = (0..width * height)
         .into_par_iter()
         .filter_map(|pixel| {
-            let fine = size.fine_key(&place(world, view, pixel)?);
+            let fine = size.fine_key(place(world, view, pixel)?.borrow());
             let coarse = fine.coarse();
             Some(Sighting {
                 coarse,
@@ -36,9 +51,8 @@ pub(super) fn take(world: &World, view: &View, size: &CellSize) -> Vec<Sighting>
     sightings
 }
 
-/// What lights are chosen for at the first surface behind the middle of a pixel; `None` if there is
-/// none, or a mirror.
-pub(super) fn place(world: &World, view: &View, pixel: u32) -> Option<LightSampleContext> {
+/// The first surface behind the middle of a pixel; `None` if there is none, or a mirror.
+pub(super) fn place(world: &World, view: &View, pixel: u32) -> Option<Place> {
     let (width, _) = view.resolution();
     let corner = Vec2::new((pixel % width) as f32, (pixel / width) as f32);
     let ray = view.ray(corner + 0.5, Vec2::splat(0.5));
@@ -47,5 +61,6 @@ pub(super) fn place(world: &World, view: &View, pixel: u32) -> Option<LightSampl
     if scattering.bsdf().is_dirac() {
         return None;
     }
-    Some(world.light_context(&surface, &scattering, -ray.direction))
+    let ctx = world.light_context(&surface, &scattering, -ray.direction);
+    Some(Place { surface, ctx })
 }

@@ -1,12 +1,12 @@
-use lights::bounds::{LightId, LightSampleContext};
+use lights::bounds::LightId;
 use lights::bvh::visibility::{CoarseCell, FillOptions, FineCell};
 use lights::glam::{Vec2, Vec3};
 use lights::samplers::BvhLightSampler;
 use lights::sources::PdfCoverage;
 use rayon::prelude::*;
 
-use super::census::{Sighting, place};
-use crate::{Ray, View, World};
+use super::census::{Place, Sighting, place};
+use crate::{View, World};
 
 /// Coarse cells that fewer pixels show are plain.
 const FEWEST_OF_COARSE: usize = 12;
@@ -29,12 +29,12 @@ pub(super) fn fill(
 ) -> Vec<(CoarseCell, Vec<FineCell>)> {
     let tree = sampler.tree().view();
     let options = FillOptions::default();
-    let places = |sightings: &[Sighting], most| -> Vec<LightSampleContext> {
+    let places = |sightings: &[Sighting], most| -> Vec<Place> {
         let stride = sightings.len().div_ceil(most);
         let pixels = sightings.iter().step_by(stride);
         pixels.filter_map(|s| place(world, view, s.pixel)).collect()
     };
-    let visible = |ctx: &LightSampleContext, light: LightId, u: Vec2| sees(world, ctx, light, u);
+    let visible = |place: &Place, light: LightId, u: Vec2| sees(world, place, light, u);
     let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
     let filled = cells.into_par_iter().filter_map(|cell| {
         if cell.len() < FEWEST_OF_COARSE {
@@ -58,25 +58,11 @@ pub(super) fn fill(
     filled.collect()
 }
 
-/// The tested part of the way to a light: it ends before the light itself.
-const PART: f32 = 1.0 - 1e-4;
-
-/// Whether the point of `light` that `u` chooses is seen from `ctx`, and shines on it.
-fn sees(world: &World, ctx: &LightSampleContext, light: LightId, u: Vec2) -> bool {
-    let Some(sample) = world.sample_light(light, ctx, u, PdfCoverage::Complete) else {
-        return false;
-    };
-    if sample.l == Vec3::ZERO {
-        return false;
-    }
-    let n = ctx.n().unwrap_or_default();
-    let outward = if sample.wi.dot(n) < 0.0 { -n } else { n };
-    let origin = ctx.p + outward * n.abs().dot(ctx.p_error);
-    let way = sample.p_light - origin;
-    let distance = way.length();
-    let ray = Ray {
-        origin,
-        direction: way / distance,
-    };
-    !(distance > 0.0 && world.blocked(&ray, distance * PART, None))
+/// Whether the point of `light` that `u` chooses is seen from `place`, and shines on it.
+fn sees(world: &World, place: &Place, light: LightId, u: Vec2) -> bool {
+    let Place { surface, ctx } = place;
+    let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete);
+    sample.is_some_and(|sample| {
+        sample.l != Vec3::ZERO && !world.occluded(surface, sample.wi, sample.p_light)
+    })
 }
