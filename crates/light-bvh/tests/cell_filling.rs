@@ -6,7 +6,7 @@ extern crate alloc;
 use alloc::collections::BTreeMap;
 
 use light_bvh::LightBvh;
-use light_bvh::light_bounds::{LightId, glam::Vec3};
+use light_bvh::light_bounds::{LightId, LightSampleContext, glam::Vec3};
 use light_bvh::visibility::{
     CellFactors, CellKey, CellTable, CellTableRef, CoarseCell, FillOptions, FineCell,
 };

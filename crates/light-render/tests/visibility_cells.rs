@@ -82,6 +82,14 @@ fn the_same_for_any_number_of_threads_and_any_part_of_the_picture() {
     assert_eq!(one, stage.cells(&part, 2), "a part of the picture");
 }
 
+/// Rays that fill cells leave the large primitive that they start on.
+#[test]
+fn an_open_field_has_no_cells() {
+    let stage = Stage::new(OcclusionKind::Open);
+    let bytes = stage.cells(&stage.view, 2).bytes();
+    assert!(bytes < 16, "{bytes} bytes: no cell takes less than 32");
+}
+
 #[test]
 fn between_slabs_the_mean_stays_and_the_noise_falls() {
     let stage = Stage::new(OcclusionKind::Slabs);
