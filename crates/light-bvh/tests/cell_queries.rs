@@ -136,7 +136,7 @@ fn factors_of_one_have_the_bits_of_the_tree() {
 }
 
 #[test]
-fn a_child_counts_as_often_as_its_factor_says() {
+fn a_child_is_chosen_as_often_as_its_factor_says() {
     let mut rng = Rng::new(3);
     let tree = tree(16, &mut rng);
     let view = tree.view();
@@ -155,9 +155,14 @@ fn a_child_counts_as_often_as_its_factor_says() {
     let cell = CellFactors::new(&view, &shape, &codes).expect("a cell");
     let plain = pmfs[child];
     let pmf = view.in_cell(cell).pmf(&here, LightId(view.order()[child]));
-    let odds = |p: f32| p / (1.0 - p);
-    let ratio = odds(plain) / odds(pmf);
-    assert!((ratio - 16.0).abs() < 0.5, "{ratio}: {plain} to {pmf}");
+    // One sixteenth is the mean of all factors, the rest the child's own.
+    let mean = 1.0 - plain * 15.0 / 16.0;
+    let expected = plain * (15.0 / 16.0 * (1.0 / 16.0) / mean + 1.0 / 16.0);
+    // Probabilities are multiples of 2^-16.
+    assert!(
+        (pmf - expected).abs() < 3e-5,
+        "{pmf}, not {expected}; the tree alone {plain}"
+    );
 }
 
 #[test]
