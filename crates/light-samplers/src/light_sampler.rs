@@ -24,7 +24,8 @@ pub trait LightSampler {
     /// The choice of `count` lights at `ctx`, one by one from equal parts of `[0, 1)`.
     ///
     /// A sampler may keep what it has computed for `ctx`, and refine its estimates for several
-    /// choices: the probabilities are then those of [`LightChoices::pmf`]. One without such work
+    /// choices: the probabilities are then those of [`LightChoices::pmf`]. It may make fewer choices
+    /// where fewer serve better: [`LightChoices::count`] says how many. One without such work
     /// returns [`LightChoices::one_by_one`]. `crates/lights/examples/many_lights.rs` lights a plain
     /// by it.
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a>;

@@ -29,17 +29,19 @@ impl<'a, V: VisibilityCache + ?Sized> VisibilityLightSampler<'a, V> {
         Self { lights, cache }
     }
 
-    /// [`LightSampler::at`], for as long as the memory is borrowed: by a cut where nothing is known
-    /// of the visibility, and one by one from the root where it is.
+    /// [`LightSampler::at`], for as long as the memory is borrowed, with counts of its own:
+    /// `known` choices one by one from the root where something is known of the visibility, and
+    /// `unknown` choices, by a cut if they are several, where nothing is.
     ///
     /// Several candidates for one shadow ray undo what factors gain, because the brightest is the
-    /// likeliest to be tested, seen or not: choose one, or trace a ray to each.
+    /// likeliest to be tested, seen or not: make one choice where visibility is known, or trace a
+    /// ray to each.
     #[inline]
     #[must_use]
-    pub fn choices(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+    pub fn choices(&self, ctx: &LightSampleContext, known: u32, unknown: u32) -> LightChoices<'a> {
         match self.cache.factors(ctx) {
-            Some(cell) => self.lights.choices_in(cell, ctx, count),
-            None => self.lights.choices_at(ctx, count),
+            Some(cell) => self.lights.choices_in(cell, ctx, known),
+            None => self.lights.choices_at(ctx, unknown),
         }
     }
 
@@ -70,7 +72,7 @@ impl<V: VisibilityCache + ?Sized> LightSampler for VisibilityLightSampler<'_, V>
 
     #[inline]
     fn at<'b>(&'b self, ctx: &LightSampleContext, count: u32) -> LightChoices<'b> {
-        self.choices(ctx, count)
+        self.choices(ctx, count, count)
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {

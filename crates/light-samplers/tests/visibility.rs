@@ -70,7 +70,7 @@ impl LightSampler for InCells {
     }
 
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        self.sampler().choices(ctx, count)
+        self.sampler().choices(ctx, count, count)
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
@@ -93,6 +93,20 @@ fn row() -> Vec<LightExtent> {
         two_sided: false,
     };
     (-20..20).map(|x| LightExtent::Bounded(lamp(x))).collect()
+}
+
+#[test]
+fn where_visibility_is_known_as_many_choices_are_made_as_were_asked_for_there() {
+    let sampler = InCells::new(&row(), |_| encode_factor(0.5));
+    let count = |x: f32| {
+        let ctx = LightSampleContext::medium(Vec3::X * x);
+        let choices = sampler.sampler().choices(&ctx, 1, 4);
+        let lights = choices.samples(1 << 60).count();
+        assert_eq!(lights, choices.count() as usize, "all lamps light {ctx:?}");
+        lights
+    };
+    assert_eq!(count(1.0), 1, "known");
+    assert_eq!(count(-1.0), 4, "unknown");
 }
 
 #[test]
