@@ -29,14 +29,16 @@ impl MergeArgs {
         let output = OutputImage::new(&self.output, Precision::Single)?;
         expect_another(&self.output, &self.parts, "a part for --output")?;
         let mut unread = Ok(());
+        let mut last = &self.output;
         let parts = self.parts.iter().map_while(|path| {
+            last = path;
             PartialPicture::read(path)
                 .map_err(|error| unread = Err(error))
                 .ok()
         });
         let film = PartialPicture::merge(parts);
         unread.map_err(Failure::input)?;
-        let film = film.map_err(Failure::input)?;
+        let film = film.map_err(|error| Failure::Input(format!("{}: {error}", last.display())))?;
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
         output.write(&image, &ToneMap::fit(image.texels()))

@@ -174,7 +174,10 @@ fn parts_of_other_pictures_do_not_merge() {
     render(&a, "0..2", &[]);
     let refuse = |aspect: &str, more: &[&str]| {
         render(&b, "2..4", more);
-        assert_refused(&["merge", &a, &b, "-o", &out], &["same picture", aspect]);
+        assert_refused(
+            &["merge", &a, &b, "-o", &out],
+            &["b.exr: ", "same picture", aspect],
+        );
     };
     for (aspect, mtl) in [
         ("materials", LIT.replace("Ke 5 4 3", "Ke 5 4 2")),
