@@ -15,9 +15,8 @@ use std::time::Instant;
 use clap::Parser;
 use light_render::bench::{ChoiceKind, CpuTimer, PictureBench, TimedPicture, scene_variance};
 use light_render::integrator::{Estimator, Integrator, PathSettings};
-use light_render::{AnyLightSampler, SamplerKind, View, VisibilityCells, World};
+use light_render::{AnyLightSampler, SamplerKind, View, Visibility, World};
 use light_scene::BuiltinScene;
-use lights::samplers::VisibilityLightSampler;
 
 /// Measures choices of lights where most lights are hidden.
 #[derive(Debug, Parser)]
@@ -53,35 +52,41 @@ struct Method {
     name: &'static str,
     sampler: SamplerKind,
     choices: NonZeroU32,
-    /// Whether cells of visibility guide the choices of the default tree.
-    cells: bool,
+    /// Whether cells guide the choices of the default tree.
+    visibility: Visibility,
 }
 
 /// What is compared; the others are set against the first.
-const METHODS: [Method; 4] = [
+const METHODS: [Method; 5] = [
     Method {
         name: "one choice",
         sampler: SamplerKind::Bvh,
         choices: NonZeroU32::MIN,
-        cells: false,
+        visibility: Visibility::Off,
     },
     Method {
         name: "two choices",
         sampler: SamplerKind::Bvh,
         choices: PathSettings::DEFAULT_LIGHT_SAMPLES,
-        cells: false,
+        visibility: Visibility::Off,
     },
     Method {
         name: "reference tree",
         sampler: SamplerKind::BvhReference,
         choices: NonZeroU32::MIN,
-        cells: false,
+        visibility: Visibility::Off,
     },
     Method {
         name: "cells",
         sampler: SamplerKind::Bvh,
         choices: NonZeroU32::MIN,
-        cells: true,
+        visibility: Visibility::Cells,
+    },
+    Method {
+        name: "cells, two elsewhere",
+        sampler: SamplerKind::Bvh,
+        choices: PathSettings::DEFAULT_LIGHT_SAMPLES,
+        visibility: Visibility::Cells,
     },
 ];
 
@@ -196,13 +201,13 @@ fn picture(
     seed: u32,
 ) -> Result<TimedPicture, Box<dyn Error>> {
     let path = direct(method.choices);
-    let (AnyLightSampler::Bvh(lights), true) = (sampler, method.cells) else {
+    if method.visibility == Visibility::Off {
         return Ok(bench.picture(sampler, path, samples, seed));
-    };
+    }
+    let sampler = sampler.clone();
     let timer = CpuTimer::start();
-    let cells = VisibilityCells::fill(bench.world(), bench.view(), lights)?;
+    let guided = sampler.in_cells(bench.world(), bench.view())?;
     let filling = timer.seconds();
-    let guided = VisibilityLightSampler::new(lights.view(), &cells);
     let mut picture = bench.picture(&guided, path, samples, seed);
     picture.seconds += filling;
     Ok(picture)

@@ -72,5 +72,5 @@ pub use scene_lights::SceneLightsError;
 pub use surface::Surface;
 pub use tone_map::ToneMap;
 pub use view::{View, ViewError};
-pub use visibility::VisibilityCells;
+pub use visibility::{CellLightSampler, Visibility, VisibilityCells};
 pub use world::{World, WorldError};

@@ -3,12 +3,15 @@ use core::fmt;
 use core::str::FromStr;
 
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
+use lights::bvh::visibility::CellTableError;
 use lights::bvh::{LightBvhError, LightBvhOptions};
 use lights::samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightChoices, LightSampler, PowerLightSampler,
     PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
+
+use crate::{CellLightSampler, View, World};
 
 /// A way to choose one light of many, by its name on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +44,8 @@ pub enum AnyLightSampler {
     BvhReference(ReferenceBvhLightSampler),
     /// The default light hierarchy.
     Bvh(BvhLightSampler),
+    /// The default light hierarchy with cells of visibility.
+    BvhInCells(CellLightSampler),
 }
 
 /// Why lights cannot be sampled.
@@ -51,6 +56,10 @@ pub enum AnyLightSamplerError {
     Power(PowerLightSamplerError),
     /// Bounds are invalid.
     Bvh(LightBvhError),
+    /// The cells of visibility are too many.
+    Cells(CellTableError),
+    /// Lights are not chosen by the default hierarchy: no other knows cells of visibility.
+    NoCells,
 }
 
 impl SamplerKind {
@@ -124,6 +133,30 @@ impl AnyLightSampler {
         })
     }
 
+    /// The same hierarchy with cells of visibility for what `view` shows of `world`, filled on the
+    /// threads of the current `rayon` pool.
+    ///
+    /// # Errors
+    /// When the lights are not chosen by the default hierarchy, or the cells are too many.
+    pub fn in_cells(self, world: &World, view: &View) -> Result<Self, AnyLightSamplerError> {
+        match self {
+            Self::Bvh(lights) => Ok(Self::BvhInCells(CellLightSampler::new(
+                lights, world, view,
+            )?)),
+            _ => Err(AnyLightSamplerError::NoCells),
+        }
+    }
+
+    /// The default hierarchy, with cells or without.
+    #[must_use]
+    pub const fn hierarchy(&self) -> Option<&BvhLightSampler> {
+        match self {
+            Self::Bvh(sampler) => Some(sampler),
+            Self::BvhInCells(sampler) => Some(sampler.lights()),
+            Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
+        }
+    }
+
     /// Bytes that queries may touch, for a set of `lights`.
     #[must_use]
     pub fn bytes(&self, lights: usize) -> usize {
@@ -134,6 +167,7 @@ impl AnyLightSampler {
             Self::Exhaustive(_) => size_of::<LightBounds>() * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
             Self::Bvh(sampler) => sampler.tree().bytes(),
+            Self::BvhInCells(sampler) => sampler.lights().tree().bytes() + sampler.cells().bytes(),
         }
     }
 
@@ -142,10 +176,7 @@ impl AnyLightSampler {
     /// not know.
     #[must_use]
     pub fn degradation(&self) -> Option<f64> {
-        match self {
-            Self::Bvh(sampler) => Some(sampler.tree().degradation()),
-            Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
-        }
+        Some(self.hierarchy()?.tree().degradation())
     }
 
     /// Nodes on the longest way down a hierarchy; 0 without one.
@@ -155,6 +186,7 @@ impl AnyLightSampler {
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) => 0,
             Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
             Self::Bvh(sampler) => sampler.tree().depth(),
+            Self::BvhInCells(sampler) => sampler.lights().tree().depth(),
         }
     }
 }
@@ -176,6 +208,7 @@ macro_rules! for_each_kind {
             AnyLightSampler::Exhaustive($it) => $answer,
             AnyLightSampler::BvhReference($it) => $answer,
             AnyLightSampler::Bvh($it) => $answer,
+            AnyLightSampler::BvhInCells($it) => $answer,
         }
     };
 }
@@ -219,11 +252,19 @@ impl From<LightBvhError> for AnyLightSamplerError {
     }
 }
 
+impl From<CellTableError> for AnyLightSamplerError {
+    fn from(error: CellTableError) -> Self {
+        Self::Cells(error)
+    }
+}
+
 impl fmt::Display for AnyLightSamplerError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Power(error) => error.fmt(f),
             Self::Bvh(error) => error.fmt(f),
+            Self::Cells(error) => error.fmt(f),
+            Self::NoCells => f.write_str("cells of visibility: expected the default hierarchy"),
         }
     }
 }

@@ -6,7 +6,7 @@ use lights::sources::LightDesc;
 
 use crate::content_digest::content_digest;
 use crate::integrator::PathSettings;
-use crate::{PictureIdentity, RenderSettings, SamplerKind, View};
+use crate::{PictureIdentity, RenderSettings, SamplerKind, View, Visibility};
 
 /// The layout of files with parts of pictures, and the rules by which samples are made: one that
 /// changes makes other pictures.
@@ -66,14 +66,15 @@ impl SceneDigest {
         ]))
     }
 
-    /// The identity of the picture of `view` of the scene, rendered with `sampler` as `settings`
-    /// say.
+    /// The identity of the picture of `view` of the scene, rendered with `sampler` and what it
+    /// knows of `visibility` as `settings` say.
     #[must_use]
     pub fn identity(
         &self,
         view: &View,
         settings: &RenderSettings,
         sampler: SamplerKind,
+        visibility: Visibility,
     ) -> PictureIdentity {
         let RenderSettings {
             // Parts differ in these two.
@@ -105,6 +106,7 @@ impl SceneDigest {
             ("light samples", light_samples.to_string()),
             ("integrator", format!("{integrator:?}")),
             ("light sampler", sampler.name().to_owned()),
+            ("visibility", visibility.name().to_owned()),
         ];
         PictureIdentity::new(scene.chain(rest))
     }

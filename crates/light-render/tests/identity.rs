@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use light_render::integrator::{Estimator, Integrator, PathSettings, SingleScattering};
-use light_render::{PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View};
+use light_render::{PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility};
 use light_scene::glam::Vec3;
 use light_scene::{Camera, Crop, Diagnostic, Files, Image, Scene, parse_scene, write_image};
 use lights::media::StepSize;
@@ -135,7 +135,7 @@ fn view(camera: &Camera) -> Option<View> {
 fn identity(scene: &Scene) -> Option<PictureIdentity> {
     let view = view(&scene.camera_or_default())?;
     let digest = SceneDigest::new(scene).ok()?;
-    Some(digest.identity(&view, &settings(), SamplerKind::Bvh))
+    Some(digest.identity(&view, &settings(), SamplerKind::Bvh, Visibility::Off))
 }
 
 /// Where the numbers of a text begin and end, those in names left out.
@@ -236,15 +236,15 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let scene = folder.scene(SCENE).expect("a scene");
     let digest = SceneDigest::new(&scene).expect("no own light");
     let camera = scene.camera.expect("a camera");
-    let sampler = SamplerKind::Bvh;
+    let (sampler, off) = (SamplerKind::Bvh, Visibility::Off);
     let base = View::new(&camera, 20, 10).expect("a view");
-    let expected = digest.identity(&base, &settings(), sampler);
+    let expected = digest.identity(&base, &settings(), sampler, off);
     let differs = |identity: PictureIdentity, name: &str| {
         let difference = identity.difference(&expected);
         let difference = difference.unwrap_or_else(|| panic!("{name} counts"));
         assert!(difference.starts_with(name), "{name}: {difference}");
     };
-    let of_view = |view: View| digest.identity(&view, &settings(), sampler);
+    let of_view = |view: View| digest.identity(&view, &settings(), sampler, off);
     let of_camera = |camera: &Camera| of_view(View::new(camera, 20, 10).expect("a view"));
     differs(of_view(View::new(&camera, 21, 10).expect("a view")), "size");
     let crop = Crop {
@@ -270,7 +270,7 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let with = |change: &dyn Fn(&mut RenderSettings)| {
         let mut settings = settings();
         change(&mut settings);
-        digest.identity(&base, &settings, sampler)
+        digest.identity(&base, &settings, sampler, off)
     };
     differs(with(&|s| s.seed = 8), "seed 8, expected 7");
     differs(with(&|s| s.path.max_depth = 6), "depth");
@@ -288,8 +288,10 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
         })
     };
     assert_ne!(marching(0.5), marching(0.25), "the step");
-    let other = digest.identity(&base, &settings(), SamplerKind::Power);
+    let other = digest.identity(&base, &settings(), SamplerKind::Power, off);
     differs(other, "light sampler power, expected bvh");
+    let other = digest.identity(&base, &settings(), sampler, Visibility::Cells);
+    differs(other, "visibility Cells, expected Off");
     let more = with(&|s| {
         s.samples = 4..9;
         s.time_limit = Some(Duration::from_secs(1));

@@ -30,10 +30,7 @@ impl Candidate {
     /// Milliseconds of the fastest of several refits to the same lights; `None` if the sampler
     /// knows none.
     pub(super) fn refit_ms(&self, extents: &[LightExtent]) -> Option<f64> {
-        let AnyLightSampler::Bvh(sampler) = &self.sampler else {
-            return None;
-        };
-        let mut sampler = sampler.clone();
+        let mut sampler = self.sampler.hierarchy()?.clone();
         let (milliseconds, refitted) = build_time(|| sampler.refit(extents));
         refitted.ok().map(|()| milliseconds)
     }
@@ -69,6 +66,7 @@ impl Candidate {
             AnyLightSampler::Exhaustive(sampler) => sampler,
             AnyLightSampler::BvhReference(sampler) => sampler,
             AnyLightSampler::Bvh(sampler) => sampler,
+            AnyLightSampler::BvhInCells(sampler) => sampler,
         }
     }
 

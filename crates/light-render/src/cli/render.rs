@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::light_sample_time::light_sample_time;
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, ToneMap, View, World, render, render_layers,
+    SceneDigest, ToneMap, View, Visibility, VisibilityCells, World, render, render_layers,
 };
 
 use super::arguments::threads;
@@ -63,13 +63,14 @@ impl RenderArgs {
     /// Bad input, more memory than there is, or an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let outputs = self.outputs()?;
+        let visibility = self.settings.visibility()?;
         self.checkpoint.expect_place(&self.output)?;
         let scene = self.input.read()?;
         if !self.quiet {
             report_warnings(&scene.warnings);
         }
         let view = self.view.view(&scene)?;
-        self.check_memory(&view)?;
+        self.check_memory(&view, visibility)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = self.keeps_sums().then(|| SceneDigest::new(&scene));
         let digest = digest.transpose().map_err(Failure::input)?;
@@ -81,7 +82,8 @@ impl RenderArgs {
         let settings = self.settings.settings(&world)?;
         let layers = self.layers.layers(&self.input, &world, &view, &settings)?;
         let sampler_kind = self.settings.light_sampler;
-        let identity = digest.map(|digest| digest.identity(&view, &settings, sampler_kind));
+        let identity =
+            digest.map(|digest| digest.identity(&view, &settings, sampler_kind, visibility));
         let identity = identity.unwrap_or_default();
         let checkpoint = self.checkpoint.open(&identity)?;
         let pool = rayon::ThreadPoolBuilder::new()
@@ -93,6 +95,7 @@ impl RenderArgs {
             .install(|| AnyLightSampler::new(sampler_kind, world.lights()))
             .map_err(Failure::input)?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
+        let (sampler, cells) = pool.install(|| with_cells(sampler, visibility, &world, &view))?;
         let volume = if self.quiet {
             Volume::Quiet
         } else {
@@ -126,7 +129,7 @@ impl RenderArgs {
         }
         let report = self.json.then(|| {
             let sample_ns = light_sample_time(&world, &view, &sampler);
-            self.report(&world, &rendering, build_ms, sample_ns)
+            self.report(&world, &rendering, build_ms, sample_ns, &cells)
         });
         let picture = (rendering.film, layers);
         self.write(&outputs, &settings, identity, picture, exposure)?;
@@ -142,7 +145,7 @@ impl RenderArgs {
     }
 
     /// Makes sure that the picture fits into memory.
-    fn check_memory(&self, view: &View) -> Result<(), Failure> {
+    fn check_memory(&self, view: &View, visibility: Visibility) -> Result<(), Failure> {
         let sums = if self.checkpoint.is_wanted() {
             2 * Film::BYTES_PER_PIXEL + PartialPicture::FILE_BYTES_PER_PIXEL
         } else if self.settings.samples.is_some() {
@@ -153,7 +156,14 @@ impl RenderArgs {
         let (width, height) = view.crop().size();
         let pixels = u64::from(width) * u64::from(height);
         let what = format!("a picture of {width} x {height} pixels (--width, --height)");
-        check_memory(&what, pixels * PICTURE.max(sums))
+        check_memory(&what, pixels * PICTURE.max(sums))?;
+        if visibility == Visibility::Off {
+            return Ok(());
+        }
+        let (width, height) = view.resolution();
+        let pixels = u64::from(width) * u64::from(height);
+        let what = format!("cells of {width} x {height} pixels (--visibility, --width, --height)");
+        check_memory(&what, pixels * VisibilityCells::MAX_BYTES_PER_PIXEL)
     }
 
     /// The files to write, all of them tried.
@@ -215,6 +225,7 @@ impl RenderArgs {
         rendering: &Rendering,
         build_ms: f64,
         sample_time: Option<Duration>,
+        cells: &CellCosts,
     ) -> serde_json::Value {
         json!({
             "scene": self.input.scene.display().to_string(),
@@ -226,6 +237,35 @@ impl RenderArgs {
             "tree_build_ms": build_ms,
             "ns_per_light_sample": sample_time.map(|time| time.as_secs_f64() * 1e9),
             "rays": rendering.rays,
+            "visibility_seconds": cells.elapsed.as_secs_f64(),
+            "visibility_bytes": cells.bytes,
         })
     }
+}
+
+/// What the cells of visibility took.
+#[derive(Debug, Default)]
+struct CellCosts {
+    elapsed: Duration,
+    bytes: usize,
+}
+
+/// The sampler with what is to be known of `visibility`.
+fn with_cells(
+    sampler: AnyLightSampler,
+    visibility: Visibility,
+    world: &World,
+    view: &View,
+) -> Result<(AnyLightSampler, CellCosts), Failure> {
+    if visibility == Visibility::Off {
+        return Ok((sampler, CellCosts::default()));
+    }
+    let start = Instant::now();
+    let sampler = sampler.in_cells(world, view).map_err(Failure::input)?;
+    let elapsed = start.elapsed();
+    let bytes = match &sampler {
+        AnyLightSampler::BvhInCells(sampler) => sampler.cells().bytes(),
+        _ => 0,
+    };
+    Ok((sampler, CellCosts { elapsed, bytes }))
 }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use lights::media::StepSize;
 
 use crate::integrator::{self, Integrator, PathSettings, SingleScattering};
-use crate::{RenderSettings, SamplerKind, World};
+use crate::{RenderSettings, SamplerKind, Visibility, World};
 
 use super::arguments::{positive, sample_range, seconds};
 use super::failure::Failure;
@@ -50,6 +50,10 @@ pub(crate) struct SettingsArgs {
     /// are.
     #[arg(long, value_name = "N", default_value_t = PathSettings::DEFAULT_LIGHT_SAMPLES)]
     light_samples: NonZeroU32,
+    /// What choices of lights know of their visibility: nothing (off), or what cells of space know
+    /// that are filled before the picture, for what the camera sees of surfaces (cells).
+    #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
+    visibility: VisibilityName,
     /// How light is found: by light samples, by material samples, or by both, weighted.
     #[arg(long, value_enum, default_value_t = Estimator::Mis)]
     estimator: Estimator,
@@ -72,7 +76,30 @@ enum Estimator {
     Bsdf,
 }
 
+/// The names of what is known of visibility on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum VisibilityName {
+    Off,
+    Cells,
+}
+
 impl SettingsArgs {
+    /// What choices of lights know of their visibility.
+    ///
+    /// # Errors
+    /// When the light sampler does not know cells.
+    pub(crate) fn visibility(&self) -> Result<Visibility, Failure> {
+        match (self.visibility, self.light_sampler) {
+            (VisibilityName::Off, _) => Ok(Visibility::Off),
+            (VisibilityName::Cells, SamplerKind::Bvh | SamplerKind::BvhMorton) => {
+                Ok(Visibility::Cells)
+            }
+            (VisibilityName::Cells, other) => Err(Failure::Input(format!(
+                "--visibility cells: expected --light-sampler bvh or bvh-morton, found {other}"
+            ))),
+        }
+    }
+
     /// The settings for `world`.
     ///
     /// # Errors

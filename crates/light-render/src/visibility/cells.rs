@@ -1,8 +1,9 @@
 use lights::bounds::LightSampleContext;
-use lights::bvh::visibility::{CellFactors, CellKey, CellTable, CellTableError};
-use lights::glam::Vec3;
+use lights::bvh::visibility::{CellFactors, CellTable, CellTableError, MAX_COPIED_NODES};
 use lights::samplers::{BvhLightSampler, VisibilityCache};
 
+use super::cell_size::CellSize;
+use super::census::Sighting;
 use super::{census, fill};
 use crate::{View, World};
 
@@ -15,32 +16,16 @@ pub struct VisibilityCells {
     table: CellTable,
 }
 
-/// How large cells are: so many pixels of the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct CellSize {
-    camera: Vec3,
-    /// Edge of a coarse cell at distance 1.
-    edge: f32,
-}
-
-impl CellSize {
-    /// Edge of a coarse cell, in pixels.
-    const PIXELS: f32 = 20.0;
-
-    pub(super) fn of(view: &View) -> Self {
-        Self {
-            camera: view.camera().position,
-            edge: Self::PIXELS * view.pixel_angle(),
-        }
-    }
-
-    #[inline]
-    pub(super) fn fine_key(&self, ctx: &LightSampleContext) -> CellKey {
-        CellKey::fine(ctx, self.edge * ctx.p.distance(self.camera))
-    }
-}
-
 impl VisibilityCells {
+    /// Bytes that filling takes at most for each pixel of the whole picture: a sighting, and the
+    /// largest cells that so few pixels may have, while the table of all is made of them.
+    pub const MAX_BYTES_PER_PIXEL: u64 = {
+        const KEY: usize = 32;
+        let coarse = (KEY + MAX_COPIED_NODES * 36) / fill::FEWEST_OF_COARSE;
+        let fine = (KEY + MAX_COPIED_NODES * 16) / fill::FEWEST_OF_FINE;
+        (size_of::<Sighting>() + 2 * (coarse + fine)) as u64
+    };
+
     /// The cells of what `view` shows of `world`, for the lights of `sampler`, on the threads of the
     /// current `rayon` pool.
     ///
@@ -55,8 +40,15 @@ impl VisibilityCells {
         let sightings = census::take(world, view, &size);
         let cells = fill::fill(world, view, sampler, &sightings);
         let (coarse, fine): (Vec<_>, Vec<_>) = cells.into_iter().unzip();
-        let table = CellTable::new(&coarse, &fine.concat())?;
+        let fine: Vec<_> = fine.into_iter().flatten().collect();
+        let table = CellTable::new(&coarse, &fine)?;
         Ok(Self { size, table })
+    }
+
+    /// Whether there is no cell that knows more than the lights themselves.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.table.view().parts().keys.is_empty()
     }
 
     /// Bytes that they take.
@@ -69,6 +61,9 @@ impl VisibilityCells {
 impl VisibilityCache for VisibilityCells {
     #[inline]
     fn factors<'a>(&'a self, ctx: &LightSampleContext) -> Option<CellFactors<'a>> {
+        if self.is_plain() || ctx.ns().is_none() {
+            return None;
+        }
         let cell = self.table.view().factors(self.size.fine_key(ctx));
         (!cell.is_plain()).then_some(cell)
     }

@@ -5,7 +5,7 @@ use lights::bvh::visibility::CellKey;
 use lights::glam::Vec2;
 use rayon::prelude::*;
 
-use super::cells::CellSize;
+use super::cell_size::CellSize;
 use crate::{Surface, View, World};
 
 /// A pixel, and the cell of what it shows.

@@ -9,10 +9,10 @@ use super::census::{Place, Sighting, place};
 use crate::{View, World};
 
 /// Coarse cells that fewer pixels show are plain.
-const FEWEST_OF_COARSE: usize = 12;
+pub(super) const FEWEST_OF_COARSE: usize = 4;
 
 /// Fine cells that fewer pixels show have the factors of their coarse cell.
-const FEWEST_OF_FINE: usize = 2;
+pub(super) const FEWEST_OF_FINE: usize = 2;
 
 /// Places of a coarse cell, at most.
 const COARSE_PLACES: usize = 128;
@@ -20,7 +20,21 @@ const COARSE_PLACES: usize = 128;
 /// Places of a fine cell, at most.
 const FINE_PLACES: usize = 16;
 
-/// The cells of `sightings`, in order, but for the plain ones.
+/// Rays for each pixel that shows a coarse cell, to lights that the tree chooses; so a cell takes
+/// a share of the time of its pixels, however small it is.
+const EXPLORING_RAYS_PER_PIXEL: f32 = 24.0;
+
+/// The same to lights that the factors learnt so far choose, in each of two rounds.
+const GUIDED_RAYS_PER_PIXEL: f32 = 3.0;
+
+/// The same for a fine cell.
+const FINE_RAYS_PER_PIXEL: f32 = 8.0;
+
+/// Cells that know nothing in all but this share of the pixels cost more than they gain.
+const LEAST_KNOWN_SHARE: f32 = 0.02;
+
+/// The cells of `sightings`, in order, but for the plain ones. None at all where nearly all would be
+/// plain.
 pub(super) fn fill(
     world: &World,
     view: &View,
@@ -28,7 +42,6 @@ pub(super) fn fill(
     sightings: &[Sighting],
 ) -> Vec<(CoarseCell, Vec<FineCell>)> {
     let tree = sampler.tree().view();
-    let options = FillOptions::default();
     let places = |sightings: &[Sighting], most| -> Vec<Place> {
         let stride = sightings.len().div_ceil(most);
         let pixels = sightings.iter().step_by(stride);
@@ -40,8 +53,9 @@ pub(super) fn fill(
         if cell.len() < FEWEST_OF_COARSE {
             return None;
         }
+        let rays = rays_of(cell.len());
         let at = places(cell, COARSE_PLACES);
-        let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &options, visible);
+        let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &rays, visible);
         if coarse.factors().is_plain() {
             return None;
         }
@@ -49,13 +63,36 @@ pub(super) fn fill(
         let fine = parts
             .filter(|part| part.len() >= FEWEST_OF_FINE)
             .map(|part| {
+                let rays = rays_of(part.len());
                 let at = places(part, FINE_PLACES);
-                coarse.fill_fine(tree, part[0].fine, &at, &options, visible)
+                coarse.fill_fine(tree, part[0].fine, &at, &rays, visible)
             });
         let fine = fine.collect();
-        Some((coarse, fine))
+        Some((cell.len(), (coarse, fine)))
     });
-    filled.collect()
+    let (known, cells): (Vec<usize>, Vec<_>) = filled.unzip();
+    let known: usize = known.iter().sum();
+    if (known as f32) < LEAST_KNOWN_SHARE * sightings.len() as f32 {
+        return Vec::new();
+    }
+    cells
+}
+
+/// How many rays a cell is filled by that so many pixels show.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most the default numbers"
+)]
+fn rays_of(pixels: usize) -> FillOptions {
+    let all = FillOptions::default();
+    let at_most = |most: u32, per_pixel: f32| (per_pixel * pixels as f32).min(most as f32) as u32;
+    FillOptions {
+        exploring_rays: at_most(all.exploring_rays, EXPLORING_RAYS_PER_PIXEL),
+        guided_rays: at_most(all.guided_rays, GUIDED_RAYS_PER_PIXEL),
+        fine_rays: at_most(all.fine_rays, FINE_RAYS_PER_PIXEL),
+        ..all
+    }
 }
 
 /// Whether the point of `light` that `u` chooses is seen from `place`, and shines on it.

@@ -8,6 +8,7 @@ mod layers;
 mod outputs;
 mod refusals;
 mod samplers;
+mod visibility;
 mod watched;
 
 use std::fs;
