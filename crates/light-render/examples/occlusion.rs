@@ -1,6 +1,6 @@
-//! How noisy direct light is after equal time where most lights are hidden: relMSE times seconds of
-//! each way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance
-//! of one choice, split into what better choices can remove and what not.
+//! How noisy light is after equal time where most lights are hidden: relMSE times seconds of each
+//! way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance of one
+//! choice, split into what better choices can remove and what not.
 //!
 //! Each picture is compared with both halves of a reference of many more samples, so that the noise
 //! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and
@@ -36,6 +36,9 @@ struct Arguments {
     /// Pictures of other seeds that each figure is the mean of.
     #[arg(long, default_value_t = 2)]
     seeds: u32,
+    /// Segments of the longest path: 2 is direct light.
+    #[arg(long, default_value_t = 2)]
+    max_depth: u32,
     /// Print the variance of one choice instead, exact over all lights.
     #[arg(long)]
     ceilings: bool,
@@ -122,10 +125,10 @@ fn load(scene: BuiltinScene, (width, height): (u32, u32)) -> Result<(World, View
     Ok((World::new(scene)?, view))
 }
 
-/// Direct light with so many choices.
-const fn direct(choices: NonZeroU32) -> PathSettings {
+/// Paths of at most so many segments, with so many choices.
+const fn paths(max_depth: u32, choices: NonZeroU32) -> PathSettings {
     PathSettings {
-        max_depth: 2,
+        max_depth,
         estimator: Estimator::Mis,
         light_samples: choices,
         integrator: Integrator::Path,
@@ -158,11 +161,8 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             .collect::<Result<_, _>>()?;
         eprintln!("{scene}: {} lights, reference", lights.len());
         // The first method is the quietest in most scenes.
-        let [a, b] = [1001, 1002].map(|seed| {
-            bench
-                .picture(&samplers[0], direct(METHODS[0].choices), half, seed)
-                .pixels
-        });
+        let path = paths(arguments.max_depth, METHODS[0].choices);
+        let [a, b] = [1001, 1002].map(|seed| bench.picture(&samplers[0], path, half, seed).pixels);
         let reference: Vec<_> = a.iter().zip(&b).map(|(a, b)| 0.5 * (*a + *b)).collect();
         let relative = bench.error(&reference, bench.tenth_of_mean(&reference));
         let own = 0.5 * relative.of_pair(&a, &b);
@@ -173,7 +173,7 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             for (method, sampler) in METHODS.iter().zip(&samplers) {
                 let (mut error, mut seconds) = (0.0, 0.0);
                 for seed in 1..=arguments.seeds {
-                    let picture = picture(&bench, method, sampler, samples, seed)?;
+                    let picture = picture(arguments, &bench, (method, sampler), samples, seed)?;
                     error += relative.against(&picture.pixels, [&a, &b]);
                     seconds += picture.seconds;
                 }
@@ -194,13 +194,13 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 
 /// One picture by one method, with the time that it takes to fill its cells.
 fn picture(
+    arguments: &Arguments,
     bench: &PictureBench,
-    method: &Method,
-    sampler: &AnyLightSampler,
+    (method, sampler): (&Method, &AnyLightSampler),
     samples: u32,
     seed: u32,
 ) -> Result<TimedPicture, Box<dyn Error>> {
-    let path = direct(method.choices);
+    let path = paths(arguments.max_depth, method.choices);
     if method.visibility == Visibility::Off {
         return Ok(bench.picture(sampler, path, samples, seed));
     }

@@ -1,20 +1,30 @@
 use std::time::Instant;
 
 use crate::choice_variance::choice_variance;
-use crate::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
+use crate::{
+    AnyLightSampler, LightInventory, SamplerKind, View, Visibility, VisibilityCells, World,
+    inventory,
+};
 use clap::Args;
 use light_scene::Diagnostic;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
+use super::memory_check::check_cells_memory;
 use super::scene_input::SceneInput;
 use super::stdout::say;
+use super::view_args::ViewArgs;
+use super::visibility::{CellCosts, VisibilityName, cells, with_cells};
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
 #[derive(Args, Debug)]
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     input: SceneInput,
+    /// Fill the cells of visibility for what the scene's camera sees, as `lights render
+    /// --visibility cells` does, and show what they hold.
+    #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
+    visibility: VisibilityName,
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
@@ -32,6 +42,14 @@ struct Tree {
     degradation: Option<f64>,
 }
 
+/// The cells of visibility for a picture by the scene's camera.
+struct Cells {
+    counts: [usize; 2],
+    /// Pixels that show a surface in a cell, and all.
+    pixels: [usize; 2],
+    costs: CellCosts,
+}
+
 impl InfoArgs {
     /// Reads the scene and prints what it holds.
     ///
@@ -40,13 +58,21 @@ impl InfoArgs {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let mut scene = self.input.read()?;
         let warnings = core::mem::take(&mut scene.warnings);
+        let view = match self.visibility {
+            VisibilityName::Off => None,
+            VisibilityName::Cells => Some(ViewArgs::default().view(&scene)?),
+        };
         let world = self.input.build(scene)?;
         let tree = Tree::over(&world)?;
+        let cells = view.map(|view| Cells::over(&world, &view)).transpose()?;
         let kinds = inventory(world.lights());
         if self.json {
-            say!("{}", self.report(&world, &kinds, &tree, &warnings))?;
+            let mut report = self.report(&world, &kinds, &tree, &warnings);
+            report["visibility"] = cells.map_or(Value::Null, |cells| cells.report());
+            say!("{report}")?;
         } else {
             self.print(&world, &kinds, &tree, &warnings)?;
+            cells.map_or(Ok(()), |cells| cells.print())?;
         }
         Ok(())
     }
@@ -167,6 +193,46 @@ impl InfoArgs {
             say!("  ignored    {warning}")?;
         }
         Ok(())
+    }
+}
+
+impl Cells {
+    fn over(world: &World, view: &View) -> Result<Self, Failure> {
+        let (width, height) = view.resolution();
+        check_cells_memory(width, height)?;
+        let sampler =
+            AnyLightSampler::new(SamplerKind::DEFAULT, world.lights()).map_err(Failure::input)?;
+        let (sampler, costs) = with_cells(sampler, Visibility::Cells, world, view)?;
+        let cells = cells(&sampler);
+        Ok(Self {
+            counts: cells.map_or([0; 2], VisibilityCells::counts),
+            pixels: [
+                cells.map_or(0, VisibilityCells::pixels),
+                width as usize * height as usize,
+            ],
+            costs,
+        })
+    }
+
+    fn report(&self) -> Value {
+        json!({
+            "coarse_cells": self.counts[0],
+            "fine_cells": self.counts[1],
+            "known_pixels": self.pixels[0],
+            "pixels": self.pixels[1],
+            "bytes": self.costs.bytes,
+            "seconds": self.costs.seconds,
+        })
+    }
+
+    fn print(&self) -> Result<(), Failure> {
+        let ([coarse, fine], [known, all]) = (self.counts, self.pixels);
+        say!(
+            "  visibility {coarse} coarse and {fine} fine cells know the lights of {known} of {all} \
+             pixels: {} bytes, filled in {:.2} s",
+            self.costs.bytes,
+            self.costs.seconds
+        )
     }
 }
 

@@ -1,5 +1,5 @@
-use crate::Film;
 use crate::available_memory::available_memory;
+use crate::{Film, VisibilityCells};
 
 use super::failure::Failure;
 
@@ -14,6 +14,17 @@ pub(crate) const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
 /// When there is less, with both figures.
 pub(crate) fn check_memory(what: &str, bytes: u64) -> Result<(), Failure> {
     fits(what, bytes, available_memory())
+}
+
+/// Makes sure that the cells of visibility of a picture of so many pixels fit into memory while
+/// they are filled.
+///
+/// # Errors
+/// When they do not.
+pub(super) fn check_cells_memory(width: u32, height: u32) -> Result<(), Failure> {
+    let pixels = u64::from(width) * u64::from(height);
+    let what = format!("cells of {width} x {height} pixels (--visibility, --width, --height)");
+    check_memory(&what, pixels * VisibilityCells::MAX_BYTES_PER_PIXEL)
 }
 
 fn fits(what: &str, bytes: u64, available: u64) -> Result<(), Failure> {

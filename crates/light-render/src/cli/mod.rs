@@ -26,6 +26,7 @@ mod render_settings;
 mod scene_input;
 mod stdout;
 mod view_args;
+mod visibility;
 
 use alloc::collections::BTreeSet;
 use std::ffi::OsString;

@@ -10,20 +10,21 @@ use serde_json::json;
 use crate::light_sample_time::light_sample_time;
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, ToneMap, View, Visibility, VisibilityCells, World, render, render_layers,
+    SceneDigest, ToneMap, View, Visibility, World, render, render_layers,
 };
 
 use super::arguments::threads;
 use super::checkpoint::CheckpointArgs;
 use super::failure::Failure;
 use super::layer_args::LayerArgs;
-use super::memory_check::{PICTURE, check_memory};
+use super::memory_check::{PICTURE, check_cells_memory, check_memory};
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::render_settings::SettingsArgs;
 use super::scene_input::{SceneInput, report_warnings};
 use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
+use super::visibility::{CellCosts, with_cells};
 
 /// Render a scene into an image.
 #[derive(Args, Debug)]
@@ -161,9 +162,7 @@ impl RenderArgs {
             return Ok(());
         }
         let (width, height) = view.resolution();
-        let pixels = u64::from(width) * u64::from(height);
-        let what = format!("cells of {width} x {height} pixels (--visibility, --width, --height)");
-        check_memory(&what, pixels * VisibilityCells::MAX_BYTES_PER_PIXEL)
+        check_cells_memory(width, height)
     }
 
     /// The files to write, all of them tried.
@@ -237,35 +236,8 @@ impl RenderArgs {
             "tree_build_ms": build_ms,
             "ns_per_light_sample": sample_time.map(|time| time.as_secs_f64() * 1e9),
             "rays": rendering.rays,
-            "visibility_seconds": cells.elapsed.as_secs_f64(),
+            "visibility_seconds": cells.seconds,
             "visibility_bytes": cells.bytes,
         })
     }
-}
-
-/// What the cells of visibility took.
-#[derive(Debug, Default)]
-struct CellCosts {
-    elapsed: Duration,
-    bytes: usize,
-}
-
-/// The sampler with what is to be known of `visibility`.
-fn with_cells(
-    sampler: AnyLightSampler,
-    visibility: Visibility,
-    world: &World,
-    view: &View,
-) -> Result<(AnyLightSampler, CellCosts), Failure> {
-    if visibility == Visibility::Off {
-        return Ok((sampler, CellCosts::default()));
-    }
-    let start = Instant::now();
-    let sampler = sampler.in_cells(world, view).map_err(Failure::input)?;
-    let elapsed = start.elapsed();
-    let bytes = match &sampler {
-        AnyLightSampler::BvhInCells(sampler) => sampler.cells().bytes(),
-        _ => 0,
-    };
-    Ok((sampler, CellCosts { elapsed, bytes }))
 }

@@ -10,6 +10,7 @@ use crate::{RenderSettings, SamplerKind, Visibility, World};
 
 use super::arguments::{positive, sample_range, seconds};
 use super::failure::Failure;
+use super::visibility::VisibilityName;
 
 /// Which samples are taken, and how.
 #[derive(Args, Debug)]
@@ -74,13 +75,6 @@ enum Estimator {
     Mis,
     Light,
     Bsdf,
-}
-
-/// The names of what is known of visibility on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum VisibilityName {
-    Off,
-    Cells,
 }
 
 impl SettingsArgs {

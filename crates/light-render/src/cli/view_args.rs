@@ -6,7 +6,7 @@ use super::arguments::{LookAt, Window, positive};
 use super::failure::Failure;
 
 /// The camera, and the size of the picture.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(crate) struct ViewArgs {
     /// Width of the image in pixels.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]

@@ -4,6 +4,7 @@ use lights::samplers::{BvhLightSampler, VisibilityCache};
 
 use super::cell_size::CellSize;
 use super::census::Sighting;
+use super::fill::Filled;
 use super::{census, fill};
 use crate::{View, World};
 
@@ -14,6 +15,7 @@ use crate::{View, World};
 pub struct VisibilityCells {
     size: CellSize,
     table: CellTable,
+    pixels: usize,
 }
 
 impl VisibilityCells {
@@ -38,17 +40,36 @@ impl VisibilityCells {
     ) -> Result<Self, CellTableError> {
         let size = CellSize::of(view);
         let sightings = census::take(world, view, &size);
-        let cells = fill::fill(world, view, sampler, &sightings);
+        let Filled { cells, pixels } = fill::fill(world, view, sampler, &sightings);
         let (coarse, fine): (Vec<_>, Vec<_>) = cells.into_iter().unzip();
         let fine: Vec<_> = fine.into_iter().flatten().collect();
         let table = CellTable::new(&coarse, &fine)?;
-        Ok(Self { size, table })
+        Ok(Self {
+            size,
+            table,
+            pixels,
+        })
     }
 
     /// Whether there is no cell that knows more than the lights themselves.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.table.view().parts().keys.is_empty()
+    }
+
+    /// How many coarse and fine cells there are that know more.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 2] {
+        let keys = self.table.view().parts().keys;
+        let coarse = keys.iter().filter(|key| key.is_coarse()).count();
+        [coarse, keys.len() - coarse]
+    }
+
+    /// How many pixels of the whole picture show a surface in such a cell, by the ray through their
+    /// middle.
+    #[must_use]
+    pub const fn pixels(&self) -> usize {
+        self.pixels
     }
 
     /// Bytes that they take.

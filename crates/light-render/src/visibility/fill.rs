@@ -33,14 +33,22 @@ const FINE_RAYS_PER_PIXEL: f32 = 8.0;
 /// Cells that know nothing in all but this share of the pixels cost more than they gain.
 const LEAST_KNOWN_SHARE: f32 = 0.02;
 
-/// The cells of `sightings`, in order, but for the plain ones. None at all where nearly all would be
-/// plain.
+/// Cells that know more than the lights themselves.
+#[derive(Default)]
+pub(super) struct Filled {
+    /// In the order of their keys.
+    pub(super) cells: Vec<(CoarseCell, Vec<FineCell>)>,
+    /// How many pixels show a surface in one of them.
+    pub(super) pixels: usize,
+}
+
+/// The cells of `sightings` but for the plain ones. None at all where nearly all would be plain.
 pub(super) fn fill(
     world: &World,
     view: &View,
     sampler: &BvhLightSampler,
     sightings: &[Sighting],
-) -> Vec<(CoarseCell, Vec<FineCell>)> {
+) -> Filled {
     let tree = sampler.tree().view();
     let places = |sightings: &[Sighting], most| -> Vec<Place> {
         let stride = sightings.len().div_ceil(most);
@@ -70,12 +78,12 @@ pub(super) fn fill(
         let fine = fine.collect();
         Some((cell.len(), (coarse, fine)))
     });
-    let (known, cells): (Vec<usize>, Vec<_>) = filled.unzip();
-    let known: usize = known.iter().sum();
-    if (known as f32) < LEAST_KNOWN_SHARE * sightings.len() as f32 {
-        return Vec::new();
+    let (pixels, cells): (Vec<usize>, Vec<_>) = filled.unzip();
+    let pixels = pixels.iter().sum();
+    if (pixels as f32) < LEAST_KNOWN_SHARE * sightings.len() as f32 {
+        return Filled::default();
     }
-    cells
+    Filled { cells, pixels }
 }
 
 /// How many rays a cell is filled by that so many pixels show.

@@ -89,3 +89,22 @@ fn cells_belong_to_the_default_hierarchy() {
     let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
     assert_eq!(report["visibility_bytes"], 0, "{line}");
 }
+
+#[test]
+fn info_says_what_cells_hold() {
+    let of = |scene: &str| -> serde_json::Value {
+        let line = stdout(&["info", scene, "--visibility", "cells", "--json"]);
+        serde_json::from_str(&line).expect("one line of JSON")
+    };
+    let rooms = &of("rooms")["visibility"];
+    let count = |name: &str| rooms[name].as_u64().expect(name);
+    let (coarse, fine) = (count("coarse_cells"), count("fine_cells"));
+    assert!(coarse > 10 && fine > 10 * coarse, "{rooms}");
+    assert!(count("bytes") > 32 * (coarse + fine), "{rooms}");
+    let (known, all) = (count("known_pixels"), count("pixels"));
+    assert!(known > all / 10 && known <= all, "{rooms}");
+    let text = stdout(&["info", "cornell-box", "--visibility", "cells"]);
+    assert!(text.contains("visibility "), "{text}");
+    let text = stdout(&["info", "cornell-box"]);
+    assert!(!text.contains("visibility"), "nothing is filled: {text}");
+}

@@ -1,0 +1,52 @@
+use std::time::Instant;
+
+use clap::ValueEnum;
+
+use crate::{AnyLightSampler, View, Visibility, VisibilityCells, World};
+
+use super::failure::Failure;
+
+/// The names of what is known of visibility on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum VisibilityName {
+    Off,
+    Cells,
+}
+
+/// What filling took.
+#[derive(Debug, Default)]
+pub(super) struct CellCosts {
+    pub(super) seconds: f64,
+    pub(super) bytes: usize,
+}
+
+/// The sampler with what is to be known of `visibility`, filled on the threads of the current
+/// `rayon` pool.
+///
+/// # Errors
+/// When there are more cells than 32 bits count.
+pub(super) fn with_cells(
+    sampler: AnyLightSampler,
+    visibility: Visibility,
+    world: &World,
+    view: &View,
+) -> Result<(AnyLightSampler, CellCosts), Failure> {
+    if visibility == Visibility::Off {
+        return Ok((sampler, CellCosts::default()));
+    }
+    let start = Instant::now();
+    let sampler = sampler.in_cells(world, view).map_err(Failure::input)?;
+    let costs = CellCosts {
+        seconds: start.elapsed().as_secs_f64(),
+        bytes: cells(&sampler).map_or(0, VisibilityCells::bytes),
+    };
+    Ok((sampler, costs))
+}
+
+/// The cells of a sampler that has some.
+pub(super) const fn cells(sampler: &AnyLightSampler) -> Option<&VisibilityCells> {
+    match sampler {
+        AnyLightSampler::BvhInCells(sampler) => Some(sampler.cells()),
+        _ => None,
+    }
+}
