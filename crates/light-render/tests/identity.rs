@@ -291,7 +291,7 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let other = digest.identity(&base, &settings(), SamplerKind::Power, off);
     differs(other, "light sampler power, expected bvh");
     let other = digest.identity(&base, &settings(), sampler, Visibility::Cells);
-    differs(other, "visibility Cells, expected Off");
+    differs(other, "visibility cells, expected off");
     let more = with(&|s| {
         s.samples = 4..9;
         s.time_limit = Some(Duration::from_secs(1));
