@@ -1,10 +1,9 @@
 use super::bilinear_patch_error::BilinearPatchError;
 use super::flat_quad::FlatQuad;
+use super::normal::{normal_length, unit_normal};
 use super::patch_area;
-use super::{
-    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, normal_length,
-    unit_normal,
-};
+use super::solid_angle::area_to_solid_angle;
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;

@@ -2,8 +2,9 @@ use core::error::Error;
 use core::f32::consts::TAU;
 use core::fmt;
 
+use super::azimuth::azimuth;
 use super::cylinder_view::CylinderView;
-use super::{DirectionSample, Shape, ShapeSample, azimuth};
+use super::{DirectionSample, Shape, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;

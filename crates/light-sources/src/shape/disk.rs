@@ -2,9 +2,10 @@ use core::error::Error;
 use core::f32::consts::PI;
 use core::fmt;
 
-use super::{
-    DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth, hit_slack,
-};
+use super::azimuth::azimuth;
+use super::rounding::hit_slack;
+use super::solid_angle::area_to_solid_angle;
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;

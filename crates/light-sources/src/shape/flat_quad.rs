@@ -1,5 +1,6 @@
 use super::receiver_cosine::ReceiverCosine;
-use super::{DirectionSample, SMALL, Shape, Triangle};
+use super::solid_angle::SMALL;
+use super::{DirectionSample, Shape, Triangle};
 use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::solid_angle;

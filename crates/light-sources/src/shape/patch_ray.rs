@@ -1,4 +1,5 @@
-use super::{BilinearPatch, hit_slack};
+use super::BilinearPatch;
+use super::rounding::hit_slack;
 use crate::glam::{Vec2, Vec3};
 use light_math::float::sqrt;
 

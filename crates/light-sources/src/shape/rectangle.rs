@@ -1,11 +1,11 @@
 use core::error::Error;
 use core::fmt;
 
+use super::normal::unit_normal;
 use super::receiver_cosine::ReceiverCosine;
-use super::{
-    DirectionSample, SMALL, Shape, ShapeSample, area_to_solid_angle, hit_slack, is_within_rounding,
-    met_by, unit_normal,
-};
+use super::rounding::{hit_slack, is_within_rounding, met_by};
+use super::solid_angle::{SMALL, area_to_solid_angle};
+use super::{DirectionSample, Shape, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;

@@ -2,7 +2,9 @@ use core::error::Error;
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use core::fmt;
 
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity, area_to_solid_angle, azimuth};
+use super::azimuth::azimuth;
+use super::solid_angle::area_to_solid_angle;
+use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;

@@ -1,8 +1,8 @@
+use super::normal::{normal_length, unit_normal};
 use super::receiver_cosine::ReceiverCosine;
-use super::{
-    DirectionSample, SMALL, Shape, ShapeSample, TriangleError, UvArea, area_to_solid_angle,
-    is_within_rounding, met_by, normal_length, unit_normal,
-};
+use super::rounding::{is_within_rounding, met_by};
+use super::solid_angle::{SMALL, area_to_solid_angle};
+use super::{DirectionSample, Shape, ShapeSample, TriangleError, UvArea};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;

@@ -1,3 +1,4 @@
+use super::normal::tiny_length;
 use crate::glam::{Vec2, Vec3};
 
 /// The distribution of the area of a shape over its surface parameters (u, v).
@@ -39,7 +40,7 @@ impl UvDensity {
                 let length = if length_sq >= f32::MIN_POSITIVE {
                     sqrt(length_sq)
                 } else {
-                    super::tiny_length(n.as_vec3())
+                    tiny_length(n.as_vec3())
                 };
                 length.into()
             }
