@@ -1,6 +1,6 @@
 //! Which module checks which kind.
 
-use super::Checker;
+use crate::Checker;
 
 mod alias_table;
 mod bounds;

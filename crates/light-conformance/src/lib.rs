@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 mod case;
+mod checker;
 mod comparison;
 mod fault_injection;
 mod files;
@@ -14,27 +15,11 @@ pub mod self_test;
 mod tolerance;
 
 pub use case::{Case, Malformed};
+pub use checker::Checker;
 use files::VectorFile;
 pub use findings::{Findings, Rule};
 pub use report::Report;
 pub use tolerance::Tolerance;
-
-/// Compares the lines of one kind, from the first to the last; later lines may refer to earlier
-/// ones.
-pub trait Checker {
-    /// Looks at one line and notes in `findings` what holds and what does not.
-    ///
-    /// # Errors
-    /// [`Malformed`] if the line lacks a field or holds something unexpected.
-    fn check(&mut self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed>;
-}
-
-/// Checkers without memory are plain functions.
-impl<F: FnMut(&Case<'_>, &mut Findings) -> Result<(), Malformed>> Checker for F {
-    fn check(&mut self, case: &Case<'_>, findings: &mut Findings) -> Result<(), Malformed> {
-        self(case, findings)
-    }
-}
 
 /// The vectors that live in the project.
 #[must_use]

@@ -1,5 +1,6 @@
 use super::super::warp::{around, bilinear, bilinear_pdf, cosine_hemisphere};
-use super::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver, number};
+use super::exact_light::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver};
+use super::fields::number;
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DVec2, DVec3};

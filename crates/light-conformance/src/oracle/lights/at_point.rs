@@ -1,5 +1,6 @@
 use super::super::warp::{SPHERE_PDF, uniform_sphere};
-use super::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver, number, transform};
+use super::exact_light::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver};
+use super::fields::{number, transform};
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DMat3, DVec2, DVec3};

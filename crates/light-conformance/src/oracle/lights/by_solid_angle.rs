@@ -1,5 +1,5 @@
-use super::Receiver;
 use super::area::{At, Cosines, Shape, per_solid_angle};
+use super::exact_light::Receiver;
 use crate::oracle::{ExactRectangle, ExactTriangle, Jitter};
 use glam::{DVec2, DVec3};
 

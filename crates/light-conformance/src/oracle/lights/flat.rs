@@ -1,5 +1,5 @@
-use super::Receiver;
 use super::area::{At, Cosines, SMALL, Shape};
+use super::exact_light::Receiver;
 use super::triangle::Triangle;
 use crate::oracle::{ExactTriangle, Jitter};
 use glam::{DVec2, DVec3};

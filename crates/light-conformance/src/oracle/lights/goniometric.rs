@@ -1,7 +1,7 @@
 use super::super::equal_area::{sphere_to_square, square_to_sphere};
 use super::super::warp::SPHERE_PDF;
 use super::at_point::{AtPoint, Directional};
-use super::number;
+use super::fields::number;
 use super::picture::Picture;
 use crate::oracle::Jitter;
 use crate::oracle::table::ExactTable;

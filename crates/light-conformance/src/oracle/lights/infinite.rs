@@ -1,7 +1,6 @@
 use super::super::warp::{SPHERE_PDF, around, concentric_disk, uniform_sphere};
-use super::{
-    Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver, number, point, transform,
-};
+use super::exact_light::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver};
+use super::fields::{number, point, transform};
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DVec2, DVec3};

@@ -1,8 +1,9 @@
 use super::super::warp::{bilinear, bilinear_pdf};
 use super::area::{Area, At, Shape, per_solid_angle};
+use super::exact_light::{ExactLight, Receiver};
+use super::fields::point;
 use super::flat::Flat;
 use super::rectangle::Rectangle;
-use super::{ExactLight, Receiver, point};
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DVec2, DVec3};

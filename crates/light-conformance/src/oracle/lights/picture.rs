@@ -1,7 +1,8 @@
 use super::super::equal_area::{sphere_to_square, square_to_sphere, wrap};
 use super::super::warp::SPHERE_PDF;
+use super::exact_light::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver};
+use super::fields::{number, transform};
 use super::infinite::Scene;
-use super::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver, number, transform};
 use crate::oracle::Jitter;
 use crate::oracle::table::ExactTable;
 use crate::{Case, Malformed};

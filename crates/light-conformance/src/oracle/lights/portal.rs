@@ -1,9 +1,8 @@
 use super::super::equal_area::sphere_to_square;
+use super::exact_light::{Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver};
+use super::fields::{number, point, transform};
 use super::infinite::Scene;
 use super::picture::Picture;
-use super::{
-    Arriving, ExactBounds, ExactLight, Leaving, RayPdf, Receiver, number, point, transform,
-};
 use crate::oracle::table::ExactTable;
 use crate::oracle::{ExactWindows, Jitter};
 use crate::{Case, Malformed};

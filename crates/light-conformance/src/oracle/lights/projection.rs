@@ -1,5 +1,5 @@
 use super::at_point::{AtPoint, Directional};
-use super::number;
+use super::fields::number;
 use super::picture::Picture;
 use crate::oracle::Jitter;
 use crate::oracle::table::ExactTable;

@@ -1,6 +1,6 @@
-use super::Receiver;
 use super::area::{At, Cosines, SMALL, Shape};
 use super::by_solid_angle::{self, BySolidAngle};
+use super::exact_light::Receiver;
 use crate::oracle::{ExactRectangle, Jitter};
 use glam::{DVec2, DVec3};
 

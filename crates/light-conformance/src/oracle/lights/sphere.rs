@@ -1,6 +1,8 @@
 use super::super::warp::{frame, polar, uniform_sphere};
 use super::area::{At, Shape, per_solid_angle};
-use super::{Receiver, azimuth, number, transform};
+use super::azimuth::azimuth;
+use super::exact_light::Receiver;
+use super::fields::{number, transform};
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DMat3, DVec2, DVec3};

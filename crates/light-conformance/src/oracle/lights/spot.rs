@@ -1,6 +1,6 @@
 use super::super::warp::{polar, smoothstep, smoothstep_sample, uniform_cone};
 use super::at_point::{AtPoint, Directional};
-use super::number;
+use super::fields::number;
 use crate::oracle::Jitter;
 use crate::{Case, Malformed};
 use glam::{DVec2, DVec3};

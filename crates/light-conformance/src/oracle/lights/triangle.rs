@@ -1,7 +1,8 @@
 use super::super::warp::uniform_triangle;
 use super::area::{At, Cosines, SMALL, Shape};
 use super::by_solid_angle::{self, BySolidAngle};
-use super::{Receiver, point};
+use super::exact_light::Receiver;
+use super::fields::point;
 use crate::oracle::{ExactTriangle, Jitter};
 use crate::{Case, Malformed};
 use glam::{DVec2, DVec3};
