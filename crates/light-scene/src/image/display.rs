@@ -7,7 +7,8 @@ use ::image::codecs::hdr::HdrEncoder;
 use ::image::codecs::png::PngEncoder;
 use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgb};
 
-use super::{Image, ImageFile, checked, srgb};
+use super::checked::checked;
+use super::{Image, ImageFile, srgb};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
 

@@ -8,7 +8,8 @@ use exr::prelude::{
     ReadLayers, SpecificChannels, Text, Vec2, WritableImage, f16, read,
 };
 
-use super::{Image, ImageFile, checked};
+use super::checked::checked;
+use super::{Image, ImageFile};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
 

@@ -2,6 +2,7 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
+use crate::glam::Vec3;
 use crate::test_folder::TestFolder;
 
 fn picture() -> Image {

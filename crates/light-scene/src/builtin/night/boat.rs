@@ -1,6 +1,6 @@
-use super::WATER;
-use super::corners;
+use super::corners::corners;
 use super::course::{Bank, Course};
+use super::measures::WATER;
 use super::palette::Palette;
 use crate::MaterialId;
 use crate::builtin::dice::Dice;

@@ -1,8 +1,8 @@
 use core::f32::consts::PI;
 
 use super::lantern::lantern;
+use super::measures::{QUAY, WATER};
 use super::palette::Palette;
-use super::{QUAY, WATER};
 use crate::MaterialId;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};

@@ -1,4 +1,4 @@
-use super::corners;
+use super::corners::corners;
 use super::window::Opening;
 use crate::MaterialId;
 use crate::builtin::modeller::Modeller;

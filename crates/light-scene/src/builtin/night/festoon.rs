@@ -1,6 +1,7 @@
 use super::course::{Bank, Course};
+use super::lantern;
+use super::measures::{FRONTS, QUAY};
 use super::palette::Palette;
-use super::{FRONTS, QUAY, lantern};
 use crate::MaterialId;
 use crate::builtin::modeller::Modeller;
 use crate::glam::Vec3;

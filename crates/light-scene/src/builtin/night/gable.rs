@@ -1,4 +1,4 @@
-use super::corners;
+use super::corners::corners;
 use super::gable_style::Gable;
 use super::house::House;
 use super::palette::Palette;

@@ -1,9 +1,9 @@
 use super::course::{Bank, Course};
 use super::facade::wall;
 use super::gable_style::Gable;
+use super::measures::{FRONTS, QUAY};
 use super::palette::Palette;
 use super::window::{Content, Opening};
-use super::{FRONTS, QUAY};
 use crate::MaterialId;
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;

@@ -1,6 +1,6 @@
 use super::course::{Bank, Course};
+use super::measures::{BRIDGES, QUAY, WATER};
 use super::palette::Palette;
-use super::{BRIDGES, QUAY, WATER};
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};
 

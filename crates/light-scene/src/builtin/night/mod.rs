@@ -7,6 +7,7 @@
 
 mod boat;
 mod bridge;
+mod corners;
 mod course;
 mod facade;
 mod festoon;
@@ -14,6 +15,7 @@ mod gable;
 mod gable_style;
 mod house;
 mod lantern;
+mod measures;
 mod palette;
 mod quay;
 mod tower;
@@ -24,27 +26,15 @@ use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
 
 use super::dice::Dice;
 use super::modeller::Modeller;
-use crate::glam::{Vec2, Vec3};
+use crate::glam::Vec3;
 use crate::{Camera, Scene};
 
 use course::{Bank, Course};
+use measures::BRIDGES;
 use palette::Palette;
 
 /// The emissive triangles of the scene.
 const LIGHTS: usize = 20_000;
-
-/// From the middle of the canal to the quay wall, in metres; all lengths of the scene are metres,
-/// the water is at height 0.
-const WATER: f32 = 8.5;
-
-/// Height of the quays.
-const QUAY: f32 = 1.7;
-
-/// From the middle of the canal to the fronts of the houses.
-const FRONTS: f32 = 14.5;
-
-/// Where along the canal the bridges are.
-const BRIDGES: [f32; 3] = [33.0, 62.0, 93.0];
 
 /// The canal and all around it; the same scene for the same seed.
 pub(super) fn night(seed: u64) -> Scene {
@@ -89,11 +79,6 @@ fn camera() -> Camera {
         exposure: Some(1.25),
         ..camera.expect("two points and an upright vector")
     }
-}
-
-/// The corners of a rectangle as [`Modeller::panel`] takes them.
-fn corners(x: [f32; 2], y: [f32; 2]) -> [Vec2; 2] {
-    [Vec2::new(x[0], y[0]), Vec2::new(x[1], y[1])]
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 use core::f32::consts::TAU;
 
 use super::course::{Bank, Course};
+use super::measures::{FRONTS, QUAY};
 use super::palette::Palette;
-use super::{FRONTS, QUAY};
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec3};
 

@@ -1,6 +1,6 @@
 use super::course::{Bank, Course};
+use super::measures::{QUAY, WATER};
 use super::palette::Palette;
-use super::{QUAY, WATER};
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::Vec3;

@@ -1,4 +1,4 @@
-use super::corners;
+use super::corners::corners;
 use super::palette::Palette;
 use crate::MaterialId;
 use crate::builtin::dice::Dice;

@@ -1,5 +1,6 @@
+use super::camera::camera;
 use super::lamps::{Lamps, Spread};
-use super::{camera, count, growth};
+use super::size::{count, growth};
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec2, Vec3};

@@ -5,10 +5,12 @@
 //! decades. Lengths are metres, the y axis points up.
 
 mod boxes;
+mod camera;
 mod lamps;
 mod louvres;
 mod open;
 mod rooms;
+mod size;
 mod slabs;
 mod street;
 mod trunks;
@@ -16,8 +18,7 @@ mod trunks;
 use core::fmt;
 
 use super::dice::Dice;
-use crate::glam::Vec3;
-use crate::{Camera, Scene};
+use crate::Scene;
 
 /// A place of a kind, with any number of lamps.
 ///
@@ -128,31 +129,6 @@ impl OcclusionScene {
             OcclusionKind::Open => open::open(lamps, &mut dice),
         }
     }
-}
-
-/// From `eye` toward `target`, with `fov` degrees along the picture's height.
-fn camera(eye: Vec3, target: Vec3, fov: f32) -> Camera {
-    let camera = Camera::look_at(eye, target, Vec3::Y, fov.to_radians());
-    Camera {
-        resolution: Some([960, 640]),
-        ..camera.expect("two points and an upright vector")
-    }
-}
-
-/// How much longer a place is than that of a hundred lamps, if its area grows as the power
-/// `2 * exponent` of the number of lamps.
-fn growth(lamps: usize, exponent: f32) -> f32 {
-    (lamps.max(100) as f32 / 100.0).powf(exponent)
-}
-
-/// `x` as a count, rounded.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates at the ends"
-)]
-fn count(x: f32) -> u16 {
-    x.round() as u16
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
+use super::camera::camera;
 use super::lamps::{Lamps, Spread};
-use super::{camera, growth};
+use super::size::growth;
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Vec2, Vec3};

@@ -1,5 +1,6 @@
+use super::camera::camera;
 use super::lamps::{Lamps, Spread};
-use super::{camera, count};
+use super::size::count;
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec2, Vec3};

@@ -1,4 +1,4 @@
-use super::camera;
+use super::camera::camera;
 use super::lamps::{Lamps, Spread};
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;

@@ -1,5 +1,6 @@
-use super::camera;
+use super::camera::camera;
 use super::lamps::{Lamps, Spread};
+use super::size::count;
 use crate::builtin::dice::Dice;
 use crate::builtin::modeller::Modeller;
 use crate::glam::{Affine3A, Vec2, Vec3};
@@ -182,7 +183,7 @@ impl Town {
         );
         m.triangle(self.roof, [eaves(x, near), eaves(right, near), crest(near)]);
         m.triangle(self.roof, [eaves(right, far), eaves(x, far), crest(far)]);
-        let bays = super::count((near - far) / BAY.x - 0.5).max(1);
+        let bays = count((near - far) / BAY.x - 0.5).max(1);
         for (front, sign) in [(x - GAP, -1.0), (right + GAP, 1.0)] {
             for storey in 0..storeys {
                 for bay in 0..bays {
