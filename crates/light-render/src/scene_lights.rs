@@ -1,15 +1,13 @@
-use core::error::Error;
-use core::fmt;
-
 use light_scene::Material;
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Image, Light, LightDesc, LightDescError, LightSet, LightSetBuilder, LightType,
-    Rgb, SceneSphere, SceneSphereError,
+    self as sources, Image, Light, LightDesc, LightSet, LightSetBuilder, LightType,
+    Rgb, SceneSphere,
 };
 
+use crate::SceneLightsError;
 use crate::emitter_ids::EmitterIds;
 use crate::surface_emission::{AlphaMaskedLights, Textures};
 use crate::world_mesh::WorldMesh;
@@ -44,28 +42,6 @@ pub(crate) enum SceneSource {
     Sphere(usize),
     /// A light of the scene's list.
     Light(usize),
-}
-
-/// Why the lights of a scene cannot be built.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SceneLightsError {
-    /// The scene's box is not finite.
-    Bounds(SceneSphereError),
-    /// A light is invalid; the name is that of its material, or its number.
-    Light {
-        /// Which light.
-        name: String,
-        /// What is wrong with it.
-        error: LightDescError,
-    },
-    /// An image has texels that are negative or not finite.
-    Image {
-        /// Which image.
-        name: String,
-        /// What is wrong with it.
-        error: sources::ImageError,
-    },
 }
 
 impl SceneLights {
@@ -192,15 +168,3 @@ pub(crate) fn checked_images(
     };
     images.into_iter().enumerate().map(checked).collect()
 }
-
-impl fmt::Display for SceneLightsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Bounds(error) => error.fmt(f),
-            Self::Light { name, error } => write!(f, "{name}: {error}"),
-            Self::Image { name, error } => write!(f, "{name}: {error}"),
-        }
-    }
-}
-
-impl Error for SceneLightsError {}

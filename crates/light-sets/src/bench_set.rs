@@ -1,3 +1,5 @@
+use light_bounds::LightExtent;
+
 use crate::set_light::SetLight;
 use crate::set_point::SetPoint;
 
@@ -11,4 +13,15 @@ pub struct BenchSet {
     pub lights: Vec<SetLight>,
     /// The shading points.
     pub points: Vec<SetPoint>,
+}
+
+impl BenchSet {
+    /// What samplers know of the lights, by id.
+    #[must_use]
+    pub fn extents(&self) -> Vec<LightExtent> {
+        self.lights
+            .iter()
+            .map(|light| light.bounds().into())
+            .collect()
+    }
 }

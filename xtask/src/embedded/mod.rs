@@ -3,6 +3,7 @@
 
 mod board;
 mod elf;
+mod firmware;
 mod page;
 mod report;
 
@@ -15,6 +16,7 @@ use crate::steps::{Outcome, StepResult, Steps, cargo, output, output_within, roo
 
 use board::{BOARDS, Board, Builder};
 use elf::Program;
+use firmware::{Firmware, Measured};
 use report::Report;
 
 /// The programs of `embedded/`: what each may take on the first board, in bytes, where a promise
@@ -48,22 +50,6 @@ const STACK: u32 = 4 << 10;
 /// The most time for a program in the emulator. The longest takes some seconds; one that does not
 /// come to its end would run forever.
 const LIMIT: Duration = Duration::from_secs(300);
-
-/// A program of `embedded/` and its promises.
-#[derive(Clone, Copy, Debug)]
-struct Firmware {
-    name: &'static str,
-    /// The most bytes of code on the first board.
-    code: Option<u32>,
-}
-
-/// What a program did on a board.
-#[derive(Debug)]
-struct Measured {
-    firmware: Firmware,
-    report: Report,
-    program: Program,
-}
 
 /// Adds a step for each board. `--write` writes what the first one measured into the README.
 pub fn add_steps(steps: &mut Steps, arguments: &[String]) {

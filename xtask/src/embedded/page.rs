@@ -2,8 +2,8 @@ use std::fs;
 
 use crate::steps::{Outcome, StepResult, root};
 
-use super::Measured;
 use super::board::Board;
+use super::firmware::Measured;
 
 const PAGE: &str = "embedded/README.md";
 const START: &str = "<!-- cargo xtask embedded -->\n";

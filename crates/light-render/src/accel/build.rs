@@ -1,6 +1,7 @@
 use core::time::Duration;
 
 use lights::glam::Vec3A;
+use lights::math;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::{build_bvh2, build_bvh2_from_tris};
@@ -9,6 +10,11 @@ use obvhs::bvh2::{Bvh2, DEFAULT_MAX_STACK_DEPTH};
 use obvhs::triangle::Triangle;
 
 use super::agglomerate::{agglomerate, is_chained};
+
+/// A box as the builders take it.
+pub(super) fn boxed(bounds: &math::Aabb) -> Aabb {
+    Aabb::new(bounds.min.into(), bounds.max.into())
+}
 
 /// A hierarchy over triangles, padded.
 pub(super) fn over_triangles(triangles: &[Triangle], params: BvhBuildParams) -> Bvh2 {

@@ -6,8 +6,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 
 use super::Hit;
-use super::boxed;
-use super::build::over_boxes;
+use super::build::{boxed, over_boxes};
 use super::geometry::{Geometry, Numbers};
 use super::instance_transform::InstanceTransform;
 use crate::{PrimitiveId, Ray};

@@ -2,6 +2,7 @@ mod agglomerate;
 mod build;
 mod bvh_hit;
 mod geometry;
+mod hit;
 mod instance_transform;
 mod instances;
 mod sphere_bvh;
@@ -13,28 +14,14 @@ use core::fmt;
 use core::ops::Range;
 
 use lights::glam::{Vec2, Vec3};
-use lights::math::Aabb;
 use lights::sources::shape::Sphere;
-use obvhs::aabb::Aabb as ObvhsAabb;
 
 use crate::{PrimitiveId, Ray};
 use geometry::{Geometry, Numbers};
+pub use hit::Hit;
 pub use instance_transform::InstanceTransform;
 use instances::Instances;
 pub use instances::Prototype;
-
-/// The first hit of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// The primitive.
-    pub primitive: PrimitiveId,
-    /// Distance along the ray, in scene units.
-    pub t: f32,
-    /// Coordinates on the primitive. Triangle: barycentric weights of the second and the third
-    /// corner. Sphere: outward normal in object space, as a point of the
-    /// [octahedral square](lights::math::octahedral::to_square).
-    pub coords: Vec2,
-}
 
 /// Intersects rays with triangles and spheres: geometry in world space, and instances of
 /// prototypes.
@@ -163,10 +150,6 @@ impl Accel {
     pub fn prototype_count(&self) -> usize {
         self.instances.prototype_count()
     }
-}
-
-fn boxed(bounds: &Aabb) -> ObvhsAabb {
-    ObvhsAabb::new(bounds.min.into(), bounds.max.into())
 }
 
 /// The number of the primitive that a ray starts on, if it is one in world space.

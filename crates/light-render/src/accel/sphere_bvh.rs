@@ -5,8 +5,7 @@ use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
 
-use super::boxed;
-use super::build::over_boxes;
+use super::build::{boxed, over_boxes};
 use super::bvh_hit::BvhHit;
 use crate::Ray;
 

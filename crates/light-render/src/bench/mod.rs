@@ -13,6 +13,7 @@ mod cpu_time;
 mod ground_truth;
 mod laws;
 mod occluders;
+mod options;
 mod pictures;
 mod query;
 mod receiver;
@@ -28,6 +29,7 @@ mod variance_split;
 pub use cpu_time::CpuTimer;
 pub use ground_truth::GroundTruth;
 pub use laws::Laws;
+pub use options::BenchOptions;
 pub use pictures::{PictureBench, RelativeError, TimedPicture};
 pub use receiver::BenchReceiverKind;
 pub use refits::{RefitRow, refits};
@@ -39,62 +41,11 @@ pub use variance::{Ceiling, Variance};
 pub use variance_split::{LightMoments, VarianceSplit};
 
 use light_sets::BenchSet;
-use lights::bounds::LightExtent;
 
-use crate::{AnyLightSamplerError, SamplerKind};
+use crate::AnyLightSamplerError;
 use build_time::build_time;
 use candidate::Candidate;
 use query::Query;
-
-/// What to measure.
-#[derive(Clone, Debug)]
-pub struct BenchOptions {
-    /// The samplers, in the order of the rows.
-    pub samplers: Vec<SamplerKind>,
-    /// Samples of one call.
-    pub k: u32,
-    /// How many of the set's points the variance is taken over; `None`: all of them up to 10
-    /// thousand lights, 256 above.
-    pub var_points: Option<usize>,
-    /// Threads that build a tree and sum the variance. Queries are timed on one.
-    pub threads: usize,
-    /// What counts as the contribution of a light.
-    pub ground_truth: GroundTruth,
-    /// The kind of receiver.
-    pub receiver: BenchReceiverKind,
-    /// Occluding spheres, unknown to the samplers.
-    pub occluders: usize,
-}
-
-impl Default for BenchOptions {
-    /// One sample a call of a diffuse surface with nothing in the way, one thread, the samplers
-    /// whose time does not grow with the lights.
-    fn default() -> Self {
-        Self {
-            samplers: SamplerKind::SUBLINEAR.to_vec(),
-            k: 1,
-            var_points: None,
-            threads: 1,
-            ground_truth: GroundTruth::default(),
-            receiver: BenchReceiverKind::default(),
-            occluders: 0,
-        }
-    }
-}
-
-impl BenchOptions {
-    /// How many points of the set its variance is taken over.
-    fn points_of(&self, set: &BenchSet) -> usize {
-        let all = set.points.len();
-        let few = if set.lights.len() > 10_000 { 256 } else { all };
-        self.var_points.unwrap_or(few).min(all)
-    }
-}
-
-/// The extents of the lights of a set.
-fn extents(set: &BenchSet) -> Vec<LightExtent> {
-    set.lights.iter().map(|l| l.bounds().into()).collect()
-}
 
 /// One row for each sampler, all measured in this run and in turns, so that their ratios are valid
 /// on a busy machine.
@@ -109,7 +60,7 @@ pub fn bench(
     set: &BenchSet,
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
-    let extents = extents(set);
+    let extents = set.extents();
     let query = Query::new(set, options);
     let var_points = options.points_of(set);
 
@@ -162,6 +113,7 @@ pub fn bench(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SamplerKind;
     use light_sets::SetKind;
 
     fn options(k: u32) -> BenchOptions {

@@ -8,10 +8,10 @@ use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::{Value, json};
 
+use super::BenchOptions;
 use super::candidate::Candidate;
 use super::query::Query;
 use super::variance::{self, Variance};
-use super::{BenchOptions, extents};
 use crate::{AnyLightSamplerError, SamplerKind};
 
 /// Displacement of lights in the first step, relative to the mean distance of neighbours; each step
@@ -58,7 +58,7 @@ pub fn refits(
     let points = options.points_of(set);
     let mut rows = Vec::new();
     for &sampler in &options.samplers {
-        let mut following = Candidate::new(sampler, &extents(set))?;
+        let mut following = Candidate::new(sampler, &set.extents())?;
         let Some(at_first) = following.degradation() else {
             continue;
         };
@@ -72,7 +72,7 @@ pub fn refits(
             };
             let query = Query::new(&set, options);
             let variance = |candidate: &Candidate| variance::exact(candidate, &set, &query, points);
-            following.refit(&extents(&set))?;
+            following.refit(&set.extents())?;
             rows.push(RefitRow {
                 set: name.to_owned(),
                 n_lights: set.lights.len(),
@@ -80,7 +80,7 @@ pub fn refits(
                 moved,
                 degradation: following.degradation().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
-                built_anew: variance(&Candidate::new(sampler, &extents(&set))?),
+                built_anew: variance(&Candidate::new(sampler, &set.extents())?),
             });
         }
     }
