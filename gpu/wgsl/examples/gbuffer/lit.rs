@@ -1,3 +1,5 @@
+use core::error::Error;
+
 use bytemuck::{cast_slice, pod_collect_to_vec};
 use light_gpu::light_samplers::BvhLightSampler;
 use light_gpu::light_sources::{LightSet, Rgb};
@@ -6,7 +8,11 @@ use pollster::block_on;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::*;
 
-pub fn lit(lights: &LightSet<Rgb>, pixels: &[[f32; 16]], frames: u32) -> crate::Result<Vec<f32>> {
+pub fn lit(
+    lights: &LightSet<Rgb>,
+    pixels: &[[f32; 16]],
+    frames: u32,
+) -> Result<Vec<f32>, Box<dyn Error>> {
     let tree = light_sampler_rows(&BvhLightSampler::new(&lights.extents())?.view())?;
     let rows = [vec![[1 + tree.len() as u32, 0, 0, 0]], tree, light_set_rows(lights)?].concat();
     let adapter = block_on(Instance::default().request_adapter(&Default::default()))?;

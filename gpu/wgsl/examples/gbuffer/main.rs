@@ -19,9 +19,9 @@ use light_math::fraction::from_words;
 use light_math::glam::{Vec2, Vec3};
 use light_scene::Image;
 
-use crate::pixels::{SIZE, pixels};
+use pixels::{SIZE, pixels};
 
-pub type Result<T> = core::result::Result<T, Box<dyn core::error::Error>>;
+type Result<T> = core::result::Result<T, Box<dyn core::error::Error>>;
 
 /// The share of the pixels that may differ by more than [`ERROR`].
 const OFF: f64 = 0.01;

@@ -1,5 +1,6 @@
 //! The G-buffer of a scene.
 
+use core::error::Error;
 use core::f32::consts::PI;
 
 use light_gpu::light_sources::light_bounds::LightId;
@@ -13,7 +14,7 @@ pub const SIZE: [u32; 2] = [320, 180];
 
 /// The lights of the night, and the pixels that see it, four rows each: place, normal, albedo and
 /// emission.
-pub fn pixels() -> crate::Result<(LightSet<Rgb>, Vec<[f32; 16]>)> {
+pub fn pixels() -> Result<(LightSet<Rgb>, Vec<[f32; 16]>), Box<dyn Error>> {
     let [width, height] = SIZE;
     let scene = BuiltinScene::Night.load();
     let view = View::new(&scene.camera_or_default(), width, height)?;
