@@ -3,8 +3,8 @@ use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Image, Light, LightDesc, LightSet, LightSetBuilder, LightType,
-    Rgb, SceneSphere,
+    self as sources, Image, Light, LightDesc, LightSet, LightSetBuilder, LightType, Rgb,
+    SceneSphere,
 };
 
 use crate::SceneLightsError;
