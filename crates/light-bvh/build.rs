@@ -1,4 +1,4 @@
-//! Tells the code whether the compiler knows AVX-512: stable Rust does from 1.89 on.
+//! Sets a `cfg` if the compiler has AVX-512: stable Rust has it from 1.89 on.
 
 use std::env;
 use std::process::Command;

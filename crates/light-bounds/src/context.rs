@@ -14,7 +14,7 @@ pub struct LightSampleContext {
     /// Half widths of the box around `p` in which the exact point lies: the rounding error of the
     /// intersection.
     pub p_error: Vec3,
-    /// The groups of the lights that are asked for.
+    /// The groups of lights to choose from.
     pub groups: LightGroups,
     kind: ReceiverKind,
 }

@@ -1,6 +1,6 @@
 use core::ops::BitOr;
 
-/// A set of up to 32 light groups: those of a light, or those that a context asks for.
+/// A set of up to 32 light groups: those of a light, or those that a context is limited to.
 ///
 /// Groups link lights to objects, and split a picture by lights. A light belongs to any number of
 /// groups; a context reaches the lights of which at least one group is among its own.
@@ -11,10 +11,10 @@ use core::ops::BitOr;
 pub struct LightGroups(pub u32);
 
 impl LightGroups {
-    /// No group: a light that only contexts reach that ask for [all](Self::ALL) lights.
+    /// No group: such a light is chosen only for contexts of [all](Self::ALL) lights.
     pub const NONE: Self = Self(0);
 
-    /// All groups, and lights without any: what a context asks for if nothing is said.
+    /// All groups, and lights without any: the default of a context.
     pub const ALL: Self = Self(u32::MAX);
 
     /// The one group of number `index`; none for numbers from 31 on.
@@ -37,7 +37,7 @@ impl LightGroups {
     }
 }
 
-/// A light is in all groups if nothing is said.
+/// A light is in all groups by default.
 impl Default for LightGroups {
     fn default() -> Self {
         Self::ALL

@@ -8,8 +8,8 @@
         reason = "links to what owns memory are plain text where it is left out"
     )
 )]
-// Not forbidden where one private module, `simd`, calls code for wider vectors after asking whether
-// the machine has them.
+// Not forbidden where one private module, `simd`, calls code for wider vectors after testing
+// whether the machine has them.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), forbid(unsafe_code))]
 #![deny(unsafe_code, clippy::undocumented_unsafe_blocks)]
 #![warn(clippy::print_stdout, clippy::print_stderr)]
@@ -53,7 +53,6 @@ pub use importance::child_view::ChildView;
 pub use importance::context_receiver::ContextReceiver;
 pub use importance::glossy::GlossyReceiver;
 pub use importance::medium::MediumReceiver;
-pub use importance::position::is_far;
 pub use importance::receiver::Receiver;
 pub use importance::segment::SegmentReceiver;
 pub use importance::surface::SurfaceReceiver;

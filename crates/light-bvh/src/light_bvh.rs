@@ -99,8 +99,7 @@ impl LightBvh {
     }
 
     /// Sets the groups of all lights, one entry for each in the order of ids. They stay through
-    /// refits. 64 bytes a node, and a few instructions a node for contexts that ask for some
-    /// groups.
+    /// refits. 64 bytes a node, and a few instructions a node for contexts limited to some groups.
     ///
     /// # Errors
     /// [`LightBvhError::OtherLights`] if these are not as many as the lights.

@@ -8,8 +8,8 @@
 
 //! The vector width, and the only `unsafe` code of the crate.
 //!
-//! Queries and the encoding of nodes run in the widest vectors that the machine has, asked at run
-//! time where there is an operating system. The arithmetic and its order are the same in every
+//! Queries and the encoding of nodes run in the widest vectors that the machine has, detected at
+//! run time where there is an operating system. The arithmetic and its order are the same in every
 //! width, and nothing is fused: the same bits.
 
 /// Bytes that memory delivers at once.

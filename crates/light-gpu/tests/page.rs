@@ -8,7 +8,7 @@ fn example(file: &str) -> String {
     fs::read_to_string(folder.join(file)).expect("a file of the example")
 }
 
-const PAGE: &str = include_str!("../README.md");
+const PAGE: &str = include_str!("../../../docs/light-gpu.md");
 
 #[test]
 fn the_host_code_is_that_of_the_example() {

@@ -10,7 +10,7 @@
 //! to an earlier weight, so that stratified fractions choose stratified weights. No step needs more
 //! than 32-bit integers and single precision.
 //!
-//! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) answers in
+//! For many weights that do not change, [`AliasTable`](crate::distribution::AliasTable) samples in
 //! constant time.
 
 use crate::fraction::divide;
@@ -65,8 +65,8 @@ pub fn pmf(weights: &[f32], index: usize) -> f32 {
     pmf_by(weights.len(), |index| weights[index], index)
 }
 
-/// [`sample`] of `count` weights, of which `weight(i)` is that of index `i`. Asks for a weight
-/// little more than once.
+/// [`sample`] of `count` weights, of which `weight(i)` is that of index `i`. Reads a weight little
+/// more than once.
 #[inline]
 #[must_use]
 pub fn sample_by(count: usize, weight: impl Fn(usize) -> f32, u: u64) -> Option<SampledIndex> {

@@ -67,8 +67,6 @@ forward! {
     floor(x) = floor, libm::floorf;
     /// Smallest integer not below `x`.
     ceil(x) = ceil, libm::ceilf;
-    /// Nearest integer, ties away from zero.
-    round(x) = round, libm::roundf;
 }
 
 /// That of `libm` takes the square root of a 64-bit float.

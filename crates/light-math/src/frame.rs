@@ -14,13 +14,6 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of the outer space itself.
-    pub const IDENTITY: Self = Self {
-        x: Vec3::X,
-        y: Vec3::Y,
-        z: Vec3::Z,
-    };
-
     /// A frame around the unit vector `z`, continuous except where `z.z` changes sign.
     ///
     /// # Source

@@ -20,8 +20,7 @@ impl Ray {
 
     /// The same ray in another space, with the same `t` for the same point.
     #[inline]
-    #[must_use]
-    pub fn transformed(&self, transform: &Affine3A) -> Self {
+    pub(crate) fn transformed(&self, transform: &Affine3A) -> Self {
         Self {
             o: transform.transform_point3(self.o),
             d: transform.transform_vector3(self.d),

@@ -12,7 +12,7 @@ pub struct FlightNumbers {
 }
 
 impl FlightNumbers {
-    /// Begins with `first`, and goes on as `key` says.
+    /// Begins with `first`; the numbers after it depend on `key`.
     #[must_use]
     pub const fn new(first: f32, key: u64) -> Self {
         Self {

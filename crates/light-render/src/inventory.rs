@@ -12,11 +12,11 @@ pub struct LightInventory {
     /// Their power in W, a channel.
     pub power: DVec3,
     /// The area that emits light, each side of a two-sided light once; 0 for lights without a
-    /// surface, and for own lights, which do not tell it.
+    /// surface, and for own lights, whose area is unknown.
     pub area: f64,
 }
 
-/// What a set consists of, one entry for each kind that is there.
+/// The lights of a set by kind, one entry for each kind that occurs.
 #[must_use]
 pub fn inventory(lights: &LightSet<Rgb>) -> Vec<LightInventory> {
     let mut kinds: Vec<LightInventory> = Vec::new();

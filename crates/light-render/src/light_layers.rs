@@ -9,12 +9,12 @@ use lights::bounds::LightId;
 use crate::World;
 
 /// A group of lights by name: `NAME=PATTERN`. The pattern is the name of a material, an object or a
-/// light, in which `*` stands for any text.
+/// light, in which `*` matches any text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightGroupPattern {
     /// The group's name.
     pub name: String,
-    /// What the names of its lights look like.
+    /// The pattern of its lights' names.
     pub pattern: String,
 }
 
@@ -32,7 +32,7 @@ pub struct LightLayers {
 pub enum LightLayersError {
     /// No light has such a name.
     NoLight {
-        /// The group as it was asked for.
+        /// The requested group.
         group: LightGroupPattern,
         /// Some of the names that there are.
         names: Vec<String>,
@@ -48,7 +48,7 @@ impl LightLayers {
     /// The most layers: groups, and the rest.
     pub const MOST: usize = 32;
 
-    /// The name of the layer of lights in no group, and of what media emit.
+    /// The name of the layer of lights in no group, and of emission of media.
     pub const REST: &str = "rest";
 
     /// One layer for each group, and one more for the rest if there is any. A light of several
@@ -87,7 +87,7 @@ impl LightLayers {
         &self.names
     }
 
-    /// The layer of a light; `None` stands for what media emit, which is in the last.
+    /// The layer of a light; `None` is the emission of media, which is in the last layer.
     #[inline]
     pub(crate) fn of(&self, light: Option<LightId>) -> usize {
         let layer = light.and_then(|light| self.of_light.get(light.index()));
@@ -113,7 +113,7 @@ fn by_first_name(names_of: &[[Cow<'_, str>; 2]]) -> Groups {
     (names, of_light)
 }
 
-/// The groups that are asked for.
+/// The groups of these patterns.
 fn by_pattern(
     names_of: &[[Cow<'_, str>; 2]],
     groups: &[LightGroupPattern],
@@ -147,7 +147,7 @@ fn by_pattern(
 /// How many names an error lists.
 const MOST_NAMES: usize = 8;
 
-/// Whether `name` is `pattern`, in which `*` stands for any text.
+/// Whether `name` matches `pattern`, in which `*` matches any text.
 fn matches(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let start = parts.next().unwrap_or_default();

@@ -58,7 +58,7 @@ pub enum AnyLightSamplerError {
     Bvh(LightBvhError),
     /// The cells of visibility are too many.
     Cells(CellTableError),
-    /// Lights are not chosen by the default hierarchy: no other knows cells of visibility.
+    /// Lights are not chosen by the default hierarchy: only that one has cells of visibility.
     NoCells,
 }
 
@@ -148,8 +148,7 @@ impl AnyLightSampler {
     }
 
     /// The default hierarchy, with cells or without.
-    #[must_use]
-    pub const fn hierarchy(&self) -> Option<&BvhLightSampler> {
+    pub(crate) const fn hierarchy(&self) -> Option<&BvhLightSampler> {
         match self {
             Self::Bvh(sampler) => Some(sampler),
             Self::BvhInCells(sampler) => Some(sampler.lights()),

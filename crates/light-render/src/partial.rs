@@ -20,7 +20,7 @@ pub struct PartialPicture {
     pub film: Film,
     /// The numbers of the samples.
     pub samples: Range<u32>,
-    /// What was rendered: equal only for parts of the same picture.
+    /// The identity of the picture: equal only for its parts.
     pub identity: PictureIdentity,
 }
 

@@ -1,6 +1,6 @@
 use core::fmt::{self, Write};
 
-/// What decides what a picture is, but for its samples: parts of equal identities add up to one
+/// All that a picture depends on except its samples: parts of equal identities add up to one
 /// picture.
 ///
 /// A list of aspects, such as the lights or the seed, each with a value without line breaks: a

@@ -78,6 +78,33 @@ pub fn render<S: LightSampler + Sync>(
 /// As [`render`], with the light of each of `layers` in a film of its own. The paths are those of
 /// the whole picture, so that layers cost hardly more time, and share its noise. Integrators of
 /// single scattering put all light into the last.
+///
+/// ```
+/// use light_render::integrator::{Estimator, Integrator, PathSettings};
+/// use light_render::light_scene::BuiltinScene;
+/// use light_render::{
+///     AnyLightSampler, LightGroupPattern, LightLayers, RenderSettings, SamplerKind, View, World,
+///     render_layers,
+/// };
+///
+/// let scene = BuiltinScene::CornellBox.load();
+/// let view = View::new(&scene.camera_or_default(), 4, 4)?;
+/// let world = World::new(scene)?;
+/// let sampler = AnyLightSampler::new(SamplerKind::Bvh, world.lights())?;
+/// let lamps: LightGroupPattern = "lamps=*".parse()?;
+/// let layers = LightLayers::new(&world, &[lamps])?;
+/// let path = PathSettings {
+///     max_depth: 2,
+///     estimator: Estimator::default(),
+///     light_samples: PathSettings::DEFAULT_LIGHT_SAMPLES,
+///     integrator: Integrator::default(),
+/// };
+/// let settings = RenderSettings { samples: 0..1, time_limit: None, seed: 1, path };
+/// let picture = render_layers(&world, &view, &sampler, &settings, &layers, |_| {});
+/// assert_eq!(layers.names(), ["lamps"], "no layer `LightLayers::REST`");
+/// assert_eq!(picture.layers.len(), 1);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[must_use]
 pub fn render_layers<S: LightSampler + Sync>(
     world: &World,

@@ -6,8 +6,8 @@ use crate::{FlightNumbers, sobol};
 /// The random numbers of one sample of one pixel: Owen-scrambled Sobol points, padded four
 /// dimensions at a time.
 ///
-/// A pure function of seed, pixel and sample number: the same numbers whatever thread asks, in
-/// whatever order.
+/// A pure function of seed, pixel and sample number: the same numbers on every thread and in any
+/// order of calls.
 ///
 /// # Source
 /// `[Burley2020]`, section 5 (padding by seed).

@@ -20,7 +20,7 @@ pub struct SceneDigest([(&'static str, String); 5]);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SceneDigestError {
-    /// A light is of a type of the caller's own, so that nothing says what it consists of.
+    /// A light is of a type of the caller's own, so that its content is unknown.
     OwnLight {
         /// Its position among the scene's lights.
         light: usize,
@@ -66,8 +66,8 @@ impl SceneDigest {
         ]))
     }
 
-    /// The identity of the picture of `view` of the scene, rendered with `sampler` and what it
-    /// knows of `visibility` as `settings` say.
+    /// The identity of the picture of `view` of the scene, rendered with `sampler`, `visibility`
+    /// and `settings`.
     #[must_use]
     pub fn identity(
         &self,
@@ -112,7 +112,7 @@ impl SceneDigest {
     }
 }
 
-/// The digest of what decides where rays begin and go.
+/// The digest of the camera: the origins and directions of its rays.
 fn camera_digest(camera: &Camera) -> String {
     let Camera {
         position,

@@ -151,7 +151,7 @@ fn add(
     })
 }
 
-/// What a light of the scene's list is called if it has no name.
+/// The name of a light of the scene's list that has no name of its own.
 pub(crate) fn numbered(light: usize) -> String {
     format!("light {light}")
 }

@@ -1,7 +1,7 @@
 use lights::glam::Vec3;
 use lights::math::spectrum::rec709_luminance;
 
-/// How linear radiance becomes what a screen shows. For looking only: files of record stay linear.
+/// How linear radiance becomes display values. For viewing only: files of record stay linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToneMap {
     exposure: f32,

@@ -31,7 +31,7 @@ pub enum ViewError {
     Axes,
     /// The angle of view is not above 0 and below 180 degrees.
     FieldOfView,
-    /// The part of the picture that is asked for has no pixels, or some outside of it.
+    /// The crop has no pixels, or some outside of the picture.
     Crop,
     /// The lens radius is negative, or the focus distance is not positive.
     Lens,

@@ -54,8 +54,7 @@ impl BvhLightSampler {
     }
 
     /// Sets the groups of all lights, one entry for each in the order of ids: contexts then choose
-    /// among the lights of the [groups](LightSampleContext::with_groups) that they ask for. Refits
-    /// keep them.
+    /// among the lights of their [groups](LightSampleContext::with_groups). Refits keep them.
     ///
     /// # Errors
     /// As for [`LightBvh::set_groups`]; the sampler is then as it was.

@@ -9,10 +9,10 @@ use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 /// The least number of choices for which a cut is faster than single choices.
 const FEWEST_OF_CUT: u32 = 2;
 
-/// What the default hierarchy and its lights at infinity know at one context.
+/// The default hierarchy and its lights at infinity at one context.
 ///
-/// A single choice is of another type than several, so that who makes only single ones has neither
-/// the code of a cut nor its size on the stack.
+/// A single choice has another type than several choices, so that a program that makes single ones
+/// only has neither the code of a cut nor its size on the stack.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BvhChoices<'a, T = TreeChoices<'a>> {
     infinite: InfiniteLights<'a>,
@@ -22,7 +22,7 @@ pub(crate) struct BvhChoices<'a, T = TreeChoices<'a>> {
     tree: T,
 }
 
-/// What is known of the tree.
+/// The tree at the context.
 pub(crate) trait InTree {
     /// As [`LightBvhAt::irradiance`].
     fn irradiance(&self) -> f32;

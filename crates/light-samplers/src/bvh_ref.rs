@@ -22,8 +22,8 @@ impl<'a> BvhLightSamplerRef<'a> {
     /// ascending order of their ids, none of which is in the tree.
     ///
     /// # Errors
-    /// If the lights at infinity are not in order, or have no valid bounds. Whether they are in the
-    /// tree is not looked at: they are never chosen from it.
+    /// If the lights at infinity are not in order, or have no valid bounds. It is not checked that
+    /// the tree does not hold them: they are never chosen from it.
     pub fn new(
         tree: LightBvhRef<'a>,
         power: f32,
@@ -54,7 +54,7 @@ impl<'a> BvhLightSamplerRef<'a> {
         self.infinite.lights()
     }
 
-    /// What is known for a single choice.
+    /// A single choice.
     #[inline]
     fn choice_at(&self, ctx: &LightSampleContext) -> BvhChoices<'a, LightBvhAt<'a>> {
         BvhChoices::single(self.tree, self.power, self.infinite, ctx)
@@ -68,7 +68,7 @@ impl<'a> BvhLightSamplerRef<'a> {
         LightChoices::bvh(choices, count)
     }
 
-    /// What is known for a single choice in `cell`.
+    /// A single choice in `cell`.
     #[inline]
     pub(crate) fn choice_in<'b>(
         &self,

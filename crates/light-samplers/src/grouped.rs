@@ -2,12 +2,12 @@ use light_bounds::{LightGroups, LightId, LightSampleContext, SampledLight};
 
 use crate::{LightChoices, LightSampler};
 
-/// A sampler that knows no groups, restricted to the groups that a context asks for: a choice of
-/// any other light is none.
+/// A sampler without groups, restricted to the groups of a context: the choice of any other light
+/// becomes `None`.
 ///
-/// `G` lends the groups of all lights by id, for example a `Vec<LightGroups>`; lights beyond its
-/// end are in all groups. A choice that contributes nothing costs as much as another:
-/// [`BvhLightSampler`](crate::BvhLightSampler) chooses among the lights that are asked for.
+/// `G` gives the groups of all lights by id, for example a `Vec<LightGroups>`; lights beyond its
+/// end are in all groups. A choice that contributes nothing costs as much as any other:
+/// [`BvhLightSampler`](crate::BvhLightSampler) chooses among the lights of the groups only.
 #[derive(Clone, Copy, Debug)]
 pub struct GroupedLightSampler<S, G> {
     sampler: S,

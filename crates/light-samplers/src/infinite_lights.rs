@@ -172,7 +172,7 @@ impl fmt::Display for InfiniteLightsError {
 impl core::error::Error for InfiniteLightsError {}
 
 /// Estimated irradiance at `ctx` from a light at infinity; 0 only if all of it is below the
-/// horizon, or if it is not asked for.
+/// horizon, or if it is in none of the groups of `ctx`.
 pub(crate) fn irradiance(light: &InfiniteLight, ctx: &LightSampleContext) -> f32 {
     if light.groups.is_wanted(ctx.groups) {
         float::positive_product(light.bounds.fluence, mean_cosine(&light.bounds, ctx))

@@ -4,15 +4,15 @@ use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use crate::bvh_choices::BvhChoices;
 use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
 
-/// What is known of the visibility of lights, by place.
+/// The known visibility of lights, by place.
 pub trait VisibilityCache {
-    /// The factors at `ctx`; `None` where the tree alone is asked. A pure function of `ctx`: a
-    /// sample and a later pmf have to see the same factors.
+    /// The factors at `ctx`; `None` where the tree chooses without factors. A pure function of
+    /// `ctx`: a sample and a later pmf must get the same factors.
     fn factors<'a>(&'a self, ctx: &LightSampleContext) -> Option<CellFactors<'a>>;
 }
 
-/// The default light hierarchy, where the importance of lights is multiplied by what a
-/// [`VisibilityCache`] knows of their visibility.
+/// The default light hierarchy, with the importance of lights multiplied by the factors of a
+/// [`VisibilityCache`].
 ///
 /// It obeys the laws of all samplers whatever the cache returns: factors change probabilities, but
 /// a light that contributes keeps one above 0. Lights at infinity have no factors.
@@ -29,13 +29,13 @@ impl<'a, V: VisibilityCache + ?Sized> VisibilityLightSampler<'a, V> {
         Self { lights, cache }
     }
 
-    /// [`LightSampler::at`], for as long as the memory is borrowed, with counts of its own:
-    /// `known` choices one by one from the root where something is known of the visibility, and
-    /// `unknown` choices, by a cut if they are several, where nothing is.
+    /// [`LightSampler::at`] with other counts: `known` choices, each from the root, where the cache
+    /// has factors; elsewhere `unknown` choices, by a cut if there are several. The result lives as
+    /// long as the borrowed memory.
     ///
-    /// Several candidates for one shadow ray undo what factors gain, because the brightest is the
-    /// likeliest to be tested, seen or not: make one choice where visibility is known, or trace a
-    /// ray to each.
+    /// Several candidates for one shadow ray undo the gain of the factors, because the brightest is
+    /// the likeliest to be tested, visible or not: make one choice where visibility is known, or
+    /// trace a ray to each.
     #[inline]
     #[must_use]
     pub fn choices(&self, ctx: &LightSampleContext, known: u32, unknown: u32) -> LightChoices<'a> {

@@ -115,14 +115,6 @@ impl Scene {
         self.count(|_| true)
     }
 
-    /// The number of spheres, those of prototypes counted once per instance.
-    #[must_use]
-    pub fn sphere_count(&self) -> usize {
-        let instances = self.instances.iter();
-        let instanced = instances.map(|p| self.prototype(p.prototype).spheres.len());
-        self.spheres.len() + instanced.sum::<usize>()
-    }
-
     /// The number of triangles of emissive materials, those of prototypes counted once per
     /// instance.
     #[must_use]

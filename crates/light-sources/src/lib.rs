@@ -49,6 +49,8 @@ mod equal_area_sky;
 mod floor;
 mod flux;
 #[cfg(feature = "alloc")]
+mod forward_light;
+#[cfg(feature = "alloc")]
 mod goniometric;
 #[cfg(feature = "alloc")]
 mod image;

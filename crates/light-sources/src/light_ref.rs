@@ -1,6 +1,7 @@
 use crate::area::DiffuseAreaLight;
 use crate::color::{ColorModel, Radiance};
 use crate::distant::DistantLight;
+use crate::forward_light::forward_light;
 use crate::glam::{Vec2, Vec3};
 use crate::goniometric::GoniometricLight;
 use crate::image_infinite::ImageInfiniteLight;
@@ -132,51 +133,5 @@ impl<C: ColorModel> LightRef<'_, C> {
 }
 
 impl<C: ColorModel> Light<C> for LightRef<'_, C> {
-    #[inline]
-    fn light_type(&self) -> LightType {
-        for_each_kind!(self, light => light.light_type())
-    }
-
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        for_each_kind!(self, light => light.phi(wavelengths))
-    }
-
-    #[inline]
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        u: Vec2,
-        wavelengths: &C::Wavelengths,
-        coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        for_each_kind!(self, light => light.sample_li(ctx, u, wavelengths, coverage))
-    }
-
-    #[inline]
-    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
-        for_each_kind!(self, light => light.pdf_li(ctx, wi, coverage))
-    }
-
-    #[inline]
-    fn sample_le(
-        &self,
-        u1: Vec2,
-        u2: Vec2,
-        wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
-        for_each_kind!(self, light => light.sample_le(u1, u2, wavelengths))
-    }
-
-    #[inline]
-    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        for_each_kind!(self, light => light.pdf_le(ray))
-    }
-
-    fn extent(&self) -> LightExtent {
-        for_each_kind!(self, light => light.extent())
-    }
-
-    fn media(&self) -> MediumInterface {
-        for_each_kind!(self, light => light.media())
-    }
+    forward_light!(for_each_kind, #[inline]);
 }

@@ -3,6 +3,7 @@ use core::error::Error;
 use core::fmt;
 
 use crate::color::{ColorModel, Radiance};
+use crate::forward_light::forward_light;
 use crate::glam::{Vec2, Vec3};
 use crate::light::{AreaLight, InfiniteLight, Light};
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
@@ -119,48 +120,7 @@ impl<C: ColorModel> OwnLight<C> {
 }
 
 impl<C: ColorModel> Light<C> for OwnLight<C> {
-    fn light_type(&self) -> LightType {
-        for_each_trait!(self, light => light.light_type())
-    }
-
-    fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        for_each_trait!(self, light => light.phi(wavelengths))
-    }
-
-    fn sample_li(
-        &self,
-        ctx: &LightSampleContext,
-        u: Vec2,
-        wavelengths: &C::Wavelengths,
-        coverage: PdfCoverage,
-    ) -> Option<LightLiSample<C::Radiance>> {
-        for_each_trait!(self, light => light.sample_li(ctx, u, wavelengths, coverage))
-    }
-
-    fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32 {
-        for_each_trait!(self, light => light.pdf_li(ctx, wi, coverage))
-    }
-
-    fn sample_le(
-        &self,
-        u1: Vec2,
-        u2: Vec2,
-        wavelengths: &C::Wavelengths,
-    ) -> Option<LightLeSample<C::Radiance>> {
-        for_each_trait!(self, light => light.sample_le(u1, u2, wavelengths))
-    }
-
-    fn pdf_le(&self, ray: &EmittedRay) -> LePdf {
-        for_each_trait!(self, light => light.pdf_le(ray))
-    }
-
-    fn extent(&self) -> LightExtent {
-        for_each_trait!(self, light => light.extent())
-    }
-
-    fn media(&self) -> MediumInterface {
-        for_each_trait!(self, light => light.media())
-    }
+    forward_light!(for_each_trait);
 }
 
 impl<C: ColorModel> fmt::Debug for OwnLight<C> {

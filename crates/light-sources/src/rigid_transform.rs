@@ -169,6 +169,11 @@ mod tests {
             let Ok(t) = t else {
                 unreachable!("within the tolerance")
             };
+            assert_eq!(
+                (t.origin(), t.axis()),
+                (Vec3::ONE, t.vector(Vec3::Z)),
+                "light space"
+            );
             let v = Vec3::new(0.3, -2.0, 0.9);
             assert!(
                 t.vector(v).distance(exact.transform_vector3(v)) < 1e-4,

@@ -1,4 +1,4 @@
-//! What groups of lights cost, and how a build tells them apart.
+//! Costs of groups of lights, and how a build separates them.
 
 use alloc::vec::Vec;
 use core::f32::consts::PI;

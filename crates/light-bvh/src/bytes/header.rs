@@ -52,7 +52,7 @@ impl Header {
     }
 
     /// The header at the start of `bytes`, at any alignment, and the nodes, order, slots and groups
-    /// that follow it, if there are as many bytes as it tells.
+    /// that follow it, if there are as many bytes as it states.
     pub(super) fn split(bytes: &[u8]) -> Result<(Self, [&[u8]; 4]), TreeBytesError> {
         let (start, rest) = bytes
             .split_at_checked(HEADER)
@@ -89,20 +89,20 @@ impl Header {
     }
 }
 
-/// Why bytes are no tree that can be used.
+/// Why bytes cannot be used as a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TreeBytesError {
-    /// They do not begin as a tree does.
+    /// They do not begin with the mark of a tree.
     NoTree,
     /// They are of another version of this crate, or of a machine with another order of bytes.
     Version {
-        /// The version that they name.
+        /// The version in the header.
         found: u32,
     },
-    /// They are fewer or more than their head tells.
+    /// They are fewer or more than the header states.
     Length {
-        /// How many it tells.
+        /// The number in the header.
         expected: u64,
     },
     /// They do not begin at a multiple of 32, and cannot be used where they are.

@@ -15,7 +15,7 @@ pub(super) fn are_links_sound(tree: &LightBvhRef<'_>) -> bool {
         children += usize::from(node.inner);
         lights += usize::from(node.count - node.inner);
     }
-    // Each child names its parent, and each light its place: so none is counted twice.
+    // Each child names its parent and each light its place, so that none is counted twice.
     let placed = slots.iter().filter(|&&slot| slot != NOWHERE).count();
     let is_whole = children == nodes.len().saturating_sub(1);
     is_whole && lights == order.len() && placed == order.len()

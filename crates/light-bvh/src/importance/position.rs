@@ -6,8 +6,7 @@ pub(crate) const FAR: f32 = 1e36;
 /// Whether `p` is beyond ±1e36 on any axis. Queries clamp such a point, and directions from it mean
 /// nothing.
 #[inline(always)]
-#[must_use]
-pub fn is_far(p: Vec3) -> bool {
+pub(crate) fn is_far(p: Vec3) -> bool {
     near(p) != p
 }
 

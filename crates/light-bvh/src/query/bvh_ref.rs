@@ -18,7 +18,7 @@ pub struct LightBvhRef<'a> {
     slots: &'a [u32],
     /// The groups of the lights of each child of each node; empty if nothing is left out by them.
     groups: &'a [[LightGroups; WIDTH]],
-    /// The groups that are asked for.
+    /// The groups to choose from.
     wanted: LightGroups,
 }
 
@@ -56,7 +56,7 @@ impl<'a> LightBvhRef<'a> {
         Self { groups, ..self }
     }
 
-    /// The tree for a context that asks for these groups.
+    /// The tree for a context of these groups.
     #[inline(always)]
     pub(crate) const fn wanting(self, wanted: LightGroups) -> Self {
         if wanted.0 == LightGroups::ALL.0 {

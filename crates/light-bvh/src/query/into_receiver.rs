@@ -23,7 +23,7 @@ pub trait IntoReceiver: Copy {
     /// Prepares it.
     fn keep(self) -> Self::Kept;
 
-    /// The groups of the lights that it asks for: all, if nothing else is said.
+    /// The groups of lights to choose from; by default all.
     #[inline]
     fn groups(self) -> LightGroups {
         LightGroups::ALL

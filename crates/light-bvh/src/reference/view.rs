@@ -82,10 +82,10 @@ impl<'a> ReferenceLightBvhRef<'a> {
     }
 }
 
-/// Shows `visit` every leaf with its trail, in depth-first order, until it answers false.
+/// Calls `visit` with every leaf and its trail, in depth-first order, until it returns false.
 ///
 /// # Errors
-/// If the nodes are no tree in depth-first order, or `visit` answered false.
+/// If the nodes are not a tree in depth-first order, or `visit` returned false.
 pub(super) fn visit_leaves(
     nodes: &[ReferenceNode],
     mut visit: impl FnMut(LightId, BitTrail) -> bool,

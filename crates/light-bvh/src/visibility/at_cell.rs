@@ -35,9 +35,9 @@ impl<'a> LightBvhInCell<'a> {
 }
 
 impl<R: KeptReceiver> LightBvhInCellAt<'_, R> {
-    /// About the irradiance by all lights of a tree of power 1, as
-    /// [`LightBvhAt::irradiance`](crate::LightBvhAt::irradiance), that arrives: times the factors
-    /// of the root's children. 0 only if no light can contribute.
+    /// An estimate of the irradiance that arrives from all lights of a tree of power 1:
+    /// [`LightBvhAt::irradiance`](crate::LightBvhAt::irradiance) with the factors of the root's
+    /// children. 0 only if no light can contribute.
     #[inline]
     #[must_use]
     pub fn irradiance(&self) -> f32 {

@@ -1,4 +1,4 @@
-//! From what is seen of each child to the factors of a cell.
+//! From the visible share of each child to the factors of a cell.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,12 +7,12 @@ use crate::node::wide_node::WIDTH;
 use crate::visibility::cell_factors::CopiedNode;
 use crate::visibility::factor_code::{ONE, encode_factor};
 
-/// Codes of the factors that give each closed child its share of `mean` importance times `share`,
-/// and at least `floor` of the mean share; what is opened gets the sum of its children, so that the
-/// choice is the same at every level.
+/// Codes of the factors with which each closed child is chosen in proportion to its `mean`
+/// importance times its visible `share`, which counts at least `floor` of the mean share. An opened
+/// child gets the sum of its children, so that the choice is the same at every level.
 ///
-/// Importance is corrected on the way: what the parent makes of a child counts no more than what
-/// the child's own children add up to.
+/// This also corrects the importance: that of a child at its parent becomes the sum over the
+/// child's own children.
 pub(super) fn factors(
     shape: &[CopiedNode],
     mean: &[[f32; WIDTH]],

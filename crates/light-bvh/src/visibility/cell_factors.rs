@@ -16,14 +16,14 @@ pub const MAX_COPIED_NODES: usize = 24;
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct CopiedNode {
-    /// Bit `k` says whether child `k` is copied.
+    /// Bit `k` is set if child `k` is copied.
     pub opened: u16,
     /// The place of the first of these copies in the cell.
     pub first: u16,
 }
 
-/// What a place knows of the lights that are seen from it: a copy of the top of a tree, of which
-/// every child has a factor that multiplies its importance.
+/// The visibility of lights from one cell: a copy of the top of a tree, in which every child has a
+/// factor that multiplies its importance.
 ///
 /// Borrowed: 20 bytes a copied node. Codes of factors are those of
 /// [`encode_factor`](crate::visibility::encode_factor), entry `k` for child `k`; those of empty
@@ -44,7 +44,7 @@ impl<'a> CellFactors<'a> {
     /// The cell of these copied nodes, the root first, and their factors, one entry a node.
     ///
     /// # Errors
-    /// The first thing that is wrong: see [`CellFactorsError`]. Looks at every node once.
+    /// The first rule that is broken: see [`CellFactorsError`]. Reads every node once.
     pub fn new(
         tree: &LightBvhRef<'_>,
         shape: &'a [CopiedNode],
@@ -61,7 +61,8 @@ impl<'a> CellFactors<'a> {
         Ok(Self { shape, factors })
     }
 
-    /// The same without a look at the tree, for what was made or checked here.
+    /// The same without a check against the tree, for cells that were made or checked by this
+    /// crate.
     pub(super) const fn of(shape: &'a [CopiedNode], factors: &'a [[u8; WIDTH]]) -> Self {
         Self { shape, factors }
     }
@@ -153,7 +154,7 @@ pub(super) fn inner_child(
     is_child.then_some(below)
 }
 
-/// Why numbers are no cell of a tree.
+/// Why arrays are not a cell of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CellFactorsError {

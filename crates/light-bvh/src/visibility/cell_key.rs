@@ -5,7 +5,8 @@ use light_math::glam::Vec3;
 
 use crate::visibility::hash::mix;
 
-/// Where the grid of fine cells begins, in their size, and in eighths that of the coarse ones.
+/// The origin of the grid of fine cells in fine cells, and that of the coarse grid in eighths of a
+/// coarse cell.
 ///
 /// Even numbers and a fraction near 0.88: planes at multiples of a quarter of either size lie
 /// inside cells, at least a tenth of the size from their border.
@@ -26,8 +27,8 @@ const NO_FACE: u32 = 6;
 /// A cell of space: a quantised position, the side that the normal faces, and a size. Fine cells
 /// are an eighth as large as coarse ones, and each lies in one of them.
 ///
-/// Whole numbers, the same on every machine: products with powers of two, sums and `floor` are all
-/// that makes them of floats. 16 bytes.
+/// Keys are whole numbers, the same on every machine: they are made from floats by products with
+/// powers of two, sums and `floor` only. 16 bytes.
 ///
 /// ```
 /// # use light_bvh::visibility::CellKey;
@@ -96,7 +97,7 @@ impl CellKey {
         power_of_two(level as i32 - LEVEL_BIAS - finer)
     }
 
-    /// The cube of space that it is, to rounding.
+    /// The cube of space that it covers, up to rounding.
     #[must_use]
     pub fn bounds(self) -> Aabb {
         let [x, y, z] = self.at.map(|at| at as f32);

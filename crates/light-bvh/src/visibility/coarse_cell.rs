@@ -18,15 +18,15 @@ use crate::visibility::ray_log::RayLog;
 use crate::visibility::rays::Rays;
 use crate::visibility::share_code::encode_share;
 
-/// A coarse cell: which nodes of the tree it copies, the factors of their children, and what
-/// share of their lights is seen. A plain one has none of it: there the tree is asked without
+/// A coarse cell: the nodes of the tree that it copies, the factors of their children, and the
+/// visible share of their lights. A plain cell has none of them: queries in it use the tree without
 /// factors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CoarseCell {
     pub(super) key: CellKey,
     pub(super) shape: Vec<CopiedNode>,
     pub(super) factors: Vec<[u8; WIDTH]>,
-    /// The share of each child's lights that is seen, in 255ths.
+    /// The visible share of each child's lights, in 255ths.
     pub(super) seen: Vec<[u8; WIDTH]>,
 }
 
@@ -34,17 +34,18 @@ impl CoarseCell {
     /// The cell of `key` by rays from `places` in it: contexts, or what a ray needs to start from one
     /// beside it.
     ///
-    /// `visible(place, light, u)` says whether `place` sees the point of `light` that `u` chooses,
-    /// of the unit square; a light that emits nothing there counts as not seen. The same arguments
-    /// give the same bytes, on every machine where `visible` answers alike: random numbers come
-    /// from the key, and all sums are in a fixed order. It is called at most as often as `options`
-    /// say. The measurements had 128 places in a coarse cell and 16 in a fine one.
+    /// `visible(place, light, u)` returns whether `place` sees the point of `light` that `u` of the
+    /// unit square chooses; a light that emits nothing toward `place` counts as not seen. The
+    /// number of calls is at most that of `options`. The same arguments and the same results of
+    /// `visible` give the same bytes on every machine: random numbers come from the key, and all
+    /// sums have a fixed order. The measurements used 128 places in a coarse cell and 16 in a fine
+    /// one.
     ///
     /// # Source
-    /// Choices in proportion to the root of a second moment, as in `[Rath2020]`: that of a light
-    /// whose visibility is a bit is the share of it that is seen. Shares from few rays count what
-    /// was expected before as one ray more, from the lights of the node above: a conjugate prior,
-    /// as `[Vevoda2018]` has them for what clusters of lights contribute.
+    /// Choices in proportion to the root of a second moment, as in `[Rath2020]`: for a light whose
+    /// visibility is 0 or 1 the second moment is its visible share. The expected share, that of the
+    /// node above, counts as one more ray: a conjugate prior, as `[Vevoda2018]` has for the
+    /// contributions of clusters of lights.
     #[must_use]
     pub fn fill<P: Borrow<LightSampleContext>>(
         tree: LightBvhRef<'_>,
@@ -86,7 +87,7 @@ impl CoarseCell {
         Self::learnt(tree, key, places, options, &rays.log)
     }
 
-    /// A plain cell: one where nothing is in the way, or nothing is known.
+    /// A plain cell: nothing blocks its rays, or it has no rays.
     #[must_use]
     pub const fn plain(key: CellKey) -> Self {
         Self {
@@ -97,7 +98,7 @@ impl CoarseCell {
         }
     }
 
-    /// What the rays so far tell.
+    /// The cell that the rays so far give.
     fn learnt<P: Borrow<LightSampleContext>>(
         tree: LightBvhRef<'_>,
         key: CellKey,
@@ -123,7 +124,7 @@ impl CoarseCell {
         self.key
     }
 
-    /// Whether the tree is asked without factors.
+    /// Whether queries use the tree without factors.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.shape.is_empty()

@@ -16,13 +16,14 @@ impl Counts {
         self.seen += u32::from(is_seen);
     }
 
-    /// The share that is expected to be seen, where `before` was expected without these rays: it
-    /// counts as one ray.
+    /// The expected visible share. `before`, the share expected without these rays, counts as one
+    /// ray.
     pub(super) fn visibility(self, before: f32) -> f32 {
         (self.seen as f32 + before) / (self.rays as f32 + 1.0)
     }
 
-    /// How much there is to tell apart among the lights of the child; 0 if nothing.
+    /// How much opening the child can gain: large if many of its lights are seen and some are not,
+    /// 0 if all or none are seen.
     pub(super) fn open_score(self) -> u32 {
         const LEAST: u32 = 6;
         if self.rays < LEAST {

@@ -1,5 +1,4 @@
-//! How much the importance of a child is multiplied by, in a byte: five bits of exponent and three
-//! of mantissa.
+//! The factor of a child's importance in one byte: five bits of exponent and three of mantissa.
 
 /// The code of factor 1.
 pub(crate) const ONE: u8 = 192;
@@ -10,7 +9,8 @@ pub(crate) const LEAST: u8 = 120;
 /// The code of the largest factor, 64.
 pub(crate) const LARGEST: u8 = 240;
 
-/// What queries decode factor 1 to: only proportions count, and no product with a weight overflows.
+/// The float to which queries decode the factor 1: only proportions count, and no product with a
+/// weight overflows.
 pub(crate) const UNIT: f32 = 1.0 / 256.0;
 
 /// The exponent of code 0 as queries decode it.

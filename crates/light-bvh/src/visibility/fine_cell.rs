@@ -18,11 +18,11 @@ use crate::visibility::ray_log::RayLog;
 use crate::visibility::rays::Rays;
 use crate::visibility::share_code::decode_share;
 
-/// A fine cell: factors of its own for the children that its coarse cell tells apart.
+/// A fine cell: its own factors for the children of the nodes that its coarse cell copies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FineCell {
     pub(super) key: CellKey,
-    /// Empty if the coarse cell's serve.
+    /// Empty if the factors of the coarse cell are used.
     pub(super) factors: Vec<[u8; WIDTH]>,
 }
 
@@ -31,7 +31,7 @@ impl CoarseCell {
     /// has the factors of this cell; in a plain cell it is plain, and no ray is sent.
     ///
     /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). The
-    /// rays go where this cell does not know what is seen.
+    /// rays go to the lights whose visibility this cell leaves open.
     #[must_use]
     pub fn fill_fine<P: Borrow<LightSampleContext>>(
         &self,
@@ -93,7 +93,8 @@ impl FineCell {
     }
 }
 
-/// How much a ray to lights of this visibility tells, and a little for those that are seen anyway.
+/// The weight of rays to lights of this visible share: largest where the result of a ray is least
+/// certain, with a small minimum.
 fn doubt(visibility: f32) -> f32 {
     sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
 }

@@ -1,5 +1,5 @@
-/// The second moments of one choice, by a cell and by the tree alone, as rays tell them that the
-/// cell chose and that were not used to learn it.
+/// The second moments of one choice, by a cell and by the tree alone. They are estimated from rays
+/// that the cell chose and that were not used to learn it.
 ///
 /// A ray that was blocked adds to neither. What arrives is taken to be in proportion to the tree's
 /// probability `p` where it is seen: chosen with probability `q`, the moment of the cell is the

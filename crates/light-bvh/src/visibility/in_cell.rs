@@ -8,11 +8,11 @@ use crate::visibility::cell_factors::CellFactors;
 use crate::visibility::walk::{descend, pmf_along, root};
 use crate::visibility::way::Way;
 
-/// A tree as it is asked from within a cell: the importance of a child that the cell has copied is
-/// multiplied by its factor.
+/// A tree with the factors of one cell: the importance of a child of a copied node is multiplied by
+/// its factor.
 ///
-/// Choices, and what can be chosen, are otherwise those of the tree: a light that can contribute
-/// has a probability above 0 whatever the factors are. A `receiver` is a reference to a
+/// All else is as in the tree: a light that can contribute has a probability above 0 whatever the
+/// factors are. A `receiver` is a reference to a
 /// [`LightSampleContext`](light_bounds::LightSampleContext), or to a [`Receiver`](crate::Receiver).
 #[derive(Clone, Copy, Debug)]
 pub struct LightBvhInCell<'a> {
@@ -21,7 +21,7 @@ pub struct LightBvhInCell<'a> {
 }
 
 impl<'a> LightBvhRef<'a> {
-    /// The tree as it is asked from within `cell`, which was made for it.
+    /// The tree with the factors of `cell`, which was made for it.
     ///
     /// A cell of another tree gives other probabilities, but no light is lost by it.
     #[must_use]

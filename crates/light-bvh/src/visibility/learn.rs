@@ -1,4 +1,4 @@
-//! Which nodes a coarse cell copies, and what share of the lights of each child is seen.
+//! The nodes that a coarse cell copies, and the visible share of each child's lights.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,7 +13,7 @@ use crate::visibility::ray_log::{Ray, RayLog};
 #[derive(Clone, Debug)]
 pub(super) struct Learnt {
     pub(super) shape: Vec<CopiedNode>,
-    /// The share of the lights of each child that is expected to be seen.
+    /// The expected visible share of each child's lights.
     pub(super) visibility: Vec<[f32; WIDTH]>,
 }
 
@@ -68,7 +68,7 @@ fn open(
     }
 }
 
-/// The closed child with most to tell apart, the first of equal ones: its node's place, its number
+/// The closed child whose opening gains most, the first of equal ones: its node's place, its number
 /// and its index in the tree.
 fn next_to_open(tree: &LightBvhRef<'_>, opened: &[Opened]) -> Option<(usize, usize, u32)> {
     let mut best = (0, None);

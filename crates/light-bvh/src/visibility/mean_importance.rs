@@ -1,4 +1,4 @@
-//! What the children of copied nodes mean to the places of a cell, on average.
+//! The mean importance of the children of copied nodes, over the places of a cell.
 
 use alloc::vec;
 use alloc::vec::Vec;

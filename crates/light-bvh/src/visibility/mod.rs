@@ -1,18 +1,18 @@
-//! Which lights are seen, as a pure function of a place: cells of space, in which a tree chooses
-//! lights that arrive.
+//! Visibility of lights in cells of space: within a cell, a tree prefers the lights that are seen
+//! from it. The factors are a pure function of the place.
 //!
 //! A [`CellKey`] is a quantised position, the side that a surface faces, and a size. Its cell holds
 //! a copy of the top of the tree, with one byte a child that multiplies the child's importance:
-//! [`CellFactors`]. [`LightBvhRef::in_cell`](crate::LightBvhRef::in_cell) asks the tree with them,
-//! and below the copy without. Every light that can contribute keeps a probability above 0, and
-//! that of a sample has the bits of that of a query.
+//! [`CellFactors`]. [`LightBvhRef::in_cell`](crate::LightBvhRef::in_cell) uses them in queries;
+//! below the copy the tree decides alone. Every light that can contribute keeps a probability above
+//! 0, and the probability of a sample has the bits of the queried one.
 //!
-//! Cells are made by rays of the caller's. A [`CoarseCell`] learns which groups of lights are seen
-//! from it, and opens those that are seen in part; eight times smaller, a [`FineCell`] tests what
-//! the coarse one does not know. Random numbers come from the key and nothing else: whoever makes a
-//! cell, on whichever thread, makes the same bytes. Where nothing is in the way a cell is plain
-//! after 48 rays. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`] looks them up
-//! without an allocator.
+//! Cells are filled by rays of the caller. A [`CoarseCell`] learns which groups of lights are seen
+//! from it, and opens those that are seen in part. A [`FineCell`], eight times smaller, tests the
+//! groups whose visibility the coarse cell leaves open. Random numbers depend on the key only:
+//! every thread that fills a cell makes the same bytes. Where nothing blocks the rays, a cell
+//! becomes plain after 48 of them. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`]
+//! looks them up without an allocator.
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] {
@@ -55,9 +55,9 @@
 //!
 //! With the deepest copy a sample takes a hundredth more instructions than one of the tree, and a
 //! pmf a fifth more (`cargo xtask counts`); looking a cell up is a hash and a few loads. By default
-//! a coarse cell takes 5,120 rays and a fine one 96. In a room of which one door leads to another,
-//! where most lamps are and the brightest, the relative variance V of one choice falls so (mean of
-//! 400 points; cells of an eighth of the room):
+//! a coarse cell takes 5,120 rays and a fine one 96. The relative variance V of one choice in a
+//! room with one door to a second room, which has most lamps and the brightest (mean of 400 points;
+//! cells of an eighth of the room):
 //!
 //! | lamps | V, tree | coarse cells | fine cells | tree that knows visibility |
 //! | --- | --- | --- | --- | --- |
@@ -66,21 +66,22 @@
 //!
 //! # Limits
 //!
-//! A cell belongs to one tree: a new build of it needs new cells, and after a refit they are only
-//! as good as the old places of the lights. Light that is seen from a corner of a cell alone may
-//! not be found by any ray of it: it keeps about [`FillOptions::floor`] of its probability, and is
-//! noisy. What changes within a fine cell, as the bars of a grille, cannot be learnt;
-//! [`FillOptions::least_gain`] notices that. Visibility is a yes or no; transmittance counts as the
-//! caller says. The choice of what size cells have, of which cells are made, and of the places in
-//! them is the caller's, and has to depend on the scene alone if pictures shall.
+//! A cell belongs to one tree: a new build needs new cells, and after a refit the cells still
+//! describe the old positions of the lights. A light that is seen from a corner of a cell only may
+//! be missed by all rays of the cell: it keeps about [`FillOptions::floor`] of its probability, and
+//! is noisy. Visibility that changes within a fine cell, as behind the bars of a grille, cannot be
+//! learnt; [`FillOptions::least_gain`] detects that. Visibility is 0 or 1; the caller decides how
+//! transmittance counts. The caller chooses the size of the cells, which cells are made, and the
+//! places in them. For pictures that depend on the scene alone, these choices must depend on the
+//! scene alone.
 //!
 //! # Source
 //!
-//! Keys by hashed positions and normals: `[Binder2019]`. What clusters of lights contribute, learnt
-//! by region with a prior for few observations: `[Vevoda2018]`. Choices in proportion to the root
-//! of a second moment: `[Rath2020]`. Probabilities learnt for the nodes of a light tree, by cells:
-//! `[Pantaleoni2019]`. Two levels, factors in bytes on the importance of the tree, and cells that
-//! depend on their key alone are this crate's.
+//! Keys by hashed positions and normals: `[Binder2019]`. Contributions of clusters of lights,
+//! learnt by region with a prior for few observations: `[Vevoda2018]`. Choices in proportion to the
+//! root of a second moment: `[Rath2020]`. Probabilities learnt for the nodes of a light tree, by
+//! cells: `[Pantaleoni2019]`. Two levels, factors in bytes on the importance of the tree, and cells
+//! that depend on their key alone are this crate's.
 
 mod at_cell;
 #[cfg(feature = "alloc")]

@@ -3,14 +3,14 @@ use crate::node::wide_node::WIDTH;
 use crate::query::weights::{Weights, total};
 use crate::visibility::factor_code::{UNIT, decode_scaled};
 
-/// How much shorter the unit of length of products is, so that they are irradiances again: the root
-/// of one over the unit of factors.
+/// The factor of the unit of length that makes products irradiances again: the root of one over the
+/// unit of factors.
 const SHORTER: f32 = 16.0;
 
 const _: () = assert!(SHORTER * SHORTER * UNIT == 1.0, "the unit of factors");
 
-/// How much of a choice among children is that of the tree without factors: few rays may have missed
-/// what a receiver sees, and this bounds what that costs. Chosen by V: see `docs/occlusion.md`.
+/// The share of the mixture that is the tree's choice without factors. It bounds the variance where
+/// the few rays of a cell missed a light. Chosen by the variance V: see `docs/occlusion.md`.
 const DEFENSIVE_SHARE: f32 = 1.0 / 16.0;
 
 /// Multiplies the weights of the children of a node by their factors, each mixed with the mean of

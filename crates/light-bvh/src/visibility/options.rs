@@ -1,26 +1,27 @@
-/// How many rays a cell is filled by, and what is made of them.
+/// How many rays fill a cell, and how their results are used.
 ///
 /// Any numbers are valid. The defaults are those of the measurements: about 5,100 rays a coarse
 /// cell that is not plain, and 96 a fine one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FillOptions {
-    /// Rays of a coarse cell that tell whether it is plain.
+    /// Rays that decide whether a coarse cell is plain.
     pub first_rays: u32,
-    /// Rays of a coarse cell to lights that the tree chooses, the first ones among them: they find
-    /// rare light.
+    /// Rays of a coarse cell to lights that the tree chooses, including the first ones: they find
+    /// light that few rays see.
     pub exploring_rays: u32,
     /// Rays of each of two further rounds, to lights that the factors learnt so far choose.
     pub guided_rays: u32,
-    /// Rays of a fine cell, to where the coarse cell does not know.
+    /// Rays of a fine cell, to lights whose visibility the coarse cell leaves open.
     pub fine_rays: u32,
     /// A coarse cell is plain if this share of its first rays is not blocked.
     pub plain_share: f32,
-    /// What a child whose lights are never seen keeps of its probability, about: it bounds what
-    /// light costs that no ray has found.
+    /// About the share of its probability that a child keeps if no ray sees its lights: it bounds
+    /// the noise of light that no ray has found.
     pub floor: f32,
-    /// A coarse cell is plain unless its factors make the second moment of one choice this many
-    /// times less, as its last rays tell; 0 to ask nothing. Coarse cells do not know what their
-    /// fine cells will find: numbers above 1 give up what these would gain.
+    /// A coarse cell is plain unless its factors divide the second moment of one choice by at least
+    /// this number, as estimated from its last rays; with 0 there is no such test. The estimate
+    /// leaves out the gain of fine cells: a number above 1 also drops cells whose fine cells would
+    /// gain.
     pub least_gain: f32,
 }
 

@@ -12,14 +12,14 @@ const CHILD_BITS: usize = 4;
 const _: () = assert!(1 << CHILD_BITS == WIDTH, "a child in so many bits");
 const _: () = assert!(CHILD_BITS * MAX_DEPTH < 128, "a bit is left");
 
-/// A ray: the way of the light that it was sent to, and whether that was seen.
+/// A ray: the path of the light that it was sent to, and whether that was seen.
 ///
 /// The root's child is in the highest bits, the lowest one says whether it was seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray(u128);
 
 impl Ray {
-    /// The child on the way at this level of the tree; 0 beyond the light.
+    /// The child on the path at this level of the tree; 0 beyond the light.
     pub(super) const fn child(self, level: usize) -> usize {
         let shift = 128 - CHILD_BITS * (level + 1);
         (self.0 >> shift) as usize & (WIDTH - 1)

@@ -1,5 +1,5 @@
-//! The rays of a cell: which light is tried from which place, by numbers that depend on its key
-//! alone.
+//! The rays of a cell: which light is tested from which place, by numbers that depend on the cell's
+//! key alone.
 
 use alloc::vec::Vec;
 use core::borrow::Borrow;

@@ -8,7 +8,7 @@ use crate::visibility::fine_cell::FineCell;
 use crate::visibility::table_error::CellTableError;
 use crate::visibility::table_ref::{CellEntry, CellTableParts, CellTableRef, bucket};
 
-/// All cells of a scene, to be looked up.
+/// The table of all cells of a scene, by key.
 ///
 /// 32 bytes a cell, 20 a copied node of a coarse cell and 16 of a fine one that has factors of its
 /// own.
@@ -83,7 +83,7 @@ impl CellTable {
         Ok(CellEntry { factors, ..entry })
     }
 
-    /// What looking up needs, borrowed.
+    /// The table on borrowed slices.
     #[must_use]
     pub fn view(&self) -> CellTableRef<'_> {
         CellTableRef::of(CellTableParts {

@@ -3,7 +3,7 @@ use core::fmt;
 
 use crate::visibility::cell_key::CellKey;
 
-/// Why cells, or arrays, are no table.
+/// Why cells or arrays do not make a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CellTableError {

@@ -6,7 +6,7 @@ use crate::visibility::cell_factors::{CellFactors, CellFactorsError, CopiedNode}
 use crate::visibility::cell_key::CellKey;
 use crate::visibility::table_error::CellTableError;
 
-/// What a table knows of one key: where its copied nodes and factors lie. 12 bytes.
+/// The entry of one key: where its copied nodes and factors are. 12 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -24,7 +24,7 @@ pub struct CellEntry {
 pub struct CellTableParts<'a> {
     /// All keys in ascending order of their [seeds](CellKey::seed).
     pub keys: &'a [CellKey],
-    /// What is known of each key.
+    /// The entry of each key.
     pub entries: &'a [CellEntry],
     /// Of as many equal parts of the range of seeds as there are keys, the first key of each; then
     /// the number of keys.
@@ -47,7 +47,7 @@ impl<'a> CellTableRef<'a> {
     /// The table of these arrays, for `tree`.
     ///
     /// # Errors
-    /// The first thing that is wrong: see [`CellTableError`]. Looks at every key and factor once.
+    /// The first rule that is broken: see [`CellTableError`]. Reads every key and factor once.
     pub fn new(tree: &LightBvhRef<'_>, parts: CellTableParts<'a>) -> Result<Self, CellTableError> {
         let CellTableParts { keys, starts, .. } = parts;
         if parts.entries.len() != keys.len() || starts.len() != keys.len() + 1 {
@@ -68,7 +68,7 @@ impl<'a> CellTableRef<'a> {
         Ok(table)
     }
 
-    /// The same without a look at them, for what was made here.
+    /// The same without checks, for arrays that this crate made.
     pub(super) const fn of(parts: CellTableParts<'a>) -> Self {
         Self { parts }
     }

@@ -1,4 +1,4 @@
-//! Down a tree from within a cell: a choice, and the probability of one.
+//! Queries of a tree with the factors of a cell: a choice, and the probability of a light.
 
 use light_bounds::SampledLight;
 use light_math::float::positive_product;
@@ -69,7 +69,7 @@ pub(super) fn descend<R: Receiver>(
     tree.descend_from(receiver, index, pmf, &choice)
 }
 
-/// The probability with which [`descend`] goes the way of a light: the same products.
+/// The probability with which [`descend`] takes the path to a light: the same products.
 #[inline(always)]
 pub(super) fn pmf_along<R: Receiver>(
     tree: &LightBvhRef<'_>,

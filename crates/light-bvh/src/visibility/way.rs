@@ -3,7 +3,7 @@ use light_bounds::LightId;
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 
-/// The way of a light: the children that lead from the root to it.
+/// The path of a light: the children that lead from the root to it.
 pub(super) struct Way {
     /// `16 * node + child`, the light's first.
     slots: [u32; MAX_DEPTH],
@@ -11,7 +11,7 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// The way of `light`; `None` if it is not in the tree.
+    /// The path of `light`; `None` if it is not in the tree.
     #[inline(always)]
     pub(super) fn of(tree: &LightBvhRef<'_>, light: LightId) -> Option<Self> {
         let (mut slots, mut levels) = ([0; MAX_DEPTH], 0);

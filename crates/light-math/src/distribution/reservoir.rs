@@ -19,7 +19,7 @@ use crate::fraction::is_below;
 /// ```
 /// # use light_math::distribution::WeightedReservoir;
 /// # let mut random = [1u64 << 62, 1 << 63].into_iter();
-/// // Four numbers, drawn alike; their squares are the target, their cubes are asked for.
+/// // Four numbers, drawn uniformly; their squares are the target, the sum of cubes is wanted.
 /// let numbers = [1.0f32, 2.0, 3.0, 4.0];
 /// let mut reservoir = WeightedReservoir::new();
 /// for (index, u) in [1, 3].into_iter().zip(&mut random) {
@@ -179,10 +179,10 @@ impl<T> WeightedReservoir<T> {
     ///
     /// After merging reservoirs with unlike targets, an unbiased number is the sum of the
     /// [`count`](Self::count)s of those whose own target of the kept value is above 0. It takes one
-    /// target a reservoir, and is noisy where a target is small but not 0. Weights stand that:
-    /// offer the kept value of each reservoir by [`add`](Self::add) with the weight `m * target *
-    /// contribution_weight`, where the numbers `m` that the reservoirs have for one value add up to
-    /// 1, and take 1 here.
+    /// target a reservoir, and is noisy where a target is small but not 0. Weights allow that:
+    /// offer the kept value of each reservoir by [`add`](Self::add) with the weight
+    /// `m * target * contribution_weight`, where the numbers `m` that the reservoirs have for one
+    /// value add up to 1, and take 1 here.
     ///
     /// # Source
     /// `[Bitterli2020]`, algorithm 6, and its section 4.3 for the weights `m`.

@@ -138,7 +138,8 @@ struct Linearization {
 }
 
 impl Linearization {
-    /// The step away from the target that the normal equations ask for, their diagonal enlarged.
+    /// What to subtract to get nearer to `target`, by the normal equations with their diagonal
+    /// enlarged.
     fn damped_step(&self, target: Vec3, damping: f32) -> Vec3 {
         let transposed = self.jacobian.transpose();
         let normal = transposed * self.jacobian;

@@ -24,7 +24,7 @@ const SIDE: usize = 24;
 /// How many coefficients a table has.
 const LEN: usize = 3 * SIDE * SIDE * 3;
 
-/// The solver's own answers, remade by `cargo xtask uplift-table`.
+/// The solver's own results, remade by `cargo xtask uplift-table`.
 const SRGB: &[f32; LEN] = &decode(include_bytes!("uplift_srgb.bin"));
 
 impl<S> UpliftTable<S> {

@@ -49,8 +49,7 @@ impl<S: AsRef<[f32]>, const K: usize> Grid<S, K> {
     }
 
     /// Samples on each axis.
-    #[must_use]
-    pub const fn size(&self) -> [u32; 3] {
+    pub(super) const fn size(&self) -> [u32; 3] {
         self.size
     }
 

@@ -1,4 +1,5 @@
-/// The largest interpolated value in and just beside each of 16^3 equal cells of the unit cube.
+/// The largest interpolated value in each of 16^3 equal cells of the unit cube, and in a thin
+/// margin around it.
 #[derive(Clone, Debug)]
 pub(super) struct MajorantGrid {
     maxima: [f32; Self::COUNT],

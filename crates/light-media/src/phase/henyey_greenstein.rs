@@ -75,6 +75,7 @@ mod tests {
     fn mean_cosine_is_g() {
         for g in [-0.9, -0.2, 0.0, 5e-4, 0.6, 0.95] {
             let f = HenyeyGreenstein::new(g).expect("in range");
+            assert_eq!(f.g(), g, "as given");
             let n = 20_000u16;
             let mean = (0..n)
                 .map(|i| f64::from(f.sample_cos((f32::from(i) + 0.5) / f32::from(n))))

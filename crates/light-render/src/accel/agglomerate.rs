@@ -67,7 +67,7 @@ pub(super) fn agglomerate(boxes: &[Aabb]) -> Bvh2 {
     bvh
 }
 
-/// What an entry of the next row is made of.
+/// The one or two nodes of which an entry of the next row is made.
 enum Merged {
     One(usize),
     Pair(usize),
@@ -136,7 +136,7 @@ fn without_gaps(pairs: &[usize], count: usize) -> Vec<usize> {
     all
 }
 
-/// For each entry of the next row, what it is made of.
+/// For each entry of the next row, its nodes.
 fn merge(pairs: &[usize], count: usize, mut each: impl FnMut(usize, Merged)) {
     let (mut to, mut from) = (0, 0);
     let mut pairs = pairs.iter().copied().peekable();

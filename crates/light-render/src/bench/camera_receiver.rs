@@ -65,7 +65,7 @@ impl CameraReceiver {
         lights.filter(|(_, light)| light.unoccluded > 0.0).collect()
     }
 
-    /// What the point `u` of a light would give if nothing were in the way, and what it gives.
+    /// The contribution of the point `u` of a light, unoccluded and with occlusion.
     pub(super) fn gives(&self, world: &World, light: LightId, u: Vec2) -> [f64; 2] {
         let sample = world.sample_light(light, &self.ctx, u, PdfCoverage::Complete);
         let Some(li) = sample.filter(|li| !is_in_the_surface(&self.ctx, li.p_light)) else {

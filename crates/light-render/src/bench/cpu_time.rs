@@ -1,7 +1,7 @@
 use std::fs;
 use std::time::Instant;
 
-/// Counts the seconds that all threads of this program run together, where the system tells them
+/// Counts the seconds that all threads of this program run together, where the system reports them
 /// (Linux), so that other work on the machine counts little; wall-clock time elsewhere.
 #[derive(Clone, Copy, Debug)]
 pub struct CpuTimer {
@@ -30,7 +30,7 @@ impl CpuTimer {
     }
 }
 
-/// The seconds that all threads of this program have run, where the system tells them.
+/// The seconds that all threads of this program have run, where the system reports them.
 fn thread_seconds() -> Option<f64> {
     let mut nanoseconds = 0.0;
     for task in fs::read_dir("/proc/self/task").ok()? {

@@ -36,7 +36,7 @@ pub use refits::{RefitRow, refits};
 pub use row::BenchRow;
 pub use scene_variance::{ChoiceKind, RelativeVariance, SceneVariance, scene_variance};
 pub use timing::QueryTime;
-pub use unlit_pixels::pixels_without_lights;
+pub(crate) use unlit_pixels::pixels_without_lights;
 pub use variance::{Ceiling, Variance};
 pub use variance_split::{LightMoments, VarianceSplit};
 

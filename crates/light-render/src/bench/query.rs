@@ -33,7 +33,7 @@ impl Query {
         self.moments(light, receiver).mean
     }
 
-    /// What the points of `light` give to the receiver.
+    /// The contributions of the points of `light` to the receiver.
     pub(super) fn moments(&self, light: &SetLight, receiver: &BenchReceiver) -> LightMoments {
         let points = self.ground_truth.points(light);
         LightMoments::over(points.map(|p| {

@@ -147,8 +147,8 @@ mod tests {
         }
     }
 
-    /// The white furnace: what a rough surface reflects of the same radiance from everywhere is
-    /// below one; the rougher, the more is lost between facets.
+    /// The white furnace: the light that a rough surface reflects of a uniform radiance is below
+    /// one; the rougher, the more is lost between facets.
     #[test]
     fn microfacets_reflect_no_more_than_arrives() {
         for (roughness, least) in [(0.1, 0.9), (0.3, 0.8), (0.6, 0.5), (1.0, 0.3)] {

@@ -16,19 +16,19 @@ pub enum ChoiceKind {
     Cut,
     /// The published hierarchy.
     Reference,
-    /// In proportion to what each light would give if nothing were in the way.
+    /// In proportion to the unoccluded contribution of each light.
     Unoccluded,
     /// In proportion to the probability of the default hierarchy times the root of the share of the
     /// light that is seen.
     TreeAndVisibility,
-    /// In proportion to the root of the second moment of what arrives: nothing is better.
+    /// In proportion to the root of the second moment of the arriving light: the least variance.
     Best,
 }
 
 /// The variance of one choice, mean over the receivers that a camera sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RelativeVariance {
-    /// Between lights: what better choices can remove.
+    /// Between lights: better choices can remove it.
     pub between: f64,
     /// Within lights: penumbrae, and the forms of lights.
     pub within: f64,
@@ -150,7 +150,7 @@ impl AtReceiver {
         }
     }
 
-    /// What arrives.
+    /// The arriving light.
     const fn total(&self) -> f64 {
         self.splits[0].total
     }

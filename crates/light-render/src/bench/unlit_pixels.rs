@@ -7,12 +7,12 @@ use crate::{
     AnyLightSampler, AnyLightSamplerError, RenderSettings, SamplerKind, View, World, render,
 };
 
-/// For each pixel, whether neither it nor one beside it shows a light. The edges of small lamps are
-/// noise that no light sampler can take away.
+/// For each pixel, whether neither it nor one of its neighbours shows a light. The edges of small
+/// lamps are noise that no light sampler can remove.
 ///
 /// # Errors
 /// When the lights are more than ids.
-pub fn pixels_without_lights(
+pub(crate) fn pixels_without_lights(
     world: &World,
     view: &View,
 ) -> Result<Vec<bool>, AnyLightSamplerError> {

@@ -29,13 +29,13 @@ pub struct Variance {
     pub flux_weighted: f64,
     /// Share of the contribution, mean over the points, in lights of probability 0.
     pub lost_energy: f64,
-    /// What no choice can remove; `None` for several samples a call. The fields above are the
-    /// variance between lights alone.
+    /// The variance that no choice can remove; `None` for several samples a call. The fields above
+    /// are the variance between lights alone.
     pub ceiling: Option<Ceiling>,
 }
 
-/// What is left of the variance of one choice at its best, mean over the points that any light
-/// reaches. Within a light there is none if its ground truth is a single point.
+/// The least variance of one choice, mean over the points that any light reaches. Within a light
+/// there is none if its ground truth is a single point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ceiling {
     /// Relative variance within lights, by the sampler.

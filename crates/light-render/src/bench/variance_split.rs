@@ -1,24 +1,24 @@
-/// What a light gives to a receiver, over points of the light that are equally likely.
+/// The contribution of a light to a receiver, over equally likely points of the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LightMoments {
-    /// Mean of what arrives.
+    /// Mean of the arriving light.
     pub mean: f64,
     /// Mean of its square.
     pub square: f64,
-    /// Mean of what would arrive if nothing were in the way.
+    /// Mean of the unoccluded light.
     pub unoccluded: f64,
 }
 
-/// The variance of the estimate by one choice of a light and of a point on it: what arrives over
-/// the light's probability.
+/// The variance of the estimate by one choice of a light and of a point on it: the arriving light
+/// over the light's probability.
 ///
-/// With `p` the probabilities, `f` and `s` the means of what arrives and of its square, and `F` the
-/// sum of `f`, it is `sum s / p - F^2`: between lights `sum f^2 / p - F^2`, which is 0 where `p`
-/// is in proportion to `f`, and within lights `sum (s - f^2) / p`, the penumbrae and the forms of
-/// lights, which better choices can lower but not remove.
+/// With `p` the probabilities, `f` and `s` the means of the arriving light and of its square, and
+/// `F` the sum of `f`, it is `sum s / p - F^2`: between lights `sum f^2 / p - F^2`, which is 0
+/// where `p` is in proportion to `f`, and within lights `sum (s - f^2) / p`, the penumbrae and the
+/// forms of lights, which better choices can lower but not remove.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VarianceSplit {
-    /// What arrives from all lights.
+    /// The arriving light of all lights.
     pub total: f64,
     /// The part of it from lights of probability 0.
     pub lost: f64,
@@ -29,7 +29,7 @@ pub struct VarianceSplit {
 }
 
 impl LightMoments {
-    /// Of points that are given as what would arrive and what arrives; at least one.
+    /// Of at least one point, each given by its unoccluded and its arriving light.
     pub(super) fn over(points: impl ExactSizeIterator<Item = [f64; 2]>) -> Self {
         let weight = 1.0 / points.len() as f64;
         points.fold(Self::default(), |sum, [unoccluded, arrives]| Self {
@@ -39,7 +39,7 @@ impl LightMoments {
         })
     }
 
-    /// The share of what would arrive that does; 0 of nothing.
+    /// The share of the unoccluded light that arrives; 0 without light.
     #[must_use]
     pub fn seen(&self) -> f64 {
         if self.unoccluded > 0.0 {
@@ -70,7 +70,10 @@ impl VarianceSplit {
     }
 
     /// Of choices in proportion to `weight`, which is not negative.
-    pub fn in_proportion(lights: &[LightMoments], weight: impl Fn(&LightMoments) -> f64) -> Self {
+    pub(super) fn in_proportion(
+        lights: &[LightMoments],
+        weight: impl Fn(&LightMoments) -> f64,
+    ) -> Self {
         let sum: f64 = lights.iter().map(&weight).sum();
         if sum > 0.0 {
             Self::of(lights.iter().map(|light| (*light, weight(light) / sum)))
@@ -79,7 +82,7 @@ impl VarianceSplit {
         }
     }
 
-    /// Of the best choice there is: in proportion to the root of the second moment of what arrives.
+    /// Of the best choice: in proportion to the root of the second moment of the arriving light.
     #[must_use]
     pub fn best(lights: &[LightMoments]) -> Self {
         Self::in_proportion(lights, |light| light.square.sqrt())

@@ -29,15 +29,13 @@ impl Microfacets {
 
     /// The larger of both roughnesses.
     #[inline]
-    #[must_use]
-    pub fn alpha(&self) -> f32 {
+    pub(super) fn alpha(&self) -> f32 {
         self.alpha.max_element()
     }
 
     /// Area of facets with normal `wm` per area of surface and solid angle.
     #[inline]
-    #[must_use]
-    pub fn d(&self, wm: Vec3) -> f32 {
+    pub(super) fn d(&self, wm: Vec3) -> f32 {
         let cos_squared = wm.z * wm.z;
         let slope = Vec2::new(wm.x, wm.y) / self.alpha;
         let e = slope.length_squared() + cos_squared;
@@ -67,22 +65,19 @@ impl Microfacets {
 
     /// Height-correlated masking and shadowing: the share of facets visible from `wo` and `wi`.
     #[inline]
-    #[must_use]
-    pub fn g(&self, wo: Vec3, wi: Vec3) -> f32 {
+    pub(super) fn g(&self, wo: Vec3, wi: Vec3) -> f32 {
         1.0 / (1.0 + self.lambda(wo) + self.lambda(wi))
     }
 
     /// Density in sr^-1 of the normal `wm` among those that are seen from `w`.
     #[inline]
-    #[must_use]
-    pub fn visible_pdf(&self, w: Vec3, wm: Vec3) -> f32 {
+    pub(super) fn visible_pdf(&self, w: Vec3, wm: Vec3) -> f32 {
         self.g1(w) / w.z.abs() * self.d(wm) * w.dot(wm).abs()
     }
 
     /// A normal among those that are seen from `w`, which is above the surface.
     #[inline]
-    #[must_use]
-    pub fn sample_visible(&self, w: Vec3, u: Vec2) -> Vec3 {
+    pub(super) fn sample_visible(&self, w: Vec3, u: Vec2) -> Vec3 {
         let stretch = self.alpha.extend(1.0);
         // Seen from the hemisphere that the stretched surface is, each normal is as likely as its
         // projected area.

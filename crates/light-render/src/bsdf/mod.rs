@@ -48,8 +48,8 @@ pub enum Bsdf {
 pub struct BsdfSample {
     /// Where the light comes from.
     pub wi: Vec3,
-    /// The scattering function times the cosine, over the density: what the path's throughput is
-    /// multiplied by.
+    /// The scattering function times the cosine, over the density: the factor by which the path's
+    /// throughput is multiplied by.
     pub weight: Vec3,
     /// Density of `wi` in sr^-1; `None` for a Dirac, which no other strategy can choose.
     pub pdf: Option<f32>,

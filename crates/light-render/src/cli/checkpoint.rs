@@ -42,7 +42,7 @@ pub(crate) struct Checkpoint {
 }
 
 impl CheckpointArgs {
-    /// Whether a checkpoint was asked for.
+    /// Whether there is a checkpoint.
     pub(crate) const fn is_wanted(&self) -> bool {
         self.checkpoint.is_some()
     }
@@ -62,7 +62,7 @@ impl CheckpointArgs {
         expect_writable(path)
     }
 
-    /// The checkpoint that was asked for, of the picture of this `identity`.
+    /// The checkpoint of the picture of this `identity`.
     ///
     /// # Errors
     /// When the file cannot be read, or is of another picture.
@@ -85,7 +85,7 @@ impl Checkpoint {
     /// those of this run.
     ///
     /// # Errors
-    /// When the file holds more samples than are asked for, or cannot be written.
+    /// When the file holds more samples than requested, or cannot be written.
     pub(crate) fn render(
         self,
         world: &World,

@@ -53,8 +53,8 @@ struct Stage {
     world: World,
     view: View,
     reference: Image,
-    /// Whether a pixel is measured: no light is seen in it or beside it. The edges of small lamps
-    /// are noise that no light sampler can take away.
+    /// Whether a pixel is measured: no light is seen in it or its neighbours. The edges of small
+    /// lamps are noise that no light sampler can take away.
     measured: Vec<bool>,
     tone_map: ToneMap,
 }

@@ -6,7 +6,7 @@ pub(crate) enum Failure {
     /// Bad usage or bad input: status 2. The message names the file, the line or the flag, and what
     /// was expected.
     Input(String),
-    /// A check that was asked for did not hold: status 1.
+    /// A requested check failed: status 1.
     Check(String),
 }
 

@@ -29,15 +29,15 @@ enum Aov {
 }
 
 impl LayerArgs {
-    /// Whether layers were asked for.
+    /// Whether layers are requested.
     pub(crate) const fn is_wanted(&self) -> bool {
         self.aov.is_some()
     }
 
-    /// The layers of a picture of `view`; none if no one asked for them.
+    /// The layers of a picture of `view`; none if they are not requested.
     ///
     /// # Errors
-    /// When a group has no light, there are too many, the integrator does not tell lights apart, or
+    /// When a group has no light, there are too many, the integrator does not separate lights, or
     /// the layers do not fit into memory.
     pub(crate) fn layers(
         &self,

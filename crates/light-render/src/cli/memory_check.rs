@@ -8,7 +8,7 @@ use super::failure::Failure;
 pub(crate) const PICTURE: u64 = Film::BYTES_PER_PIXEL + 40;
 
 /// Makes sure that `bytes` of memory are available before they are allocated. `what` needs them:
-/// the words name the flags that ask for it.
+/// the words name the flags that set it.
 ///
 /// # Errors
 /// When there is less, with both figures.

@@ -88,7 +88,7 @@ pub fn main() -> ExitCode {
 /// Reads a command line, the program's name first, as [`main`] does, and runs nothing.
 ///
 /// # Errors
-/// What is wrong with it, or the help that it asks for.
+/// What is wrong with it, or the requested help.
 pub fn parse<A>(arguments: impl IntoIterator<Item = A>) -> Result<(), String>
 where
     A: Into<OsString> + Clone,

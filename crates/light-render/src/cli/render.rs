@@ -187,7 +187,7 @@ impl RenderArgs {
         Ok(outputs)
     }
 
-    /// Writes the picture, or the part of it that was asked for.
+    /// Writes the picture, or the requested part of it.
     fn write(
         &self,
         outputs: &[OutputImage],

@@ -74,7 +74,7 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
     })
 }
 
-/// Tells on standard error what the readers repaired or left out.
+/// Prints to standard error what the readers repaired or left out.
 pub(crate) fn report_warnings(warnings: &[Diagnostic]) {
     for warning in warnings {
         complain(format_args!("warning: {warning}"));

@@ -21,7 +21,7 @@ impl Estimator {
         matches!(self, Self::Mis | Self::Light)
     }
 
-    /// What light samples have to cover: everything, unless material samples complete them.
+    /// The directions that light samples must cover: all, unless material samples cover the rest.
     #[must_use]
     pub const fn coverage(self) -> PdfCoverage {
         match self {
@@ -43,7 +43,7 @@ impl Estimator {
     }
 
     /// The weight of a material sample of density `bsdf` that found a light, where light samples
-    /// have the density that `light` answers; both in sr^-1.
+    /// have the density `light`; both in sr^-1.
     #[inline]
     #[must_use]
     pub(crate) fn bsdf_weight(self, bsdf: f32, light: impl FnOnce() -> f32) -> f32 {

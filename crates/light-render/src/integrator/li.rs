@@ -22,7 +22,7 @@ pub fn li<S: LightSampler>(
 }
 
 /// Adds the light along a camera ray to `sum`, and returns the number of rays traced. Integrators
-/// of single scattering do not tell lights apart.
+/// of single scattering do not separate lights.
 #[inline]
 pub(crate) fn add_li<S: LightSampler, L: LightSum>(
     world: &World,

@@ -5,7 +5,7 @@ use crate::LightLayers;
 
 /// Adds up the light of a path.
 pub(crate) trait LightSum {
-    /// Adds the radiance that `light` has emitted; `None` for what media emit.
+    /// Adds the radiance that `light` has emitted; `None` for emission of media.
     fn add(&mut self, light: Option<LightId>, radiance: Vec3);
 
     /// Back to zero.

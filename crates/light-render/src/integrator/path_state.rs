@@ -74,7 +74,7 @@ impl<'a, S: LightSampler, L: LightSum> PathState<'a, S, L> {
         }
     }
 
-    /// Adds what the medium along the current segment emits.
+    /// Adds the emission of the medium along the current segment.
     #[inline]
     pub(super) fn add_medium(&mut self, emitted: Vec3) {
         self.sum.add(None, self.throughput * emitted);

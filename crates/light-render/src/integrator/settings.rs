@@ -62,8 +62,7 @@ impl Integrator {
 /// How the light that a medium scatters once is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SingleScattering {
-    /// Lights are chosen for the ray as a whole, as many as `light_samples` says, each with a
-    /// distance of its own.
+    /// `light_samples` lights are chosen for the ray as a whole, each with a distance of its own.
     NextEvent,
     /// A march in steps of this length, one light a step: the classic integrator.
     Classic(StepSize),

@@ -21,7 +21,7 @@ pub struct VisibilityCells {
 impl VisibilityCells {
     /// Bytes that filling takes at most for each pixel of the whole picture: a sighting, and the
     /// largest cells that so few pixels may have, while the table of all is made of them.
-    pub const MAX_BYTES_PER_PIXEL: u64 = {
+    pub(crate) const MAX_BYTES_PER_PIXEL: u64 = {
         const KEY: usize = 32;
         let coarse = (KEY + MAX_COPIED_NODES * 36) / fill::FEWEST_OF_COARSE;
         let fine = (KEY + MAX_COPIED_NODES * 16) / fill::FEWEST_OF_FINE;
@@ -51,13 +51,13 @@ impl VisibilityCells {
         })
     }
 
-    /// Whether there is no cell that knows more than the lights themselves.
+    /// Whether there is no cell with factors.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.table.view().parts().keys.is_empty()
     }
 
-    /// How many coarse and fine cells there are that know more.
+    /// How many coarse and fine cells have factors.
     #[must_use]
     pub fn counts(&self) -> [usize; 2] {
         let keys = self.table.view().parts().keys;

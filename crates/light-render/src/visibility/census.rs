@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::cell_size::CellSize;
 use crate::{Surface, View, World};
 
-/// A pixel, and the cell of what it shows.
+/// A pixel, and the cell of the surface that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Sighting {
     pub(super) coarse: CellKey,
@@ -16,7 +16,7 @@ pub(super) struct Sighting {
     pub(super) pixel: u32,
 }
 
-/// A point that a pixel shows, and what lights are chosen for there.
+/// A point that a pixel shows, and the receiver there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) surface: Surface,

@@ -30,10 +30,11 @@ const GUIDED_RAYS_PER_PIXEL: f32 = 3.0;
 /// The same for a fine cell.
 const FINE_RAYS_PER_PIXEL: f32 = 8.0;
 
-/// Cells that know nothing in all but this share of the pixels cost more than they gain.
+/// If cells with factors cover no more than this share of the pixels, they cost more than they
+/// gain.
 const LEAST_KNOWN_SHARE: f32 = 0.02;
 
-/// Cells that know more than the lights themselves.
+/// The cells that are not plain.
 #[derive(Default)]
 pub(super) struct Filled {
     /// In the order of their keys.
@@ -103,7 +104,7 @@ fn rays_of(pixels: usize) -> FillOptions {
     }
 }
 
-/// Whether the point of `light` that `u` chooses is seen from `place`, and shines on it.
+/// Whether the point of `light` that `u` chooses is visible from `place`, and emits toward it.
 fn sees(world: &World, place: &Place, light: LightId, u: Vec2) -> bool {
     let Place { surface, ctx } = place;
     let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete);

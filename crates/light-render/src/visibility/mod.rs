@@ -1,4 +1,5 @@
-//! What the camera's surroundings see of the lights: cells of space, filled before the picture.
+//! Visibility of lights from the surfaces that the camera sees: cells of space, filled before the
+//! picture.
 
 mod cell_size;
 mod cells;
@@ -9,13 +10,13 @@ mod sampler;
 pub use cells::VisibilityCells;
 pub use sampler::CellLightSampler;
 
-/// What the choices of a picture's lights know of their visibility.
+/// The visibility that the choices of a picture's lights use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Visibility {
     /// Nothing: lights are chosen as if nothing were in the way.
     #[default]
     Off,
-    /// What [`VisibilityCells`] know.
+    /// The factors of [`VisibilityCells`].
     Cells,
 }
 

@@ -7,8 +7,8 @@ use crate::{View, World};
 
 /// The default light hierarchy with the cells of a picture.
 ///
-/// Where a cell knows what is seen, [`at`](LightSampler::at) makes a single choice, however many
-/// are asked for: candidates that share a shadow ray undo what the cell gains.
+/// In a cell with factors, [`at`](LightSampler::at) makes a single choice for any count: candidates
+/// that share a shadow ray undo the gain of the cell.
 #[derive(Clone, Debug)]
 pub struct CellLightSampler {
     lights: BvhLightSampler,

@@ -7,7 +7,7 @@ use crate::inventory::kind;
 use crate::scene_lights::{SceneSource, numbered};
 
 impl World {
-    /// What a light is called: an emitter by its material and its object, another light by its own
+    /// The names of a light: of an emitter its material and its object, another light by its own
     /// name and its kind, or by its kind and its number. `None` for an unknown light.
     #[must_use]
     pub fn light_names(&self, light: LightId) -> Option<[Cow<'_, str>; 2]> {

@@ -70,9 +70,10 @@ impl World {
     /// The world that `scene` describes.
     ///
     /// Lights of the scene's list that have a surface (area lights, mesh lights and
-    /// [`OwnLight::Area`](lights::sources::OwnLight)) are seen and cast shadows as black bodies that
-    /// emit. Meshes are in the acceleration structure; every ray asks each of the others. A mask of
-    /// such a light darkens its emission and opens no holes. Invisible ones only send light.
+    /// [`OwnLight::Area`](lights::sources::OwnLight)) are seen and cast shadows as black bodies
+    /// that emit. Meshes are in the acceleration structure; every ray is tested against each of the
+    /// others. A mask of such a light darkens its emission and opens no holes. Invisible ones only
+    /// send light.
     ///
     /// # Errors
     /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there

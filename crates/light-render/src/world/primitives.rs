@@ -8,7 +8,7 @@ use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
 use crate::{InstanceTransform, PrimitiveId, Surface};
 
-/// What is stored under the number of a primitive.
+/// The triangle, sphere or listed light with a primitive's number.
 #[derive(Clone, Copy, Debug)]
 enum Stored<'a> {
     /// A triangle of a mesh.
@@ -71,7 +71,7 @@ impl World {
         }
     }
 
-    /// What the primitive is made of.
+    /// The material of the primitive.
     #[inline]
     pub(super) fn material(&self, primitive: PrimitiveId) -> (usize, &Material) {
         let id = match self.stored(primitive) {

@@ -8,11 +8,9 @@ use pollster::block_on;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::*;
 
-pub fn lit(
-    lights: &LightSet<Rgb>,
-    pixels: &[[f32; 16]],
-    frames: u32,
-) -> Result<Vec<f32>, Box<dyn Error>> {
+type Picture = Result<Vec<f32>, Box<dyn Error>>;
+
+pub fn lit(lights: &LightSet<Rgb>, pixels: &[[f32; 16]], frames: u32) -> Picture {
     let tree = light_sampler_rows(&BvhLightSampler::new(&lights.extents())?.view())?;
     let rows = [vec![[1 + tree.len() as u32, 0, 0, 0]], tree, light_set_rows(lights)?].concat();
     let adapter = block_on(Instance::default().request_adapter(&Default::default()))?;

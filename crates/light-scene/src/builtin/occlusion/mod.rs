@@ -23,9 +23,10 @@ use crate::Scene;
 /// A place of a kind, with any number of lamps.
 ///
 /// ```
-/// use light_scene::{OcclusionKind, OcclusionScene};
+/// use light_scene::{OcclusionKind, OcclusionScene, OcclusionSize};
 ///
-/// let place = OcclusionScene { kind: OcclusionKind::Rooms, lamps: 300, seed: 7 };
+/// let lamps = 3 * OcclusionSize::Small.lamps();
+/// let place = OcclusionScene { kind: OcclusionKind::Rooms, lamps, seed: 7 };
 /// assert_eq!(place.load().emissive_triangle_count(), 600);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -101,7 +102,7 @@ impl fmt::Display for OcclusionKind {
 
 impl OcclusionSize {
     /// Both sizes.
-    pub const ALL: [Self; 2] = [Self::Small, Self::Large];
+    pub(super) const ALL: [Self; 2] = [Self::Small, Self::Large];
 
     /// The number of lamps.
     #[must_use]
