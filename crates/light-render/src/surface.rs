@@ -18,6 +18,10 @@ pub struct Surface {
     pub ns: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
+    /// Texture coordinates for images that use the second ones.
+    pub second_uv: Vec2,
+    /// Linear RGB that multiplies the colour of the material.
+    pub color: Vec3,
     /// The primitive.
     pub primitive: PrimitiveId,
 }
@@ -52,6 +56,8 @@ impl Surface {
             n,
             ns: n,
             uv: barycentric,
+            second_uv: Vec2::ZERO,
+            color: Vec3::ONE,
             primitive: triangle,
         }
     }
@@ -66,6 +72,8 @@ impl Surface {
             n,
             ns: n,
             uv,
+            second_uv: Vec2::ZERO,
+            color: Vec3::ONE,
             primitive: id,
         }
     }
@@ -81,6 +89,8 @@ impl Surface {
             n,
             ns: n,
             uv,
+            second_uv: Vec2::ZERO,
+            color: Vec3::ONE,
             primitive: id,
         }
     }
@@ -97,6 +107,13 @@ impl Surface {
         let ns = (a * (1.0 - x - y) + b * x + c * y).normalize_or(self.n);
         let ns = if ns.dot(self.n) < 0.0 { -ns } else { ns };
         Self { ns, ..self }
+    }
+
+    /// The first and the second texture coordinates.
+    #[inline]
+    #[must_use]
+    pub(crate) const fn uvs(&self) -> [Vec2; 2] {
+        [self.uv, self.second_uv]
     }
 
     /// A ray from here in the unit direction `wi`, started beyond the error bounds of the surface.

@@ -156,6 +156,7 @@ impl<'a> Textures<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::world_mesh::ShadingAttributes;
     use light_scene::glam::{Affine2, Vec2};
     use light_scene::{ColorImage, Emission};
     use lights::bounds::LightId;
@@ -217,6 +218,7 @@ mod tests {
                 indices: [[0, 1, 2], [0, 2, 3]].into(),
                 uvs: Some(corners.map(|p| Vec2::new(p.x, p.y)).into()),
                 normals: None,
+                shading: ShadingAttributes::default(),
                 material: 0,
             };
             let light = Textures::new(&images).mesh_light(&mesh, &material);

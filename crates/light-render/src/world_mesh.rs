@@ -1,7 +1,8 @@
 use alloc::sync::Arc;
+use core::ops::{Add, Mul};
 
-use light_scene::Mesh;
-use lights::glam::{Vec2, Vec3};
+use light_scene::{Mesh, UvSet};
+use lights::glam::{Vec2, Vec3, Vec4};
 use lights::sources::shape::Triangle;
 use lights::sources::{EmissionMask, LightDesc, MeshIndices, Rgb};
 
@@ -12,20 +13,65 @@ pub(crate) struct WorldMesh {
     pub(crate) positions: Arc<[Vec3]>,
     pub(crate) normals: Option<Vec<Vec3>>,
     pub(crate) uvs: Option<Arc<[Vec2]>>,
+    pub(crate) shading: ShadingAttributes,
     pub(crate) indices: MeshIndices,
     pub(crate) material: usize,
+}
+
+/// What few meshes have at their vertices, and no light knows.
+#[derive(Debug, Default)]
+pub(crate) struct ShadingAttributes {
+    pub(crate) second_uvs: Option<Vec<Vec2>>,
+    pub(crate) tangents: Option<Vec<Vec4>>,
+    pub(crate) colors: Option<Vec<Vec3>>,
 }
 
 impl WorldMesh {
     /// The texture coordinates on a triangle: those that its light has too.
     #[inline]
     pub(super) fn uv(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec2 {
-        let [a, b, c] = match &self.uvs {
+        interpolate(self.corner_uvs(triangle, UvSet::First), barycentric)
+    }
+
+    /// The second texture coordinates on a triangle.
+    #[inline]
+    pub(super) fn second_uv(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec2 {
+        match &self.shading.second_uvs {
+            Some(_) => interpolate(self.corner_uvs(triangle, UvSet::Second), barycentric),
+            None => Vec2::ZERO,
+        }
+    }
+
+    /// The texture coordinates of the corners.
+    #[inline]
+    pub(super) fn corner_uvs(&self, triangle: [u32; 3], set: UvSet) -> [Vec2; 3] {
+        let uvs = match set {
+            UvSet::First => self.uvs.as_deref(),
+            UvSet::Second => self.shading.second_uvs.as_deref(),
+        };
+        match uvs {
             Some(uvs) => triangle.map(|i| uvs[i as usize]),
             None => Triangle::DEFAULT_UV,
-        };
-        let Vec2 { x, y } = barycentric;
-        a * (1.0 - x - y) + b * x + c * y
+        }
+    }
+
+    /// The colour of the vertices on a triangle; white without them.
+    #[inline]
+    pub(super) fn color(&self, triangle: [u32; 3], barycentric: Vec2) -> Vec3 {
+        match &self.shading.colors {
+            Some(colors) => interpolate(triangle.map(|i| colors[i as usize]), barycentric),
+            None => Vec3::ONE,
+        }
+    }
+
+    /// The tangent on a triangle, if the mesh has tangents.
+    #[inline]
+    pub(super) fn tangent(&self, triangle: [u32; 3], barycentric: Vec2) -> Option<Vec4> {
+        let tangents = self.shading.tangents.as_ref()?;
+        Some(interpolate(
+            triangle.map(|i| tangents[i as usize]),
+            barycentric,
+        ))
     }
 
     /// Which vertices triangle `index` has.
@@ -62,6 +108,7 @@ impl WorldMesh {
                     positions: light.positions.clone(),
                     normals: None,
                     uvs: light.uvs.clone(),
+                    shading: ShadingAttributes::default(),
                     indices: light.indices.clone(),
                     material,
                 })
@@ -81,6 +128,12 @@ impl From<Mesh> for WorldMesh {
         let normal_bytes = mesh.normals.as_ref().map_or(0, |_| size_of::<Vec3>());
         let uv_bytes = mesh.uvs.as_ref().map_or(0, |_| size_of::<Vec2>());
         let vertex_bytes = size_of::<Vec3>() + normal_bytes + uv_bytes;
+        let Mesh {
+            second_uvs,
+            tangents,
+            colors,
+            ..
+        } = mesh;
         let count = u32::try_from(list.len()).ok();
         let count = count.filter(|_| lies_apart(vertex_bytes, mesh.positions.len()));
         let material = mesh.material.0 as usize;
@@ -90,6 +143,11 @@ impl From<Mesh> for WorldMesh {
                 positions: of_triangles(&mesh.positions, &list),
                 normals: mesh.normals.map(|normals| of_triangles(&normals, &list)),
                 uvs: mesh.uvs.map(|uvs| of_triangles(&uvs, &list)),
+                shading: ShadingAttributes {
+                    second_uvs: second_uvs.map(|uvs| of_triangles(&uvs, &list)),
+                    tangents: tangents.map(|tangents| of_triangles(&tangents, &list)),
+                    colors: colors.map(|colors| of_triangles(&colors, &list)),
+                },
                 indices: MeshIndices::Consecutive(count),
                 material,
             },
@@ -98,11 +156,23 @@ impl From<Mesh> for WorldMesh {
                 positions: mesh.positions.into(),
                 normals: mesh.normals,
                 uvs: mesh.uvs.map(Arc::from),
+                shading: ShadingAttributes {
+                    second_uvs,
+                    tangents,
+                    colors,
+                },
                 indices: list.into(),
                 material,
             },
         }
     }
+}
+
+/// The value at a point between three corners, with the weights of the second and the third.
+#[inline]
+fn interpolate<T: Add<Output = T> + Mul<f32, Output = T>>([a, b, c]: [T; 3], at: Vec2) -> T {
+    let Vec2 { x, y } = at;
+    a * (1.0 - x - y) + b * x + c * y
 }
 
 /// Vertex attributes, three for each triangle.

@@ -65,6 +65,25 @@ fn assert_alike(a: &Scene, b: &Scene, names: &str) {
                 let (x, y) = (Paint::of(a, *x), Paint::of(b, *y));
                 assert!(x.is_near(&y), "{what}: {x:?} and {y:?}");
             }
+            // glTF's metals have Schlick's Fresnel factor.
+            (Surface::MetallicRoughness(x), Surface::Conductor { alpha, .. }) => {
+                let Color::Constant(reflectance) = x.base_color else {
+                    panic!("{what}: one colour");
+                };
+                let Color::Constant(Vec3 {
+                    y: roughness,
+                    z: metallic,
+                    ..
+                }) = x.roughness_metallic
+                else {
+                    panic!("{what}: one roughness");
+                };
+                assert_eq!(metallic, 1.0, "{what}: a metal");
+                let width = Vec2::splat(roughness * roughness);
+                let conductor = Surface::conductor_of_reflectance(reflectance, width);
+                assert_eq!(conductor, mb.surface, "{what}");
+                assert_eq!(*alpha, width, "{what}: roughness");
+            }
             (x, y) => assert_eq!(x, y, "{what}"),
         }
         match (ma.emission, mb.emission) {

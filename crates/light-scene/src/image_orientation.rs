@@ -42,10 +42,10 @@ fn assert_upright(scene: &Scene, format: &str) {
     let uvs = mesh.uvs.as_ref().expect("texture coordinates");
     let middle = uvs.iter().sum::<Vec2>() / uvs.len() as f32;
     let material = scene.material(mesh.material);
-    let (Surface::Diffuse { reflectance } | Surface::CoatedDiffuse { reflectance, .. }) =
-        material.surface
-    else {
-        panic!("{format}: a matt surface");
+    let reflectance = match &material.surface {
+        Surface::Diffuse { reflectance } => *reflectance,
+        Surface::MetallicRoughness(surface) => surface.base_color,
+        _ => panic!("{format}: a matt surface"),
     };
     for color in [material.emission.expect("a lamp").radiance, reflectance] {
         let Color::Image(shown) = color else {

@@ -1,7 +1,7 @@
-use lights::sources::{MediumInterface, TextureMapping};
+use lights::sources::MediumInterface;
 
 use crate::glam::{Vec2, Vec3};
-use crate::{ImageId, MaterialId};
+use crate::{Color, ColorImage, MaterialId, MetallicRoughness};
 
 /// How a surface scatters and emits light.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -14,9 +14,26 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// The alpha mask; `None` for an opaque surface.
     pub alpha: Option<Alpha>,
+    /// Normals in tangent space: an image of colours `c` stands for vectors `2 c - 1`, each channel
+    /// times the scale of the image, along the tangent (toward u), the bitangent (toward v) and the
+    /// normal. It does not move the surface, and lights do not know it.
+    pub normal_map: Option<ColorImage>,
+    /// What becomes of rays that arrive from behind.
+    pub back_faces: BackFaces,
     /// The media behind and in front of the surface; where both are the same, it does not bound a
     /// medium, and rays stay in the one that they come from.
     pub media: MediumInterface,
+}
+
+/// Whether a surface is there for rays that arrive at its back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum BackFaces {
+    /// It is.
+    #[default]
+    Visible,
+    /// Such rays pass, be they from the camera, from other surfaces, or toward lights. Spheres have
+    /// no back faces that are culled.
+    Culled,
 }
 
 /// How a surface scatters light. Reflectances lie in [0, 1], channel by channel.
@@ -73,6 +90,8 @@ pub enum Surface {
         /// Roughness of the coat.
         alpha: Vec2,
     },
+    /// A metal, a dielectric over a diffuse base, or a mixture of both.
+    MetallicRoughness(Box<MetallicRoughness>),
     /// The surface of one of two materials at each point, chosen at random: paint that comes off,
     /// dust on a metal.
     Mix {
@@ -86,15 +105,6 @@ pub enum Surface {
     Interface,
 }
 
-/// A colour over a surface: linear RGB, one value or an image.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub enum Color {
-    /// The same everywhere.
-    Constant(Vec3),
-    /// From an image, by the mesh's texture coordinates.
-    Image(ColorImage),
-}
-
 /// An alpha mask. Where the opacity is 0, rays pass and nothing is emitted.
 ///
 /// An emissive surface of constant opacity 0 without a cutoff is an exception: it emits as if it
@@ -106,17 +116,6 @@ pub struct Alpha {
     /// If present, the surface is opaque where the opacity is at least this, and fully transparent
     /// elsewhere.
     pub cutoff: Option<f32>,
-}
-
-/// An image over texture coordinates, times a factor.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct ColorImage {
-    /// The image.
-    pub image: ImageId,
-    /// Multiplies every texel.
-    pub scale: Vec3,
-    /// From texture coordinates to the image, with the rule beyond its edges.
-    pub mapping: TextureMapping,
 }
 
 /// Light that a surface emits, the same in all directions.
@@ -153,19 +152,9 @@ impl Material {
             surface,
             emission: None,
             alpha: None,
+            normal_map: None,
+            back_faces: BackFaces::default(),
             media: MediumInterface::default(),
-        }
-    }
-}
-
-impl ColorImage {
-    /// The image without scaling, repeated.
-    #[must_use]
-    pub const fn new(image: ImageId) -> Self {
-        Self {
-            image,
-            scale: Vec3::ONE,
-            mapping: TextureMapping::REPEAT,
         }
     }
 }

@@ -1,7 +1,7 @@
 use lights::math::Aabb;
 
 use crate::MaterialId;
-use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::glam::{Affine3A, Vec2, Vec3, Vec4};
 
 /// Triangles of one material.
 ///
@@ -19,6 +19,15 @@ pub struct Mesh {
     pub normals: Option<Vec<Vec3>>,
     /// Texture coordinates, one per vertex; (0, 0) is the lower left corner of an image.
     pub uvs: Option<Vec<Vec2>>,
+    /// Texture coordinates for images that ask for the second ones, one per vertex.
+    pub second_uvs: Option<Vec<Vec2>>,
+    /// Tangents for the normal map, one per vertex: a direction, and 1 or -1. The bitangent is that
+    /// number times `cross(normal, direction)`. Without them they are made of the texture
+    /// coordinates that the map uses.
+    pub tangents: Option<Vec<Vec4>>,
+    /// Linear RGB in `[0, 1]`, one per vertex, that multiplies the colour of surfaces that are
+    /// matt, coated or metallic by a base colour; emission stays as it is.
+    pub colors: Option<Vec<Vec3>>,
     /// Three vertices per triangle, each below `positions.len()`.
     pub indices: Vec<[u32; 3]>,
 }
@@ -33,6 +42,9 @@ impl Mesh {
             positions: Vec::new(),
             normals: None,
             uvs: None,
+            second_uvs: None,
+            tangents: None,
+            colors: None,
             indices: Vec::new(),
         }
     }
@@ -96,7 +108,13 @@ impl Mesh {
         for normal in mesh.normals.iter_mut().flatten() {
             *normal = (normal_matrix * *normal).normalize_or_zero();
         }
-        if transform.matrix3.determinant() < 0.0 {
+        let mirrors = transform.matrix3.determinant() < 0.0;
+        let side = if mirrors { -1.0 } else { 1.0 };
+        for tangent in mesh.tangents.iter_mut().flatten() {
+            let direction = transform.transform_vector3(tangent.truncate());
+            *tangent = direction.normalize_or_zero().extend(tangent.w * side);
+        }
+        if mirrors {
             mesh.turn_triangles();
         }
         mesh
@@ -107,6 +125,10 @@ impl Mesh {
         self.turn_triangles();
         for normal in self.normals.iter_mut().flatten() {
             *normal = -*normal;
+        }
+        // The bitangent stays.
+        for tangent in self.tangents.iter_mut().flatten() {
+            tangent.w = -tangent.w;
         }
     }
 

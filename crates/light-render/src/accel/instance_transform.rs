@@ -38,6 +38,14 @@ impl InstanceTransform {
         self.to_world.transform_point3(p)
     }
 
+    /// Takes a direction along a surface from object space to world space; the result has any
+    /// length.
+    #[inline]
+    #[must_use]
+    pub fn vector(&self, v: Vec3) -> Vec3 {
+        self.to_world.transform_vector3(v)
+    }
+
     /// Takes a normal from object space to world space; the result has any length.
     #[inline]
     #[must_use]

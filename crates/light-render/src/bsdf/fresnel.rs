@@ -46,6 +46,18 @@ pub(super) fn conductor(cos_i: f32, eta: Vec3, k: Vec3) -> Vec3 {
     0.5 * (parallel + perpendicular)
 }
 
+/// Schlick's approximation of a reflectance: `f0` at normal incidence, `f90` at grazing incidence.
+///
+/// # Source
+/// `[GLTF]`, appendix B.
+#[inline]
+#[must_use]
+pub(super) fn schlick(cos_i: f32, f0: Vec3, f90: f32) -> Vec3 {
+    let dark = (1.0 - cos_i).max(0.0);
+    let squared = dark * dark;
+    f0 + (Vec3::splat(f90) - f0) * (squared * squared * dark)
+}
+
 /// The direction in which light that arrives from `wi` is refracted by a boundary with normal `n`,
 /// and the ratio of the index behind `wi`'s boundary over that in front of it; `None` where all of
 /// it is reflected.

@@ -4,11 +4,13 @@
 //! normal. `wo` points to where the light goes (the viewer), `wi` to where it comes from; both away
 //! from the surface.
 
+mod albedo;
 mod coated_diffuse;
 mod conductor;
 mod dielectric;
 mod fresnel;
 mod lambert;
+mod metallic_roughness;
 mod microfacets;
 mod mirror;
 mod scattering;
@@ -18,6 +20,7 @@ pub use coated_diffuse::CoatedDiffuse;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use lambert::Lambert;
+pub use metallic_roughness::{MetallicRoughness, MetallicRoughnessParameters};
 pub use microfacets::Microfacets;
 pub use mirror::Mirror;
 pub use scattering::Scattering;
@@ -41,6 +44,8 @@ pub enum Bsdf {
     ThinDielectric(ThinDielectric),
     /// Paint under a clear coat.
     CoatedDiffuse(CoatedDiffuse),
+    /// A metal, a coated dielectric, or a mixture of both.
+    MetallicRoughness(MetallicRoughness),
 }
 
 /// A direction that [`Bsdf::sample`] chose.
@@ -68,6 +73,7 @@ impl Bsdf {
             Self::Conductor(bsdf) => bsdf.eval(wo, wi),
             Self::Dielectric(bsdf) => bsdf.eval(wo, wi),
             Self::CoatedDiffuse(bsdf) => bsdf.eval(wo, wi),
+            Self::MetallicRoughness(bsdf) => bsdf.eval(wo, wi),
             Self::Mirror(_) | Self::ThinDielectric(_) => Vec3::ZERO,
         }
     }
@@ -81,6 +87,7 @@ impl Bsdf {
             Self::Conductor(bsdf) => bsdf.pdf(wo, wi),
             Self::Dielectric(bsdf) => bsdf.pdf(wo, wi),
             Self::CoatedDiffuse(bsdf) => bsdf.pdf(wo, wi),
+            Self::MetallicRoughness(bsdf) => bsdf.pdf(wo, wi),
             Self::Mirror(_) | Self::ThinDielectric(_) => 0.0,
         }
     }
@@ -97,6 +104,7 @@ impl Bsdf {
             Self::Dielectric(bsdf) => bsdf.sample(wo, u_lobe, u),
             Self::ThinDielectric(bsdf) => Some(bsdf.sample(wo, u_lobe)),
             Self::CoatedDiffuse(bsdf) => bsdf.sample(wo, u_lobe, u),
+            Self::MetallicRoughness(bsdf) => bsdf.sample(wo, u_lobe, u),
         }
     }
 
@@ -109,6 +117,7 @@ impl Bsdf {
             Self::Mirror(_) | Self::ThinDielectric(_) => true,
             Self::Conductor(bsdf) => bsdf.facets.is_smooth(),
             Self::Dielectric(bsdf) => bsdf.is_dirac(),
+            Self::MetallicRoughness(bsdf) => bsdf.is_dirac(),
             Self::Lambert(_) | Self::CoatedDiffuse(_) => false,
         }
     }
@@ -120,7 +129,10 @@ impl Bsdf {
         match self {
             Self::Lambert(bsdf) => bsdf.transmittance != Vec3::ZERO,
             Self::Dielectric(_) | Self::ThinDielectric(_) => true,
-            Self::Mirror(_) | Self::Conductor(_) | Self::CoatedDiffuse(_) => false,
+            Self::Mirror(_)
+            | Self::Conductor(_)
+            | Self::CoatedDiffuse(_)
+            | Self::MetallicRoughness(_) => false,
         }
     }
 
@@ -131,6 +143,7 @@ impl Bsdf {
         match self {
             Self::Conductor(bsdf) => Some((bsdf.facets.alpha(), 0.0)),
             Self::CoatedDiffuse(bsdf) => Some(bsdf.gloss()),
+            Self::MetallicRoughness(bsdf) => Some(bsdf.gloss()),
             Self::Lambert(_) | Self::Mirror(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => {
                 None
             }

@@ -37,7 +37,21 @@ fn subjects() -> Vec<(&'static str, Bsdf)> {
                 facets(0.3, 0.3),
             )),
         ),
+        ("worn paint", metallic_roughness(0.4, 0.5, None)),
+        ("steel", metallic_roughness(1.0, 0.7, None)),
+        ("car paint", metallic_roughness(0.6, 0.6, Some([0.8, 0.55]))),
     ]
+}
+
+fn metallic_roughness(metallic: f32, roughness: f32, clearcoat: Option<[f32; 2]>) -> Bsdf {
+    Bsdf::MetallicRoughness(MetallicRoughness::new(&MetallicRoughnessParameters {
+        base_color: Vec3::new(0.9, 0.5, 0.2),
+        metallic,
+        roughness,
+        f0: Vec3::new(0.04, 0.05, 0.06),
+        f90: 1.0,
+        clearcoat,
+    }))
 }
 
 /// Directions toward the viewer, from above and from below.

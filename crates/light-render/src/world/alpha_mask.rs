@@ -1,4 +1,4 @@
-use light_scene::{Alpha, Material};
+use light_scene::{Alpha, BackFaces, Material};
 use lights::bounds::{LightId, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 use lights::sources::shape::{AnyShape, Shape};
@@ -6,20 +6,25 @@ use lights::sources::{AreaLight, Light, LightLiSample, LightRef, PdfCoverage, Rg
 
 use super::World;
 use crate::surface_emission::AlphaMaskedLights;
-use crate::{PrimitiveId, Ray, sobol};
+use crate::{PrimitiveId, Ray, Surface, sobol};
 
 impl World {
-    /// Any-hit test: whether `ray` hits a primitive at `coords`, or passes through its alpha mask.
+    /// Any-hit test: whether `ray` hits a primitive at `coords`, or passes through its alpha mask
+    /// or a back face that is culled.
     ///
     /// A surface of fractional opacity is hit by that share of the rays, chosen by a hash of ray
     /// and primitive, so that the same ray always gets the same answer. A ray may cross a sphere
     /// twice, so that the hash of a sphere includes the coordinates.
     pub(super) fn any_hit(&self, ray: &Ray, primitive: PrimitiveId, coords: Vec2) -> bool {
         let (_, material) = self.material(primitive);
+        let is_culled = material.back_faces == BackFaces::Culled;
+        if is_culled && self.is_seen_from_behind(ray, primitive) {
+            return false;
+        }
         if material.alpha.is_none() {
             return true;
         }
-        let opacity = self.opacity(material, self.uv(primitive, coords));
+        let opacity = self.opacity(material, self.uvs(primitive, coords));
         let coords = if self.is_sphere(primitive) {
             coords
         } else {
@@ -29,12 +34,12 @@ impl World {
     }
 
     /// The share of rays, in `[0, 1]`, that a surface of `material` stops at the texture
-    /// coordinates `uv`.
-    fn opacity(&self, material: &Material, uv: Vec2) -> f32 {
+    /// coordinates `uvs`.
+    fn opacity(&self, material: &Material, uvs: [Vec2; 2]) -> f32 {
         let Some(Alpha { opacity, cutoff }) = &material.alpha else {
             return 1.0;
         };
-        let opacity = self.color(opacity, uv).x;
+        let opacity = self.color(opacity, uvs).x;
         match cutoff {
             Some(cutoff) => f32::from(u8::from(opacity >= *cutoff)),
             None => opacity.clamp(0.0, 1.0),
@@ -54,10 +59,10 @@ impl World {
     /// The radiance along a ray that hit the light `id`, of which the mean radiance is `l`: the
     /// any-hit test has already removed the rays that pass through the mask.
     #[inline]
-    pub(super) fn radiance_at_hit(&self, id: LightId, uv: Vec2, l: Vec3) -> Vec3 {
+    pub(super) fn radiance_at_hit(&self, id: LightId, surface: &Surface, l: Vec3) -> Vec3 {
         match self.masked(id) {
             Some(lights) => {
-                let opacity = self.opacity(&self.materials[lights.material], uv);
+                let opacity = self.opacity(&self.materials[lights.material], surface.uvs());
                 if opacity > 0.0 {
                     l / opacity
                 } else {

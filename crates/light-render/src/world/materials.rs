@@ -1,12 +1,12 @@
-use light_scene::{Color, ColorImage, Surface as Finish};
+use light_scene::{Color, ColorImage, Surface as Finish, UvSet};
 use lights::bounds::{Gloss, LightSampleContext};
 use lights::glam::{Vec2, Vec3};
 
 use super::World;
 use crate::Surface;
 use crate::bsdf::{
-    Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, Microfacets, Mirror, Scattering,
-    ThinDielectric,
+    Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, MetallicRoughness,
+    MetallicRoughnessParameters, Microfacets, Mirror, Scattering, ThinDielectric,
 };
 
 impl World {
@@ -14,10 +14,11 @@ impl World {
     #[inline]
     #[must_use]
     pub fn scattering(&self, surface: &Surface) -> Scattering {
-        let uv = surface.uv;
+        let uv = surface.uvs();
         let bsdf = match self.finish(surface) {
             Finish::Diffuse { reflectance } => {
-                Bsdf::Lambert(Lambert::opaque(self.color(reflectance, uv)))
+                let reflectance = self.color(reflectance, uv) * surface.color;
+                Bsdf::Lambert(Lambert::opaque(reflectance))
             }
             Finish::DiffuseTransmission {
                 reflectance,
@@ -44,10 +45,13 @@ impl World {
                 eta,
                 alpha,
             } => Bsdf::CoatedDiffuse(CoatedDiffuse::new(
-                self.color(reflectance, uv),
+                self.color(reflectance, uv) * surface.color,
                 *eta,
                 Microfacets::new(*alpha),
             )),
+            Finish::MetallicRoughness(finish) => {
+                Bsdf::MetallicRoughness(self.metallic_roughness(finish, surface))
+            }
             // A boundary between equal indices neither refracts nor reflects.
             Finish::Interface => Bsdf::ThinDielectric(ThinDielectric { eta: 1.0 }),
             _ => unreachable!("every kind of surface is handled above"),
@@ -75,14 +79,48 @@ impl World {
         }
     }
 
-    pub(super) fn color(&self, color: &Color, uv: Vec2) -> Vec3 {
+    // Not inlined: few scenes have such materials.
+    #[inline(never)]
+    fn metallic_roughness(
+        &self,
+        finish: &light_scene::MetallicRoughness,
+        surface: &Surface,
+    ) -> MetallicRoughness {
+        let uv = surface.uvs();
+        let Vec3 {
+            y: roughness,
+            z: metallic,
+            ..
+        } = self.color(&finish.roughness_metallic, uv);
+        let coat = finish.clearcoat.as_ref();
+        let clearcoat = coat.map(|coat| {
+            let weight = self.color(&coat.weight, uv).x;
+            [weight, self.color(&coat.roughness, uv).y]
+        });
+        MetallicRoughness::new(&MetallicRoughnessParameters {
+            base_color: self.color(&finish.base_color, uv) * surface.color,
+            metallic,
+            roughness,
+            f0: finish.f0,
+            f90: finish.f90,
+            clearcoat,
+        })
+    }
+
+    /// A colour at the given first and second texture coordinates.
+    pub(super) fn color(&self, color: &Color, uvs: [Vec2; 2]) -> Vec3 {
         match color {
             Color::Constant(color) => *color,
-            Color::Image(ColorImage {
-                image,
-                scale,
-                mapping,
-            }) => self.images[image.0 as usize].on_surface(uv, mapping) * *scale,
+            Color::Image(image) => self.texel(image, uvs),
         }
+    }
+
+    /// An image at the given first and second texture coordinates.
+    pub(super) fn texel(&self, shown: &ColorImage, [first, second]: [Vec2; 2]) -> Vec3 {
+        let uv = match shown.uv_set {
+            UvSet::First => first,
+            UvSet::Second => second,
+        };
+        self.images[shown.image.0 as usize].on_surface(uv, &shown.mapping) * shown.scale
     }
 }

@@ -19,7 +19,7 @@ impl World {
     pub(crate) fn finish(&self, surface: &Surface) -> &Finish {
         let (mut id, _) = self.material(surface.primitive);
         while let Finish::Mix { materials, amount } = &self.materials[id].surface {
-            let amount = self.color(amount, surface.uv).x;
+            let amount = self.color(amount, surface.uvs()).x;
             let second = chance(surface.p, id) < amount;
             let next = materials[usize::from(second)].0 as usize;
             // Ids only decrease, so that the loop ends.

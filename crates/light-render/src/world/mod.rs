@@ -5,11 +5,12 @@ mod light_names;
 mod listed_lights;
 mod materials;
 mod mixtures;
+mod normal_map;
 mod objects;
 mod primitives;
 mod rays;
 
-use light_scene::{Material, Scene, Surface as Finish};
+use light_scene::{BackFaces, Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
@@ -54,8 +55,10 @@ pub struct World {
     /// numbers behind those of spheres.
     listed_lights: Vec<LightId>,
     media: WorldMedia,
-    /// Whether any material has an alpha mask.
-    has_alpha_masks: bool,
+    /// Whether rays pass through any material: alpha masks, back faces that are culled.
+    has_any_hits: bool,
+    /// Whether any material has a normal map.
+    has_normal_maps: bool,
     /// The lights with an alpha mask, in the order of their ids.
     masked_lights: Vec<AlphaMaskedLights>,
 }
@@ -129,7 +132,12 @@ impl World {
             indices.map(move |(index, _)| MeshTriangle { mesh, index })
         });
         Ok(Self {
-            has_alpha_masks: materials.iter().any(|material| material.alpha.is_some()),
+            has_any_hits: materials.iter().any(|material| {
+                material.alpha.is_some() || material.back_faces == BackFaces::Culled
+            }),
+            has_normal_maps: materials
+                .iter()
+                .any(|material| material.normal_map.is_some()),
             masked_lights,
             triangles: triangles.collect(),
             accel,

@@ -1,4 +1,4 @@
-use light_scene::Material;
+use light_scene::{Material, UvSet};
 use lights::bounds::LightId;
 use lights::glam::{Vec2, Vec3};
 use lights::sources::SurfacePoint;
@@ -6,7 +6,7 @@ use lights::sources::SurfacePoint;
 use super::{MeshTriangle, World};
 use crate::world_mesh::WorldMesh;
 use crate::world_sphere::WorldSphere;
-use crate::{InstanceTransform, PrimitiveId, Surface};
+use crate::{InstanceTransform, PrimitiveId, Ray, Surface};
 
 /// The triangle, sphere or listed light with a primitive's number.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +54,8 @@ impl World {
         let error = transform.map_or(Vec3::ZERO, |transform| transform.error(surface.p));
         Surface {
             uv: mesh.uv(indices, weights),
+            second_uv: mesh.second_uv(indices, weights),
+            color: mesh.color(indices, weights),
             p_error: surface.p_error + error,
             ..surface.with_normals(normals, weights)
         }
@@ -82,16 +84,77 @@ impl World {
         (id, &self.materials[id])
     }
 
-    /// The texture coordinates of a point on a primitive.
-    pub(super) fn uv(&self, primitive: PrimitiveId, coords: Vec2) -> Vec2 {
+    /// The first and the second texture coordinates of a point on a primitive.
+    pub(super) fn uvs(&self, primitive: PrimitiveId, coords: Vec2) -> [Vec2; 2] {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => {
                 let (indices, weights) = self.oriented(primitive, mesh.vertices(index), coords);
-                mesh.uv(indices, weights)
+                [mesh.uv(indices, weights), mesh.second_uv(indices, weights)]
             }
-            Stored::Sphere(sphere) => sphere.at(coords).uv,
-            Stored::Listed => coords,
+            Stored::Sphere(sphere) => [sphere.at(coords).uv, Vec2::ZERO],
+            Stored::Listed => [coords, Vec2::ZERO],
         }
+    }
+
+    /// Whether `ray` arrives at the back of a triangle.
+    pub(super) fn is_seen_from_behind(&self, ray: &Ray, primitive: PrimitiveId) -> bool {
+        let Stored::Triangle { mesh, index } = self.stored(primitive) else {
+            return false;
+        };
+        let (indices, _) = self.oriented(primitive, mesh.vertices(index), Vec2::ZERO);
+        let mut corners = mesh.corners(indices);
+        if let Some(transform) = self.transform(primitive) {
+            corners = corners.map(|corner| transform.point(corner));
+        }
+        let [a, b, c] = corners;
+        (b - a).cross(c - a).dot(ray.direction) > 0.0
+    }
+
+    /// The directions of u and v on a triangle, of unit length and at right angles to the shading
+    /// normal of `surface`; `None` where it has none.
+    ///
+    /// # Source
+    /// `[GLTF]`, section 3.7.2.1.
+    pub(super) fn tangents(
+        &self,
+        surface: &Surface,
+        coords: Vec2,
+        set: UvSet,
+    ) -> Option<[Vec3; 2]> {
+        let primitive = surface.primitive;
+        let Stored::Triangle { mesh, index } = self.stored(primitive) else {
+            return None;
+        };
+        let (indices, weights) = self.oriented(primitive, mesh.vertices(index), coords);
+        let transform = self.transform(primitive);
+        let n = surface.ns;
+        if let Some(tangent) = mesh.tangent(indices, weights) {
+            let (direction, mut side) = (tangent.truncate(), tangent.w);
+            let direction = match transform {
+                Some(transform) => transform.vector(direction),
+                None => direction,
+            };
+            if transform.is_some_and(InstanceTransform::mirrors) {
+                side = -side;
+            }
+            let t = direction.reject_from_normalized(n).try_normalize()?;
+            let side = if side < 0.0 { -1.0 } else { 1.0 };
+            return Some([t, n.cross(t) * side]);
+        }
+        let mut corners = mesh.corners(indices);
+        if let Some(transform) = transform {
+            corners = corners.map(|corner| transform.point(corner));
+        }
+        let [a, b, c] = corners;
+        let [uv_a, uv_b, uv_c] = mesh.corner_uvs(indices, set);
+        let ([e1, e2], [d1, d2]) = ([b - a, c - a], [uv_b - uv_a, uv_c - uv_a]);
+        // The gradients of the coordinates, but for the size of their determinant.
+        let side = if d1.perp_dot(d2) < 0.0 { -1.0 } else { 1.0 };
+        let [u, v] = [e1 * d2.y - e2 * d1.y, e2 * d1.x - e1 * d2.x].map(|way| way * side);
+        let t = u.reject_from_normalized(n).try_normalize()?;
+        let bitangent = n.cross(t);
+        let side = if bitangent.dot(v) < 0.0 { -1.0 } else { 1.0 };
+        Some([t, bitangent * side])
     }
 
     /// Whether the primitive is a sphere.
@@ -128,7 +191,7 @@ impl World {
             uv: surface.uv,
         };
         let l = self.lights.get(id)?.l(&at, wo, &());
-        (l != Vec3::ZERO).then(|| (id, self.radiance_at_hit(id, surface.uv, l)))
+        (l != Vec3::ZERO).then(|| (id, self.radiance_at_hit(id, surface, l)))
     }
 
     /// The transform of the instance that the primitive belongs to; `None` in world space.

@@ -8,13 +8,20 @@ impl World {
     #[inline]
     #[must_use]
     pub fn closest(&self, ray: &Ray, from: Option<PrimitiveId>) -> Option<Surface> {
-        let hit = if self.has_alpha_masks {
+        let hit = if self.has_any_hits {
             let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
             self.accel.closest_where(ray, from, any_hit)
         } else {
             self.accel.closest(ray, from)
         };
-        let surface = |hit: Hit| self.surface(hit.primitive, hit.coords);
+        let surface = |hit: Hit| {
+            let surface = self.surface(hit.primitive, hit.coords);
+            if self.has_normal_maps {
+                self.with_normal_map(surface, hit.coords, -ray.direction)
+            } else {
+                surface
+            }
+        };
         if self.listed_lights.is_empty() {
             return hit.map(surface);
         }
@@ -25,7 +32,7 @@ impl World {
     /// Whether anything but the primitive `from` lies within `distance` along `ray`.
     #[inline]
     pub(crate) fn blocked(&self, ray: &Ray, distance: f32, from: Option<PrimitiveId>) -> bool {
-        let is_blocked = if self.has_alpha_masks {
+        let is_blocked = if self.has_any_hits {
             let any_hit = |primitive, coords| self.any_hit(ray, primitive, coords);
             self.accel.occluded_where(ray, distance, from, any_hit)
         } else {

@@ -107,6 +107,11 @@ impl<'a> Accessor<'a> {
         })
     }
 
+    /// Numbers per element.
+    pub(super) const fn width(&self) -> usize {
+        self.width
+    }
+
     /// All elements as finite numbers.
     pub(super) fn floats<const N: usize>(&self) -> Result<Vec<[f32; N]>, Diagnostic> {
         if self.width != N {

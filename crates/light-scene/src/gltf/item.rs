@@ -177,6 +177,19 @@ impl<'a> Item<'a> {
         share(number).ok_or_else(|| member.expected("a number from 0 to 1"))
     }
 
+    /// A member that is a list of numbers from 0 to 1.
+    pub(super) fn shares_or<const N: usize>(
+        &self,
+        name: &str,
+        default: [f32; N],
+    ) -> Result<[f32; N], Diagnostic> {
+        let shares = self.numbers_or(name, default)?.map(share);
+        if shares.contains(&None) {
+            return Err(self.error(&format!("expected a `{name}` from 0 to 1")));
+        }
+        Ok(shares.map(Option::unwrap_or_default))
+    }
+
     pub(super) fn numbers_or<const N: usize>(
         &self,
         name: &str,
@@ -216,7 +229,7 @@ fn number(value: &Value) -> Option<f32> {
 }
 
 /// A number from 0 to 1, with a tolerance for rounding by exporters.
-pub(super) fn share(number: f32) -> Option<f32> {
+fn share(number: f32) -> Option<f32> {
     const ROUNDING: f32 = 1e-3;
     let is_near = (-ROUNDING..=1.0 + ROUNDING).contains(&number);
     is_near.then_some(number.clamp(0.0, 1.0))

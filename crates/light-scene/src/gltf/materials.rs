@@ -1,175 +1,109 @@
 use lights::math::spectrum::photometric::K_M;
 
-use super::item::{Item, share};
+use super::item::Item;
+use super::known_materials::KnownMaterial;
 use super::reader::Reader;
 use super::texture_images::Texture;
-use crate::glam::{Vec2, Vec3};
-use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, Material, MaterialId, Surface};
+use super::uv_sets::UvSets;
+use crate::glam::Vec3;
+use crate::{
+    Alpha, BackFaces, Color, ColorImage, Diagnostic, Emission, EmissionSides, Material, Surface,
+    UvSet,
+};
 
-/// The scattering parameters of a material.
-struct Finish {
-    base: Color,
-    metallic: f32,
-    roughness: f32,
-    eta: f32,
-    /// Whether there is a coat above the base.
-    specular: bool,
-    transmission: f32,
+/// The base colour of a material.
+pub(super) struct Base {
+    pub(super) color: Color,
+    pub(super) opacity: f32,
+    pub(super) texture: Option<Texture>,
 }
 
 impl<'a> Reader<'a> {
-    /// The material of a primitive and the number of its texture coordinates.
-    pub(super) fn material(
-        &mut self,
-        primitive: &Item<'a>,
-    ) -> Result<(MaterialId, usize), Diagnostic> {
+    /// The material of a primitive.
+    pub(super) fn material(&mut self, primitive: &Item<'a>) -> Result<KnownMaterial, Diagnostic> {
         let Some(reference) = primitive.get("material")? else {
             let scene = &mut self.scene;
             let make = || scene.add_material(Material::diffuse("default", Vec3::splat(0.5)));
-            return Ok((*self.materials.default.get_or_insert_with(make), 0));
+            return Ok(KnownMaterial {
+                id: *self.materials.default.get_or_insert_with(make),
+                uv_sets: UvSets::default(),
+                uses_tangents: false,
+            });
         };
         let (index, item) = reference.target("materials")?;
         if let Some(&known) = self.materials.known.get(&index) {
             return Ok(known);
         }
-        let (material, uv_set) = self.make_material(&item)?;
-        let made = (self.scene.add_material(material), uv_set);
+        let mut uv_sets = UvSets::default();
+        let material = self.make_material(&item, &mut uv_sets)?;
+        let made = KnownMaterial {
+            uses_tangents: material.normal_map.is_some(),
+            id: self.scene.add_material(material),
+            uv_sets,
+        };
         self.materials.known.insert(index, made);
         Ok(made)
     }
 
-    fn make_material(&mut self, item: &Item<'a>) -> Result<(Material, usize), Diagnostic> {
+    fn make_material(
+        &mut self,
+        item: &Item<'a>,
+        uv_sets: &mut UvSets,
+    ) -> Result<Material, Diagnostic> {
         let two_sided = item.is_true("doubleSided")?;
-        let emissive = self.texture(item, "emissiveTexture")?;
-        let (mut finish, base, opacity) = self.finish(item)?;
-        let uv_set = base.or(emissive).map_or(0, |texture| texture.uv_set);
-        let emissive = emissive.filter(|texture| texture.uv_set == uv_set);
-        if emissive.is_none() && item.get("emissiveTexture")?.is_some() {
-            self.warn(
-                item,
-                "has an `emissiveTexture` that was ignored: its coordinates are not \
-                             those of the base colour",
-            );
-        }
-        if let Some(ior) = item.extension("KHR_materials_ior")? {
-            finish.eta = ior.amount_or("ior", 1.5)?;
-        }
-        if let Some(specular) = item.extension("KHR_materials_specular")? {
-            let factor = specular.share_or("specularFactor", 1.0)?;
-            finish.specular = factor >= 0.5;
-            if factor != 0.0 && factor != 1.0 {
-                self.warn(&specular, "was rounded to a `specularFactor` of 0 or 1");
-            }
-        }
-        if let Some(transmission) = item.extension("KHR_materials_transmission")? {
-            finish.transmission = transmission.share_or("transmissionFactor", 0.0)?;
-            if finish.transmission != 0.0 && finish.transmission != 1.0 {
-                self.warn(
-                    &transmission,
-                    "was rounded to a `transmissionFactor` of 0 or 1",
-                );
-            }
-        }
-        let surface = self.surface(item, &finish);
-        let material = Material {
-            emission: self.emission(item, emissive, two_sided)?,
-            alpha: self.alpha(item, base, opacity)?,
-            ..Material::new(item.name(), surface)
-        };
-        Ok((material, uv_set))
-    }
-
-    /// The metallic-roughness part of a material, its base texture and the opacity of its base.
-    fn finish(&mut self, item: &Item<'a>) -> Result<(Finish, Option<Texture>, f32), Diagnostic> {
-        let mut finish = Finish {
-            base: Color::Constant(Vec3::ONE),
-            metallic: 1.0,
-            roughness: 1.0,
-            eta: 1.5,
-            specular: true,
-            transmission: 0.0,
-        };
-        let Some(pbr) = item.get("pbrMetallicRoughness")? else {
-            return Ok((finish, None, 1.0));
-        };
-        let factor = pbr.numbers_or("baseColorFactor", [1.0; 4])?.map(share);
-        let [Some(r), Some(g), Some(b), Some(opacity)] = factor else {
-            return Err(pbr.error("expected a `baseColorFactor` from 0 to 1"));
-        };
-        let factor = Vec3::new(r, g, b);
-        let base = self.texture(&pbr, "baseColorTexture")?;
-        finish.base = match base {
-            None => Color::Constant(factor),
-            Some(texture) => Color::Image(self.color_image(texture, factor)),
-        };
-        finish.metallic = pbr.share_or("metallicFactor", 1.0)?;
-        finish.roughness = pbr.share_or("roughnessFactor", 1.0)?;
-        if let Some(texture) = self.texture(&pbr, "metallicRoughnessTexture")? {
-            // Roughness is in green, metalness in blue.
-            let mean = self.mean_of_data(texture);
-            finish.roughness *= mean.y;
-            finish.metallic *= mean.z;
-            if let Some(member) = pbr.get("metallicRoughnessTexture")? {
-                self.warn(&member, "was taken as its mean");
-            }
-        }
-        Ok((finish, base, opacity))
-    }
-
-    /// The closest surface model to a mixture of metal, glass and lacquer.
-    fn surface(&mut self, item: &Item<'a>, finish: &Finish) -> Surface {
-        // Perceived roughness to the width of the microfacet distribution.
-        let alpha = Vec2::splat(finish.roughness * finish.roughness);
-        let reflectance = finish.base;
-        if finish.metallic != 0.0 && finish.metallic != 1.0 {
-            self.warn(
-                item,
-                "is partly metallic and was taken as the nearer of metal and none",
-            );
-        }
-        if finish.metallic >= 0.5 {
-            return Surface::conductor_of_reflectance(self.one_color(item, reflectance), alpha);
-        }
-        if finish.transmission >= 0.5 {
-            if self.one_color(item, reflectance) != Vec3::ONE {
-                self.warn(item, "transmits light and was taken as clear");
-            }
-            return if item_is_solid(item) {
-                Surface::Dielectric {
-                    eta: finish.eta,
-                    alpha,
-                }
+        // Lights know the first texture coordinates alone.
+        let emission = self.emission(item, uv_sets, two_sided)?;
+        let base = self.base(item, uv_sets)?;
+        let surface = self.surface(item, &base, uv_sets)?;
+        let alpha = self.alpha(item, &base, emission.is_some())?;
+        let normal_map = self.normal_map(item, uv_sets)?;
+        // What a renderer computes itself.
+        self.document.pass_over(item, "occlusionTexture");
+        let transmits = matches!(
+            surface,
+            Surface::Dielectric { .. } | Surface::ThinDielectric { .. }
+        );
+        Ok(Material {
+            emission,
+            alpha,
+            normal_map,
+            // Light leaves glass through its back faces.
+            back_faces: if two_sided || transmits {
+                BackFaces::Visible
             } else {
-                Surface::ThinDielectric { eta: finish.eta }
-            };
-        }
-        if finish.specular && finish.eta != 1.0 {
-            Surface::CoatedDiffuse {
-                reflectance,
-                eta: finish.eta,
-                alpha,
-            }
-        } else {
-            Surface::Diffuse { reflectance }
-        }
+                BackFaces::Culled
+            },
+            ..Material::new(item.name(), surface)
+        })
     }
 
-    /// One colour, for a surface model that takes no texture.
-    fn one_color(&mut self, item: &Item<'a>, color: Color) -> Vec3 {
-        if let Color::Image(_) = color {
-            self.warn(
-                item,
-                "has a base colour whose texture was taken as its mean",
-            );
-        }
-        self.scene.mean(&color)
+    /// The base colour, white without one.
+    fn base(&mut self, item: &Item<'a>, uv_sets: &mut UvSets) -> Result<Base, Diagnostic> {
+        let Some(pbr) = item.get("pbrMetallicRoughness")? else {
+            return Ok(Base {
+                color: Color::Constant(Vec3::ONE),
+                opacity: 1.0,
+                texture: None,
+            });
+        };
+        let [r, g, b, opacity] = pbr.shares_or("baseColorFactor", [1.0; 4])?;
+        let factor = Vec3::new(r, g, b);
+        let texture = self.texture(&pbr, "baseColorTexture", uv_sets)?;
+        Ok(Base {
+            color: match texture {
+                None => Color::Constant(factor),
+                Some(texture) => Color::Image(self.color_image(texture, factor)),
+            },
+            opacity,
+            texture,
+        })
     }
 
     /// Emission is in nits where its colour is white.
     fn emission(
         &mut self,
         item: &Item<'a>,
-        texture: Option<Texture>,
+        uv_sets: &mut UvSets,
         two_sided: bool,
     ) -> Result<Option<Emission>, Diagnostic> {
         let factor = Vec3::from(item.numbers_or("emissiveFactor", [0.0; 3])?);
@@ -182,8 +116,10 @@ impl<'a> Reader<'a> {
         };
         let scale = factor * strength / K_M;
         if scale == Vec3::ZERO {
+            self.document.pass_over(item, "emissiveTexture");
             return Ok(None);
         }
+        let texture = self.texture(item, "emissiveTexture", uv_sets)?;
         Ok(Some(Emission {
             radiance: match texture {
                 None => Color::Constant(scale),
@@ -200,8 +136,8 @@ impl<'a> Reader<'a> {
     fn alpha(
         &mut self,
         item: &Item<'a>,
-        base: Option<Texture>,
-        opacity: f32,
+        base: &Base,
+        emits: bool,
     ) -> Result<Option<Alpha>, Diagnostic> {
         let cutoff = item.amount_or("alphaCutoff", 0.5)?;
         let cutoff = match item.get("alphaMode")? {
@@ -213,22 +149,37 @@ impl<'a> Reader<'a> {
                 _ => return Err(mode.expected("OPAQUE, MASK or BLEND")),
             },
         };
-        let scale = Vec3::splat(opacity);
-        let opacity = match base.and_then(|texture| self.alpha_image(texture, scale)) {
+        let scale = Vec3::splat(base.opacity);
+        let opacity = base
+            .texture
+            .and_then(|texture| self.alpha_image(texture, scale));
+        let opacity = match opacity {
+            Some(image) if emits && image.uv_set == UvSet::Second => {
+                self.warn(
+                    item,
+                    "has an alpha mask that was ignored: its coordinates are not those of the \
+                     `emissiveTexture`",
+                );
+                return Ok(None);
+            }
             Some(image) => Color::Image(image),
-            None if opacity == 1.0 => return Ok(None),
+            None if base.opacity == 1.0 => return Ok(None),
             None => Color::Constant(scale),
         };
         Ok(Some(Alpha { opacity, cutoff }))
     }
-}
 
-/// Whether light is bent by what is behind a surface that transmits it.
-fn item_is_solid(item: &Item<'_>) -> bool {
-    let volume = item.extension("KHR_materials_volume").ok().flatten();
-    volume.is_some_and(|volume| {
-        volume
-            .number_or("thicknessFactor", 0.0)
-            .is_ok_and(|t| t > 0.0)
-    })
+    fn normal_map(
+        &mut self,
+        item: &Item<'a>,
+        uv_sets: &mut UvSets,
+    ) -> Result<Option<ColorImage>, Diagnostic> {
+        let Some(texture) = self.texture(item, "normalTexture", uv_sets)? else {
+            return Ok(None);
+        };
+        let info = item.require("normalTexture")?;
+        let scale = info.number_or("scale", 1.0)?;
+        let scale = Vec3::new(scale, scale, 1.0);
+        Ok(Some(self.data_image(texture, scale)))
+    }
 }

@@ -14,10 +14,15 @@ mod lights_tests;
 mod materials;
 mod mesh_uses;
 mod nodes;
+mod passed_over;
 mod primitives;
 mod reader;
 #[cfg(test)]
 mod refusals_tests;
+mod required_extensions;
+mod surfaces;
+#[cfg(test)]
+mod surfaces_tests;
 #[cfg(test)]
 mod tests;
 mod texture_images;
@@ -25,6 +30,8 @@ mod textures;
 #[cfg(test)]
 mod textures_tests;
 mod unread_members;
+mod uv_sets;
+mod warnings;
 
 use std::path::Path;
 

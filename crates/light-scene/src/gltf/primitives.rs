@@ -1,7 +1,8 @@
 use super::accessor::Accessor;
 use super::item::Item;
 use super::reader::Reader;
-use crate::glam::{Affine3A, Vec2, Vec3};
+use super::uv_sets::UvSets;
+use crate::glam::{Affine3A, Vec2, Vec3, Vec4};
 use crate::{Diagnostic, Mesh};
 
 /// The most triangles of a document, repeated references included.
@@ -49,8 +50,8 @@ impl<'a> Reader<'a> {
             .accessor(&attributes.require("POSITION")?)?
             .floats::<3>()?;
         let count = positions.len();
-        let (material, uv_set) = self.material(primitive)?;
-        let mut mesh = Mesh::new("", material);
+        let material = self.material(primitive)?;
+        let mut mesh = Mesh::new("", material.id);
         mesh.positions = positions.into_iter().map(Vec3::from).collect();
         let fits = |item: &Item<'_>, found: usize| {
             let message = format!("expected as many elements as vertices, {count}, found {found}");
@@ -65,13 +66,34 @@ impl<'a> Reader<'a> {
             fits(&normals, all.len())?;
             mesh.normals = Some(all.into_iter().map(Vec3::from).collect());
         }
-        if let Some(uvs) = attributes.get(&format!("TEXCOORD_{uv_set}"))? {
-            let all = self.accessor(&uvs)?.floats::<2>()?;
-            fits(&uvs, all.len())?;
-            // Of glTF (0, 0) is the upper left corner of an image.
-            let lower_left = |[u, v]: [f32; 2]| Vec2::new(u, 1.0 - v);
-            mesh.uvs = Some(all.into_iter().map(lower_left).collect());
+        // Without a texture the first ones are kept all the same.
+        let UvSets([first, second]) = material.uv_sets;
+        let sets = [Some(first.unwrap_or(0)), second];
+        for (set, uvs) in sets.into_iter().zip([&mut mesh.uvs, &mut mesh.second_uvs]) {
+            let name = set.map(|set| format!("TEXCOORD_{set}"));
+            let found = name.map(|name| attributes.get(&name)).transpose()?;
+            if let Some(found) = found.flatten() {
+                let all = self.accessor(&found)?.floats::<2>()?;
+                fits(&found, all.len())?;
+                // Of glTF (0, 0) is the upper left corner of an image.
+                let lower_left = |[u, v]: [f32; 2]| Vec2::new(u, 1.0 - v);
+                *uvs = Some(all.into_iter().map(lower_left).collect());
+            }
         }
+        if material.uses_tangents {
+            if let Some(tangents) = attributes.get("TANGENT")? {
+                let all = self.accessor(&tangents)?.floats::<4>()?;
+                fits(&tangents, all.len())?;
+                mesh.tangents = Some(all.into_iter().map(Vec4::from).collect());
+            }
+        }
+        if let Some(colors) = attributes.get("COLOR_0")? {
+            let all = self.vertex_colors(&colors)?;
+            fits(&colors, all.len())?;
+            mesh.colors = Some(all);
+        }
+        // What nothing asks for has no effect.
+        attributes.pass_over_members(&["TEXCOORD_", "TANGENT"]);
         let corners = match primitive.get("indices")? {
             Some(indices) => self.accessor(&indices)?.indices(count)?,
             // There are no more vertices than an accessor may hold, below 2^32.
@@ -90,6 +112,22 @@ impl<'a> Reader<'a> {
             _ => fan(&corners),
         };
         Ok(Some(mesh))
+    }
+
+    /// Colours of vertices, without their opacity.
+    fn vertex_colors(&mut self, colors: &Item<'a>) -> Result<Vec<Vec3>, Diagnostic> {
+        let accessor = self.accessor(colors)?;
+        let unit = |color: Vec3| color.clamp(Vec3::ZERO, Vec3::ONE);
+        if accessor.width() == 3 {
+            let all = accessor.floats::<3>()?;
+            return Ok(all.into_iter().map(|color| unit(color.into())).collect());
+        }
+        let all = accessor.floats::<4>()?;
+        if all.iter().any(|color| color[3] < 1.0) {
+            self.warn(colors, "has opacities that were ignored");
+        }
+        let color = |[r, g, b, _]: [f32; 4]| unit(Vec3::new(r, g, b));
+        Ok(all.into_iter().map(color).collect())
     }
 
     fn accessor(&mut self, reference: &Item<'a>) -> Result<Accessor<'a>, Diagnostic> {

@@ -1,25 +1,13 @@
-use alloc::collections::BTreeSet;
-
 use super::accessor::Budget;
 use super::buffers::Buffers;
 use super::document::Document;
 use super::item::Item;
 use super::known_materials::Materials;
 use super::mesh_uses::MeshUses;
+use super::required_extensions::{Required, required};
 use super::texture_images::Textures;
+use super::warnings::Warnings;
 use crate::{Diagnostic, Files, Scene};
-
-/// Extensions that a document may require.
-const KNOWN: [&str; 8] = [
-    "EXT_lights_ies",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-];
 
 /// The state of reading a document.
 pub(super) struct Reader<'a> {
@@ -32,7 +20,7 @@ pub(super) struct Reader<'a> {
     pub(super) uses: MeshUses<'a>,
     /// How many the document holds so far.
     pub(super) triangles: usize,
-    warned: BTreeSet<String>,
+    warnings: Warnings,
 }
 
 impl<'a> Reader<'a> {
@@ -47,9 +35,15 @@ impl<'a> Reader<'a> {
         if !version.text()?.starts_with("2.") {
             return Err(version.expected("version 2.0"));
         }
-        for required in root.list("extensionsRequired")? {
-            if !KNOWN.contains(&required.text()?) {
-                return Err(required.expected("an extension that is read"));
+        let mut warnings = Warnings::default();
+        for extension in root.list("extensionsRequired")? {
+            match required(extension.text()?) {
+                Required::Read => {}
+                Required::Looks => warnings.add(
+                    &extension,
+                    "names an extension that is not read: the picture may look different",
+                ),
+                Required::Unknown => return Err(extension.expected("an extension that is read")),
             }
         }
         // Each use is checked where it occurs.
@@ -63,7 +57,7 @@ impl<'a> Reader<'a> {
             materials: Materials::default(),
             uses: MeshUses::default(),
             triangles: 0,
-            warned: BTreeSet::new(),
+            warnings,
         })
     }
 
@@ -72,15 +66,14 @@ impl<'a> Reader<'a> {
         self.nodes()?;
         self.add_instances()?;
         for item in self.document.unasked() {
-            self.warn(&item, "was ignored");
+            self.warnings.add(&item, "was ignored");
         }
+        self.scene.warnings.splice(0..0, self.warnings.finish());
         Ok(self.scene)
     }
 
-    /// Adds a warning about a part of the document, once for each kind of part.
+    /// Adds a warning about a part of the document, shown once for each kind of part.
     pub(super) fn warn(&mut self, item: &Item<'_>, message: &str) {
-        if self.warned.insert(format!("{} {message}", item.kind())) {
-            self.scene.warnings.push(item.error(message));
-        }
+        self.warnings.add(item, message);
     }
 }

@@ -63,7 +63,7 @@ fn broken_documents_give_one_clear_line() {
         ),
         (
             primitive(r#"{"attributes": {"POSITION": 0}, "material": 0}"#)
-                + r#", "materials": [{"emissiveTexture": {"index": 0}}],
+                + r#", "materials": [{"emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1]}],
                 "textures": [{"source": 0}], "images": [{"uri": "no.png"}]"#,
             "a.gltf: images[0].uri: no.png: cannot be read: not allowed",
         ),

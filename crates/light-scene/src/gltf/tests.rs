@@ -49,11 +49,11 @@ const LAMP: &str = r#""scene": 0, "scenes": [{"nodes": [0, 2]}],
     "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 1.5,
     "znear": 0.1}}],
     "meshes": [{"name": "lamp", "primitives": [
-        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 1}, "indices": 2, "material": 0},
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 0}, "indices": 2, "material": 0},
         {"attributes": {"POSITION": 0}, "mode": 1}]}],
     "materials": [{"name": "glow", "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
         "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 1], "metallicFactor": 0},
-        "normalTexture": {"index": 0},
+        "occlusionTexture": {"index": 0},
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1366},
         "X_glitter": {}}}]"#;
 
@@ -81,16 +81,19 @@ fn reads_nodes_meshes_materials_and_a_camera() {
         "1366 nits of white are 2 W m^-2 sr^-1"
     );
     assert_eq!(emission.sides, EmissionSides::Both, "double-sided");
-    let Surface::CoatedDiffuse {
-        reflectance,
-        eta,
-        alpha,
-    } = material.surface
-    else {
+    let Surface::MetallicRoughness(surface) = &material.surface else {
         panic!("a coat, not {:?}", material.surface);
     };
     let color = Color::Constant(Vec3::new(0.1, 0.2, 0.3));
-    assert_eq!((reflectance, eta, alpha), (color, 1.5, Vec2::ONE), "rough");
+    assert_eq!(surface.base_color, color, "the base");
+    let rough = Color::Constant(Vec3::new(1.0, 1.0, 0.0));
+    assert_eq!(surface.roughness_metallic, rough, "rough, and no metal");
+    assert!(
+        surface.f0.abs_diff_eq(Vec3::splat(0.04), 1e-6),
+        "index 1.5: {}",
+        surface.f0
+    );
+    assert_eq!(mesh.colors.as_deref().map(<[_]>::len), Some(4), "colours");
     let camera = scene.camera.expect("a camera");
     assert_eq!(camera.position, Vec3::Z * 5.0, "its position");
     assert_eq!(
@@ -107,8 +110,6 @@ fn reads_nodes_meshes_materials_and_a_camera() {
     let expected = [
         "meshes[0].primitives[1]: was left out: it has no triangles",
         "materials[0].extensions.X_glitter: was ignored",
-        "materials[0].normalTexture: was ignored",
-        "meshes[0].primitives[0].attributes.COLOR_0: was ignored",
         "nodes[1].skin: was ignored",
     ];
     let mut warnings = warnings;

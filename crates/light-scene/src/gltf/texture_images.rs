@@ -5,7 +5,7 @@ use lights::sources::TextureMapping;
 use super::item::Item;
 use crate::glam::Vec3;
 use crate::image::{EncodedImage, TexelBudget};
-use crate::{ColorImage, Diagnostic, ImageId};
+use crate::{ColorImage, Diagnostic, ImageId, UvSet};
 
 /// The images of a document, each decoded and kept once.
 #[derive(Debug, Default)]
@@ -14,6 +14,8 @@ pub(super) struct Textures {
     pub(super) budget: TexelBudget,
     pub(super) colors: HashMap<usize, ImageId>,
     pub(super) alphas: HashMap<usize, Option<ImageId>>,
+    /// Channels that stand for themselves.
+    pub(super) data: HashMap<usize, ImageId>,
     /// The first image of each source: lists may name the same one over and over.
     pub(super) by_source: HashMap<String, usize>,
 }
@@ -38,7 +40,7 @@ impl Textures {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Texture {
     /// Which of the mesh's texture coordinates.
-    pub(super) uv_set: usize,
+    pub(super) uv_set: UvSet,
     pub(super) mapping: TextureMapping,
     /// Index in the document's list of images.
     pub(super) image: usize,
@@ -51,6 +53,7 @@ impl Texture {
             image,
             scale,
             mapping: self.mapping,
+            uv_set: self.uv_set,
         }
     }
 }

@@ -3,6 +3,7 @@ use lights::sources::{TextureMapping, Wrap};
 use super::item::Item;
 use super::reader::Reader;
 use super::texture_images::Texture;
+use super::uv_sets::UvSets;
 use crate::glam::{Affine2, Mat2, Vec2, Vec3};
 use crate::image::{EncodedImage, Encoding};
 use crate::{ColorImage, Diagnostic, Image};
@@ -13,6 +14,7 @@ impl<'a> Reader<'a> {
         &mut self,
         owner: &Item<'a>,
         name: &str,
+        uv_sets: &mut UvSets,
     ) -> Result<Option<Texture>, Diagnostic> {
         let Some(info) = owner.get(name)? else {
             return Ok(None);
@@ -29,6 +31,13 @@ impl<'a> Reader<'a> {
         }
         let Some(source) = texture.get("source")? else {
             self.warn(&texture, "was ignored: it has no PNG or JPEG image");
+            return Ok(None);
+        };
+        let Some(uv_set) = uv_sets.place(uv_set) else {
+            self.warn(
+                &info,
+                "was ignored: a material uses two sets of texture coordinates at most",
+            );
             return Ok(None);
         };
         let (image, item) = source.target("images")?;
@@ -89,9 +98,13 @@ impl<'a> Reader<'a> {
         image.map(|image| texture.shown(image, scale))
     }
 
-    /// The mean of an image's channels as they are written.
-    pub(super) fn mean_of_data(&self, texture: Texture) -> Vec3 {
-        self.textures.decoded[&texture.image].mean_of_data()
+    /// The image of a texture whose channels stand for themselves, times `scale`.
+    pub(super) fn data_image(&mut self, texture: Texture, scale: Vec3) -> ColorImage {
+        let (textures, scene) = (&mut self.textures, &mut self.scene);
+        let decoded = &textures.decoded[&texture.image];
+        let known = textures.data.entry(texture.image);
+        let image = *known.or_insert_with(|| scene.add_image(decoded.color(Encoding::Linear)));
+        texture.shown(image, scale)
     }
 }
 

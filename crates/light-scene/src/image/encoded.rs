@@ -76,18 +76,6 @@ impl EncodedImage {
         self.of_texels(texels.collect())
     }
 
-    /// The mean of the channels as they are written.
-    pub(crate) fn mean_of_data(&self) -> Vec3 {
-        let image = self.0.to_rgb16();
-        let sum = image.pixels().fold([0u64; 3], |sum, texel| {
-            [0, 1, 2].map(|channel| sum[channel] + u64::from(texel.0[channel]))
-        });
-        let count = f64::from(image.width()) * f64::from(image.height());
-        #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-        let mean = sum.map(|sum| (sum as f64 / count / 65535.0) as f32);
-        Vec3::from(mean)
-    }
-
     fn of_texels(&self, texels: Vec<Vec3>) -> Image {
         let image = Image::new(self.0.width(), self.0.height(), texels);
         image.expect("as many texels as the image has")

@@ -39,9 +39,9 @@ impl Reader {
             ..ImageKey::colors(path)
         };
         Ok(Color::Image(ColorImage {
-            image: self.image(typed.at, key)?,
             scale: Vec3::splat(if inverted { 1.0 } else { scale }),
             mapping,
+            ..ColorImage::new(self.image(typed.at, key)?)
         }))
     }
 

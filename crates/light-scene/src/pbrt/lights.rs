@@ -161,9 +161,9 @@ impl Reader {
         let radiance = match parameters.string("filename") {
             // An image without repetition.
             Some(file) => Color::Image(ColorImage {
-                image: self.image(*at, ImageKey::colors(self.resolve(file)))?,
                 scale,
                 mapping: TextureMapping::default(),
+                ..ColorImage::new(self.image(*at, ImageKey::colors(self.resolve(file)))?)
             }),
             None => scaled(Color::Constant(self.emission(typed, "L")), scale),
         };

@@ -134,6 +134,15 @@ fn indices(mesh: &Mesh) {
     if let Some(uvs) = &mesh.uvs {
         assert_eq!(uvs.len(), count, "texture coordinates");
     }
+    if let Some(uvs) = &mesh.second_uvs {
+        assert_eq!(uvs.len(), count, "second texture coordinates");
+    }
+    if let Some(tangents) = &mesh.tangents {
+        assert_eq!(tangents.len(), count, "tangents");
+    }
+    if let Some(colors) = &mesh.colors {
+        assert_eq!(colors.len(), count, "colours");
+    }
 }
 
 fn answer<T>(answered: Result<T, Diagnostic>) -> Option<T> {
