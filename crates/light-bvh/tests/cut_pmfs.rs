@@ -4,7 +4,7 @@
 use light_bvh::light_bounds::light_math::fraction::stratum;
 use light_bvh::light_bounds::light_math::glam::Vec3;
 use light_bvh::light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
-use light_bvh::{CutDetail, LightBvh};
+use light_bvh::{CutDetail, LightBvh, LightCut};
 use light_testkit::Rng;
 
 mod support;
@@ -55,6 +55,37 @@ fn a_cut_does_as_its_pmfs_say() {
                 (f64::from(*count) - expected).abs() < 1.1,
                 "{count} of {expected}"
             );
+        }
+    }
+}
+
+/// A cut that is set has nothing left of what it was: a large one, a small one, the default.
+#[test]
+fn a_cut_that_is_set_is_as_a_new_one() {
+    let tree = tree();
+    let few = LightBvh::build(&[lamp(Vec3::Z, 1.0), lamp(Vec3::X, 2.0)]).expect("valid lights");
+    let (inside, apart) = (Vec3::splat(0.5), Vec3::splat(50.0));
+    let mut kept = LightCut::default();
+    assert_eq!(kept.sample(0), None, "no light");
+    assert_eq!(
+        (kept.irradiance(), kept.pmf(LightId(0))),
+        (0.0, 0.0),
+        "nor any"
+    );
+    for (tree, p) in [
+        (&tree, inside),
+        (&tree, apart),
+        (&few, inside),
+        (&tree, inside),
+    ] {
+        let ctx = LightSampleContext::medium(p);
+        kept.set(&tree.view(), &ctx, CutDetail::default());
+        let new = tree.view().cut(&ctx, CutDetail::default());
+        assert_eq!(kept.irradiance(), new.irradiance(), "at {p}");
+        for i in 0..500 {
+            let u = stratum(i, 500, 1 << 63);
+            assert_eq!(kept.sample(u), new.sample(u), "at {p}");
+            assert_eq!(kept.pmf(LightId(i)), new.pmf(LightId(i)), "at {p}");
         }
     }
 }

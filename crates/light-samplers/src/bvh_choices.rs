@@ -6,15 +6,12 @@ use light_math::float::positive_product;
 use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 
-/// The least number of choices for which a cut is faster than single choices.
-const FEWEST_OF_CUT: u32 = 2;
-
 /// The default hierarchy and its lights at infinity at one context.
 ///
-/// A single choice has another type than several choices, so that a program that makes single ones
-/// only has neither the code of a cut nor its size on the stack.
+/// `T` is the tree: a single choice has another type than several choices, so that a program that
+/// makes single ones only has neither the code of a cut nor its size on the stack.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BvhChoices<'a, T = TreeChoices<'a>> {
+pub(crate) struct BvhChoices<'a, T> {
     infinite: InfiniteLights<'a>,
     ctx: LightSampleContext,
     /// Estimated irradiance from the lights of the tree; not needed without lights at infinity.
@@ -34,56 +31,31 @@ pub(crate) trait InTree {
     fn pmf(&self, light: LightId) -> f32;
 }
 
-#[derive(Clone, Copy, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a box needs an allocator, and choices are made in place"
-)]
-pub(crate) enum TreeChoices<'a> {
-    /// Each from the root.
-    Single(LightBvhAt<'a>),
-    /// From groups that were opened before.
-    Cut(LightCut<'a>),
-    /// Each from the root, with the factors of a cell.
-    InCell(LightBvhInCellAt<'a>),
-}
-
-impl<'a> BvhChoices<'a> {
-    /// For `count` choices at `ctx` among the lights of a tree of this power and those at infinity.
+impl<'a> BvhChoices<'a, LightCut<'a>> {
+    /// For several choices at `ctx` among the lights at infinity, until
+    /// [`add_tree`](Self::add_tree) adds those of a tree.
     #[inline]
-    pub(crate) fn new(
-        tree: LightBvhRef<'a>,
-        power: f32,
-        infinite: InfiniteLights<'a>,
-        ctx: &LightSampleContext,
-        count: u32,
-    ) -> Self {
-        let tree = if count < FEWEST_OF_CUT {
-            TreeChoices::Single(tree.at(ctx))
-        } else {
-            TreeChoices::Cut(tree.cut(ctx, CutDetail::default()))
-        };
-        Self::of(tree, power, infinite, ctx)
+    pub(crate) fn without_tree(infinite: InfiniteLights<'a>, ctx: &LightSampleContext) -> Self {
+        Self {
+            infinite,
+            ctx: *ctx,
+            in_tree: 0.0,
+            tree: LightCut::default(),
+        }
     }
 
-    /// The same with the factors of `cell`.
+    /// Adds the lights of a tree of this power, by a cut that is made where it lies.
     #[inline]
-    pub(crate) fn in_cell(
-        tree: LightBvhRef<'a>,
-        power: f32,
-        infinite: InfiniteLights<'a>,
-        cell: CellFactors<'a>,
-        ctx: &LightSampleContext,
-    ) -> Self {
-        let tree = TreeChoices::InCell(tree.in_cell(cell).at(ctx));
-        Self::of(tree, power, infinite, ctx)
+    pub(crate) fn add_tree(&mut self, tree: &LightBvhRef<'a>, power: f32) {
+        self.tree.set(tree, &self.ctx, CutDetail::default());
+        self.in_tree = positive_product(self.tree.irradiance(), power).min(f32::MAX);
     }
 }
 
 impl<'a> BvhChoices<'a, LightBvhInCellAt<'a>> {
-    /// The same for a single choice.
+    /// For choices from the root with the factors of `cell`.
     #[inline]
-    pub(crate) fn single_in_cell(
+    pub(crate) fn in_cell(
         tree: LightBvhRef<'a>,
         power: f32,
         infinite: InfiniteLights<'a>,
@@ -95,9 +67,10 @@ impl<'a> BvhChoices<'a, LightBvhInCellAt<'a>> {
 }
 
 impl<'a> BvhChoices<'a, LightBvhAt<'a>> {
-    /// The same for a single choice.
+    /// For choices from the root at `ctx` among the lights of a tree of this power and those at
+    /// infinity.
     #[inline]
-    pub(crate) fn single(
+    pub(crate) fn from_root(
         tree: LightBvhRef<'a>,
         power: f32,
         infinite: InfiniteLights<'a>,
@@ -180,31 +153,19 @@ impl InTree for LightBvhInCellAt<'_> {
     }
 }
 
-impl InTree for TreeChoices<'_> {
+impl InTree for LightCut<'_> {
     #[inline]
     fn irradiance(&self) -> f32 {
-        match self {
-            Self::Single(tree) => tree.irradiance(),
-            Self::Cut(tree) => tree.irradiance(),
-            Self::InCell(tree) => tree.irradiance(),
-        }
+        self.irradiance()
     }
 
     #[inline]
     fn sample(&self, u: u64) -> Option<SampledLight> {
-        match self {
-            Self::Single(tree) => tree.sample(u),
-            Self::Cut(tree) => tree.sample(u),
-            Self::InCell(tree) => tree.sample(u),
-        }
+        self.sample(u)
     }
 
     #[inline]
     fn pmf(&self, light: LightId) -> f32 {
-        match self {
-            Self::Single(tree) => tree.pmf(light),
-            Self::Cut(tree) => tree.pmf(light),
-            Self::InCell(tree) => tree.pmf(light),
-        }
+        self.pmf(light)
     }
 }

@@ -8,6 +8,9 @@ use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, InfiniteLightsError};
 use crate::{LightChoices, LightSampler};
 
+/// The least number of choices for which a cut is faster than single choices.
+const FEWEST_OF_CUT: u32 = 2;
+
 /// [`BvhLightSampler`](crate::BvhLightSampler) on borrowed memory, for a tree in flash, in a mapped
 /// file or in a buffer; needs no allocator.
 #[derive(Clone, Copy, Debug)]
@@ -57,15 +60,18 @@ impl<'a> BvhLightSamplerRef<'a> {
     /// A single choice.
     #[inline]
     fn choice_at(&self, ctx: &LightSampleContext) -> BvhChoices<'a, LightBvhAt<'a>> {
-        BvhChoices::single(self.tree, self.power, self.infinite, ctx)
+        BvhChoices::from_root(self.tree, self.power, self.infinite, ctx)
     }
 
     /// [`LightSampler::at`], for as long as the memory is borrowed.
     #[inline]
     #[must_use]
     pub(crate) fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        let choices = BvhChoices::new(self.tree, self.power, self.infinite, ctx, count);
-        LightChoices::bvh(choices, count)
+        if count < FEWEST_OF_CUT {
+            LightChoices::from_root(self.choice_at(ctx), count)
+        } else {
+            LightChoices::by_cut(&self.tree, self.power, self.infinite, ctx, count)
+        }
     }
 
     /// A single choice in `cell`.
@@ -78,7 +84,7 @@ impl<'a> BvhLightSamplerRef<'a> {
     where
         'a: 'b,
     {
-        BvhChoices::single_in_cell(self.tree, self.power, self.infinite, cell, ctx)
+        BvhChoices::in_cell(self.tree, self.power, self.infinite, cell, ctx)
     }
 
     /// `count` choices in `cell`, each from the root.
@@ -92,8 +98,7 @@ impl<'a> BvhLightSamplerRef<'a> {
     where
         'a: 'b,
     {
-        let choices = BvhChoices::in_cell(self.tree, self.power, self.infinite, cell, ctx);
-        LightChoices::bvh(choices, count)
+        LightChoices::in_cell(self.choice_in(cell, ctx), count)
     }
 }
 

@@ -2,8 +2,11 @@ use core::fmt;
 
 use light_bounds::light_math::fraction::stratum;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bvh::visibility::LightBvhInCellAt;
+use light_bvh::{LightBvhAt, LightBvhRef, LightCut};
 
 use crate::bvh_choices::BvhChoices;
+use crate::infinite_lights::InfiniteLights;
 
 /// Chooses lights of a set at random, with probabilities that can be queried.
 ///
@@ -26,8 +29,10 @@ pub trait LightSampler {
     /// A sampler may keep what it has computed for `ctx`, and refine its estimates for several
     /// choices: the probabilities are then those of [`LightChoices::pmf`]. It may make fewer choices
     /// where fewer serve better: [`LightChoices::count`] says how many. One without such work
-    /// returns [`LightChoices::one_by_one`]. `crates/lights/examples/many_lights.rs` lights a plain
+    /// returns [`LightChoices::one_by_one`]. The example [`many_lights`][1] lights a plain
     /// by it.
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/many_lights.rs
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a>;
 
     /// One light to emit from, without a receiver, as in light tracing; `None` if nothing emits.
@@ -79,30 +84,34 @@ impl<S: LightSampler + ?Sized> LightSampler for &S {
 /// }
 /// assert_eq!(estimate, 100.0);
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct LightChoices<'a> {
     count: u32,
     kind: Kind<'a>,
 }
 
-#[derive(Clone, Copy)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "boxes need an allocator, and a cut is never moved"
-)]
+#[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "a box needs an allocator")]
 enum Kind<'a> {
     OneByOne {
         sampler: &'a dyn LightSampler,
         ctx: LightSampleContext,
     },
-    Bvh(BvhChoices<'a>),
+    /// Each from the root.
+    FromRoot(BvhChoices<'a, LightBvhAt<'a>>),
+    /// From groups that were opened before.
+    Cut(BvhChoices<'a, LightCut<'a>>),
+    /// Each from the root, with the factors of a cell.
+    InCell(BvhChoices<'a, LightBvhInCellAt<'a>>),
 }
 
 impl fmt::Debug for Kind<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OneByOne { ctx, .. } => f.debug_tuple("OneByOne").field(ctx).finish(),
-            Self::Bvh(choices) => choices.fmt(f),
+            Self::FromRoot(choices) => choices.fmt(f),
+            Self::Cut(choices) => choices.fmt(f),
+            Self::InCell(choices) => choices.fmt(f),
         }
     }
 }
@@ -122,9 +131,36 @@ impl<'a> LightChoices<'a> {
     }
 
     #[inline]
-    pub(crate) const fn bvh(choices: BvhChoices<'a>, count: u32) -> Self {
-        let kind = Kind::Bvh(choices);
+    pub(crate) const fn from_root(choices: BvhChoices<'a, LightBvhAt<'a>>, count: u32) -> Self {
+        let kind = Kind::FromRoot(choices);
         Self { count, kind }
+    }
+
+    #[inline]
+    pub(crate) const fn in_cell(choices: BvhChoices<'a, LightBvhInCellAt<'a>>, count: u32) -> Self {
+        let kind = Kind::InCell(choices);
+        Self { count, kind }
+    }
+
+    /// `count` choices at `ctx` among the lights of a tree of this power and those at infinity, by
+    /// a cut.
+    #[inline]
+    pub(crate) fn by_cut(
+        tree: &LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        ctx: &LightSampleContext,
+        count: u32,
+    ) -> Self {
+        let mut all = Self {
+            count,
+            kind: Kind::Cut(BvhChoices::without_tree(infinite, ctx)),
+        };
+        // Last of all, so that what is known of the tree, 2 KB, is not moved.
+        if let Kind::Cut(choices) = &mut all.kind {
+            choices.add_tree(tree, power);
+        }
+        all
     }
 
     /// How many choices there are. An estimate is the sum over the choices of what each gives over
@@ -149,7 +185,9 @@ impl<'a> LightChoices<'a> {
     pub fn sample(&self, u: u64) -> Option<SampledLight> {
         match &self.kind {
             Kind::OneByOne { sampler, ctx } => sampler.sample(ctx, u),
-            Kind::Bvh(choices) => choices.sample(u),
+            Kind::FromRoot(choices) => choices.sample(u),
+            Kind::Cut(choices) => choices.sample(u),
+            Kind::InCell(choices) => choices.sample(u),
         }
     }
 
@@ -161,7 +199,9 @@ impl<'a> LightChoices<'a> {
     pub fn pmf(&self, light: LightId) -> f32 {
         match &self.kind {
             Kind::OneByOne { sampler, ctx } => sampler.pmf(ctx, light),
-            Kind::Bvh(choices) => choices.pmf(light),
+            Kind::FromRoot(choices) => choices.pmf(light),
+            Kind::Cut(choices) => choices.pmf(light),
+            Kind::InCell(choices) => choices.pmf(light),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::cut::light_cut::{CutDetail, CutNodes, LightCut, MAX_NODES};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::into_receiver::{IntoReceiver, Query, QueryFor};
+use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query, QueryFor};
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
@@ -26,13 +26,33 @@ impl<'a> LightBvhRef<'a> {
             receiver: receiver.keep(),
             grown: CutNodes::NONE,
         };
-        let grow = Grow {
-            tree: &cut.tree,
-            detail,
-            into: &mut cut.grown,
-        };
-        dispatch(QueryFor(&cut.receiver, grow));
+        cut.grow(detail);
         cut
+    }
+}
+
+impl<'a, R: KeptReceiver> LightCut<'a, R> {
+    /// Makes this the [cut](LightBvhRef::cut) through `tree` for `receiver`, where it lies: it is
+    /// not moved.
+    #[inline]
+    pub fn set<A>(&mut self, tree: &LightBvhRef<'a>, receiver: A, detail: CutDetail)
+    where
+        A: IntoReceiver<Kept = R>,
+    {
+        self.tree = tree.wanting(receiver.groups());
+        self.receiver = receiver.keep();
+        self.grown.clear();
+        self.grow(detail);
+    }
+
+    #[inline(always)]
+    fn grow(&mut self, detail: CutDetail) {
+        let grow = Grow {
+            tree: &self.tree,
+            detail,
+            into: &mut self.grown,
+        };
+        dispatch(QueryFor(&self.receiver, grow));
     }
 }
 

@@ -2,8 +2,10 @@ use core::error::Error;
 use core::fmt;
 
 use light_math::discrete::PARTS;
+use light_math::glam::Vec3;
 
 use crate::importance::context_receiver::ContextReceiver;
+use crate::importance::medium::MediumReceiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::weights::{Weights, irradiance};
@@ -67,8 +69,8 @@ impl Default for CutDetail {
 /// A pure function of tree, receiver and [`CutDetail`] that allocates nothing. It pays when several
 /// lights are chosen for the same receiver, each by a part of one stratified `u`. Its probabilities
 /// are its own: closer to the lights' contributions than those of the tree. At most 24 nodes, about
-/// 2 KB.
-#[derive(Clone, Copy, Debug)]
+/// 2 KB: who keeps one for many receivers [sets](Self::set) it again.
+#[derive(Clone, Debug)]
 pub struct LightCut<'a, R = ContextReceiver> {
     pub(crate) tree: LightBvhRef<'a>,
     pub(crate) receiver: R,
@@ -101,6 +103,18 @@ impl<R> LightCut<'_, R> {
     }
 }
 
+/// The cut of a tree without lights.
+impl Default for LightCut<'_> {
+    #[inline]
+    fn default() -> Self {
+        Self {
+            tree: LightBvhRef::new(&[], &[], &[]),
+            receiver: ContextReceiver::Medium(MediumReceiver::new(Vec3::ZERO)),
+            grown: CutNodes::NONE,
+        }
+    }
+}
+
 impl CutNodes {
     /// No node.
     pub(crate) const NONE: Self = Self {
@@ -112,6 +126,16 @@ impl CutNodes {
         count: 0,
         inv_unit: 1.0,
     };
+
+    /// No node any more; of the others nothing is read.
+    #[inline(always)]
+    pub(crate) const fn clear(&mut self) {
+        self.nodes[0] = 0;
+        self.ends = [PARTS; MAX_NODES];
+        self.sum = 0.0;
+        self.count = 0;
+        self.inv_unit = 1.0;
+    }
 
     /// The weights of one of the nodes.
     #[inline(always)]

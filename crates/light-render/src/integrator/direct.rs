@@ -11,7 +11,7 @@ use crate::{SampleStream, VertexNumbers, World};
 
 /// How lights are chosen at a vertex. It is kept while the path goes on: a light that the next ray
 /// finds is weighted by the density of these choices.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LightQuery<'a> {
     ctx: LightSampleContext,
     choices: LightChoices<'a>,
