@@ -122,7 +122,9 @@ impl LightSampleContext {
     }
 
     /// The same context for the lights of some groups only: light linking, as in
-    /// `crates/lights/examples/light_groups.rs`.
+    /// the example [`light_groups`][1].
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/light_groups.rs
     #[inline]
     #[must_use]
     pub const fn with_groups(self, groups: LightGroups) -> Self {

@@ -14,7 +14,9 @@ pub trait Visibility {
 }
 
 /// The inputs of single scattering other than the ray: the medium, the lights, a sampler of them,
-/// and the visibility of the scene. `crates/lights/examples/fog.rs` renders lamps in fog with it.
+/// and the visibility of the scene. The example [`fog`][1] renders lamps in fog with it.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/fog.rs
 #[derive(Debug)]
 pub struct VolumeIntegrator<'a, C: ColorModel, M: ?Sized, S: ?Sized, V: ?Sized> {
     /// The medium that scatters.

@@ -44,7 +44,7 @@ impl<'a> BvhChoices<'a, LightCut<'a>> {
         }
     }
 
-    /// Adds the lights of a tree of this power, by a cut that is made where it lies.
+    /// Adds the lights of a tree of this power, by a cut that is made in place.
     #[inline]
     pub(crate) fn add_tree(&mut self, tree: &LightBvhRef<'a>, power: f32) {
         self.tree.set(tree, &self.ctx, CutDetail::default());

@@ -22,7 +22,9 @@ impl LightChoices<'_> {
     /// best into its target: any weights that add up to 1 are unbiased.
     ///
     /// The reservoir can be kept and [merged](WeightedReservoir::merge) with those of other points
-    /// or frames. `crates/lights/examples/resampling.rs` measures what resampling gains.
+    /// or frames. The example [`resampling`][1] measures what resampling gains.
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/resampling.rs
     ///
     /// ```
     /// # use light_samplers::{LightSampler, UniformLightSampler, light_bounds};

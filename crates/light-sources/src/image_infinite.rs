@@ -27,8 +27,10 @@ use light_math::DirectionCone;
 /// Memory beside the image: 8 bytes a texel of a lat-long picture, 16 of an equal-area one.
 /// Building takes two passes over the texels; with the feature `rayon` those of a lat-long picture
 /// run on all threads, and give the same bits on any number of them. A sample takes two binary
-/// searches, along rows and along columns. `crates/lights/examples/environment.rs` lights a ball
+/// searches, along rows and along columns. The example [`environment`][1] lights a ball
 /// with one.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/environment.rs
 ///
 /// # Source
 /// `[PBRT4]`, section 12.5.2, of which the map and the solid angle of lat-long texels differ; the

@@ -29,7 +29,9 @@ pub trait Light<C: ColorModel> {
     /// The radiance that a surface reflects is estimated by `bsdf * l * |cos| / (pdf * pmf)`, where
     /// `cos` is that at the receiver and `pmf` the probability with which the light was chosen. Of
     /// several choices the sum is divided by their number.
-    /// `crates/lights/examples/direct_lighting.rs` weights such samples against those of the BSDF.
+    /// The example [`direct_lighting`][1] weights such samples against those of the BSDF.
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/direct_lighting.rs
     fn sample_li(
         &self,
         ctx: &LightSampleContext,
@@ -53,7 +55,9 @@ pub trait Light<C: ColorModel> {
     /// `direction` and its `normal`, because `pdf.pos` is a density per area of that surface. Where
     /// `normal` is zero the factor is 1: a light at a point has an intensity, and lights at
     /// infinity state `pdf.pos` per area across the ray. The mean of that power is
-    /// [`phi`](Self::phi). `crates/lights/examples/light_tracing.rs` lets it land on a floor.
+    /// [`phi`](Self::phi). The example [`light_tracing`][1] lets it land on a floor.
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/light_tracing.rs
     fn sample_le(
         &self,
         u1: Vec2,

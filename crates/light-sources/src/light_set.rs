@@ -23,7 +23,9 @@ use light_bounds::{LightExtent, LightId};
 /// [`id_of`](Self::id_of) gives the light, and a light sampler the probability with which light
 /// sampling would have chosen it; [`source_of`](Self::source_of) leads back. The ids of lights at
 /// infinity lie among the others: a ray that leaves the scene meets those of
-/// [`infinite_ids`](Self::infinite_ids). `crates/lights/examples/mis.rs` is that path in full.
+/// [`infinite_ids`](Self::infinite_ids). The example [`mis`][1] is that path in full.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/mis.rs
 ///
 /// ```
 /// use light_sources::glam::Vec3;

@@ -35,8 +35,10 @@ impl<C: ColorModel> LightSet<C> {
     /// turns, or changes what it emits. No id changes, and no other source is touched.
     ///
     /// Lights come and go as others are switched on and off: sources that are off are the room for
-    /// those to come. `crates/lights/examples/moving_lights.rs` moves a lamp, and adds and removes
+    /// those to come. The example [`moving_lights`][1] moves a lamp, and adds and removes
     /// others.
+    ///
+    /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/moving_lights.rs
     ///
     /// Costs what the construction of the one source costs. A sky with the
     /// [`map`](crate::EnvironmentMap) that it had, lat-long or equal-area, keeps its tables, so

@@ -23,7 +23,9 @@ use light_bounds::{LightExtent, LightSampleContext};
 /// A clone shares the light. With the feature `serde`, an own light is refused by the serializer
 /// with an error: nothing says what it consists of.
 ///
-/// `crates/lights/examples/own_light.rs` is a lantern among lamps.
+/// The example [`own_light`][1] is a lantern among lamps.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/own_light.rs
 #[derive(Clone)]
 pub enum OwnLight<C: ColorModel> {
     /// No ray finds it: the light comes from one point or one direction, or from a surface that is

@@ -8,7 +8,9 @@ use crate::pdf_coverage::PdfCoverage;
 use light_bounds::{EmissionLobe, LightBounds, LightExtent, LightSampleContext};
 
 /// A point light: kinds differ only in the intensity by direction. Every `PointSource` is a
-/// [`Light`]. `crates/lights/examples/own_light.rs` puts one into a set, among its lamps.
+/// [`Light`]. The example [`own_light`][1] puts one into a set, among its lamps.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/own_light.rs
 ///
 /// Directions are unit vectors in scene space, away from the light.
 pub trait PointSource {

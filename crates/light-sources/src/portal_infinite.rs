@@ -38,9 +38,12 @@ pub struct PortalInfiniteLightDesc {
 
 /// An environment map that is visible through one rectangle only, such as a window.
 ///
-/// The picture is resampled once into a square in which the portal, seen from anywhere, is a
-/// rectangle with sides along the axes; a point then samples only the part of the sky that it
-/// sees.
+/// The picture is resampled into a square in which the portal, seen from anywhere, is a rectangle
+/// with sides along the axes; a point then samples only the part of the sky that it sees. Unlike an
+/// [`ImageInfiniteLight`](crate::ImageInfiniteLight), which samples the texels of its picture as
+/// they are, this light has the texels of its [own map](Self::rectified): a sun of one texel is
+/// spread over its neighbours there. A lat-long picture becomes an
+/// [equal-area one](EnvironmentMap::into_equal_area) first.
 ///
 /// # Source
 /// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not

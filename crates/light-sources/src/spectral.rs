@@ -10,7 +10,9 @@ use crate::spectral_emission::SpectralEmission;
 
 /// The spectral colour model, with `N` sampled wavelengths per query.
 ///
-/// `crates/lights/examples/spectral.rs` makes a picture with it.
+/// The example [`spectral`][1] makes a picture with it.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/spectral.rs
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spectral<const N: usize>;
 

@@ -1,8 +1,10 @@
 //! Direct light by two strategies, weighted against each other: sample a light, or follow the BSDF
 //! and ask with which probability light sampling would have found what the ray hits.
 //!
-//! `cargo run --release -p lights --example mis` prints the mean and the deviation of one sample,
-//! on a matt floor under a large panel, a lamp and a sky, beside those of light samples alone.
+//! `cargo run --release -p lights --example mis` writes `out/mis.png`: a section of the room below
+//! a large panel, with a lamp and a sky, where each pixel is a matt surface that faces up; its left
+//! half by light samples alone, its right half by both. It prints the mean and the deviation of one
+//! sample at some heights.
 
 use core::error::Error;
 use core::f32::consts::FRAC_1_PI;
@@ -12,10 +14,12 @@ use lights::glam::{Vec2, Vec3};
 use lights::math::mis::balance;
 use lights::math::warp::cosine_hemisphere as bsdf;
 use lights::math::{Frame, fraction};
+use lights::media::LatinHypercube;
 use lights::samplers::{BvhLightSampler, LightSampler};
 use lights::sources::shape::{Shape, Triangle};
 use lights::sources::*;
 
+mod picture;
 type Result<T> = core::result::Result<T, Box<dyn Error>>;
 
 /// What an estimator is given: the lights, and where rays hit them.
@@ -32,6 +36,17 @@ struct Uniforms {
     choice: u64,
     light: Vec2,
     bsdf: Vec2,
+}
+
+impl From<[u64; 5]> for Uniforms {
+    fn from([choice, a, b, c, d]: [u64; 5]) -> Self {
+        let pair = |x, y| Vec2::new(fraction::to_f32(x), fraction::to_f32(y));
+        Self {
+            choice,
+            light: pair(a, b),
+            bsdf: pair(c, d),
+        }
+    }
 }
 
 /// The value of the BSDF: a matt floor.
@@ -148,18 +163,20 @@ fn uniforms(i: u32) -> Uniforms {
     }
 }
 
-/// Mean and deviation at a place of the floor: by light samples alone, then by both.
+/// An estimate for a surface at `p` that faces up, by a light sample alone.
+fn light_alone(scene: &Scene, p: Vec3, u: &Uniforms) -> Vec3 {
+    by_light(scene, p, Vec3::Y, u, |_, _| 1.0).unwrap_or_default()
+}
+
+/// The same by both, weighted against each other.
+fn both(scene: &Scene, p: Vec3, u: &Uniforms) -> Vec3 {
+    let light = by_light(scene, p, Vec3::Y, u, balance).unwrap_or_default();
+    light + by_bsdf(scene, p, Vec3::Y, u, balance)
+}
+
+/// Mean and deviation at a place: by light samples alone, then by both.
 fn estimates(scene: &Scene, p: Vec3, count: u32) -> [(f64, f64); 2] {
-    let light = |i| by_light(scene, p, Vec3::Y, &uniforms(i), |_, _| 1.0).unwrap_or_default();
-    let both = |i| {
-        let u = uniforms(i);
-        let light = by_light(scene, p, Vec3::Y, &u, balance).unwrap_or_default();
-        light + by_bsdf(scene, p, Vec3::Y, &u, balance)
-    };
-    [
-        statistics((0..count).map(light)),
-        statistics((0..count).map(both)),
-    ]
+    [light_alone, both].map(|by| statistics((0..count).map(|i| by(scene, p, &uniforms(i)))))
 }
 
 fn main() -> Result<()> {
@@ -176,8 +193,20 @@ fn main() -> Result<()> {
             both.0, both.1
         );
     }
-    Ok(())
+    picture::save("mis", [320, 160], |x, y| {
+        let p = Vec3::new(x as f32 - 159.5, 159.5 - y as f32, 0.0) / 160.0;
+        let by = if x < 160 { light_alone } else { both };
+        let numbers = LatinHypercube::new(SAMPLES, 320 * y + x);
+        let one = |i| by(&scene, p, &numbers.point(i).into());
+        (0..SAMPLES).map(one).sum::<Vec3>() / (SAMPLES as f32 / EXPOSURE)
+    })
 }
+
+/// The light that is white in the picture is 1 over this.
+const EXPOSURE: f32 = 0.7;
+
+/// Estimates a pixel.
+const SAMPLES: u32 = 8;
 
 #[cfg(test)]
 mod tests {

@@ -173,7 +173,8 @@ mod tests {
         Ok(())
     }
 
-    /// Emitted rays carry the power of both kinds, which splits by the sign of z in halves.
+    /// Emitted rays carry the power of both kinds, which splits by the sign of z in halves; and
+    /// each light states its power.
     #[test]
     fn rays_carry_all_power() -> Result<()> {
         let (lights, count) = (lights()?, 1 << 16);
@@ -192,6 +193,9 @@ mod tests {
         let lanterns = MEAN * LANTERNS.len() as f32;
         let lamps = LAMP * (0.1 * (lights.len() - LANTERNS.len()) as f32);
         let half = (lanterns + lamps) * (2.0 * PI);
+        let stated = lights.iter().map(|(_, light)| light.phi(&()));
+        let off = (stated.sum::<Vec3>() / (2.0 * half) - 1.0).abs();
+        assert!(off.max_element() < 1e-5, "{off} of twice {half}");
         for found in halves {
             let off = (found / half - 1.0).abs().max_element();
             assert!(off < 0.01, "{found}, not {half}");

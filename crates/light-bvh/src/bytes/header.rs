@@ -119,7 +119,9 @@ impl fmt::Display for TreeBytesError {
                 write!(f, "the tree has version {found}, expected {VERSION}")
             }
             Self::Length { expected } => write!(f, "expected {expected} bytes of a tree"),
-            Self::Alignment => f.write_str("the bytes do not begin at a multiple of 32"),
+            Self::Alignment => f.write_str(
+                "the bytes do not begin at a multiple of 32; LightBvh::from_bytes copies any",
+            ),
             Self::Links => f.write_str("the nodes are no tree of the lights"),
         }
     }

@@ -6,7 +6,9 @@ use crate::query::bvh_ref::LightBvhRef;
 ///
 /// 32 bytes of head, the nodes, the entries of [`LightBvhRef::order`] and [`LightBvhRef::slots`],
 /// and the groups of the lights if they have some, as little-endian machines hold them. Nothing is
-/// copied. `crates/lights/examples/tree_in_a_file.rs` writes a tree and reads it.
+/// copied. The example [`tree_in_a_file`][1] writes a tree and reads it.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/tree_in_a_file.rs
 #[derive(Clone, Copy, Debug)]
 pub struct StoredLightBvh<'a> {
     view: LightBvhRef<'a>,
@@ -15,7 +17,8 @@ pub struct StoredLightBvh<'a> {
 
 impl<'a> StoredLightBvh<'a> {
     /// The tree in `bytes`, which [`LightBvh::to_bytes`](crate::LightBvh::to_bytes) made and which
-    /// begin at a multiple of 32.
+    /// begin at a multiple of 32. Those of a mapped file do, those of a `Vec<u8>` need not:
+    /// [`LightBvh::from_bytes`](crate::LightBvh::from_bytes) takes bytes from anywhere, and copies.
     ///
     /// # Errors
     /// The first thing that is wrong: see [`TreeBytesError`]. Looks at every node and light once;

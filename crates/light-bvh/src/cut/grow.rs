@@ -32,7 +32,7 @@ impl<'a> LightBvhRef<'a> {
 }
 
 impl<'a, R: KeptReceiver> LightCut<'a, R> {
-    /// Makes this the [cut](LightBvhRef::cut) through `tree` for `receiver`, where it lies: it is
+    /// Makes this the [cut](LightBvhRef::cut) through `tree` for `receiver`, in place: its 2 KB are
     /// not moved.
     #[inline]
     pub fn set<A>(&mut self, tree: &LightBvhRef<'a>, receiver: A, detail: CutDetail)

@@ -7,6 +7,7 @@
 //! before they go through any other map.
 
 pub mod bilinear;
+#[doc(alias = "uniform_disk")]
 pub mod concentric_disk;
 pub mod cosine_hemisphere;
 mod equiangular;

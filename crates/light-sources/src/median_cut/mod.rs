@@ -35,7 +35,9 @@ use region::texel_solid_angle;
 /// biased: each concentrates a region in one direction.
 ///
 /// Building takes time and memory in proportion to the texels: 8 bytes each with
-/// [`RegionSums::Table`]. `crates/lights/examples/median_cut.rs` draws regions and lights.
+/// [`RegionSums::Table`]. The example [`median_cut`][1] draws regions and lights.
+///
+/// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/median_cut.rs
 ///
 /// # Source
 /// `[Debevec2005]`; regions are cut by shares instead of halves, so that any number of lights is of
