@@ -63,7 +63,7 @@ fn direct(s: &Scene, p: Vec3, n: Vec3, albedo: f32, u: [u64; 5]) -> Vec3 {
 
 const CENTER: Vec3 = Vec3::new(0.0, 1.2, 0.0);
 const LAMP: Vec3 = Vec3::new(1.5, 0.8, -0.8);
-const LAMP_INTENSITY: f32 = 0.3;
+const LAMP_INTENSITY: f32 = 2.0;
 const BALL: f32 = 3.0;
 const SKY: f32 = 0.1;
 
@@ -127,13 +127,16 @@ fn main() -> Result<()> {
 mod tests {
     use super::*;
 
-    /// A ball of radius r at distance d, above the horizon, gives `pi L (r / d)^2 cos` and hides
-    /// that much of the sky.
+    /// A ball of radius r at distance d, above the horizon, gives `pi L (r / d)^2 cos`, hides that
+    /// much of the sky, and may hide the lamp.
     fn exact(radius: f32, p: Vec3) -> f32 {
         let to_ball = CENTER - p;
         let share = (radius / to_ball.length()).powi(2) * to_ball.normalize().y;
         let to_lamp = LAMP - p;
+        let along = to_ball.dot(to_lamp) / to_lamp.length_squared();
+        let is_hidden = (along * to_lamp - to_ball).length() < radius;
         let lamp = LAMP_INTENSITY * to_lamp.normalize().y / to_lamp.length_squared();
+        let lamp = if is_hidden { 0.0 } else { lamp };
         0.8 * (BALL * share + SKY * (1.0 - share) + lamp * FRAC_1_PI)
     }
 
@@ -141,7 +144,9 @@ mod tests {
     fn means_are_those_of_closed_forms() -> Result<()> {
         for radius in [0.1, 0.5, 1.1] {
             let scene = Scene::new(radius)?;
-            for p in [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 0.0, -2.0)] {
+            // The lamp is behind the largest ball for the last of these points.
+            let last = Vec3::new(-0.6, 0.0, 0.3);
+            for p in [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 0.0, -2.0), last] {
                 let (mean, exact) = (scene.mean(p, 1 << 14, 7).x, exact(radius, p));
                 let off = (mean / exact - 1.0).abs();
                 assert!(off < 0.01, "{mean}, not {exact}: radius {radius} at {p}");
