@@ -17,4 +17,6 @@ pub(super) struct KnownMaterial {
     pub(super) uv_sets: UvSets,
     /// Whether it has a normal map.
     pub(super) uses_tangents: bool,
+    /// Whether it may let rays pass by its alpha.
+    pub(super) uses_alpha: bool,
 }

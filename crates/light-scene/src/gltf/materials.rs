@@ -28,6 +28,7 @@ impl<'a> Reader<'a> {
                 id: *self.materials.default.get_or_insert_with(make),
                 uv_sets: UvSets::default(),
                 uses_tangents: false,
+                uses_alpha: false,
             });
         };
         let (index, item) = reference.target("materials")?;
@@ -36,7 +37,10 @@ impl<'a> Reader<'a> {
         }
         let mut uv_sets = UvSets::default();
         let material = self.make_material(&item, &mut uv_sets)?;
+        let mode = item.get("alphaMode")?;
+        let mode = mode.map(|mode| mode.text()).transpose()?;
         let made = KnownMaterial {
+            uses_alpha: mode.is_some_and(|mode| mode != "OPAQUE"),
             uses_tangents: material.normal_map.is_some(),
             id: self.scene.add_material(material),
             uv_sets,

@@ -88,7 +88,7 @@ impl<'a> Reader<'a> {
             }
         }
         if let Some(colors) = attributes.get("COLOR_0")? {
-            let all = self.vertex_colors(&colors)?;
+            let all = self.vertex_colors(&colors, material.uses_alpha)?;
             fits(&colors, all.len())?;
             mesh.colors = Some(all);
         }
@@ -114,8 +114,13 @@ impl<'a> Reader<'a> {
         Ok(Some(mesh))
     }
 
-    /// Colours of vertices, without their opacity.
-    fn vertex_colors(&mut self, colors: &Item<'a>) -> Result<Vec<Vec3>, Diagnostic> {
+    /// Colours of vertices, without their opacity, which a warning names if the material
+    /// `uses_alpha`.
+    fn vertex_colors(
+        &mut self,
+        colors: &Item<'a>,
+        uses_alpha: bool,
+    ) -> Result<Vec<Vec3>, Diagnostic> {
         let accessor = self.accessor(colors)?;
         let unit = |color: Vec3| color.clamp(Vec3::ZERO, Vec3::ONE);
         if accessor.width() == 3 {
@@ -123,7 +128,7 @@ impl<'a> Reader<'a> {
             return Ok(all.into_iter().map(|color| unit(color.into())).collect());
         }
         let all = accessor.floats::<4>()?;
-        if all.iter().any(|color| color[3] < 1.0) {
+        if uses_alpha && all.iter().any(|color| color[3] < 1.0) {
             self.warn(colors, "has opacities that were ignored");
         }
         let color = |[r, g, b, _]: [f32; 4]| unit(Vec3::new(r, g, b));

@@ -170,7 +170,8 @@ fn emission_comes_first_among_texture_coordinates() {
 #[test]
 fn normal_maps_bring_tangents_and_colors_come_with_vertices() {
     let rest = format!(
-        r#""materials": [{{"normalTexture": {{"index": 1, "scale": 0.5}}}}], {}"#,
+        r#""materials": [{{"alphaMode": "BLEND",
+        "normalTexture": {{"index": 1, "scale": 0.5}}}}], {}"#,
         textures()
     );
     let tangents = [0.6, 0.8, 0.0, -1.0].repeat(4);
@@ -208,6 +209,7 @@ fn normal_maps_bring_tangents_and_colors_come_with_vertices() {
     assert_eq!(plain.meshes[0].tangents, None, "nothing needs them");
     let warned = messages(&plain);
     assert!(!warned.iter().any(|w| w.contains("TANGENT")), "{warned:?}");
+    assert!(!warned.iter().any(|w| w.contains("COLOR_0")), "{warned:?}");
 }
 
 #[test]
