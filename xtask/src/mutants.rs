@@ -165,8 +165,8 @@ fn run_crate(tool: &Path, name: &str, choice: &Choice) -> Result<Tally, String> 
             first.args(["--file", &path]);
         }
     }
-    // Unit tests are one program, built in a fraction of the time; the others only have to find
-    // what these miss.
+    // Unit tests are one program, built in a fraction of the time, for which no other test is
+    // built; the others only have to find what these miss.
     let units = run_tests(first, name, names, &folder.join("unit"), &["--lib"])?;
     let mut tally = Tally {
         known,
@@ -217,8 +217,8 @@ fn run_tests(
         .args(["--package", package, "--no-times", "--colors", "never"])
         .arg("--output")
         .arg(folder)
-        .arg("--")
-        .args(tests)
+        // Of all that cargo does: what follows `--` would choose what runs, but not what is built.
+        .args(tests.iter().map(|test| format!("--cargo-arg={test}")))
         .status()
         .map_err(|e| format!("cargo-mutants: {e}"))?;
     // 0: all caught, 2: some missed, 3: some ran out of time; anything else is no result.

@@ -1,7 +1,7 @@
 //! Tables of cells: cells that do not fit each other, and arrays that are no table, are refused.
 #![cfg(feature = "alloc")]
 
-use light_bvh::light_bounds::{LightSampleContext, glam::Vec3};
+use light_bvh::light_bounds::{LightId, LightSampleContext, glam::Vec3};
 use light_bvh::visibility::{
     CellEntry, CellKey, CellTable, CellTableError, CellTableParts, CellTableRef, CoarseCell,
     CopiedNode, FillOptions, FineCell,
@@ -94,14 +94,51 @@ impl Arrays {
     fn check(&self, rooms: &Rooms, damage: impl FnOnce(&mut Self)) -> Result<(), CellTableError> {
         let mut damaged = self.clone();
         damage(&mut damaged);
+        damaged.table(rooms).map(|_| ())
+    }
+
+    fn table(&self, rooms: &Rooms) -> Result<CellTableRef<'_>, CellTableError> {
         let parts = CellTableParts {
-            keys: &damaged.keys,
-            entries: &damaged.entries,
-            starts: &damaged.starts,
-            shapes: &damaged.shapes,
-            factors: &damaged.factors,
+            keys: &self.keys,
+            entries: &self.entries,
+            starts: &self.starts,
+            shapes: &self.shapes,
+            factors: &self.factors,
         };
-        CellTableRef::new(&rooms.tree.view(), parts).map(|_| ())
+        CellTableRef::new(&rooms.tree.view(), parts)
+    }
+
+    /// The arrays with each bit changed once, but for those of keys.
+    fn each_damage(&self) -> impl Iterator<Item = Self> + '_ {
+        let bits = |count: usize, width: usize| {
+            (0..count).flat_map(move |at| (0..width).map(move |bit| (at, bit)))
+        };
+        let of = |damage: &dyn Fn(&mut Self)| {
+            let mut damaged = self.clone();
+            damage(&mut damaged);
+            damaged
+        };
+        let entries = bits(self.entries.len(), 96).map(move |(at, bit)| {
+            of(&|t| {
+                let CellEntry {
+                    shape,
+                    factors,
+                    nodes,
+                } = &mut t.entries[at];
+                *[shape, factors, nodes][bit / 32] ^= 1 << (bit % 32);
+            })
+        });
+        let starts =
+            bits(self.starts.len(), 32).map(move |(at, bit)| of(&|t| t.starts[at] ^= 1 << bit));
+        let shapes = bits(self.shapes.len(), 32).map(move |(at, bit)| {
+            of(&|t| {
+                let CopiedNode { opened, first } = &mut t.shapes[at];
+                *[opened, first][bit / 16] ^= 1 << (bit % 16);
+            })
+        });
+        let factors = bits(16 * self.factors.len(), 8)
+            .map(move |(at, bit)| of(&|t| t.factors[at / 16][at % 16] ^= 1 << bit));
+        entries.chain(starts).chain(shapes).chain(factors)
     }
 }
 
@@ -112,6 +149,9 @@ fn arrays_that_are_no_table_are_refused() {
     let table = CellTable::new(&coarse, &fine).expect("a table");
     let whole = Arrays::of(table.view().parts());
     assert_eq!(whole.check(&rooms, |_| ()), Ok(()), "a table");
+    let cells = 32 * whole.keys.len() + 4;
+    let nodes = 4 * whole.shapes.len() + 16 * whole.factors.len();
+    assert_eq!(table.bytes(), cells + nodes, "bytes of all arrays");
     let refused = |error, damage: &dyn Fn(&mut Arrays)| {
         assert_eq!(whole.check(&rooms, damage), Err(error), "damaged");
     };
@@ -140,5 +180,48 @@ fn arrays_that_are_no_table_are_refused() {
         whole.check(&other, |_| ()),
         Err(CellTableError::Links),
         "another tree"
+    );
+}
+
+/// What passes, for a bit of a factor or of a link makes another table, loses no light, and its
+/// samples have the probabilities of queries.
+#[test]
+fn tables_with_a_changed_bit_are_refused_or_obey_the_laws() {
+    let rooms = Rooms::new(60, true);
+    let (mut coarse, mut fine) = cells(&rooms);
+    coarse.truncate(4);
+    fine.retain(|cell| coarse.iter().any(|of| of.key() == cell.key().coarse()));
+    fine.truncate(6);
+    let table = CellTable::new(&coarse, &fine).expect("a table");
+    let whole = Arrays::of(table.view().parts());
+    let ctx = Rooms::floor(Vec3::new(0.4, 0.3, 0.0));
+    let view = rooms.tree.view();
+    let reached = |pmf: &dyn Fn(LightId) -> f32| -> Vec<bool> {
+        (0..60).map(|id| pmf(LightId(id)) > 0.0).collect()
+    };
+    let expected = reached(&|light| view.pmf(&ctx, light));
+    let (mut passed, mut refused) = (0, 0);
+    for damaged in whole.each_damage() {
+        let Ok(table) = damaged.table(&rooms) else {
+            refused += 1;
+            continue;
+        };
+        passed += 1;
+        let key = whole.keys[passed % whole.keys.len()];
+        let within = view.in_cell(table.factors(key));
+        assert_eq!(
+            reached(&|light| within.pmf(&ctx, light)),
+            expected,
+            "{key:?}"
+        );
+        for u in [0, 0x5b3a_91c7 << 32, u64::MAX] {
+            if let Some(chosen) = within.sample(&ctx, u) {
+                assert_eq!(chosen.pmf, within.pmf(&ctx, chosen.light), "{key:?}");
+            }
+        }
+    }
+    assert!(
+        passed > 100 && refused > 1000,
+        "{passed} pass, {refused} do not"
     );
 }

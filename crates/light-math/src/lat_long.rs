@@ -20,8 +20,8 @@ pub fn direction(uv: Vec2) -> Vec3 {
     Vec3::new(sin_t * sin_p, cos_t, -sin_t * cos_p)
 }
 
-/// The point `(u, v)` of the direction `d`, of any length but zero; `u` in `[0, 1)`, 0 at the
-/// poles.
+/// The point `(u, v)` of the direction `d`, of a length from 1e-15 to 1e15; `u` in `[0, 1)`, 0 at
+/// the poles.
 #[inline]
 #[must_use]
 pub fn uv(d: Vec3) -> Vec2 {
@@ -95,6 +95,31 @@ mod tests {
             (sum / f64::from(n) / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-5,
             "4 pi"
         );
+    }
+
+    /// The formula of [`direction`] goes on beyond the poles and the ends of rows.
+    #[test]
+    fn texels_outside_are_those_of_their_directions() {
+        for size in [[2, 1], [4, 2], [6, 3], [10, 7]] {
+            let extent = Vec2::new(size[0] as f32, size[1] as f32);
+            let (columns, rows) = (size[0] as i32, size[1] as i32);
+            for (x, y) in (-1..=columns).flat_map(|x| (-1..=rows).map(move |y| (x, y))) {
+                let center = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / extent;
+                let expected = uv(direction(center)) * extent;
+                let (i, j) = wrap_texel(x, y, size);
+                let found = Vec2::new(i as f32 + 0.5, j as f32 + 0.5);
+                assert!(found.distance(expected) < 1e-4, "{size:?}: {x}, {y}");
+            }
+        }
+    }
+
+    /// Squares of these lengths neither overflow nor vanish.
+    #[test]
+    fn lengths_do_not_count() {
+        let d = Vec3::new(0.4, 0.5, -0.6);
+        for length in [1e-15, 1e15] {
+            assert!(uv(d * length).distance(uv(d)) < 1e-6, "{length}");
+        }
     }
 
     proptest! {

@@ -1,7 +1,8 @@
 //! The default hierarchy with factors of visibility obeys the laws of light samplers, whatever the
 //! factors are.
 
-use light_bvh::visibility::{CellFactors, CopiedNode, encode_factor};
+use light_bvh::LightBvhRef;
+use light_bvh::visibility::{CellFactors, CopiedNode, MAX_COPIED_NODES, encode_factor};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{
@@ -13,14 +14,25 @@ use light_samplers::{
 light_testkit::sampler_laws! {
     /// Factors from 2^-9 to 64 on one side of a plane, and none on the other.
     mod half {
-        |set| InCells::new(&set.extents(), |child| encode_factor([0.002, 64.0, 0.3, 1.0, 2.5][child % 5]))
+        |set| InCells::new(&set.extents(), 1, |child| encode_factor(UNLIKE[child % 5]))
     }
 
     /// Factors that are all alike change nothing.
     mod alike {
-        |set| InCells::new(&set.extents(), |_| encode_factor(0.25))
+        |set| InCells::new(&set.extents(), 1, |_| encode_factor(0.25))
+    }
+
+    /// Factors of as many nodes as a cell copies.
+    mod deep {
+        |set| {
+            let code = |child: usize| encode_factor(UNLIKE[child % 5]);
+            InCells::new(&set.extents(), MAX_COPIED_NODES, code)
+        }
     }
 }
+
+/// Factors from the least to the largest.
+const UNLIKE: [f32; 5] = [0.002, 64.0, 0.3, 1.0, 2.5];
 
 /// A sampler and the cells of its lights.
 struct InCells {
@@ -36,12 +48,13 @@ struct HalfSpace {
 }
 
 impl InCells {
-    fn new(lights: &[LightExtent], code: impl Fn(usize) -> u8) -> Self {
+    /// A cell that copies so many nodes, or all, with factors by the place of a child in its node.
+    fn new(lights: &[LightExtent], nodes: usize, code: impl Fn(usize) -> u8) -> Self {
         let lights = BvhLightSampler::new(lights).expect("valid bounds");
-        let nodes = usize::from(!lights.tree().view().is_empty());
+        let shape = top(&lights.tree().view(), nodes);
         let cells = HalfSpace {
-            shape: vec![CopiedNode::default(); nodes],
-            factors: vec![core::array::from_fn(code); nodes],
+            factors: vec![core::array::from_fn(code); shape.len()],
+            shape,
             tree: lights.clone(),
         };
         Self { lights, cells }
@@ -82,6 +95,22 @@ impl LightSampler for InCells {
     }
 }
 
+/// The copy of the first nodes of a tree, level by level.
+fn top(tree: &LightBvhRef<'_>, nodes: usize) -> Vec<CopiedNode> {
+    let mut indices = vec![0; usize::from(!tree.is_empty())];
+    let mut shape = Vec::new();
+    while let Some(&index) = indices.get(shape.len()) {
+        let (node, first) = (tree.nodes()[index as usize], indices.len());
+        let below = (0..u32::from(node.inner)).take(nodes - first);
+        indices.extend(below.clone().map(|child| node.child_base + child));
+        shape.push(CopiedNode {
+            opened: below.fold(0, |opened, child| opened | 1 << child),
+            first: u16::try_from(first).expect("few nodes"),
+        });
+    }
+    shape
+}
+
 /// Lamps in a row above the x axis, on both sides of the origin.
 fn row() -> Vec<LightExtent> {
     let lamp = |x: i16| LightBounds {
@@ -97,7 +126,7 @@ fn row() -> Vec<LightExtent> {
 
 #[test]
 fn where_visibility_is_known_as_many_choices_are_made_as_were_asked_for_there() {
-    let sampler = InCells::new(&row(), |_| encode_factor(0.5));
+    let sampler = InCells::new(&row(), 1, |_| encode_factor(0.5));
     let count = |x: f32| {
         let ctx = LightSampleContext::medium(Vec3::X * x);
         let choices = sampler.sampler().choices(&ctx, 1, 4);
@@ -113,7 +142,7 @@ fn where_visibility_is_known_as_many_choices_are_made_as_were_asked_for_there() 
 fn a_factor_of_a_child_makes_its_lights_rarer() {
     let lamps = row();
     let plain = BvhLightSampler::new(&lamps).expect("valid bounds");
-    let sampler = InCells::new(&lamps, |child| encode_factor([0.002, 1.0][child % 2]));
+    let sampler = InCells::new(&lamps, 1, |child| encode_factor([0.002, 1.0][child % 2]));
     let ctx = LightSampleContext::medium(Vec3::X);
     let changes = (0..40).map(LightId).filter_map(|light| {
         let (before, after) = (plain.pmf(&ctx, light), sampler.pmf(&ctx, light));

@@ -153,4 +153,27 @@ mod tests {
         let expected = DVec3::new(0.5, 0.5, 0.5) / 8.0;
         assert!(corner.distance(expected) < 1e-15, "{corner}");
     }
+
+    /// Of single texels, against the mean of even places.
+    #[test]
+    fn directions_are_those_of_each_texel() {
+        let size = [8, 6];
+        let grid = LatLongGrid::new(size);
+        let columns = grid.columns();
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let of_row = |row| match row == y {
+                    true => (columns[x as usize], 1.0),
+                    false => (DVec2::ZERO, 0.0),
+                };
+                let found = grid.direction_sum((0..size[1]).map(of_row));
+                let place = |i: u16| Vec2::new(f32::from(i % 32), f32::from(i / 32)) + 0.5;
+                let places = (0..1024).map(|i| grid.direction([x, y], place(i) / 32.0).as_dvec3());
+                let mean = places.sum::<DVec3>() / 1024.0;
+                let expected = mean * grid.row_share(y) / f64::from(size[0]);
+                let error = found.distance(expected) / expected.length();
+                assert!(error < 1e-3, "{x}, {y}: {found}, {expected}");
+            }
+        }
+    }
 }

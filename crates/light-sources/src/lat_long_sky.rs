@@ -207,3 +207,67 @@ impl RowMoments {
 fn weight(texel: Vec3, threshold: f32) -> f32 {
     (texel.element_sum() - threshold).max(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::channels::Channels;
+    use core::f64::consts::PI;
+
+    const SIZE: [u32; 2] = [5, 3];
+
+    /// Two thirds of the texels are above the mean or far below it, one is black.
+    fn image() -> Image {
+        let texels: Vec<f32> = (0..15u8).map(|i| f32::from(i * 7 % 15)).collect();
+        Image::from_f32(SIZE, Channels::Gray, texels).expect("an image")
+    }
+
+    const COVERAGES: [PdfCoverage; 2] = [PdfCoverage::Complete, PdfCoverage::Incomplete];
+
+    #[test]
+    fn densities_integrate_to_one_and_follow_texels() {
+        let image = image();
+        let (sky, means) = LatLongSky::new(&image);
+        let grid = LatLongGrid::new(SIZE);
+        for coverage in COVERAGES {
+            let threshold = match coverage {
+                PdfCoverage::Complete => 0.0,
+                PdfCoverage::Incomplete => means.average,
+            };
+            let (mut sum, mut ratios) = (0.0, Vec::new());
+            for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
+                let texel = image.texel(x, y);
+                let pdf = f64::from(sky.pdf(texel, coverage));
+                let above = f64::from((texel.x - threshold).max(0.0));
+                assert_eq!(pdf > 0.0, above > 0.0, "{x}, {y}");
+                sum += pdf * 4.0 * PI * grid.row_share(y) / f64::from(SIZE[0]);
+                ratios.extend((above > 0.0).then_some(pdf / above));
+            }
+            assert!((sum - 1.0).abs() < 1e-5, "{coverage:?}: {sum}");
+            let even = ratios.iter().all(|r| (r / ratios[0] - 1.0).abs() < 1e-5);
+            assert!(even, "{coverage:?}: {ratios:?}");
+        }
+    }
+
+    #[test]
+    fn samples_are_even_within_their_texel_and_answer_as_queries() {
+        let image = image();
+        let (sky, _) = LatLongSky::new(&image);
+        let transform = RigidTransform::default();
+        for coverage in COVERAGES {
+            let (mut places, n) = (Vec2::ZERO, 40u16);
+            for i in 0..n * n {
+                let u = (Vec2::new(f32::from(i % n), f32::from(i / n)) + 0.5) / f32::from(n);
+                let sample = sky.sample(&image, u, coverage, &transform).expect("light");
+                let [x, y] = image.texel_at(sample.uv);
+                assert_eq!(sample.texel, image.texel(x, y), "{u}");
+                assert_eq!(sample.pdf, sky.pdf(sample.texel, coverage), "{u}");
+                let extent = Vec2::new(SIZE[0] as f32, SIZE[1] as f32);
+                places += sample.uv * extent - Vec2::new(x as f32, y as f32);
+            }
+            let mean = places / f32::from(n * n);
+            // Along a row alone: the rows at the poles are narrower there.
+            assert!((mean.x - 0.5).abs() < 0.03, "{coverage:?}: {mean}");
+        }
+    }
+}

@@ -274,6 +274,8 @@ mod tests {
                 assert_eq!(again.seed(), cell.seed(), "{x}, {size}");
             }
         }
+        let sizes = [0.0, -0.0, -3.0, f32::NAN].map(|size| key(Vec3::ONE, Vec3::X, size).size());
+        assert_eq!(sizes, [sizes[0]; 4], "no size is the least");
     }
 
     /// The same whole numbers everywhere: a change moves every cell, and is value-breaking.

@@ -134,3 +134,6 @@ pub use options::FillOptions;
 pub use table::CellTable;
 pub use table_error::CellTableError;
 pub use table_ref::{CellEntry, CellTableParts, CellTableRef};
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

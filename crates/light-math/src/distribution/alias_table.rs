@@ -159,10 +159,14 @@ mod tests {
             .map(|i| ((i * 37 % 101) as f32 - 50.0).exp2())
             .collect();
         let falling: Vec<f32> = ramp.iter().rev().copied().collect();
+        // Its parts take more than 32 bits.
+        let mut dominant = vec![1.0; 70_000];
+        dominant[7] = 1e9;
         for weights in [
             &ramp[..],
             &wild[..],
             &falling[..],
+            &dominant[..],
             &[5.0],
             &[0.0, 0.0, 1.0, 0.0],
             &[f32::MAX, 1e-45],
@@ -252,5 +256,17 @@ mod tests {
             Err(TableError::Malformed),
             "stray alias"
         );
+        let bin = |own, alias, pmf| AliasBin { own, alias, pmf };
+        for (bins, what) in [
+            ([bin(1, 1, 1.0), bin(0, 0, 0.0)], "leads to nothing"),
+            ([bin(PARTS, 0, 1.0), bin(1, 0, 0.0)], "has nothing"),
+            ([bin(PARTS + 1, 0, 1.0), bin(0, 0, 0.0)], "too many parts"),
+            ([bin(PARTS, 0, 1.5), bin(0, 0, 0.0)], "too likely"),
+        ] {
+            let built = AliasTable::from_bins(bins);
+            assert_eq!(built, Err(TableError::Malformed), "{what}");
+        }
+        let good = [bin(PARTS, 0, 1.0), bin(0, 0, 0.0)];
+        assert!(AliasTable::from_bins(good).is_ok(), "one index of two");
     }
 }
