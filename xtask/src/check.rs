@@ -45,14 +45,14 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
 }
 
 /// The workspaces of their own, which cargo does not know from the root.
-const OTHER_WORKSPACES: [&str; 3] = ["embedded", "fuzz", "gpu/wgsl"];
+const OTHER_WORKSPACES: [&str; 4] = ["embedded", "fuzz", "gpu/ptx", "gpu/wgsl"];
 
 fn format() -> StepResult {
     passes(&["fmt", "--all", "--check"])?;
     let mut others = OTHER_WORKSPACES.iter();
     others.try_fold(Outcome::Passed, |_, folder| {
         let manifest = format!("{folder}/Cargo.toml");
-        passes(&["fmt", "--check", "--manifest-path", &manifest])
+        passes(&["fmt", "--all", "--check", "--manifest-path", &manifest])
     })
 }
 

@@ -118,6 +118,14 @@ impl Toolchain {
         command
     }
 
+    /// Its compiler.
+    #[must_use]
+    pub fn rustc(&self) -> Command {
+        let mut command = Command::new(self.folder.join("usr/bin/rustc"));
+        command.env("LD_LIBRARY_PATH", libraries(&self.folder));
+        command
+    }
+
     /// A build for `target` that makes the standard libraries it needs first: without alloc where
     /// none is promised.
     #[must_use]

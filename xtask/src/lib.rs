@@ -22,7 +22,9 @@ mod no_std;
 mod oldest;
 mod packages;
 mod programs;
+mod ptx;
 mod references;
+mod rust_gpu;
 mod steps;
 mod tools;
 
@@ -61,7 +63,8 @@ usage: cargo xtask [COMMAND]
   coverage [CRATE...]         which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
   gpu [QUERIES]               the shaders of light-gpu against the crates, on this machine's driver
-                              or on Mesa's from Debian (default: 2^20 queries a set)
+                              or on Mesa's from Debian (default: 2^20 queries a set); the CUDA
+                              kernels, assembled, and compared where there is a GPU
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                               break the core crates on purpose: does a test notice?
                               (default: 60 mutants a crate)
@@ -69,6 +72,9 @@ usage: cargo xtask [COMMAND]
                               compare their bits with the host's, or write embedded/README.md
   no-std                      prove that no crate needs std, nor alloc where it promises that
   oldest                      check the libraries with the oldest compiler that they promise
+  ptx                         make the CUDA kernels, gpu/ptx/kernels.ptx, again
+  rust-gpu [--write]          compare the places of the core that rust-gpu does not take with
+                              docs/rust-gpu.md, or write them there
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
                               take very many samples and compare each with its query
                               (default: 10^9, 10^8, seed 1)
@@ -108,7 +114,14 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
         ("coverage", rest) => one("coverage", || coverage::coverage(rest)),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
-        ("gpu", rest) => all(|steps| steps.run("shaders", || gpu::gpu(rest))),
+        ("gpu", rest) => all(|steps| {
+            steps.run("shaders", || gpu::gpu(rest));
+            ptx::add_steps(steps);
+        }),
+        ("ptx", []) => one("kernels", ptx::remake),
+        ("rust-gpu", rest) => one("places that rust-gpu does not take", || {
+            rust_gpu::rust_gpu(rest)
+        }),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("soak", rest) => one("soak", || programs::soak(rest)),

@@ -96,9 +96,13 @@ pub fn sqrt(x: f32) -> f32 {
     {
         f32::sqrt(x)
     }
-    #[cfg(all(feature = "libm", not(feature = "std")))]
+    #[cfg(all(feature = "libm", not(feature = "std"), not(target_arch = "nvptx64")))]
     {
         libm::sqrtf(x)
+    }
+    #[cfg(all(feature = "libm", not(feature = "std"), target_arch = "nvptx64"))]
+    {
+        core::f32::math::sqrt(x)
     }
     #[cfg(not(any(feature = "std", feature = "libm")))]
     {

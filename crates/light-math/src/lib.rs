@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+// A kernel is built by an unstable compiler in any case, and has an instruction for roots.
+#![cfg_attr(target_arch = "nvptx64", feature(core_float_math))]
 #![cfg_attr(
     not(feature = "alloc"),
     allow(

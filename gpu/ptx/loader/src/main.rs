@@ -1,0 +1,79 @@
+//! Runs the kernels where there is a GPU: `light-cuda-check [QUERIES]`.
+//!
+//! Every answer to so many queries (default: 2^20) is compared with the host's, bit for bit. Then
+//! it says how many samples a second the GPU, one core and all cores of the host take.
+
+mod gpu;
+mod host;
+mod work;
+
+use std::process::ExitCode;
+
+use light_sets::{BenchSet, SetKind};
+
+use gpu::Gpu;
+use work::Work;
+
+/// The exit status that says that there is no device.
+const NO_DEVICE: u8 = 77;
+
+/// Numbers of lights of the trees.
+const SIZES: [usize; 3] = [100, 10_000, 1_000_000];
+
+type Result<T> = core::result::Result<T, Box<dyn core::error::Error>>;
+
+fn main() -> ExitCode {
+    let count = match std::env::args().nth(1).map_or(Ok(1 << 20), |n| n.parse()) {
+        Ok(count) => count,
+        Err(_) => {
+            eprintln!("usage: light-cuda-check [QUERIES]");
+            return ExitCode::from(2);
+        }
+    };
+    let gpu = match Gpu::new() {
+        Ok(gpu) => gpu,
+        Err(why) => {
+            println!("{why}: not run");
+            return ExitCode::from(NO_DEVICE);
+        }
+    };
+    match check(&gpu, count) {
+        Ok(0) => {
+            println!("identical bits");
+            ExitCode::SUCCESS
+        }
+        Ok(unlike) => {
+            eprintln!("{unlike} answers have other bits than the host's");
+            ExitCode::FAILURE
+        }
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// How many answers have other bits than the host's.
+fn check(gpu: &Gpu, count: u32) -> Result<usize> {
+    println!("{count} queries on {}", gpu.name());
+    let mut unlike = gpu.unlike_codes(&work::codes(count))?;
+    unlike += gpu.unlike_arrivals(&work::lights(), &work::about_lights(count))?;
+    println!(
+        "| lights | kernel | GPU, M/s | one core, M/s | {} cores, M/s |",
+        host::cores()
+    );
+    println!("| ---: | --- | ---: | ---: | ---: |");
+    for size in SIZES {
+        let set = BenchSet::generate(SetKind::Uniform, size, 1);
+        let bvh = work::tree(&set)?;
+        let work = Work::new(&set, count);
+        for kernel in work::KERNELS {
+            unlike += gpu.unlike_choices(kernel, &bvh.view(), &work)?;
+            let [one, all] = [1, host::cores()].map(|n| host::rate(kernel, &bvh.view(), &work, n));
+            let rate = gpu.rate(kernel, &bvh.view(), &work)?;
+            let name = kernel.name;
+            println!("| {size} | {name} | {rate:.1} | {one:.3} | {all:.3} |");
+        }
+    }
+    Ok(unlike)
+}

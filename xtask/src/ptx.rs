@@ -1,0 +1,335 @@
+//! The kernels of `gpu/ptx`: `cargo xtask ptx` makes `kernels.ptx` again, `cargo xtask gpu` assembles
+//! it, and runs it where there is a GPU.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::debian::{Toolchain, libraries, unpacked};
+use crate::steps::{Outcome, StepResult, Steps, cargo, is_there, output, root};
+
+/// The workspace of the kernels.
+const WORKSPACE: &str = "gpu/ptx";
+
+/// The oldest architecture that the kernels run on.
+const TARGET_CPU: &str = "sm_75";
+
+/// Architectures that they are assembled for.
+const ARCHITECTURES: [&str; 2] = [TARGET_CPU, "sm_90"];
+
+/// The assembler: NVIDIA's wheel on PyPI.
+const ASSEMBLER: &str = "nvidia-cuda-nvcc-cu12==12.9.86";
+
+/// The exit status by which the loader says that there is no GPU.
+const NO_DEVICE: i32 = 77;
+
+/// Adds the checks as steps.
+pub fn add_steps(steps: &mut Steps) {
+    steps.run("kernels: rounded as on a CPU, and assembled", assemble);
+    steps.run("kernels: the bits of a GPU", compare);
+}
+
+/// Builds the kernels with Debian's toolchain.
+///
+/// # Errors
+/// When they do not build.
+pub fn remake() -> StepResult {
+    let tools = Toolchain::with_sources().and_then(|rust| Ok((linker(&rust)?, rust)));
+    let (linker, rust) = match tools {
+        Ok(tools) => tools,
+        Err(reason) => {
+            return Ok(Outcome::Skipped(format!(
+                "no toolchain from Debian: {reason}"
+            )));
+        }
+    };
+    let path = std::env::var("PATH").unwrap_or_default();
+    let programs = rust.folder().join("usr/bin");
+    let mut build = rust.cargo();
+    build
+        .args([
+            "build",
+            "--quiet",
+            "--release",
+            "-Zbuild-std=core",
+            "-p",
+            "light-ptx-kernels",
+        ])
+        .args(["--target", "nvptx64-nvidia-cuda", "--manifest-path"])
+        .arg(root().join(WORKSPACE).join("Cargo.toml"))
+        .env("CARGO_TARGET_DIR", root().join("target/ptx"))
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env(
+            "RUSTFLAGS",
+            format!("-Ctarget-cpu={TARGET_CPU} -Zunstable-options -Cpanic=immediate-abort"),
+        )
+        .env("LD_LIBRARY_PATH", linker.libraries)
+        .env(
+            "PATH",
+            format!("{}:{}:{path}", linker.folder.display(), programs.display()),
+        );
+    output(&mut build)?;
+    let made = root().join("target/ptx/nvptx64-nvidia-cuda/release/light_ptx_kernels.ptx");
+    let text = fs::read_to_string(&made).map_err(|e| format!("{}: {e}", made.display()))?;
+    rounded(&text)?;
+    fs::write(kernels(), text).map_err(|e| e.to_string())?;
+    Ok(Outcome::Passed)
+}
+
+fn kernels() -> PathBuf {
+    root().join(WORKSPACE).join("kernels.ptx")
+}
+
+/// The linker of LLVM's bitcode, by which the compiler makes PTX.
+struct Linker {
+    /// Where it is, with the tools that it starts.
+    folder: PathBuf,
+    /// Where the libraries of all of them are.
+    libraries: String,
+}
+
+/// Builds the linker from the compiler's sources, unless it is there.
+fn linker(rust: &Toolchain) -> Result<Linker, String> {
+    let version = output(rust.rustc().arg("-vV"))?;
+    let llvm = version
+        .lines()
+        .find_map(|line| line.strip_prefix("LLVM version: "));
+    let major = llvm.and_then(|version| version.split('.').next());
+    let major = major.ok_or("the compiler does not tell its version of LLVM")?;
+    let packages = [
+        format!("llvm-{major}"),
+        format!("llvm-{major}-linker-tools"),
+    ];
+    let llvm = unpacked("debian-llvm", &packages)?;
+    let folder = root().join("target/ptx-tools/bin");
+    let program = folder.join("llvm-bitcode-linker");
+    let libraries = format!("{}:{}", libraries(rust.folder()), libraries(&llvm));
+    if !program.is_file() {
+        let source = source_of_linker(rust)?;
+        let target = root().join("target/ptx-tools/target");
+        let mut build = rust.cargo();
+        build.args(["build", "--quiet", "--release", "--manifest-path"]);
+        build
+            .arg(source.join("Cargo.toml"))
+            .env("CARGO_TARGET_DIR", &target);
+        println!("    building the linker of bitcode");
+        output(&mut build)?;
+        fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
+        for tool in ["llvm-link", "opt", "llc"] {
+            let from = llvm.join(format!("usr/lib/llvm-{major}/bin/{tool}"));
+            fs::copy(&from, folder.join(tool)).map_err(|e| format!("{}: {e}", from.display()))?;
+        }
+        let built = target.join("release/llvm-bitcode-linker");
+        fs::copy(built, &program).map_err(|e| e.to_string())?;
+    }
+    Ok(Linker { folder, libraries })
+}
+
+/// A copy of the linker's sources that is a workspace of its own.
+fn source_of_linker(rust: &Toolchain) -> Result<PathBuf, String> {
+    let sources = rust.folder().join("usr/src");
+    let release = fs::read_dir(&sources).map_err(|e| format!("{}: {e}", sources.display()))?;
+    let release = release
+        .flatten()
+        .map(|entry| entry.path().join("src/tools/llvm-bitcode-linker"));
+    let from = release.into_iter().find(|path| path.is_dir());
+    let from = from.ok_or("Debian's sources have no llvm-bitcode-linker")?;
+    let to = root().join("target/ptx-tools/source");
+    output(Command::new("cp").arg("-rT").args([&from, &to]))?;
+    let manifest = to.join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).map_err(|e| e.to_string())?;
+    fs::write(&manifest, text + "\n[workspace]\n").map_err(|e| e.to_string())?;
+    Ok(to)
+}
+
+/// Assembles the kernels.
+fn assemble() -> StepResult {
+    let text = fs::read_to_string(kernels()).map_err(|e| e.to_string())?;
+    rounded(&text)?;
+    let assembler = match assembler() {
+        Ok(assembler) => assembler,
+        Err(reason) => return Ok(Outcome::Skipped(format!("no ptxas: {reason}"))),
+    };
+    for architecture in ARCHITECTURES {
+        let mut command = Command::new(&assembler);
+        command
+            .args(["-v", "-arch", architecture, "-o", "/dev/null"])
+            .arg(kernels());
+        let report = command.output().map_err(|e| e.to_string())?;
+        let report = String::from_utf8_lossy(&report.stderr).into_owned();
+        let used = usage(&report).map_err(|e| format!("{architecture}: {e}"))?;
+        for kernel in used {
+            println!(
+                "    {architecture} {}: {} registers, {} bytes of stack, no spills",
+                kernel.name, kernel.registers, kernel.stack
+            );
+        }
+    }
+    Ok(Outcome::Passed)
+}
+
+/// Compares all answers of a GPU with the host's.
+fn compare() -> StepResult {
+    let mut command = cargo(["run", "--quiet", "--release", "--manifest-path"]);
+    command
+        .arg(root().join(WORKSPACE).join("Cargo.toml"))
+        .args(["-p", "light-cuda-check"])
+        .env("CARGO_TARGET_DIR", root().join("target/cuda"));
+    match command.status().map_err(|e| e.to_string())?.code() {
+        Some(0) => Ok(Outcome::Passed),
+        Some(NO_DEVICE) => Ok(Outcome::Skipped("no GPU that runs CUDA".into())),
+        _ => Err("a GPU has other bits than the host".into()),
+    }
+}
+
+/// NVIDIA's assembler: the installed one, or the wheel, unpacked below `target`.
+fn assembler() -> Result<PathBuf, String> {
+    if is_there("ptxas") {
+        return Ok("ptxas".into());
+    }
+    let folder = root().join("target/ptxas");
+    let program = folder.join("nvidia/cuda_nvcc/bin/ptxas");
+    if !program.is_file() {
+        println!("    fetching {ASSEMBLER} from PyPI");
+        let mut pip = Command::new("python3");
+        pip.args(["-m", "pip", "install", "--quiet", "--no-deps", "--target"]);
+        output(pip.arg(&folder).arg(ASSEMBLER))
+            .map_err(|e| e.lines().last().unwrap_or_default().to_owned())?;
+    }
+    Ok(program)
+}
+
+/// What a kernel takes.
+#[derive(Debug, PartialEq)]
+struct Usage {
+    name: String,
+    registers: u32,
+    /// Bytes of a thread.
+    stack: u32,
+}
+
+/// What each kernel takes by the assembler's report.
+fn usage(report: &str) -> Result<Vec<Usage>, String> {
+    let mut kernels: Vec<Usage> = Vec::new();
+    for line in report.lines() {
+        if let Some((_, kernel)) = line.split_once("Compiling entry function '") {
+            kernels.push(Usage {
+                name: kernel.split('\'').next().unwrap_or_default().to_owned(),
+                registers: 0,
+                stack: 0,
+            });
+        }
+        let Some(kernel) = kernels.last_mut() else {
+            continue;
+        };
+        let number = |before: &str| {
+            let (head, _) = line.split_once(before)?;
+            head.split(' ').next_back()?.parse().ok()
+        };
+        for spilled in [" bytes spill stores", " bytes spill loads"] {
+            if number(spilled).is_some_and(|bytes: u32| bytes > 0) {
+                return Err(format!("{} spills registers: {}", kernel.name, line.trim()));
+            }
+        }
+        if let Some(registers) = number(" registers,") {
+            kernel.registers = registers;
+        }
+        kernel.stack = kernel.stack.max(number(" bytes stack frame").unwrap_or(0));
+    }
+    if kernels.iter().any(|kernel| kernel.registers == 0) || kernels.is_empty() {
+        let error = report.lines().find(|line| line.contains("error"));
+        return Err(error
+            .unwrap_or("ptxas does not report registers")
+            .to_owned());
+    }
+    Ok(kernels)
+}
+
+/// That every operation on floats rounds to the nearest, alone, and none is of 64 bits: an operation
+/// that says so is never fused with another.
+fn rounded(text: &str) -> Result<(), String> {
+    for (number, line) in (1..).zip(text.lines()) {
+        let Some(instruction) = line.split_whitespace().find(|word| !word.starts_with('@')) else {
+            continue;
+        };
+        let parts: Vec<&str> = instruction.split('.').collect();
+        let computes = ["add", "sub", "mul", "div", "sqrt", "rcp", "fma", "mad"];
+        let is_single = parts.contains(&"f32");
+        let is_right = match parts[0] {
+            _ if parts.contains(&"f64") || parts.contains(&"ftz") || parts.contains(&"approx") => {
+                false
+            }
+            "fma" => false,
+            "mad" => !is_single,
+            name if computes.contains(&name) && is_single => parts.contains(&"rn"),
+            _ => true,
+        };
+        if !is_right {
+            return Err(format!(
+                "kernels.ptx:{number}: not rounded as on a CPU: {}",
+                line.trim()
+            ));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operations_say_how_they_round() {
+        let right = "\tadd.rn.f32 %f1, %f2, %f3;\n\t@%p1 mul.rn.f32 %f1, %f2, %f3;\n\
+                     \tmad.lo.s32 %r1, %r2, %r3, %r4;\n\tsqrt.rn.f32 %f1, %f2;\n";
+        assert_eq!(rounded(right), Ok(()), "as a CPU does it");
+        for wrong in [
+            "\tadd.f32 %f1, %f2, %f3;",
+            "\tfma.rn.f32 %f1, %f2, %f3, %f4;",
+            "\t@%p1 mad.f32 %f1, %f2, %f3, %f4;",
+            "\tsqrt.approx.f32 %f1, %f2;",
+            "\tmul.rn.ftz.f32 %f1, %f2, %f3;",
+            "\tadd.rn.f64 %fd1, %fd2, %fd3;",
+        ] {
+            let fault = rounded(&format!("{right}{wrong}")).expect_err(wrong);
+            assert!(fault.contains("kernels.ptx:5:"), "{fault}");
+        }
+    }
+
+    const REPORT: &str = "\
+ptxas info    : Compiling entry function 'light_sample' for 'sm_75'
+ptxas info    : Function properties for light_sample
+    520 bytes stack frame, 0 bytes spill stores, 0 bytes spill loads
+ptxas info    : Used 154 registers, used 0 barriers, 520 bytes cumulative stack size
+ptxas info    : Function properties for inner
+    0 bytes stack frame, 0 bytes spill stores, 0 bytes spill loads
+";
+
+    #[test]
+    fn the_report_of_the_assembler_is_read() {
+        let used = usage(REPORT).expect("a report");
+        let name = "light_sample".to_owned();
+        let expected = Usage {
+            name,
+            registers: 154,
+            stack: 520,
+        };
+        assert_eq!(used, [expected], "one kernel");
+        let spills = REPORT.replacen("0 bytes spill stores", "16 bytes spill stores", 1);
+        assert!(
+            usage(&spills).expect_err("spills").contains("16 bytes"),
+            "says how many"
+        );
+        let fatal = usage("ptxas fatal: error: no such file").expect_err("nothing");
+        assert!(fatal.contains("no such file"), "{fatal}");
+    }
+
+    /// Without an assembler: what is committed keeps the rule.
+    #[test]
+    fn committed_kernels_are_rounded_as_on_a_cpu() {
+        let text = fs::read_to_string(kernels()).expect("kernels");
+        assert_eq!(rounded(&text), Ok(()), "kernels.ptx");
+        let entries = text.matches(".visible .entry light_").count();
+        assert_eq!(entries, 5, "sample, pmf, cut, sample_li, decode");
+    }
+}
