@@ -48,6 +48,8 @@ impl SceneDigest {
             // The view knows it, with what the command line changes.
             camera: _,
             camera_medium,
+            // The settings know it, with what the command line changes.
+            max_depth: _,
             // They may name files by other paths on other machines, and say nothing about the
             // picture.
             warnings: _,
@@ -119,7 +121,9 @@ fn camera_digest(camera: &Camera) -> String {
         right,
         up,
         forward,
+        projection,
         fov,
+        screen,
         lens,
         // The view's size and crop count.
         resolution: _,
@@ -127,7 +131,8 @@ fn camera_digest(camera: &Camera) -> String {
         // It says how the picture is shown.
         exposure: _,
     } = camera;
-    content_digest(&((position, right, up, forward), fov, lens))
+    let axes = (position, right, up, forward);
+    content_digest(&(axes, projection, fov, screen, lens))
 }
 
 impl fmt::Display for SceneDigestError {

@@ -206,6 +206,8 @@ fn broken_files_with_every_key_end_with_status_2() {
     /// The least number of variants that are refused: a text that ends early may still be a scene,
     /// and unknown names are left out with a warning.
     const BROKEN: usize = 200;
+    /// As much of a library: the materials that a shorter one lacks are grey, with a warning.
+    const BROKEN_LIBRARIES: usize = 100;
     let name = format!("lights-bad-keys-{}", std::process::id());
     let folder = Folder(std::env::temp_dir().join(name));
     let folder = &*folder.0;
@@ -249,6 +251,11 @@ fn broken_files_with_every_key_end_with_status_2() {
                 }
             }
         }
-        assert!(refused >= BROKEN, "{refused} variants of {file}");
+        let least = if file.ends_with(".mtl") {
+            BROKEN_LIBRARIES
+        } else {
+            BROKEN
+        };
+        assert!(refused >= least, "{refused} variants of {file}");
     }
 }

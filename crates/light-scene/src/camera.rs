@@ -4,7 +4,7 @@ use lights::math::Aabb;
 
 use crate::glam::Vec3;
 
-/// A perspective camera.
+/// A camera: where it is, and how it maps the picture to rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Its position.
@@ -15,8 +15,14 @@ pub struct Camera {
     pub up: Vec3,
     /// Unit vector into the scene, through the middle of the image.
     pub forward: Vec3,
-    /// Field of view along the shorter side of the image, in radians, in (0, pi).
+    /// How points of the image become rays.
+    pub projection: Projection,
+    /// Field of view along the shorter side of the image, in radians, in (0, pi); of a perspective
+    /// camera alone.
     pub fov: f32,
+    /// The part of the screen that the image shows; `None` for the middle, with square pixels. A
+    /// spherical camera has none.
+    pub screen: Option<ScreenWindow>,
     /// Thin lens for depth of field; `None` for a pinhole.
     pub lens: Option<Lens>,
     /// Width and height of the image that the file asks for, in pixels.
@@ -25,6 +31,35 @@ pub struct Camera {
     pub crop: Option<Crop>,
     /// Factor of radiance for display; `None` leaves it to the viewer.
     pub exposure: Option<f32>,
+}
+
+/// How points of the image become rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub enum Projection {
+    /// All rays start at the camera, toward points of a plane screen.
+    #[default]
+    Perspective,
+    /// All rays are parallel to the view direction.
+    Orthographic {
+        /// The length of 1 on the screen, in scene units, above 0: without a window of the screen
+        /// the shorter side of the image shows twice as much.
+        scale: f32,
+    },
+    /// All directions around the camera, in rows of latitude: row 0 looks along `up`, the left edge
+    /// along `right`, and a quarter of the width further along `forward`.
+    LatLong,
+    /// All directions around the camera in a square, by the map of equal areas; its pole is `up`.
+    EqualArea,
+}
+
+/// A part of the screen of a camera, where x runs to the right, y upward, and (0, 0) is ahead. The
+/// shorter side of an image without a window shows -1 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ScreenWindow {
+    /// The left and the right edge of the image; two different numbers.
+    pub x: [f32; 2],
+    /// The lower and the upper edge; two different numbers.
+    pub y: [f32; 2],
 }
 
 /// A thin lens.
@@ -92,7 +127,9 @@ impl Camera {
             right,
             up: right.cross(forward),
             forward,
+            projection: Projection::Perspective,
             fov,
+            screen: None,
             lens: None,
             resolution: None,
             crop: None,
@@ -100,32 +137,42 @@ impl Camera {
         })
     }
 
-    /// A camera that looks along `forward` (not vertical) and sees the whole box under 40 degrees.
+    /// A camera that looks along `forward` (not vertical) and sees the whole box under 40 degrees,
+    /// in an image of any shape, as near as that allows.
     ///
     /// An empty box is seen as the unit box around the origin.
     #[must_use]
     pub(crate) fn framing(bounds: &Aabb, forward: Vec3) -> Self {
         let (center, radius) = bounds.bounding_sphere();
-        let radius = if radius > 0.0 && radius.is_finite() {
-            radius
+        let is_sized = radius > 0.0 && radius.is_finite() && center.is_finite();
+        let (center, half) = if is_sized {
+            (center, 0.5 * bounds.diagonal())
         } else {
-            1.0
+            (Vec3::ZERO, Vec3::splat(0.5))
         };
         let fov = 40f32.to_radians();
-        let distance = radius / (0.5 * fov).sin();
-        let eye = center - forward.normalize_or(Vec3::NEG_Z) * distance;
-        let camera = Self::look_at(eye, center, Vec3::Y, fov);
-        camera.unwrap_or(Self {
-            position: Vec3::Z * distance,
-            right: Vec3::X,
-            up: Vec3::Y,
-            forward: Vec3::NEG_Z,
-            fov,
-            lens: None,
-            resolution: None,
-            crop: None,
-            exposure: None,
-        })
+        // Some room around what is seen.
+        let slope = (0.5 * fov).tan() / 1.05;
+        let look = |distance: f32| {
+            let eye = center - forward.normalize_or(Vec3::NEG_Z) * distance;
+            Self::look_at(eye, center, Vec3::Y, fov)
+        };
+        let axes = Self::look_at(-forward, Vec3::ZERO, Vec3::Y, fov);
+        let Ok(axes) = axes else {
+            let upright = Self::look_at(Vec3::Z, Vec3::ZERO, Vec3::Y, fov);
+            return upright.expect("a camera along -z");
+        };
+        let corners = (0..8u8).map(|corner| {
+            let sign = |bit: u8| if corner & bit == 0 { -1.0 } else { 1.0 };
+            half * Vec3::new(sign(1), sign(2), sign(4))
+        });
+        // So far away is a camera that has a corner on the edge of its picture.
+        let needed = corners.map(|corner| {
+            let aside = corner.dot(axes.right).abs().max(corner.dot(axes.up).abs());
+            aside / slope - corner.dot(axes.forward)
+        });
+        let distance = needed.fold(0.0, f32::max);
+        look(distance).unwrap_or(axes)
     }
 }
 
@@ -174,12 +221,33 @@ mod tests {
     fn framing_sees_the_box() {
         let bounds = Aabb::new(Vec3::splat(-3.0), Vec3::new(1.0, 2.0, 9.0));
         let camera = Camera::framing(&bounds, Vec3::NEG_Z);
-        for corner in [bounds.min, bounds.max] {
-            let to_corner = (corner - camera.position).normalize();
-            let angle = to_corner.dot(camera.forward).acos();
-            assert!(angle < 0.5 * camera.fov, "{corner} in view");
+        let slope = (0.5 * camera.fov).tan();
+        let mut largest = 0.0f32;
+        for corner in (0..8u8).map(|k| {
+            let pick = |bit: u8| k & bit != 0;
+            Vec3::select(
+                glam::BVec3::new(pick(1), pick(2), pick(4)),
+                bounds.min,
+                bounds.max,
+            )
+        }) {
+            let to = corner - camera.position;
+            let depth = to.dot(camera.forward);
+            assert!(depth > 0.0, "{corner} in front");
+            let across = to.dot(camera.right).abs().max(to.dot(camera.up).abs());
+            largest = largest.max(across / depth / slope);
         }
-        let empty = Camera::framing(&Aabb::EMPTY, Vec3::Y);
-        assert!(empty.position.is_finite(), "a camera for nothing");
+        assert!(
+            (0.9..1.0).contains(&largest),
+            "fills the picture: {largest}"
+        );
+        let raised = Camera::framing(&bounds, Vec3::new(-0.6, -0.45, -1.0));
+        assert!(raised.position.y > bounds.max.y, "from above");
+        for nothing in [Aabb::EMPTY, Aabb::new(Vec3::NAN, Vec3::NAN)] {
+            let camera = Camera::framing(&nothing, Vec3::NEG_Z);
+            assert!(camera.position.is_finite(), "a camera for nothing");
+        }
+        let vertical = Camera::framing(&bounds, Vec3::NEG_Y);
+        assert!(vertical.position.is_finite(), "any camera");
     }
 }

@@ -10,6 +10,7 @@ pub use lights::glam;
 
 mod atomic_file;
 mod builtin;
+mod builtin_sky;
 mod camera;
 mod color;
 #[cfg(test)]
@@ -37,6 +38,7 @@ mod pbrt;
 mod polygon;
 mod scene;
 mod scene_file;
+mod scene_light;
 mod sphere;
 #[cfg(test)]
 mod test_folder;
@@ -44,7 +46,8 @@ mod text;
 
 pub use atomic_file::{exit_without_outputs, write_atomically};
 pub use builtin::{BuiltinScene, OcclusionKind, OcclusionScene, OcclusionSize, UnknownScene};
-pub use camera::{Camera, CameraError, Crop, Lens};
+pub use builtin_sky::BuiltinSky;
+pub use camera::{Camera, CameraError, Crop, Lens, Projection, ScreenWindow};
 pub use color::{Color, ColorImage, UvSet};
 pub use diagnostic::{Diagnostic, Location};
 pub use emissive_copies::MAX_EMISSIVE_COPIES;
@@ -52,8 +55,8 @@ pub use files::Files;
 pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};
 pub use image::{
-    ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_image, write_exr,
-    write_exr_half, write_image, write_png,
+    ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_environment,
+    read_image, write_exr, write_exr_half, write_image, write_png,
 };
 pub use instance::{Instance, Prototype};
 pub use light_set::{LightSetError, LightSetProblem, read_light_set, write_light_set};

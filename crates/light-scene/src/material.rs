@@ -92,6 +92,19 @@ pub enum Surface {
     },
     /// A metal, a dielectric over a diffuse base, or a mixture of both.
     MetallicRoughness(Box<MetallicRoughness>),
+    /// A metal under a clear coat, as lacquered brass.
+    CoatedConductor {
+        /// Real part of the index of refraction of the metal, relative to the outside.
+        eta: Vec3,
+        /// Imaginary part (absorption).
+        k: Vec3,
+        /// Roughness of the metal.
+        alpha: Vec2,
+        /// Index of refraction of the coat.
+        coat_eta: f32,
+        /// Roughness of the coat.
+        coat_alpha: Vec2,
+    },
     /// The surface of one of two materials at each point, chosen at random: paint that comes off,
     /// dust on a metal.
     Mix {

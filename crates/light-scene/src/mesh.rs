@@ -141,6 +141,12 @@ impl Mesh {
         });
     }
 
+    /// Makes normals that are not finite 0, where shading is flat, and returns how many.
+    pub(crate) fn drop_broken_normals(&mut self) -> usize {
+        let broken = self.normals.iter_mut().flatten().filter(|n| !n.is_finite());
+        broken.map(|normal| *normal = Vec3::ZERO).count()
+    }
+
     /// Turns every triangle so that its front is where its normals point, if it has normals.
     pub(crate) fn align_with_normals(&mut self) {
         let Some(normals) = &self.normals else {

@@ -51,6 +51,9 @@ pub struct Scene {
     pub camera: Option<Camera>,
     /// The medium that the camera is in; `None` for vacuum.
     pub camera_medium: Option<MediumId>,
+    /// The segments of the longest path that the file asks for: 1 shows emitters, 2 adds direct
+    /// light.
+    pub max_depth: Option<u32>,
     /// What the reader ignored or repaired, each with file and line.
     pub warnings: Vec<Diagnostic>,
 }
@@ -153,11 +156,11 @@ impl Scene {
         of(&self.meshes) + instanced
     }
 
-    /// The scene's camera or, without one, a camera on the +z side of the scene's centre whose view
-    /// contains the whole scene.
+    /// The scene's camera or, without one, a camera whose view contains the whole scene: raised, from
+    /// the right of what is in front, with y up.
     #[must_use]
     pub fn camera_or_default(&self) -> Camera {
-        let default = || Camera::framing(&self.bounds(), Vec3::NEG_Z);
+        let default = || Camera::framing(&self.bounds(), Vec3::new(-0.6, -0.45, -1.0));
         self.camera.unwrap_or_else(default)
     }
 

@@ -1,12 +1,13 @@
 //! Parsing of line-based formats: lines, words, numbers, and errors with their location.
 
 use alloc::borrow::Cow;
-use core::str::SplitWhitespace;
+use core::iter::Enumerate;
+use core::str::{Lines, SplitWhitespace};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::glam::{Vec2, Vec3};
+use crate::glam::Vec3;
 use crate::{Diagnostic, Location};
 
 /// The text of a file.
@@ -42,13 +43,27 @@ pub(crate) fn read_all(path: &Path) -> io::Result<Vec<u8>> {
 /// The lines of `text` with the number of each (the first is 1), without comments that `#` starts.
 ///
 /// A line that ends with a backslash goes on in the next one.
-pub(crate) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    let mut lines = text.lines().enumerate();
-    core::iter::from_fn(move || {
-        let (index, first) = lines.next()?;
+pub(crate) fn logical_lines(text: &str) -> LogicalLines<'_> {
+    LogicalLines {
+        lines: text.lines().enumerate(),
+    }
+}
+
+/// The iterator that [`logical_lines`] makes.
+#[derive(Clone, Debug)]
+pub(crate) struct LogicalLines<'a> {
+    lines: Enumerate<Lines<'a>>,
+}
+
+impl<'a> Iterator for LogicalLines<'a> {
+    type Item = (usize, Cow<'a, str>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (index, first) = self.lines.next()?;
         let mut whole = Cow::Borrowed(without_comment(first));
         while let Some(begun) = whole.strip_suffix('\\') {
-            let next = lines.next().map_or("", |(_, line)| without_comment(line));
+            let next = self.lines.next();
+            let next = next.map_or("", |(_, line)| without_comment(line));
             // Into the same text, which many lines may make long.
             let length = begun.len();
             let mut joined = whole.into_owned();
@@ -58,7 +73,7 @@ pub(crate) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, 
             whole = Cow::Owned(joined);
         }
         Some((index + 1, whole))
-    })
+    }
 }
 
 /// A `#` starts a comment at the start of a word only: file names may hold one.
@@ -93,6 +108,11 @@ impl<'a> Line<'a> {
         self.path
     }
 
+    /// Its number; the first is 1.
+    pub(crate) const fn number_in_file(&self) -> usize {
+        self.number
+    }
+
     /// A message about this line.
     pub(crate) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::at(self.path, Location::Line(self.number), message)
@@ -124,11 +144,6 @@ impl<'a> Line<'a> {
     pub(crate) fn optional_number(&mut self, what: &str) -> Result<Option<f32>, Diagnostic> {
         let word = self.word();
         word.map(|word| self.parse_number(word, what)).transpose()
-    }
-
-    /// The next two words as finite numbers.
-    pub(crate) fn vec2(&mut self, what: &str) -> Result<Vec2, Diagnostic> {
-        Ok(Vec2::new(self.number(what)?, self.number(what)?))
     }
 
     /// The next three words as finite numbers.
@@ -180,7 +195,8 @@ mod tests {
     fn numbers_are_finite_or_named() {
         let path = Path::new("a");
         let mut line = Line::new(path, 3, "1e0 -.5 nan x");
-        assert_eq!(line.vec2("a number"), Ok(Vec2::new(1.0, -0.5)), "two");
+        let two = [(); 2].map(|()| line.number("a number"));
+        assert_eq!(two, [Ok(1.0), Ok(-0.5)], "two");
         let message = |error: Diagnostic| error.to_string();
         assert_eq!(
             line.number("a width").map_err(message),

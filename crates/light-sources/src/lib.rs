@@ -25,6 +25,7 @@ pub use light_bounds::light_math;
 #[cfg(feature = "alloc")]
 mod alpha_mask;
 mod amount;
+mod amount_scaled;
 #[cfg(feature = "alloc")]
 mod area;
 #[cfg(feature = "alloc")]
@@ -75,6 +76,8 @@ mod light;
 mod light_desc;
 #[cfg(feature = "alloc")]
 mod light_desc_from;
+#[cfg(feature = "alloc")]
+mod light_desc_scale;
 #[cfg(feature = "alloc")]
 mod light_kinds;
 #[cfg(feature = "alloc")]

@@ -1,6 +1,6 @@
 //! Bad input and bad usage.
 
-use crate::folder::{Folder, LIT, UNLIT, assert_refused, lights};
+use crate::folder::{Folder, LIT, assert_refused, lights};
 
 #[test]
 fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
@@ -15,11 +15,12 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     assert_refused(&["render", &broken, "-o", &out], &["broken.obj:3"]);
     let stray = folder.file(
         "stray.obj",
-        "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\n",
+        "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 4\n",
     );
-    assert_refused(&["render", &stray, "-o", &out], &["stray.obj:5", "glass"]);
-    let dark = folder.scene(UNLIT);
-    assert_refused(&["render", &dark, "-o", &out], &["scene.obj", "no light"]);
+    assert_refused(
+        &["render", &stray, "-o", &out],
+        &["stray.obj:6", "vertex 4"],
+    );
     folder.scene(LIT);
     let env = folder.file("env.exr", "not an image");
     assert_refused(&["render", &scene, "-o", &out, "--env", &env], &["env.exr"]);

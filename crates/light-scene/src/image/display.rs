@@ -7,17 +7,22 @@ use ::image::codecs::hdr::HdrEncoder;
 use ::image::codecs::png::PngEncoder;
 use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Rgb};
 
+use super::broken_texels::BrokenTexels;
 use super::checked::checked;
 use super::{Image, ImageFile, srgb};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
 
 /// The image in the bytes of a Radiance HDR (RGBE) file; `path` names it in messages.
-pub(crate) fn parse_hdr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+pub(super) fn parse_hdr(
+    path: &Path,
+    bytes: &[u8],
+    broken: BrokenTexels,
+) -> Result<ImageFile, Diagnostic> {
     let image = decode(path, bytes, ImageFormat::Hdr, "a Radiance HDR file")?.into_rgb32f();
     let size = [image.width() as usize, image.height() as usize];
     let texels = image.pixels().map(|texel| Vec3::from(texel.0)).collect();
-    checked(path, size, texels)
+    checked(path, size, texels, broken)
 }
 
 /// Writes an 8-bit sRGB PNG file; channels are clamped to [0, 1], NaN becomes black.

@@ -1,31 +1,28 @@
 use std::path::Path;
 
+use super::broken_texels::BrokenTexels;
 use super::display::parse_hdr;
 use super::image_file::ending;
-use super::openexr::parse_exr;
+use super::openexr::parse_exr_with;
+use super::pfm::parse_pfm;
 use super::{EncodedImage, Encoding, Image, ImageFile, write_exr, write_hdr, write_png};
 use crate::{Diagnostic, Files};
 
 /// The endings of the names of images that are read.
-pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .png, .tga or .jpg";
+pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .pfm, .png, .tga or .jpg";
 
-/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, or `.png`,
-/// `.tga`, `.jpg`, `.jpeg` (sRGB, made linear).
+/// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, `.pfm`, or
+/// `.png`, `.tga`, `.jpg`, `.jpeg` (sRGB, made linear).
 ///
 /// # Errors
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or
 /// an infinity: with the pixel and the channel.
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
-    read_image_from(path, Files::DISK)
+    read_encoded_from(path, Files::DISK, Encoding::Srgb)
 }
 
-/// As [`read_image`], with the bytes from `files`.
-pub(crate) fn read_image_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
-    read_encoded_from(path, files, Encoding::Srgb)
-}
-
-/// As [`read_image_from`], where `encoding` says what the numbers of files mean that are made for
-/// screens.
+/// As [`read_image`], with the bytes from `files`; `encoding` says what the numbers of files mean
+/// that are made for screens.
 pub(crate) fn read_encoded_from(
     path: &Path,
     files: Files<'_>,
@@ -38,6 +35,33 @@ pub(crate) fn read_encoded_from(
     parse_encoded(path, &files.read(path)?, encoding)
 }
 
+/// As [`read_image`], for an image that gives light from all around: where at most one of a hundred
+/// texels is NaN or infinite, these become 0 or the largest number of the image, and the warning
+/// counts them.
+///
+/// # Errors
+/// As [`read_image`], but for such texels.
+pub fn read_environment(path: &Path) -> Result<ImageFile, Diagnostic> {
+    read_environment_from(path, Files::DISK)
+}
+
+/// As [`read_environment`], with the bytes from `files`.
+pub(crate) fn read_environment_from(
+    path: &Path,
+    files: Files<'_>,
+) -> Result<ImageFile, Diagnostic> {
+    if !is_image_name(path) {
+        let message = format!("expected an image: {IMAGE_ENDINGS}");
+        return Err(Diagnostic::file(path, message));
+    }
+    parse_with(
+        path,
+        &files.read(path)?,
+        Encoding::Srgb,
+        BrokenTexels::Clamp,
+    )
+}
+
 /// As [`read_image`], from the bytes of the file; `path` says by its ending which format they have,
 /// and names them in messages.
 ///
@@ -48,9 +72,19 @@ pub fn parse_image(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
 }
 
 fn parse_encoded(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<ImageFile, Diagnostic> {
+    parse_with(path, bytes, encoding, BrokenTexels::Refuse)
+}
+
+fn parse_with(
+    path: &Path,
+    bytes: &[u8],
+    encoding: Encoding,
+    broken: BrokenTexels,
+) -> Result<ImageFile, Diagnostic> {
     match ending(path).as_str() {
-        "exr" => parse_exr(path, bytes),
-        "hdr" => parse_hdr(path, bytes),
+        "exr" => parse_exr_with(path, bytes, broken),
+        "hdr" => parse_hdr(path, bytes, broken),
+        "pfm" => parse_pfm(path, bytes, broken),
         _ => Ok(ImageFile {
             image: EncodedImage::parse(path, bytes)?.color(encoding),
             warning: None,
@@ -60,11 +94,11 @@ fn parse_encoded(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<ImageF
 
 /// How opaque an image says that a surface is: by the alpha channel of a PNG file that has one, by
 /// the brightness of others, alike in all channels.
-pub(crate) fn read_opacity_from(path: &Path, files: Files<'_>) -> Result<ImageFile, Diagnostic> {
-    if matches!(ending(path).as_str(), "exr" | "hdr") {
-        return read_image_from(path, files);
+pub(crate) fn parse_opacity(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    if matches!(ending(path).as_str(), "exr" | "hdr" | "pfm") {
+        return parse_image(path, bytes);
     }
-    let encoded = EncodedImage::parse(path, &files.read(path)?)?;
+    let encoded = EncodedImage::parse(path, bytes)?;
     Ok(ImageFile {
         image: encoded.alpha().unwrap_or_else(|| encoded.brightness()),
         warning: None,
@@ -75,7 +109,7 @@ pub(crate) fn read_opacity_from(path: &Path, files: Files<'_>) -> Result<ImageFi
 pub(crate) fn is_image_name(path: &Path) -> bool {
     matches!(
         ending(path).as_str(),
-        "exr" | "hdr" | "png" | "tga" | "jpg" | "jpeg"
+        "exr" | "hdr" | "pfm" | "png" | "tga" | "jpg" | "jpeg"
     )
 }
 

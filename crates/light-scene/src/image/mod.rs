@@ -1,5 +1,6 @@
 //! Images in memory and in files.
 
+mod broken_texels;
 mod channels;
 mod checked;
 mod display;
@@ -7,6 +8,8 @@ mod encoded;
 mod file;
 mod image_file;
 mod openexr;
+mod pfm;
+mod primaries;
 mod rgb_image;
 mod srgb;
 mod texel_budget;
@@ -16,9 +19,9 @@ pub(crate) use display::write_hdr;
 pub use display::write_png;
 pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
-    IMAGE_ENDINGS, is_image_name, read_encoded_from, read_image_from, read_opacity_from,
+    IMAGE_ENDINGS, is_image_name, parse_opacity, read_encoded_from, read_environment_from,
 };
-pub use file::{parse_image, read_image, write_image};
+pub use file::{parse_image, read_environment, read_image, write_image};
 pub use image_file::ImageFile;
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 pub use rgb_image::{Image, ImageError};

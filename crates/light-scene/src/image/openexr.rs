@@ -8,8 +8,9 @@ use exr::prelude::{
     ReadLayers, SpecificChannels, Text, Vec2, WritableImage, f16, read,
 };
 
+use super::broken_texels::BrokenTexels;
 use super::checked::checked;
-use super::{Image, ImageFile};
+use super::{Image, ImageFile, primaries};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
 
@@ -20,13 +21,22 @@ const MAX_TEXELS: usize = 1 << 27;
 const MOST_EXPANDED: usize = 1032;
 
 /// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of
-/// half or float samples.
+/// half or float samples. Chromaticities that the file states are honoured: the image is of Rec. 709.
 ///
 /// `path` names the file in messages.
 ///
 /// # Errors
 /// As for [`read_image`](crate::read_image).
 pub fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
+    parse_exr_with(path, bytes, BrokenTexels::Refuse)
+}
+
+/// As [`parse_exr`], with texels that are not finite as `broken` says.
+pub(super) fn parse_exr_with(
+    path: &Path,
+    bytes: &[u8],
+    broken: BrokenTexels,
+) -> Result<ImageFile, Diagnostic> {
     let refuse = |error: Error| Diagnostic::file(path, message(&error));
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
     let header = meta.headers.iter().find(|header| !header.deep);
@@ -59,11 +69,17 @@ pub fn parse_exr(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
         let message = format!("expected channels R, G and B, found {}", names.join(", "));
         return Err(Diagnostic::file(path, message));
     };
-    let texels = decode(bytes, wanted).map_err(refuse)?;
+    let mut texels = decode(bytes, wanted).map_err(refuse)?;
     if texels.len() != width * height {
         return Err(Diagnostic::file(path, "expected all of the image's rows"));
     }
-    checked(path, [width, height], texels)
+    let chromaticities = header.shared_attributes.chromaticities;
+    if let Some(matrix) = chromaticities.and_then(|file| primaries::to_rec_709(&file)) {
+        if wanted[0] != wanted[1] {
+            primaries::convert(&mut texels, &matrix);
+        }
+    }
+    checked(path, [width, height], texels, broken)
 }
 
 /// The texels of the first layer that has the wanted channels.

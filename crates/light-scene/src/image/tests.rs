@@ -96,7 +96,7 @@ fn broken_files_give_one_clear_line() {
         (
             "a.gif",
             &b"x"[..],
-            ": expected an image: .exr, .hdr, .png, .tga or .jpg",
+            ": expected an image: .exr, .hdr, .pfm, .png, .tga or .jpg",
         ),
         ("a.exr", &b"no image"[..], ": expected an OpenEXR file: "),
         (
@@ -209,4 +209,42 @@ fn sizes_that_the_bytes_cannot_hold_are_refused() {
     write_exr(&path, &white).expect("written");
     let bytes = fs::read(&path).expect("read");
     assert!(parse_exr(&path, &bytes).is_ok(), "{} bytes", bytes.len());
+}
+
+/// A file of green primaries for all: its numbers are converted, as long as there are three.
+#[test]
+fn chromaticities_of_a_file_are_honoured() {
+    use exr::meta::attribute::Chromaticities;
+    use exr::prelude::*;
+
+    let folder = TestFolder::new("chromaticities");
+    let path = folder.path("a.exr");
+    let at = |x, y| Vec2(x, y);
+    let wide = Chromaticities {
+        red: at(0.708, 0.292),
+        green: at(0.17, 0.797),
+        blue: at(0.131, 0.046),
+        white: at(0.3127, 0.329),
+    };
+    let write = |chromaticities: Option<Chromaticities>| {
+        let texel = |_: Vec2<usize>| (0.2f32, 0.5f32, 0.3f32);
+        let mut image = Image::from_channels((2, 1), SpecificChannels::rgb(texel));
+        image.attributes.chromaticities = chromaticities;
+        image.write().to_file(&path).expect("written");
+        read_image(&path).expect("an image").image.texel(1, 0)
+    };
+    let plain = Vec3::new(0.2, 0.5, 0.3);
+    assert_eq!(
+        write(None),
+        plain,
+        "Rec. 709 unless the file says otherwise"
+    );
+    // The published matrix from Rec. 2020.
+    let expected = Vec3::new(
+        1.6605 * 0.2 - 0.5876 * 0.5 - 0.0728 * 0.3,
+        -0.1246 * 0.2 + 1.1329 * 0.5 - 0.0083 * 0.3,
+        -0.0182 * 0.2 - 0.1006 * 0.5 + 1.1187 * 0.3,
+    );
+    let found = write(Some(wide));
+    assert!(found.distance(expected) < 1e-3, "{found}, not {expected}");
 }

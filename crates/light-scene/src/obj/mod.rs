@@ -1,27 +1,30 @@
-//! Wavefront OBJ with its material library (MTL).
+//! Wavefront OBJ with its material library (MTL), read by `tobj`.
 
-mod faces;
+mod cleaned;
+mod corner;
 mod mtl;
+mod reader;
+mod sections;
 
-use alloc::collections::BTreeSet;
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::glam::Vec3;
-use crate::text::{Line, logical_lines, read_text, shown, text_of};
-use crate::{Diagnostic, Files, Material, MaterialId, Scene};
+use crate::text::{Line, logical_lines, read_text};
+use crate::{Diagnostic, Files, Scene};
 
-use faces::Faces;
+use cleaned::Cleaned;
+use reader::Reader;
+use sections::BadFace;
 
 /// Reads an OBJ file and the material libraries it names.
 ///
 /// Understood: `v`, `vt`, `vn`, `f` (any polygon, negative indices), `o`, `g`, `usemtl`, `mtllib`,
 /// `#` and lines continued with a backslash; MTL as the crate's documentation says. Everything else
-/// is named once in a warning.
+/// is named once in a warning. So are libraries and textures that are missing, materials that no
+/// library has, and normals that are named where there is none: what they would colour is grey.
 ///
 /// # Errors
-/// When a file cannot be read, a line is broken, an index points nowhere, a material is not
-/// defined, or there is no face: with file, line and what was expected.
+/// When a file cannot be read, a line is broken, an index points nowhere, or there is no face: with
+/// file, line and what was expected.
 pub fn read_obj(path: &Path) -> Result<Scene, Diagnostic> {
     parse_obj(path, &read_text(path)?, Files::DISK)
 }
@@ -32,149 +35,86 @@ pub fn read_obj(path: &Path) -> Result<Scene, Diagnostic> {
 /// # Errors
 /// As [`read_obj`].
 pub fn parse_obj(path: &Path, text: &str, files: Files<'_>) -> Result<Scene, Diagnostic> {
-    let mut reader = Reader {
-        files,
-        scene: Scene::default(),
-        materials: HashMap::new(),
-        libraries: BTreeSet::new(),
-        ignored: BTreeSet::new(),
-        faces: Faces::default(),
+    let mut lines = Cleaned::new(path, text, Reader::new(files));
+    let options = tobj::LoadOptions {
+        single_index: true,
+        ..tobj::LoadOptions::default()
     };
-    for (number, text) in logical_lines(text) {
-        reader.line(Line::new(path, number, &text))?;
+    // Libraries are read where they are named.
+    let library = |_: &Path| Ok(Default::default());
+    let (objects, _) = match tobj::load_obj_buf(&mut lines, &options, library) {
+        Ok(loaded) => loaded,
+        Err(error) => {
+            let fault = lines.fault().or_else(|| broken_number(path, text));
+            return Err(fault.unwrap_or_else(|| lines.at_last_line(error)));
+        }
+    };
+    let is_finite = |numbers: &[f32]| numbers.iter().all(|number| number.is_finite());
+    let all_finite = objects.iter().all(|object| {
+        let tobj::Mesh {
+            positions,
+            texcoords,
+            normals,
+            ..
+        } = &object.mesh;
+        is_finite(positions) && is_finite(texcoords) && is_finite(normals)
+    });
+    if !all_finite {
+        let unknown = || Diagnostic::file(path, "expected finite coordinates");
+        return Err(broken_number(path, text).unwrap_or_else(unknown));
     }
-    reader.scene.meshes = reader.faces.into_meshes();
-    if reader.scene.meshes.is_empty() {
+    let Reader {
+        mut scene,
+        sections,
+        ..
+    } = lines.cleaner;
+    let meshes = sections.meshes(&objects);
+    scene.meshes = meshes.map_err(|face| of_face(path, text, &face))?;
+    if scene.meshes.is_empty() {
         return Err(Diagnostic::file(path, "expected at least one face (`f`)"));
     }
-    Ok(reader.scene)
+    Ok(scene)
 }
 
-struct Reader<'a> {
-    files: Files<'a>,
-    scene: Scene,
-    materials: HashMap<String, MaterialId>,
-    libraries: BTreeSet<String>,
-    /// Keywords that a warning has named already.
-    ignored: BTreeSet<String>,
-    faces: Faces,
+/// The first line whose numbers are not finite, or fewer than they should be.
+fn broken_number(path: &Path, text: &str) -> Option<Diagnostic> {
+    logical_lines(text).find_map(|(number, text)| {
+        let mut line = Line::new(path, number, &text);
+        match line.word()? {
+            "v" => {
+                let weighted = line.vec3("a vertex coordinate").and_then(|position| {
+                    let weight = line.optional_number("a weight")?;
+                    let has_color = line.word().is_some();
+                    let weight = weight.filter(|_| !has_color).unwrap_or(1.0);
+                    Ok((position / weight).is_finite())
+                });
+                match weighted {
+                    Ok(true) => None,
+                    Ok(false) => Some(line.diagnostic("expected a weight other than 0")),
+                    Err(error) => Some(error),
+                }
+            }
+            "vt" => line.number("a texture coordinate").err().or_else(|| {
+                let second = line.optional_number("a texture coordinate");
+                second.err()
+            }),
+            "vn" => line.vec3("a normal's coordinate").err(),
+            _ => None,
+        }
+    })
 }
 
-impl Reader<'_> {
-    fn line(&mut self, mut line: Line<'_>) -> Result<(), Diagnostic> {
-        let Some(keyword) = line.word() else {
-            return Ok(());
-        };
-        match keyword {
-            "v" => self.vertex(&mut line)?,
-            "vt" => self.faces.uvs.push(line.vec2("a texture coordinate")?),
-            "vn" => self.faces.normals.push(line.vec3("a normal's coordinate")?),
-            "f" => {
-                let material = self.current_material();
-                self.faces.push_polygon(material, &mut line)?;
-            }
-            "o" | "g" => self
-                .faces
-                .begin_group(line.rest("a name").unwrap_or_default()),
-            "usemtl" => {
-                let name = line.rest("a material's name")?;
-                self.faces.material = Some(self.material(name, &line)?);
-            }
-            "mtllib" => self.load_libraries(&mut line)?,
-            // Smoothing groups: files that want smooth shading give normals.
-            "s" => {}
-            other => self.ignore(other, &line, "is not understood and was ignored"),
-        }
-        Ok(())
+/// The error of a face: the first one with as many corners.
+fn of_face(path: &Path, text: &str, face: &BadFace) -> Diagnostic {
+    let mut lines = logical_lines(text);
+    let found = lines.find(|(_, text)| {
+        let mut words = text.split_whitespace();
+        words.next() == Some("f") && words.count() == face.corners
+    });
+    match found {
+        Some((number, _)) => Line::new(path, number, "").diagnostic(face.message.clone()),
+        None => Diagnostic::file(path, face.message.clone()),
     }
-
-    fn vertex(&mut self, line: &mut Line<'_>) -> Result<(), Diagnostic> {
-        let mut position = line.vec3("a vertex coordinate")?;
-        if let Some(w) = line.optional_number("a weight")? {
-            let has_color = line.optional_number("a colour")?.is_some();
-            if has_color {
-                self.ignore("v", line, "has vertex colours, which were ignored");
-            } else {
-                position /= w;
-            }
-            if !position.is_finite() {
-                return Err(line.diagnostic("expected a weight other than 0"));
-            }
-        }
-        self.faces.positions.push(position);
-        Ok(())
-    }
-
-    /// The material in force, which is grey if the file named none.
-    fn current_material(&mut self) -> MaterialId {
-        let scene = &mut self.scene;
-        let material = &mut self.faces.material;
-        *material.get_or_insert_with(|| {
-            scene.add_material(Material::diffuse("default", Vec3::splat(0.5)))
-        })
-    }
-
-    /// The material of this name; grey, with a warning, if the file names no library at all.
-    fn material(&mut self, name: String, line: &Line<'_>) -> Result<MaterialId, Diagnostic> {
-        if let Some(&id) = self.materials.get(&name) {
-            return Ok(id);
-        }
-        let name_shown = shown(&name);
-        if !self.libraries.is_empty() {
-            let libraries: Vec<&str> = self.libraries.iter().map(String::as_str).collect();
-            let libraries = libraries.join(", ");
-            let message = format!("expected a material of {libraries}, found `{name_shown}`");
-            return Err(line.diagnostic(message));
-        }
-        let message = format!("material `{name_shown}` is grey: no `mtllib` line before");
-        self.scene.warnings.push(line.diagnostic(message));
-        let grey = Material::diffuse(name.clone(), Vec3::splat(0.5));
-        let id = self.scene.add_material(grey);
-        self.materials.insert(name, id);
-        Ok(id)
-    }
-
-    /// One name that may hold blanks or, where no such file is, several names.
-    fn load_libraries(&mut self, line: &mut Line<'_>) -> Result<(), Diagnostic> {
-        let names = line.rest("a file name")?;
-        let is_file = self.files.read(&library_path(&names, line)).is_ok();
-        if is_file || !names.contains(' ') {
-            return self.load_library(&names, line);
-        }
-        let mut each = names.split(' ');
-        each.try_for_each(|name| self.load_library(name, line))
-    }
-
-    fn load_library(&mut self, name: &str, line: &Line<'_>) -> Result<(), Diagnostic> {
-        if self.libraries.contains(name) {
-            return Ok(());
-        }
-        let file = library_path(name, line);
-        let bytes = self.files.read(&file).map_err(|error| {
-            line.diagnostic(format!(
-                "material library `{}`: {}",
-                shown(name),
-                error.message
-            ))
-        })?;
-        let known = mtl::parse_mtl(&file, &text_of(&bytes), self.files, &mut self.scene)?;
-        self.materials.extend(known);
-        self.libraries.insert(name.to_owned());
-        Ok(())
-    }
-
-    fn ignore(&mut self, keyword: &str, line: &Line<'_>, what: &str) {
-        if self.ignored.insert(keyword.to_owned()) {
-            let message = format!("`{}` {what}", shown(keyword));
-            self.scene.warnings.push(line.diagnostic(message));
-        }
-    }
-}
-
-/// Where a library is, whose name starts from the folder of the OBJ file.
-fn library_path(name: &str, line: &Line<'_>) -> PathBuf {
-    // Files from other systems separate folders with backslashes.
-    line.path().with_file_name(name.replace('\\', "/"))
 }
 
 #[cfg(test)]

@@ -68,6 +68,7 @@ impl Reader {
             "WorldBegin" => {
                 self.in_world = true;
                 self.state.transform = Mat4::IDENTITY;
+                self.state.is_active = true;
                 self.coordinates.insert("world".to_owned(), Mat4::IDENTITY);
             }
             "ObjectBegin" => {
@@ -85,9 +86,11 @@ impl Reader {
                 self.state.material = Some(self.named_material(at, &name));
             }
             "MediumInterface" => self.medium_interface(at, tokens)?,
-            "Option" => {
-                super::parameters::Parameters::read(tokens)?;
-                self.warn(at, "`Option`", "was ignored");
+            "Option" => self.option(at, tokens)?,
+            "ActiveTransform" => self.active_transform(at, tokens)?,
+            "TransformTimes" => {
+                tokens.numbers::<2>("two times")?;
+                self.warn_of_motion(at, "`TransformTimes`");
             }
             "Texture" => self.texture(path, tokens)?,
             _ if self.transform_directive(at, tokens, directive)? => {}
@@ -141,13 +144,67 @@ impl Reader {
             _ => return Ok(false),
         };
         let transform = self.state.transform;
-        if !(transform.is_finite() && transform.determinant() != 0.0) {
-            return Err(at.diagnostic("expected a transform that can be inverted"));
+        if !self.state.is_active {
+            // It acts on the end of the motion alone.
+            self.state.transform = now;
+            return Ok(true);
+        }
+        if !transform.is_finite() {
+            return Err(at.diagnostic("expected a transform of finite numbers"));
         }
         if transform.row(3) != Vec4::W {
             return Err(at.diagnostic("expected a transform whose last row is 0 0 0 1"));
         }
         Ok(true)
+    }
+
+    /// `ActiveTransform`: what follows moves the scene at the start of the motion, at its end, or at
+    /// both.
+    fn active_transform(
+        &mut self,
+        at: FileLoc<'_>,
+        tokens: &mut Tokens<'_>,
+    ) -> Result<(), Diagnostic> {
+        let token = tokens.next()?;
+        self.state.is_active = match token {
+            Some(Token::Word("All" | "StartTime")) => true,
+            Some(Token::Word("EndTime")) => {
+                self.warn_of_motion(at, "`ActiveTransform`");
+                false
+            }
+            other => return Err(tokens.expected("All, StartTime or EndTime", other.as_ref())),
+        };
+        Ok(())
+    }
+
+    fn warn_of_motion(&mut self, at: FileLoc<'_>, what: &str) {
+        self.warn(
+            at,
+            what,
+            "moves something; the picture shows it at its start time",
+        );
+    }
+
+    /// `Option "name" value`, in older files `Option "type name" value`: no setting of pbrt itself
+    /// has a part in this program.
+    fn option(&mut self, at: FileLoc<'_>, tokens: &mut Tokens<'_>) -> Result<(), Diagnostic> {
+        let name = tokens.quoted("the name of an option")?;
+        let bracketed = tokens.peek()? == Some(Token::Open);
+        if bracketed {
+            tokens.next()?;
+        }
+        let value = tokens.next()?;
+        if !matches!(value, Some(Token::Word(_) | Token::Quoted(_))) {
+            return Err(tokens.expected("the value of an option", value.as_ref()));
+        }
+        if bracketed {
+            let token = tokens.next()?;
+            if token != Some(Token::Close) {
+                return Err(tokens.expected("]", token.as_ref()));
+            }
+        }
+        self.warn(at, &format!("`Option \"{name}\"`"), "was ignored");
+        Ok(())
     }
 
     /// The directives with a type in quotes and parameters.
@@ -166,6 +223,10 @@ impl Reader {
                 return Err(tokens.diagnostic(message));
             }
         }
+        if let Some(Token::Quoted(kind)) = tokens.peek()? {
+            let line = tokens.line();
+            self.look_for_version_3(FileLoc { path, line }, directive, &kind);
+        }
         let typed = self.typed(path, tokens, directive)?;
         if directive == "Attribute" {
             return self.attribute(typed);
@@ -181,6 +242,7 @@ impl Reader {
             "Camera" => self.set_camera(typed)?,
             "Film" => self.film(typed)?,
             "PixelFilter" => self.pixel_filter(typed),
+            "Integrator" => self.integrator(typed),
             "Shape" => self.shape(typed)?,
             "LightSource" => self.light(typed)?,
             "AreaLightSource" => self.area_light(typed)?,
@@ -192,6 +254,7 @@ impl Reader {
                 let kind = typed.parameters.string("type").map(str::to_owned);
                 let message = "expected \"string type\" of a named material";
                 let kind = kind.ok_or_else(|| typed.at.diagnostic(message))?;
+                self.look_for_version_3(typed.at, "Material", &kind);
                 let material = self.make_material(&kind, typed)?;
                 return self.name_material(typed.kind.clone(), material);
             }
@@ -202,7 +265,13 @@ impl Reader {
                 return Ok(());
             }
         }
-        let name = format!("{directive} \"{}\"", typed.kind);
+        // The file chose the names of media and materials: not each is a kind.
+        let is_named = matches!(directive, "MakeNamedMedium" | "MakeNamedMaterial");
+        let name = if is_named {
+            directive.to_owned()
+        } else {
+            format!("{directive} \"{}\"", typed.kind)
+        };
         self.warn_unused(typed.at, &name, &typed.parameters);
         Ok(())
     }

@@ -28,7 +28,7 @@ impl Reader {
         if !is_image_name(&path) {
             let what = format!("the image \"{file}\"");
             let message = format!("was taken as grey: expected {IMAGE_ENDINGS}");
-            self.warn(typed.at, &what, &message);
+            self.warn_kind(typed.at, "image", &what, &message);
             return Ok(Color::Constant(Vec3::splat(0.5)));
         }
         let inverted = parameters.is_true("invert", false);
@@ -78,7 +78,7 @@ impl Reader {
     }
 
     /// The mapping of an image by surface parameters.
-    fn texture_mapping(&mut self, typed: &Typed<'_>) -> TextureMapping {
+    pub(super) fn texture_mapping(&mut self, typed: &Typed<'_>) -> TextureMapping {
         let parameters = &typed.parameters;
         let mapping = parameters.string("mapping").unwrap_or("uv");
         let pair = |u, v, default| {

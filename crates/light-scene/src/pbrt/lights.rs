@@ -12,10 +12,10 @@ use lights::sources::{
 
 use super::file_loc::Typed;
 use super::image_key::ImageKey;
-use super::state::{AreaLight, Reader};
-use super::textures::scaled;
+use super::state::{AreaLight, FLATTENED, Reader};
 use crate::glam::{Affine3A, Quat, Vec2, Vec3};
-use crate::image::read_image_from;
+use crate::image::read_environment_from;
+use crate::scene_light::scaled;
 use crate::{Color, ColorImage, Diagnostic};
 
 impl Reader {
@@ -26,6 +26,11 @@ impl Reader {
             parameters,
         } = typed;
         let at = *at;
+        if self.state.is_singular() {
+            let what = format!("LightSource \"{kind}\"");
+            self.warn(at, &what, FLATTENED);
+            return Ok(());
+        }
         let transform = Affine3A::from_mat4(self.state.transform);
         let from = transform.transform_point3(parameters.vec3_or("from", Vec3::ZERO));
         let to = transform.transform_point3(parameters.vec3_or("to", Vec3::Z));
@@ -192,7 +197,7 @@ impl Reader {
         if let Some(known) = self.light_images.get(&path) {
             return Ok(known.clone());
         }
-        let file = read_image_from(&path, self.files);
+        let file = read_environment_from(&path, self.files);
         let file = file.and_then(|file| self.within_budget(&path, file));
         let file = file.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         self.scene.warnings.extend(file.warning);

@@ -36,22 +36,18 @@ impl Reader {
             },
             "coateddiffuse" => Surface::CoatedDiffuse {
                 reflectance: self.color(typed, "reflectance", 0.5),
-                eta: self.eta(typed),
+                eta: self.eta(typed, "eta"),
                 alpha: self.facets(typed, ""),
             },
             "dielectric" => Surface::Dielectric {
-                eta: self.eta(typed),
+                eta: self.eta(typed, "eta"),
                 alpha: self.facets(typed, ""),
             },
             "thindielectric" => Surface::ThinDielectric {
-                eta: self.eta(typed),
+                eta: self.eta(typed, "eta"),
             },
             "conductor" => self.conductor(typed, ""),
-            "coatedconductor" => {
-                let what = "material \"coatedconductor\"";
-                self.warn(typed.at, what, "was taken as its conductor");
-                self.conductor(typed, "conductor.")
-            }
+            "coatedconductor" => self.coated_conductor(typed),
             "interface" | "" => Surface::Interface,
             other => {
                 let what = format!("material \"{other}\"");
@@ -71,16 +67,16 @@ impl Reader {
 
     /// The index of refraction of something clear: a number, a glass by name, or a spectrum seen as
     /// one colour.
-    fn eta(&mut self, typed: &Typed<'_>) -> f32 {
+    fn eta(&mut self, typed: &Typed<'_>, name: &str) -> f32 {
         const DEFAULT: f32 = 1.5;
         let parameters = &typed.parameters;
-        if !parameters.has("eta") {
+        if !parameters.has(name) {
             return DEFAULT;
         }
-        if parameters.kind("eta") == Some(ParameterType::Float) {
-            return parameters.positive_or("eta", DEFAULT);
+        if parameters.kind(name) == Some(ParameterType::Float) {
+            return parameters.positive_or(name, DEFAULT);
         }
-        if let Some(glass) = parameters.spectrum_name("eta") {
+        if let Some(glass) = parameters.spectrum_name(name) {
             return named_glass(glass).unwrap_or_else(|| {
                 let what = format!("the glass \"{glass}\"");
                 self.warn(typed.at, &what, "is not known; an index of 1.5 was taken");
@@ -88,10 +84,10 @@ impl Reader {
             });
         }
         let mean = parameters
-            .unbounded("eta")
+            .unbounded(name)
             .map(|rgb| rgb.element_sum() / 3.0);
         if mean == Some(0.0) {
-            parameters.refuse("eta", "expected `eta` above 0".to_owned());
+            parameters.refuse(name, format!("expected `{name}` above 0"));
         }
         mean.unwrap_or(DEFAULT)
     }
@@ -124,6 +120,25 @@ impl Reader {
         let eta = self.of_metal(typed, &format!("{prefix}eta"), |(_, eta, _)| *eta);
         let k = self.of_metal(typed, &format!("{prefix}k"), |(_, _, k)| *k);
         Surface::Conductor { eta, k, alpha }
+    }
+
+    /// A metal under a coat, whose depth and fog have no part here.
+    fn coated_conductor(&mut self, typed: &Typed<'_>) -> Surface {
+        for name in ["thickness", "maxdepth", "nsamples"] {
+            typed.parameters.accept(name);
+        }
+        let coat_eta = self.eta(typed, "interface.eta");
+        let coat_alpha = self.facets(typed, "interface.");
+        match self.conductor(typed, "conductor.") {
+            Surface::Conductor { eta, k, alpha } => Surface::CoatedConductor {
+                eta,
+                k,
+                alpha,
+                coat_eta,
+                coat_alpha,
+            },
+            other => other,
+        }
     }
 
     /// The optical constants of a metal, by numbers or by name; copper by default.

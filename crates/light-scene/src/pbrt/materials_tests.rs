@@ -3,7 +3,7 @@ use std::path::Path;
 use ::lights::sources::LightDesc;
 
 use super::tests::read;
-use crate::glam::Vec3;
+use crate::glam::{Vec2, Vec3};
 use crate::{Color, Diagnostic, Surface};
 
 #[test]
@@ -110,4 +110,34 @@ fn mixtures_hold_their_parts() {
     ] {
         assert_eq!(of(materials, ""), Err(expected.to_owned()), "{materials}");
     }
+}
+
+#[test]
+fn coated_metals_have_two_layers() {
+    let of = |parameters: &str| {
+        let text = format!(
+            "WorldBegin Material \"coatedconductor\" {parameters} Shape \"trianglemesh\" \
+             \"point3 P\" [0 0 0 1 0 0 0 1 0]"
+        );
+        let scene = read("pbrt_coated", &text).expect("a scene");
+        assert_eq!(scene.warnings, [], "all read");
+        let material = scene.meshes[0].material;
+        scene.material(material).surface.clone()
+    };
+    let written = "\"float conductor.roughness\" .25 \"float interface.roughness\" .04
+        \"float interface.eta\" 1.4 \"spectrum conductor.eta\" \"metal-Ag-eta\"
+        \"spectrum conductor.k\" \"metal-Ag-k\" \"float thickness\" .1";
+    let expected = Surface::CoatedConductor {
+        eta: Vec3::new(0.155, 0.117, 0.138),
+        k: Vec3::new(4.828, 3.122, 2.147),
+        alpha: Vec2::splat(0.5),
+        coat_eta: 1.4,
+        coat_alpha: Vec2::splat(0.2),
+    };
+    assert_eq!(of(written), expected, "silver");
+    let Surface::CoatedConductor { eta, coat_eta, .. } = of("\"rgb reflectance\" [.5 .5 .5]")
+    else {
+        panic!("a coated metal");
+    };
+    assert_eq!((eta, coat_eta), (Vec3::ONE, 1.5), "of a reflectance");
 }

@@ -41,6 +41,13 @@ impl Reader {
             "rgbgrid" => self.rgb_grid(typed)?,
             "cloud" => self.cloud(typed)?,
             "" => return Err(refused(typed, "expected \"string type\"")),
+            "nanovdb" => {
+                let message = "is not read and was taken as vacuum; `nanovdb2pbrt FILE.nvdb` of \
+                               pbrt-v4 prints its grid as a \"uniformgrid\"";
+                self.warn(typed.at, "the medium type \"nanovdb\"", message);
+                typed.parameters.accept_all();
+                vacuum(typed)?
+            }
             other => {
                 let what = format!("the medium type \"{}\"", shown(other));
                 self.warn(typed.at, &what, "is not understood and was taken as vacuum");

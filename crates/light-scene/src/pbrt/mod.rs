@@ -2,8 +2,12 @@
 
 mod attribute_target;
 mod attributes;
+#[cfg(test)]
+mod cameras_tests;
+mod checkerboard;
 mod cloud;
 mod colors;
+mod curves;
 mod directives;
 mod file_loc;
 #[cfg(test)]
@@ -15,9 +19,12 @@ mod image_key;
 mod image_map;
 mod included;
 mod includes;
+#[cfg(test)]
+mod leniency_tests;
 mod lights;
 #[cfg(test)]
 mod lights_tests;
+mod loop_subdivision;
 mod material_names;
 mod materials;
 #[cfg(test)]
@@ -25,6 +32,7 @@ mod materials_tests;
 mod media;
 mod medium_grid;
 mod medium_slot;
+mod meshes;
 mod named_materials;
 mod object_slots;
 mod objects;
@@ -46,6 +54,7 @@ mod textures;
 #[cfg(test)]
 mod textures_tests;
 mod tokens;
+mod version3;
 mod view;
 
 use std::path::Path;
@@ -80,8 +89,10 @@ pub(crate) fn parse_pbrt(
     let mut reader = Reader::default();
     reader.files = files;
     path.clone_into(&mut reader.root);
-    reader.file(path, text, 0)?;
-    reader.finish(path)
+    match reader.file(path, text, 0) {
+        Ok(()) => reader.finish(path),
+        Err(error) => Err(reader.explained(error)),
+    }
 }
 
 #[cfg(test)]

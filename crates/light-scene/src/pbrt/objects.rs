@@ -1,6 +1,6 @@
 use super::file_loc::FileLoc;
 use super::object_slots::{ObjectSlot, Objects, OpenObject};
-use super::state::{Reader, State};
+use super::state::{FLATTENED, Reader, State};
 use crate::glam::Affine3A;
 use crate::text::shown;
 use crate::{Diagnostic, Instance, Mesh, Prototype, Sphere};
@@ -54,6 +54,10 @@ impl Reader {
     ) -> Result<(), Diagnostic> {
         if self.objects.open.is_some() {
             return Err(at.diagnostic("expected `ObjectEnd` before `ObjectInstance`"));
+        }
+        if self.state.is_singular() {
+            self.warn(at, "`ObjectInstance`", FLATTENED);
+            return Ok(());
         }
         let prototype = self.objects.id(at, name);
         let slot = &mut self.objects.slots[prototype.0 as usize];

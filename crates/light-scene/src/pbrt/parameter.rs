@@ -3,6 +3,7 @@ use core::fmt;
 use std::path::Path;
 
 use super::tokens::{Token, Tokens, number_of};
+use super::version3::UPGRADE;
 use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, Location};
@@ -84,8 +85,14 @@ impl Parameter {
             return Err(tokens.diagnostic(message));
         };
         let kind = ParameterType::of_name(kind).ok_or_else(|| {
+            let is_old = matches!(kind, "color" | "xyz");
             let (kind, name) = (shown(kind), shown(name));
-            tokens.diagnostic(format!("expected a type for `{name}`, found `{kind}`"))
+            let message = format!("expected a type for `{name}`, found `{kind}`");
+            tokens.diagnostic(if is_old {
+                format!("{message}; {UPGRADE}")
+            } else {
+                message
+            })
         })?;
         let mut parameter = Self {
             kind,
@@ -126,6 +133,10 @@ impl Parameter {
                 self.words.push(word.to_string());
             }
             Some(Token::Quoted(text)) if is_word => self.words.push(text.to_string()),
+            // A normal that is no number is dropped with the mesh in hand.
+            Some(Token::Word(word)) if self.is_normal() && is_broken_number(word) => {
+                self.numbers.push(f64::NAN);
+            }
             Some(Token::Word(word)) if is_number && number_of(word).is_some() => {
                 let number: f64 = word.parse().unwrap_or_default();
                 let fits = number.fract() == 0.0 && number.abs() < f64::from(1u32 << 31);
@@ -137,6 +148,11 @@ impl Parameter {
             other => return Err(self.expected(tokens, other.as_ref())),
         }
         Ok(())
+    }
+
+    /// Whether these are normals of a mesh.
+    fn is_normal(&self) -> bool {
+        self.kind == ParameterType::Triple && self.name == "N"
     }
 
     fn expected(&self, tokens: &Tokens<'_>, found: Option<&Token<'_>>) -> Diagnostic {
@@ -232,9 +248,15 @@ impl fmt::Display for ParameterType {
     }
 }
 
+/// Whether a word is what programs print for numbers that are none.
+fn is_broken_number(word: &str) -> bool {
+    let word = word.trim_start_matches(['-', '+']).to_ascii_lowercase();
+    word.starts_with("nan") || word.starts_with("inf")
+}
+
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "checked to be finite as f32"
+    reason = "checked to be finite as f32, or NaN"
 )]
 pub(super) const fn single(number: f64) -> f32 {
     number as f32

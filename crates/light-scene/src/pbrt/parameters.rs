@@ -107,6 +107,13 @@ impl Parameters {
         }
     }
 
+    /// Marks all parameters as known.
+    pub(super) fn accept_all(&self) {
+        self.list
+            .iter()
+            .for_each(|parameter| parameter.used.set(true));
+    }
+
     pub(super) fn number(&self, name: &str) -> Option<f32> {
         self.number_where(name, |_| true, "")
     }
@@ -160,6 +167,16 @@ impl Parameters {
             let number = whole(p.numbers[0]).filter(|n| (1..=most).contains(n));
             let found = p.numbers[0];
             number.ok_or_else(|| format!("expected `{name}` from 1 to {most}, found {found}"))
+        })
+    }
+
+    /// A whole number from 0 to `most`.
+    pub(super) fn whole(&self, name: &str, most: u32) -> Option<u32> {
+        self.value(name, &[ParameterType::Integer], |p| {
+            let [_] = p.exactly()?;
+            let number = whole(p.numbers[0]).filter(|&n| n <= most);
+            let found = p.numbers[0];
+            number.ok_or_else(|| format!("expected `{name}` from 0 to {most}, found {found}"))
         })
     }
 

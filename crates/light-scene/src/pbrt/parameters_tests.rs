@@ -98,8 +98,8 @@ fn values_are_of_their_type_and_as_many_as_belong_together() {
             "\"rgb I\" or \"blackbody I\" or \"spectrum I\", found \"float I\"",
         ),
         (
-            "LightSource \"point\" \"color I\" [1 1 1]",
-            "a type for `I`, found `color`",
+            "LightSource \"point\" \"colour I\" [1 1 1]",
+            "a type for `I`, found `colour`",
         ),
         (
             "LightSource \"point\" \"blackbody I\" -1",

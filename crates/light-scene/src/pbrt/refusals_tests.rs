@@ -19,8 +19,33 @@ fn broken_files_give_one_clear_line() {
             "a.pbrt:1: expected a distance, found `x`",
         ),
         (
-            "Scale 0 1 1",
-            "a.pbrt:1: expected a transform that can be inverted",
+            "Scale 0 1 1 Camera \"perspective\"",
+            "a.pbrt:1: expected a transform that can be inverted for the camera",
+        ),
+        (
+            "Scale 1e30 1 1 Scale 1e30 1 1",
+            "a.pbrt:1: expected a transform of finite numbers",
+        ),
+        (
+            "WorldBegin Shape \"loopsubdiv\" \"integer levels\" 9 \"point3 P\" [0 0 0 1 0 0 0 1 0]",
+            "a.pbrt:1: expected `levels` from 0 to 8, found 9",
+        ),
+        (
+            "ActiveTransform Never",
+            "a.pbrt:1: expected All, StartTime or EndTime, found `Never`",
+        ),
+        ("Option \"seed\" [ 3 4 ]", "a.pbrt:1: expected ], found `4`"),
+        (
+            "Option \"seed\" ]",
+            "a.pbrt:1: expected the value of an option, found `]`",
+        ),
+        (
+            "Camera \"orthographic\" \"float screenwindow\" [0 0 1 2]",
+            "a.pbrt:1: expected two different numbers each in x and y of `screenwindow`",
+        ),
+        (
+            "Camera \"spherical\" \"string mapping\" \"square\"",
+            "a.pbrt:1: expected `mapping` to be \"equalarea\" or \"equirectangular\", found \"square\"",
         ),
         (
             "Rotate 1 0 0 0",

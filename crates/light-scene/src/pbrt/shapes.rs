@@ -1,16 +1,24 @@
 use super::file_loc::{FileLoc, Typed};
 use super::lights::area_scale;
+use super::loop_subdivision::loop_subdivision;
+use super::meshes::{bilinear_mesh, check, triangle_mesh};
 use super::ply::read_ply;
 use super::quadrics::{cylinder, disk, sphere};
-use super::state::Reader;
-use super::textures::scaled;
+use super::state::{FLATTENED, Reader};
 use crate::glam::{Affine3A, Vec3};
+use crate::scene_light::scaled;
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId, Mesh};
 
 impl Reader {
     pub(super) fn shape(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
         let Typed { at, kind, .. } = typed;
         let at = *at;
+        if self.state.is_singular() {
+            // What it says is not looked at, as in pbrt.
+            typed.parameters.accept_all();
+            self.warn(at, &format!("Shape \"{kind}\""), FLATTENED);
+            return Ok(());
+        }
         if kind == "sphere" {
             if let Some(mut sphere) = self.whole_sphere(typed)? {
                 sphere.material = self.shape_material(typed, || sphere.area());
@@ -20,13 +28,8 @@ impl Reader {
         }
         let mut mesh = match kind.as_str() {
             "trianglemesh" => triangle_mesh(typed)?,
-            "loopsubdiv" => {
-                ["levels", "scheme"]
-                    .into_iter()
-                    .for_each(|name| typed.parameters.accept(name));
-                self.warn(at, "Shape \"loopsubdiv\"", "was taken as its control mesh");
-                triangle_mesh(typed)?
-            }
+            "loopsubdiv" => loop_subdivision(typed)?,
+            "curve" => self.curve(typed)?,
             "bilinearmesh" => {
                 self.warn(
                     at,
@@ -47,10 +50,19 @@ impl Reader {
             other => {
                 let what = format!("Shape \"{other}\"");
                 self.warn(at, &what, "is not understood and was left out");
+                typed.parameters.accept_all();
                 return Ok(());
             }
         };
         check(at, &mesh)?;
+        if mesh.drop_broken_normals() > 0 {
+            let what = format!("Shape \"{kind}\"");
+            self.warn(
+                at,
+                &what,
+                "has normals that are not finite, which were dropped",
+            );
+        }
         mesh.name.clone_from(kind);
         let mut mesh = mesh.transformed(&Affine3A::from_mat4(self.state.transform));
         mesh.drop_empty_triangles();
@@ -116,81 +128,4 @@ impl Reader {
             twin.alpha = Some(Alpha { opacity, cutoff })
         })
     }
-}
-
-fn triangle_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
-    let mut mesh = vertices(typed)?;
-    let count = mesh.positions.len();
-    let indices = match typed.parameters.indices("indices") {
-        Some(indices) => indices,
-        None if count == 3 => vec![0, 1, 2],
-        None => {
-            return Err(typed
-                .at
-                .diagnostic("expected \"integer indices\" from 0 on"));
-        }
-    };
-    if indices.len() % 3 != 0 {
-        let message = format!("expected three indices a triangle, found {}", indices.len());
-        return Err(typed.at.diagnostic(message));
-    }
-    mesh.indices = indices
-        .chunks_exact(3)
-        .map(|t| [t[0], t[1], t[2]])
-        .collect();
-    Ok(mesh)
-}
-
-/// A patch lists its corners row by row: (0,0), (1,0), (0,1), (1,1).
-fn bilinear_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
-    let mut mesh = vertices(typed)?;
-    let count = mesh.positions.len();
-    let indices = match typed.parameters.indices("indices") {
-        Some(indices) => indices,
-        None if count == 4 => vec![0, 1, 2, 3],
-        None => {
-            return Err(typed
-                .at
-                .diagnostic("expected \"integer indices\" from 0 on"));
-        }
-    };
-    if indices.len() % 4 != 0 {
-        let message = format!("expected four indices a patch, found {}", indices.len());
-        return Err(typed.at.diagnostic(message));
-    }
-    let triangles = |p: &[u32]| [[p[0], p[1], p[3]], [p[0], p[3], p[2]]];
-    mesh.indices = indices.chunks_exact(4).flat_map(triangles).collect();
-    Ok(mesh)
-}
-
-fn vertices(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
-    let parameters = &typed.parameters;
-    let mut mesh = Mesh::new("", MaterialId(0));
-    let positions = parameters.vec3s("P");
-    mesh.positions = positions.ok_or_else(|| typed.at.diagnostic("expected \"point3 P\""))?;
-    mesh.normals = parameters.vec3s("N");
-    mesh.uvs = parameters.vec2s("uv").or_else(|| parameters.vec2s("st"));
-    Ok(mesh)
-}
-
-/// The guarantees for the renderer.
-fn check(at: FileLoc<'_>, mesh: &Mesh) -> Result<(), Diagnostic> {
-    let count = mesh.positions.len();
-    let outside = mesh
-        .indices
-        .as_flattened()
-        .iter()
-        .find(|&&i| i as usize >= count);
-    if let Some(index) = outside {
-        let message = format!("vertex {index} of {count} does not exist");
-        return Err(at.diagnostic(message));
-    }
-    let normals = mesh.normals.as_ref().map_or(count, Vec::len);
-    let uvs = mesh.uvs.as_ref().map_or(count, Vec::len);
-    if normals != count || uvs != count {
-        let message =
-            format!("expected as many normals and texture coordinates as vertices, {count}");
-        return Err(at.diagnostic(message));
-    }
-    Ok(())
 }

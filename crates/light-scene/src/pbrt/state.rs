@@ -1,4 +1,4 @@
-use alloc::collections::BTreeSet;
+use alloc::collections::BTreeMap;
 use alloc::rc::Rc;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -16,11 +16,13 @@ use super::parameters::Parameters;
 use super::texture_kind::Textures;
 use crate::glam::{Mat4, Vec3};
 use crate::image::TexelBudget;
-use crate::text::shown;
 use crate::{Camera, Color, Crop, Diagnostic, Files, ImageId, Material, MaterialId, Scene};
 
 /// The most open blocks of one kind.
 pub(super) const MOST_BLOCKS: usize = 1 << 16;
+
+/// What happens to things under a transform without an inverse.
+pub(super) const FLATTENED: &str = "under a transform that cannot be inverted was left out";
 
 /// The scene so far, and the state that the next directive acts on.
 #[derive(Debug, Default)]
@@ -55,7 +57,10 @@ pub(super) struct Reader {
     pub(super) resolution: Option<[u32; 2]>,
     pub(super) crop: Option<Crop>,
     pub(super) in_world: bool,
-    warned: BTreeSet<String>,
+    /// Whether a directive is one that only pbrt-v3 has.
+    pub(super) is_version_3: bool,
+    /// The kinds of warnings so far: the place of the first of each in the list, and how many.
+    warned: BTreeMap<String, (usize, usize)>,
 }
 
 /// What a directive has saved for the one that ends its block.
@@ -67,9 +72,11 @@ pub(super) struct Saved<T> {
 }
 
 /// The state that `AttributeBegin` saves.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) transform: Mat4,
+    /// Whether transforms act on the start of a motion, which the picture shows.
+    pub(super) is_active: bool,
     pub(super) material: Option<MaterialId>,
     pub(super) area_light: Option<AreaLight>,
     pub(super) reversed: bool,
@@ -84,6 +91,27 @@ pub(super) struct AreaLight {
     pub(super) two_sided: bool,
     /// Power in W that decides the scale, if the file states one.
     pub(super) power: Option<f32>,
+}
+
+impl State {
+    /// Whether the transform makes space flat, so that it cannot be inverted.
+    pub(super) fn is_singular(&self) -> bool {
+        !self.transform.inverse().is_finite()
+    }
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            transform: Mat4::IDENTITY,
+            is_active: true,
+            material: None,
+            area_light: None,
+            reversed: false,
+            media: MediumInterface::default(),
+            attributes: Attributes::default(),
+        }
+    }
 }
 
 impl Reader {
@@ -120,11 +148,30 @@ impl Reader {
         [self.saved.len(), self.saved_transforms.len()]
     }
 
-    /// Adds a warning with a location, once for each `what`.
+    /// Adds a warning with a location, once for each `what`; how often it came is counted.
     pub(super) fn warn(&mut self, at: FileLoc<'_>, what: &str, message: &str) {
-        if self.warned.insert(what.to_owned()) {
-            let message = format!("{} {message}", shown(what));
-            self.scene.warnings.push(at.diagnostic(message));
+        self.warn_kind(at, what, what, message);
+    }
+
+    /// As [`warn`](Self::warn), once for each `kind`: of names that the file has chosen only the
+    /// first is shown.
+    pub(super) fn warn_kind(&mut self, at: FileLoc<'_>, kind: &str, what: &str, message: &str) {
+        let warnings = &mut self.scene.warnings;
+        let (_, count) = self.warned.entry(kind.to_owned()).or_insert_with(|| {
+            warnings.push(at.diagnostic(format!("{what} {message}")));
+            (warnings.len() - 1, 0)
+        });
+        *count += 1;
+    }
+
+    /// Adds to each warning how many others of its kind there are.
+    fn count_warnings(&mut self) {
+        for (index, count) in core::mem::take(&mut self.warned).into_values() {
+            if count > 1 {
+                let others = count - 1;
+                let message = &mut self.scene.warnings[index].message;
+                message.push_str(&format!(" (and {others} more like it)"));
+            }
         }
     }
 
@@ -166,6 +213,7 @@ impl Reader {
         self.warn_unused_attributes();
         self.scene.media = self.finished_media()?;
         self.scene.prototypes = self.finished_objects()?;
+        self.count_warnings();
         Ok(self.scene)
     }
 }

@@ -4,7 +4,9 @@ use super::file_loc::Typed;
 use super::state::Reader;
 use super::texture_kind::TextureKind;
 use super::tokens::Tokens;
+use super::version3::UPGRADE;
 use crate::glam::Vec3;
+use crate::scene_light::scaled;
 use crate::text::shown;
 use crate::{Color, ColorImage, Diagnostic, Image};
 
@@ -20,8 +22,11 @@ impl Reader {
             "float" => TextureKind::Float,
             "spectrum" => TextureKind::Spectrum,
             other => {
-                let other = shown(other);
-                let message = format!("expected \"float\" or \"spectrum\", found \"{other}\"");
+                let found = shown(other);
+                let mut message = format!("expected \"float\" or \"spectrum\", found \"{found}\"");
+                if other == "color" {
+                    message = format!("{message}; {UPGRADE}");
+                }
                 return Err(tokens.diagnostic(message));
             }
         };
@@ -41,12 +46,14 @@ impl Reader {
         kind: TextureKind,
     ) -> Result<Color, Diagnostic> {
         Ok(match typed.kind.as_str() {
-            "constant" => self.lookup(typed, "value", 1.0, kind, f32::INFINITY),
+            "constant" => self.texture_or(typed, "value", 1.0, kind),
             "scale" => self.scale_texture(typed, kind),
             "mix" => self.mix_texture(typed, kind),
             "imagemap" => self.image_map(typed, kind)?,
+            "checkerboard" => self.checkerboard(typed, kind),
             _ => {
                 self.warn(typed.at, what, "was taken as grey");
+                typed.parameters.accept_all();
                 Color::Constant(Vec3::splat(0.5))
             }
         })
@@ -75,6 +82,17 @@ impl Reader {
         Some(self.scene.mean(&color).x)
     }
 
+    /// A texture of this kind that another one is made of.
+    pub(super) fn texture_or(
+        &mut self,
+        typed: &Typed<'_>,
+        name: &str,
+        default: f32,
+        kind: TextureKind,
+    ) -> Color {
+        self.lookup(typed, name, default, kind, f32::INFINITY)
+    }
+
     fn lookup(
         &mut self,
         typed: &Typed<'_>,
@@ -89,7 +107,8 @@ impl Reader {
                 return *color;
             }
             let what = format!("texture \"{texture}\"");
-            self.warn(typed.at, &what, "is not defined and was taken as grey");
+            let message = "is not defined and was taken as grey";
+            self.warn_kind(typed.at, "undefined texture", &what, message);
             return Color::Constant(Vec3::splat(0.5));
         }
         if kind == TextureKind::Float {
@@ -105,7 +124,7 @@ impl Reader {
     }
 
     fn scale_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
-        let color = self.lookup(typed, "tex", 1.0, kind, f32::INFINITY);
+        let color = self.texture_or(typed, "tex", 1.0, kind);
         match (color, self.share(typed, "scale", 1.0)) {
             (color, Color::Constant(scale)) => scaled(color, scale),
             (Color::Constant(color), image) => scaled(image, color),
@@ -114,8 +133,8 @@ impl Reader {
     }
 
     fn mix_texture(&mut self, typed: &Typed<'_>, kind: TextureKind) -> Color {
-        let first = self.lookup(typed, "tex1", 0.0, kind, f32::INFINITY);
-        let second = self.lookup(typed, "tex2", 1.0, kind, f32::INFINITY);
+        let first = self.texture_or(typed, "tex1", 0.0, kind);
+        let second = self.texture_or(typed, "tex2", 1.0, kind);
         let amount = self.share(typed, "amount", 0.5);
         self.baked(typed, [first, second, amount], |[first, second, amount]| {
             first.lerp(second, amount.x)
@@ -168,16 +187,5 @@ impl Reader {
             scale: Vec3::ONE,
             ..first
         })
-    }
-}
-
-/// A colour times a factor.
-pub(super) fn scaled(color: Color, by: Vec3) -> Color {
-    match color {
-        Color::Constant(color) => Color::Constant(color * by),
-        Color::Image(texture) => Color::Image(ColorImage {
-            scale: texture.scale * by,
-            ..texture
-        }),
     }
 }

@@ -5,7 +5,11 @@ use super::lights::fov;
 use super::parameter::ParameterType;
 use super::state::Reader;
 use crate::glam::Vec3;
-use crate::{Camera, Crop, Diagnostic, Lens};
+use crate::text::shown;
+use crate::{Camera, Crop, Diagnostic, Lens, Projection, ScreenWindow};
+
+/// A path scatters no more often than this.
+const MOST_SCATTERING: u32 = (1 << 31) - 1;
 
 /// An image has no more pixels a side than this.
 const LONGEST: u32 = 65536;
@@ -17,24 +21,47 @@ impl Reader {
             kind,
             parameters,
         } = typed;
-        if kind != "perspective" {
-            let what = format!("Camera \"{kind}\"");
-            self.warn(*at, &what, "was taken as perspective");
+        if self.state.is_singular() {
+            return Err(at.diagnostic("expected a transform that can be inverted for the camera"));
         }
         let to_world = self.state.transform.inverse();
+        let scale = |v: Vec3| to_world.transform_vector3(v).length();
+        let projection = match kind.as_str() {
+            "perspective" => Projection::Perspective,
+            "orthographic" => Projection::Orthographic {
+                scale: scale(Vec3::X),
+            },
+            "spherical" => self.sphere_map(typed),
+            _ => {
+                let what = format!("Camera \"{kind}\"");
+                self.warn(*at, &what, "was taken as perspective");
+                Projection::Perspective
+            }
+        };
         self.coordinates.insert("camera".to_owned(), to_world);
         self.scene.camera_medium = self.state.media.outside;
-        let fov = fov(typed).to_radians();
+        let is_spherical = matches!(projection, Projection::LatLong | Projection::EqualArea);
+        let fov = match projection {
+            Projection::Perspective => fov(typed),
+            _ => 90.0,
+        };
+        let screen = screen_window(typed).filter(|_| !is_spherical);
         let radius = parameters.amount_or("lensradius", 0.0);
         let focus_distance = parameters.positive_or("focaldistance", 1e6);
+        // The picture is that of the moment at which the shutter opens.
+        for name in ["shutteropen", "shutterclose"] {
+            parameters.accept(name);
+        }
         let axis = |v: Vec3| to_world.transform_vector3(v).normalize_or(v);
         self.camera = Some(Camera {
             position: to_world.transform_point3(Vec3::ZERO),
             right: axis(Vec3::X),
             up: axis(Vec3::Y),
             forward: axis(Vec3::Z),
-            fov,
-            lens: (radius > 0.0).then_some(Lens {
+            projection,
+            fov: fov.to_radians(),
+            screen,
+            lens: (radius > 0.0 && !is_spherical).then_some(Lens {
                 radius,
                 focus_distance,
             }),
@@ -43,6 +70,22 @@ impl Reader {
             exposure: None,
         });
         Ok(())
+    }
+
+    /// Which map the picture of a spherical camera is.
+    fn sphere_map(&mut self, typed: &Typed<'_>) -> Projection {
+        match typed.parameters.string("mapping").unwrap_or("equalarea") {
+            "equalarea" => Projection::EqualArea,
+            "equirectangular" => Projection::LatLong,
+            other => {
+                let message = format!(
+                    "expected `mapping` to be \"equalarea\" or \"equirectangular\", found \"{}\"",
+                    shown(other)
+                );
+                typed.parameters.refuse("mapping", message);
+                Projection::EqualArea
+            }
+        }
     }
 
     pub(super) fn film(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -80,6 +123,26 @@ impl Reader {
         Ok(())
     }
 
+    /// Of an integrator the longest path counts: pbrt counts what is between the ends of a path.
+    pub(super) fn integrator(&mut self, typed: &Typed<'_>) {
+        let parameters = &typed.parameters;
+        let depth = parameters.whole("maxdepth", MOST_SCATTERING);
+        self.scene.max_depth = depth.map(|depth| depth + 1);
+        // The command line says how lights are chosen.
+        parameters.accept("lightsampler");
+        if !matches!(
+            typed.kind.as_str(),
+            "path" | "volpath" | "simplepath" | "simplevolpath"
+        ) {
+            let what = format!("Integrator \"{}\"", typed.kind);
+            self.warn(
+                typed.at,
+                &what,
+                "was taken as the program's own path tracer",
+            );
+        }
+    }
+
     /// Of all filters the program has the box of one pixel.
     pub(super) fn pixel_filter(&mut self, typed: &Typed<'_>) {
         let Typed {
@@ -99,6 +162,29 @@ impl Reader {
         let what = format!("PixelFilter \"{kind}\"");
         self.warn(*at, &what, "was taken as a box of one pixel");
     }
+}
+
+/// The window of the screen that a camera names, or that its `frameaspectratio` makes.
+fn screen_window(typed: &Typed<'_>) -> Option<ScreenWindow> {
+    let parameters = &typed.parameters;
+    let aspect = parameters.positive("frameaspectratio");
+    let window = parameters.numbers("screenwindow", ParameterType::Float);
+    if let Some([x0, x1, y0, y1]) = window {
+        if x0 == x1 || y0 == y1 {
+            let message = "expected two different numbers each in x and y of `screenwindow`";
+            parameters.refuse("screenwindow", message.to_owned());
+        }
+        return Some(ScreenWindow {
+            x: [x0, x1],
+            y: [y0, y1],
+        });
+    }
+    let aspect = aspect?;
+    let (x, y) = (aspect.max(1.0), aspect.recip().max(1.0));
+    Some(ScreenWindow {
+        x: [-x, x],
+        y: [-y, y],
+    })
 }
 
 /// A number of pixels.

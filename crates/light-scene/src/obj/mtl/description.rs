@@ -1,23 +1,20 @@
 use crate::glam::{Vec2, Vec3};
-use crate::text::{Line, shown};
-use crate::{
-    Alpha, Color, ColorImage, Diagnostic, Emission, EmissionSides, Material, Scene, Surface,
-};
+use crate::{Alpha, Color, ColorImage, Emission, EmissionSides, Material, Scene, Surface};
 
 /// One material as the library writes it.
 #[derive(Debug)]
 pub(super) struct Description {
     pub(super) name: String,
     diffuse: Option<Vec3>,
-    pub(super) diffuse_map: Option<ColorImage>,
+    diffuse_map: Option<ColorImage>,
     specular: Vec3,
     emitted: Vec3,
-    pub(super) emitted_map: Option<ColorImage>,
+    emitted_map: Option<ColorImage>,
     /// `d`: the opacity.
     dissolve: Option<f32>,
     /// `Tr`: the transparency.
     transparency: Option<f32>,
-    pub(super) dissolve_map: Option<ColorImage>,
+    dissolve_map: Option<ColorImage>,
     index_of_refraction: f32,
     roughness: Option<f32>,
     metallic: f32,
@@ -35,46 +32,34 @@ enum Finish {
 }
 
 impl Description {
-    pub(super) fn new(name: String) -> Self {
+    /// The description that `tobj` has read, without its images.
+    pub(super) fn of(material: &tobj::Material) -> Self {
+        let color = |color: Option<[f32; 3]>| color.map(Vec3::from);
+        let unknown = |keyword: &str| material.unknown_param.get(keyword)?.parse().ok();
         Self {
-            name,
-            diffuse: None,
+            name: material.name.clone(),
+            diffuse: color(material.diffuse),
             diffuse_map: None,
-            specular: Vec3::ZERO,
-            emitted: Vec3::ZERO,
+            specular: color(material.specular).unwrap_or_default(),
+            emitted: color(material.emissive).unwrap_or_default(),
             emitted_map: None,
-            dissolve: None,
-            transparency: None,
+            dissolve: material.dissolve,
+            transparency: unknown("Tr"),
             dissolve_map: None,
-            index_of_refraction: 1.5,
-            roughness: None,
-            metallic: 0.0,
-            illumination: 2,
+            index_of_refraction: material.optical_density.unwrap_or(1.5),
+            roughness: unknown("Pr"),
+            metallic: unknown("Pm").unwrap_or(0.0),
+            illumination: material.illumination_model.unwrap_or(2),
         }
     }
 
-    /// Reads one line; returns whether its keyword is supported.
-    pub(super) fn parameter(
-        &mut self,
-        keyword: &str,
-        line: &mut Line<'_>,
-    ) -> Result<bool, Diagnostic> {
+    /// Takes the image of a parameter.
+    pub(super) fn set_map(&mut self, keyword: &str, image: Option<ColorImage>) {
         match keyword {
-            "Kd" => self.diffuse = Some(color(line)?.min(Vec3::ONE)),
-            "Ks" => self.specular = color(line)?.min(Vec3::ONE),
-            "Ke" => self.emitted = color(line)?,
-            "d" => self.dissolve = Some(share(line, "a dissolve")?),
-            "Tr" => self.transparency = Some(share(line, "a transparency")?),
-            "Ni" => self.index_of_refraction = at_least_zero(line, "an index of refraction")?,
-            "Pr" => self.roughness = Some(share(line, "a roughness")?),
-            "Pm" => self.metallic = share(line, "a metalness")?,
-            "illum" => self.illumination = illumination(line)?,
-            // Ambient light has no meaning in path tracing; the exponent belongs to the gloss of
-            // `Ks`.
-            "Ka" | "map_Ka" | "Ns" => {}
-            _ => return Ok(false),
+            "map_Kd" => self.diffuse_map = image,
+            "map_Ke" => self.emitted_map = image,
+            _ => self.dissolve_map = image,
         }
-        Ok(true)
     }
 
     /// The ignored parts of the description, for a warning.
@@ -196,42 +181,4 @@ impl Description {
             },
         }
     }
-}
-
-/// Three channels, or one for all of them.
-fn color(line: &mut Line<'_>) -> Result<Vec3, Diagnostic> {
-    let red = at_least_zero(line, "a colour channel")?;
-    let Some(green) = line.optional_number("a colour channel")? else {
-        return Ok(Vec3::splat(red));
-    };
-    let color = Vec3::new(red, green, line.number("a colour channel")?);
-    if color.min_element() < 0.0 {
-        return Err(line.diagnostic("expected colour channels of at least 0"));
-    }
-    Ok(color)
-}
-
-fn at_least_zero(line: &mut Line<'_>, what: &str) -> Result<f32, Diagnostic> {
-    let number = line.number(what)?;
-    if number < 0.0 {
-        return Err(line.diagnostic(format!("expected {what} of at least 0, found {number}")));
-    }
-    Ok(number)
-}
-
-/// A number of at least 0; 1 where it is larger.
-fn share(line: &mut Line<'_>, what: &str) -> Result<f32, Diagnostic> {
-    Ok(at_least_zero(line, what)?.min(1.0))
-}
-
-fn illumination(line: &mut Line<'_>) -> Result<u8, Diagnostic> {
-    let word = line.word().unwrap_or_default();
-    let model = word.parse::<u8>().ok().filter(|model| *model <= 10);
-    model.ok_or_else(|| {
-        let message = format!(
-            "expected an illumination model of 0 to 10, found `{}`",
-            shown(word)
-        );
-        line.diagnostic(message)
-    })
 }

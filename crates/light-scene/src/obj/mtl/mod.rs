@@ -1,16 +1,26 @@
 //! Material libraries: the meaning of MTL parameters in this crate.
 
 mod description;
+mod parameter;
 mod texture;
 
-use alloc::collections::BTreeSet;
+use alloc::borrow::Cow;
+use alloc::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::text::{Line, logical_lines, shown};
+use super::cleaned::{Cleaned, Cleaner, Handed};
+use crate::text::{Line, shown};
 use crate::{Diagnostic, Files, MaterialId, Scene};
 
 use description::Description;
 use texture::{Content, Textures};
+
+/// The parameters that name an image, and what it gives.
+const MAPS: [(&str, Content); 3] = [
+    ("map_Kd", Content::Color),
+    ("map_Ke", Content::Color),
+    ("map_d", Content::Opacity),
+];
 
 /// Adds the materials of a library to the scene; returns their names and ids.
 pub(super) fn parse_mtl(
@@ -19,86 +29,129 @@ pub(super) fn parse_mtl(
     files: Files<'_>,
     scene: &mut Scene,
 ) -> Result<Vec<(String, MaterialId)>, Diagnostic> {
-    let mut library = Library {
-        scene,
-        textures: Textures::new(files),
-        described: Vec::new(),
-        warned: BTreeSet::new(),
+    let mut lines = Cleaned::new(path, text, Library::default());
+    let (materials, _) = match tobj::load_mtl_buf(&mut lines) {
+        Ok(loaded) => loaded,
+        Err(error) => {
+            let fault = lines.fault();
+            return Err(fault.unwrap_or_else(|| lines.at_last_line(error)));
+        }
     };
-    for (number, text) in logical_lines(text) {
-        library.line(Line::new(path, number, &text))?;
+    if materials.is_empty() {
+        let message = "expected at least one material (`newmtl NAME`)";
+        return Err(Diagnostic::file(path, message));
     }
-    library.finish(path)
+    let Library {
+        places,
+        mut warnings,
+    } = lines.cleaner;
+    let mut textures = Textures::new(files);
+    let mut described = Vec::with_capacity(materials.len());
+    for (material, place) in materials.iter().zip(&places) {
+        let mut description = Description::of(material);
+        for (keyword, content) in MAPS {
+            let (Some(&number), Some(name)) = (place.maps.get(keyword), map_of(material, keyword))
+            else {
+                continue;
+            };
+            let mut line = Line::new(path, number, name);
+            let texture = textures.load(content, &mut line, scene)?;
+            texture.warnings.into_iter().for_each(|w| warnings.add(w));
+            description.set_map(keyword, texture.image);
+        }
+        described.push(description);
+    }
+    let mut added = Vec::with_capacity(described.len());
+    for (description, place) in described.into_iter().zip(&places) {
+        let start = Line::new(path, place.start, "");
+        for message in description.simplifications() {
+            warnings.add(start.diagnostic(message));
+        }
+        let name = description.name.clone();
+        let finished = description.into_material(scene);
+        added.push((name, scene.add_material(finished)));
+    }
+    scene.warnings.extend(warnings.list);
+    Ok(added)
 }
 
-struct Library<'a> {
-    scene: &'a mut Scene,
-    textures: Textures<'a>,
-    /// The materials so far, each with where it starts.
-    described: Vec<(Description, Diagnostic)>,
-    /// The warnings so far.
-    warned: BTreeSet<(PathBuf, String)>,
+/// What a material says of an image: options and a name.
+fn map_of<'a>(material: &'a tobj::Material, keyword: &str) -> Option<&'a str> {
+    match keyword {
+        "map_Kd" => material.diffuse_texture.as_deref(),
+        "map_d" => material.dissolve_texture.as_deref(),
+        other => material.unknown_param.get(other).map(String::as_str),
+    }
 }
 
-impl Library<'_> {
-    fn line(&mut self, mut line: Line<'_>) -> Result<(), Diagnostic> {
+/// Looks at the lines of a library before `tobj` reads them.
+#[derive(Debug, Default)]
+struct Library {
+    /// Where each material is described.
+    places: Vec<Place>,
+    warnings: Warnings,
+}
+
+/// The lines of a material.
+#[derive(Debug)]
+struct Place {
+    start: usize,
+    /// Those of its images, by keyword.
+    maps: BTreeMap<&'static str, usize>,
+}
+
+/// What is said once for the library.
+#[derive(Debug, Default)]
+struct Warnings {
+    list: Vec<Diagnostic>,
+    said: BTreeSet<(PathBuf, String)>,
+}
+
+impl Warnings {
+    fn add(&mut self, warning: Diagnostic) {
+        let said = (warning.path.clone(), warning.message.clone());
+        if self.said.insert(said) {
+            self.list.push(warning);
+        }
+    }
+}
+
+impl Cleaner for Library {
+    fn clean<'a>(
+        &mut self,
+        mut line: Line<'_>,
+        text: Cow<'a, str>,
+        handed: &mut Handed<'a>,
+    ) -> Result<(), Diagnostic> {
         let Some(keyword) = line.word() else {
             return Ok(());
         };
         if keyword == "newmtl" {
-            let material = Description::new(line.rest("a material's name")?);
-            self.described.push((material, line.diagnostic("")));
+            let name = line.rest("a material's name")?;
+            handed.line(format!("newmtl {name}"));
+            self.places.push(Place {
+                start: line.number_in_file(),
+                maps: BTreeMap::new(),
+            });
             return Ok(());
         }
-        let Some((material, _)) = self.described.last_mut() else {
+        let Some(place) = self.places.last_mut() else {
             let message = format!("expected `newmtl NAME` before `{}`", shown(keyword));
             return Err(line.diagnostic(message));
         };
-        let (map, content) = match keyword {
-            "map_Kd" => (&mut material.diffuse_map, Content::Color),
-            "map_Ke" => (&mut material.emitted_map, Content::Color),
-            "map_d" => (&mut material.dissolve_map, Content::Opacity),
-            _ => {
-                if !material.parameter(keyword, &mut line)? {
-                    let message = format!("`{}` is not understood and was ignored", shown(keyword));
-                    self.warn(line.diagnostic(message));
-                }
-                return Ok(());
+        if let Some((map, _)) = MAPS.into_iter().find(|(map, _)| *map == keyword) {
+            place.maps.insert(map, line.number_in_file());
+            line.rest("a file name")?;
+            handed.line(text);
+        } else if let Some(written) = parameter::written(keyword, &mut line)? {
+            if !written.is_empty() {
+                handed.line(format!("{keyword} {written}"));
             }
-        };
-        let texture = self.textures.load(content, &mut line, self.scene)?;
-        *map = texture.image;
-        texture.warnings.into_iter().for_each(|w| self.warn(w));
+        } else {
+            let message = format!("`{keyword}` is not understood and was ignored");
+            self.warnings.add(line.diagnostic(message));
+        }
         Ok(())
-    }
-
-    fn finish(mut self, path: &Path) -> Result<Vec<(String, MaterialId)>, Diagnostic> {
-        if self.described.is_empty() {
-            let message = "expected at least one material (`newmtl NAME`)";
-            return Err(Diagnostic::file(path, message));
-        }
-        let mut added = Vec::with_capacity(self.described.len());
-        for (material, start) in core::mem::take(&mut self.described) {
-            for message in material.simplifications() {
-                let message = message.to_owned();
-                self.warn(Diagnostic {
-                    message,
-                    ..start.clone()
-                });
-            }
-            let name = material.name.clone();
-            let finished = material.into_material(self.scene);
-            added.push((name, self.scene.add_material(finished)));
-        }
-        Ok(added)
-    }
-
-    /// Says something once for the library.
-    fn warn(&mut self, warning: Diagnostic) {
-        let said = (warning.path.clone(), warning.message.clone());
-        if self.warned.insert(said) {
-            self.scene.warnings.push(warning);
-        }
     }
 }
 

@@ -99,14 +99,22 @@ fn broken_lines_give_one_clear_line() {
             "newmtl a\nmap_Kd -clamp a.png\n",
             "dir/a.mtl:2: expected `-clamp on` or `-clamp off`",
         ),
-        (
-            "newmtl a\nmap_Kd no.png\n",
-            "dir/a.mtl:2: dir/no.png: cannot be read",
-        ),
     ];
     for (mtl, expected) in cases {
         assert_eq!(read(mtl).expect_err("an error"), expected, "{mtl}");
     }
+}
+
+#[test]
+fn missing_textures_are_named() {
+    let mtl = "newmtl a\nKd .2\nmap_Kd no.png\nmap_d no.png\n";
+    let scene = read(mtl).expect("a scene");
+    let reflectance = Color::Constant(Vec3::splat(0.2));
+    let diffuse = Surface::Diffuse { reflectance };
+    assert_eq!(scene.materials[0].surface, diffuse, "`Kd` alone");
+    assert_eq!(scene.materials[0].alpha, None, "all of it");
+    let left_out = "dir/no.png: cannot be read; the texture was left out";
+    assert_eq!(warnings(mtl), [format!("dir/a.mtl:3: {left_out}")], "once");
 }
 
 #[test]
@@ -149,7 +157,7 @@ fn what_does_not_count_is_named_once() {
     let expected = [
         "dir/a.mtl:17: `bump` is not understood and was ignored",
         "dir/a.mtl:18: `Tf` is not understood and was ignored",
-        "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .png, .tga or .jpg",
+        "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .pfm, .png, .tga or .jpg",
         "dir/a.mtl:1: `Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or \
          `illum 3` or `5` of a mirror",
         "dir/a.mtl:5: `Kd` of a mirror was ignored",

@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use lights::sources::{TextureMapping, Wrap};
 
 use crate::glam::{Affine2, Vec2};
-use crate::image::{IMAGE_ENDINGS, TexelBudget, is_image_name, read_image_from, read_opacity_from};
+use crate::image::{IMAGE_ENDINGS, TexelBudget, is_image_name, parse_image, parse_opacity};
 use crate::text::{Line, shown};
 use crate::{ColorImage, Diagnostic, Files, ImageId, Scene};
 
@@ -79,9 +79,17 @@ impl<'a> Textures<'a> {
         let image = match self.by_name.get(&key) {
             Some(&known) => known,
             None => {
+                let bytes = match self.files.read(&path) {
+                    Ok(bytes) => bytes,
+                    Err(error) => {
+                        let message = format!("{error}; the texture was left out");
+                        texture.warnings.push(line.diagnostic(message));
+                        return Ok(texture);
+                    }
+                };
                 let file = match content {
-                    Content::Color => read_image_from(&path, self.files),
-                    Content::Opacity => read_opacity_from(&path, self.files),
+                    Content::Color => parse_image(&path, &bytes),
+                    Content::Opacity => parse_opacity(&path, &bytes),
                 };
                 let file = file.and_then(|file| {
                     self.budget.take(&path, file.image.size())?;

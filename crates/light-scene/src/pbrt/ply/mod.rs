@@ -31,13 +31,15 @@ pub(super) fn read_ply(
 }
 
 /// The vertices and faces in the bytes of a PLY file, compressed by gzip or not; `path` names it in
-/// messages.
+/// messages. Normals that are not finite become 0.
 ///
 /// # Errors
 /// When the file is broken, or a face names a vertex that is not there: with line or byte, and what
 /// was expected.
 pub fn parse_ply(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
-    parse_unpacked(path, &gunzipped(path, bytes)?)
+    let mut mesh = parse_unpacked(path, &gunzipped(path, bytes)?)?;
+    mesh.drop_broken_normals();
+    Ok(mesh)
 }
 
 fn parse_unpacked(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
@@ -87,7 +89,8 @@ impl Body<'_> {
                 continue;
             };
             let value = single(value.first().copied().unwrap_or_default());
-            if !value.is_finite() {
+            let may_be_broken = matches!(name.as_str(), "nx" | "ny" | "nz");
+            if !value.is_finite() && !may_be_broken {
                 return Err(self.error(format!("expected a finite `{}`", shown(name))));
             }
             match name.as_str() {
@@ -150,7 +153,7 @@ impl Body<'_> {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "checked to be finite by the caller"
+    reason = "the caller looks whether it is finite"
 )]
 const fn single(value: f64) -> f32 {
     value as f32
