@@ -5,6 +5,7 @@
 //! from the surface.
 
 mod albedo;
+mod coated_conductor;
 mod coated_diffuse;
 mod conductor;
 mod dielectric;
@@ -16,6 +17,7 @@ mod mirror;
 mod scattering;
 mod thin_dielectric;
 
+pub use coated_conductor::CoatedConductor;
 pub use coated_diffuse::CoatedDiffuse;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
@@ -46,6 +48,8 @@ pub enum Bsdf {
     CoatedDiffuse(CoatedDiffuse),
     /// A metal, a coated dielectric, or a mixture of both.
     MetallicRoughness(MetallicRoughness),
+    /// A metal under a clear coat.
+    CoatedConductor(CoatedConductor),
 }
 
 /// A direction that [`Bsdf::sample`] chose.
@@ -74,6 +78,7 @@ impl Bsdf {
             Self::Dielectric(bsdf) => bsdf.eval(wo, wi),
             Self::CoatedDiffuse(bsdf) => bsdf.eval(wo, wi),
             Self::MetallicRoughness(bsdf) => bsdf.eval(wo, wi),
+            Self::CoatedConductor(bsdf) => bsdf.eval(wo, wi),
             Self::Mirror(_) | Self::ThinDielectric(_) => Vec3::ZERO,
         }
     }
@@ -88,6 +93,7 @@ impl Bsdf {
             Self::Dielectric(bsdf) => bsdf.pdf(wo, wi),
             Self::CoatedDiffuse(bsdf) => bsdf.pdf(wo, wi),
             Self::MetallicRoughness(bsdf) => bsdf.pdf(wo, wi),
+            Self::CoatedConductor(bsdf) => bsdf.pdf(wo, wi),
             Self::Mirror(_) | Self::ThinDielectric(_) => 0.0,
         }
     }
@@ -105,6 +111,7 @@ impl Bsdf {
             Self::ThinDielectric(bsdf) => Some(bsdf.sample(wo, u_lobe)),
             Self::CoatedDiffuse(bsdf) => bsdf.sample(wo, u_lobe, u),
             Self::MetallicRoughness(bsdf) => bsdf.sample(wo, u_lobe, u),
+            Self::CoatedConductor(bsdf) => bsdf.sample(wo, u_lobe, u),
         }
     }
 
@@ -118,6 +125,7 @@ impl Bsdf {
             Self::Conductor(bsdf) => bsdf.facets.is_smooth(),
             Self::Dielectric(bsdf) => bsdf.is_dirac(),
             Self::MetallicRoughness(bsdf) => bsdf.is_dirac(),
+            Self::CoatedConductor(bsdf) => bsdf.is_dirac(),
             Self::Lambert(_) | Self::CoatedDiffuse(_) => false,
         }
     }
@@ -132,6 +140,7 @@ impl Bsdf {
             Self::Mirror(_)
             | Self::Conductor(_)
             | Self::CoatedDiffuse(_)
+            | Self::CoatedConductor(_)
             | Self::MetallicRoughness(_) => false,
         }
     }
@@ -144,6 +153,7 @@ impl Bsdf {
             Self::Conductor(bsdf) => Some((bsdf.facets.alpha(), 0.0)),
             Self::CoatedDiffuse(bsdf) => Some(bsdf.gloss()),
             Self::MetallicRoughness(bsdf) => Some(bsdf.gloss()),
+            Self::CoatedConductor(bsdf) => Some(bsdf.gloss()),
             Self::Lambert(_) | Self::Mirror(_) | Self::Dielectric(_) | Self::ThinDielectric(_) => {
                 None
             }

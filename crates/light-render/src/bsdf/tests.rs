@@ -40,6 +40,18 @@ fn subjects() -> Vec<(&'static str, Bsdf)> {
         ("worn paint", metallic_roughness(0.4, 0.5, None)),
         ("steel", metallic_roughness(1.0, 0.7, None)),
         ("car paint", metallic_roughness(0.6, 0.6, Some([0.8, 0.55]))),
+        (
+            "coated metal",
+            Bsdf::CoatedConductor(CoatedConductor::new(
+                Conductor {
+                    eta: Vec3::new(0.2, 0.9, 1.1),
+                    k: Vec3::new(3.9, 2.4, 2.2),
+                    facets: facets(0.4, 0.3),
+                },
+                1.5,
+                facets(0.3, 0.2),
+            )),
+        ),
     ]
 }
 
@@ -163,5 +175,50 @@ fn smooth_glass_splits_light_by_the_fresnel_factor() {
     assert!(
         (down.weight.x * 2.25 - 1.0).abs() < 1e-5,
         "squeezed radiance"
+    );
+}
+
+/// All that is reflected by a smooth coat on a smooth metal that absorbs nothing is what arrives:
+/// the series of reflections inside of the coat loses none.
+#[test]
+fn a_coat_takes_nothing_away() {
+    let smooth = Microfacets::new(Vec2::ZERO);
+    let silver = Conductor {
+        eta: Vec3::splat(1e-4),
+        k: Vec3::splat(10.0),
+        facets: smooth,
+    };
+    let coated = CoatedConductor::new(silver, 1.5, smooth);
+    assert!(coated.is_dirac(), "two mirrors");
+    for wo in viewers() {
+        // Each layer is chosen with a probability; the two weights times these are shares.
+        let [coat, metal] = [0.0, 1.0 - f32::EPSILON].map(|u_lobe| {
+            let sample = coated
+                .sample(wo, u_lobe, Vec2::splat(0.5))
+                .expect("a mirror");
+            assert!(sample.pdf.is_none(), "a Dirac");
+            sample.weight.x
+        });
+        let share = fresnel::dielectric(wo.z.abs(), 1.5);
+        let p = share / coat;
+        let sum = share + metal * (1.0 - p);
+        assert!((sum - 1.0).abs() < 1e-3, "from {wo}: {sum}");
+    }
+}
+
+/// A coat with the index of what is around it is none.
+#[test]
+fn a_coat_of_air_is_no_coat() {
+    let gold = Conductor {
+        eta: Vec3::new(0.143, 0.375, 1.442),
+        k: Vec3::new(3.983, 2.386, 1.603),
+        facets: Microfacets::new(Vec2::splat(0.3)),
+    };
+    let coated = CoatedConductor::new(gold, 1.0, Microfacets::new(Vec2::splat(0.3)));
+    let (wo, wi) = (viewers()[0], Vec3::new(-0.3, 0.1, 0.9).normalize());
+    let (expected, found) = (gold.eval(wo, wi), coated.eval(wo, wi));
+    assert!(
+        found.distance(expected) < 1e-4 * expected.length(),
+        "{found}, not {expected}"
     );
 }

@@ -2,8 +2,19 @@ use core::ops::Range;
 use core::str::FromStr;
 use core::time::Duration;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use light_scene::Crop;
 use lights::glam::Vec3;
+
+/// One of some names, which the help lists.
+pub(crate) fn named<T>(
+    names: impl IntoIterator<Item = &'static str>,
+) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = String> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(|name| name.parse())
+}
 
 /// Position, target and up vector of the camera: `ex,ey,ez,tx,ty,tz,ux,uy,uz`.
 #[derive(Clone, Copy, Debug, PartialEq)]

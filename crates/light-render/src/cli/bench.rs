@@ -10,7 +10,7 @@ use clap::Args;
 use light_sets::{BenchSet, SetKind};
 use serde_json::Value;
 
-use super::arguments::threads;
+use super::arguments::{named, threads};
 use super::failure::Failure;
 use super::memory_check::check_memory;
 use super::stdout::say;
@@ -21,6 +21,9 @@ const BYTES_PER_LIGHT: u64 = 400;
 
 /// Measure light samplers side by side on a set of lights.
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  lights bench --generate clusters --n 100000 --samplers bvh-reference,bvh
+  lights bench --lights a.lights --points a.points --json")]
 pub(crate) struct BenchArgs {
     /// Lights of the set to read; needs --points.
     #[arg(long, value_name = "FILE", requires = "points")]
@@ -28,10 +31,13 @@ pub(crate) struct BenchArgs {
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
     points: Option<PathBuf>,
-    /// Make a set: uniform, clusters, spots or mixed; a place, such as storeys, downlights or
-    /// stadium (any other word lists them all); or an adversarial set, one-point, line, nested,
-    /// large-world or magnitudes.
-    #[arg(long, value_name = "KIND", conflicts_with_all = ["lights", "points"])]
+    /// Make a set: of plain lights, a place, or an adversarial set.
+    #[arg(
+        long,
+        value_name = "KIND",
+        conflicts_with_all = ["lights", "points"],
+        value_parser = named::<SetKind>(SetKind::all().map(SetKind::name))
+    )]
     generate: Option<SetKind>,
     /// Lights of the set to make.
     #[arg(
@@ -47,7 +53,8 @@ pub(crate) struct BenchArgs {
     /// Keep the set as PREFIX.lights and PREFIX.points.
     #[arg(long, value_name = "PREFIX")]
     write: Option<PathBuf>,
-    /// Samplers to measure, with commas between.
+    /// Samplers to measure, with commas between: uniform, power, exhaustive, bvh-reference, bvh,
+    /// bvh-morton.
     #[arg(long, value_name = "LIST", default_value_t = default_samplers())]
     samplers: String,
     /// Samples of one call, at most 4096.

@@ -2,7 +2,7 @@ use core::fmt;
 use std::path::Path;
 
 use clap::ValueEnum;
-use light_scene::{Diagnostic, ImageFile, read_image};
+use light_scene::{Diagnostic, ImageFile, read_environment};
 use lights::math::SphereMap;
 use lights::sources::Image;
 
@@ -33,7 +33,7 @@ impl Environment {
     /// When the file cannot be read, or its shape and `map` do not go together.
     pub(super) fn read(path: &Path, map: Option<MapName>) -> Result<Self, Failure> {
         let refuse = |message: String| Failure::input(Diagnostic::file(path, message));
-        let ImageFile { image, warning } = read_image(path).map_err(Failure::input)?;
+        let ImageFile { image, warning } = read_environment(path).map_err(Failure::input)?;
         report_warnings(warning.as_slice());
         let (width, height) = (image.width(), image.height());
         let map = match map {

@@ -18,6 +18,9 @@ use super::visibility::{CellCosts, VisibilityName, cells, with_cells};
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  lights info scene.pbrt
+  lights info car.glb --json")]
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     input: SceneInput,

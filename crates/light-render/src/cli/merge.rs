@@ -10,6 +10,8 @@ use super::output_image::{OutputImage, Precision};
 
 /// Put parts of a picture together that were rendered with --samples.
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  lights merge part-0.exr part-1.exr -o whole.exr")]
 pub(crate) struct MergeArgs {
     /// The parts, in any order.
     #[arg(required = true)]

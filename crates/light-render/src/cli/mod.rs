@@ -4,7 +4,10 @@ mod arguments;
 mod bench;
 mod checkpoint;
 mod compare;
+mod completions;
 mod demo;
+mod display_args;
+mod doubts;
 mod env;
 mod env_convert;
 mod env_median_cut;
@@ -15,6 +18,7 @@ mod failure;
 mod ies;
 mod info;
 mod layer_args;
+mod light_args;
 mod memory_check;
 mod merge;
 mod output_file;
@@ -38,12 +42,30 @@ use light_scene::exit_without_outputs;
 /// The conventional exit status of an interrupted program.
 const INTERRUPTED: i32 = 130;
 
+/// What the help of the program ends with.
+const AFTER_HELP: &str = "\
+Examples:
+  lights                                       the demo: pictures into out/, and a table
+  lights render room.obj -o room.png           a picture of a file
+  lights render car.glb --sky clear-noon --spp 256 -o car.exr -o car.png
+  lights info scene.pbrt                       its lights, and what was not read of the file
+  lights compare a.exr reference.exr --max-relmse 0.01
+  lights completions bash                      completions of a shell, or the man page
+
+Exit status:
+  0    done
+  1    a check that was asked for failed (--max-relmse, --max-bias)
+  2    bad usage or bad input: one line on standard error
+  130  interrupted; files are whole or not there
+
+Environment lights, exposures and more: lights render --help";
+
 /// Lights and light sampling for physically based rendering.
 ///
 /// Without a command: renders three of the shipped scenes into out/ and compares light samplers on
 /// the night scene.
 #[derive(Debug, Parser)]
-#[command(name = "lights", version, max_term_width = 100)]
+#[command(name = "lights", version, max_term_width = 100, after_help = AFTER_HELP)]
 struct Program {
     #[command(subcommand)]
     command: Option<Command>,
@@ -53,11 +75,12 @@ struct Program {
 enum Command {
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
+    Completions(completions::CompletionsArgs),
     Env(env::EnvArgs),
     Ies(ies::IesArgs),
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
-    Render(render::RenderArgs),
+    Render(Box<render::RenderArgs>),
 }
 
 /// Runs the program with the arguments of the process.
@@ -72,6 +95,7 @@ pub fn main() -> ExitCode {
     let result = match program.command {
         Some(Command::Bench(args)) => args.run(),
         Some(Command::Compare(args)) => args.run(),
+        Some(Command::Completions(args)) => args.run(Program::command()),
         Some(Command::Env(args)) => args.run(),
         Some(Command::Ies(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),

@@ -10,11 +10,13 @@ use serde_json::json;
 use crate::light_sample_time::light_sample_time;
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, ToneMap, View, Visibility, World, render, render_layers,
+    SceneDigest, View, Visibility, World, inventory, render, render_layers,
 };
 
 use super::arguments::threads;
 use super::checkpoint::CheckpointArgs;
+use super::display_args::DisplayArgs;
+use super::doubts;
 use super::failure::Failure;
 use super::layer_args::LayerArgs;
 use super::memory_check::{PICTURE, check_cells_memory, check_memory};
@@ -28,7 +30,18 @@ use super::visibility::{CellCosts, with_cells};
 
 /// Render a scene into an image.
 #[derive(Args, Debug)]
-#[command(allow_negative_numbers = true)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  lights render room.obj -o room.png --width 960 --spp 256
+  lights render car.glb --env studio.exr --env-scale 0.5 -o car.exr -o car.png
+  lights render model.obj --sky overcast --exposure auto --tone-map reinhard -o model.png
+  lights render scene.pbrt --time 60 --light-sampler bvh -o scene.exr
+  lights render night --samples 0..64 -o part-0.exr   (lights merge adds the parts)
+  lights render night --checkpoint night.part.exr --spp 1024 -o night.exr
+
+Exit status: 0 done, 2 bad usage or bad input."
+)]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     input: SceneInput,
@@ -45,6 +58,8 @@ pub(crate) struct RenderArgs {
     threads: usize,
     #[command(flatten)]
     view: ViewArgs,
+    #[command(flatten)]
+    display: DisplayArgs,
     #[command(flatten)]
     checkpoint: CheckpointArgs,
     #[command(flatten)]
@@ -66,21 +81,27 @@ impl RenderArgs {
         let outputs = self.outputs()?;
         let visibility = self.settings.visibility()?;
         self.checkpoint.expect_place(&self.output)?;
-        let scene = self.input.read()?;
+        let mut scene = self.input.read()?;
+        let lit = self.input.light_the_dark(&mut scene);
         if !self.quiet {
             report_warnings(&scene.warnings);
+            lit.iter()
+                .for_each(|words| complain(format_args!("{words}")));
         }
         let view = self.view.view(&scene)?;
         self.check_memory(&view, visibility)?;
+        let file_depth = scene.max_depth;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = self.keeps_sums().then(|| SceneDigest::new(&scene));
         let digest = digest.transpose().map_err(Failure::input)?;
         let world = self.input.build(scene)?;
         if world.lights().is_empty() && !world.has_media() {
-            let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";
+            let nothing =
+                "no light in the scene is above 0: expected one, --env IMAGE or --sky NAME";
             return Err(Failure::input(Diagnostic::file(&self.input.scene, nothing)));
         }
-        let settings = self.settings.settings(&world)?;
+        self.doubt(|| doubts::of_lamps(&inventory(world.lights())));
+        let settings = self.settings.settings(&world, file_depth)?;
         let layers = self.layers.layers(&self.input, &world, &view, &settings)?;
         let sampler_kind = self.settings.light_sampler;
         let identity =
@@ -137,6 +158,16 @@ impl RenderArgs {
         match report {
             Some(report) => say!("{report}"),
             None => Ok(()),
+        }
+    }
+
+    /// Says what is strange about the picture, if something is.
+    fn doubt(&self, words: impl FnOnce() -> Option<String>) {
+        if self.quiet {
+            return;
+        }
+        if let Some(words) = words() {
+            complain(format_args!("warning: {words}"));
         }
     }
 
@@ -210,8 +241,12 @@ impl RenderArgs {
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
         drop(film);
-        let fit = || ToneMap::fit(image.texels());
-        let tone_map = exposure.map_or_else(fit, ToneMap::new);
+        let tone_map = self.display.tone_map(&image, exposure);
+        let is_shown = outputs.iter().any(|output| !output.has_layers());
+        self.doubt(|| {
+            let shown = || is_shown.then(|| doubts::of_shown(&image, &tone_map))?;
+            doubts::of_black(&image).or_else(shown)
+        });
         outputs.iter().try_for_each(|output| match &layers[..] {
             [] => output.write(&image, &tone_map),
             layers => output.write_layers(&image, layers, &tone_map),

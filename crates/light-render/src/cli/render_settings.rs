@@ -8,9 +8,12 @@ use lights::media::StepSize;
 use crate::integrator::{self, Integrator, PathSettings, SingleScattering};
 use crate::{RenderSettings, SamplerKind, Visibility, World};
 
-use super::arguments::{positive, sample_range, seconds};
+use super::arguments::{named, positive, sample_range, seconds};
 use super::failure::Failure;
 use super::visibility::VisibilityName;
+
+/// Segments of the longest path where nobody says how many.
+const DEFAULT_DEPTH: u32 = 8;
 
 /// Which samples are taken, and how.
 #[derive(Args, Debug)]
@@ -24,14 +27,10 @@ pub(crate) struct SettingsArgs {
     /// Stop at this budget.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
-    /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light.
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 8,
-        value_parser = clap::value_parser!(u32).range(1..)
-    )]
-    max_depth: u32,
+    /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light; without it
+    /// what the scene's file asks for, or 8.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    max_depth: Option<u32>,
     /// What scatters light: surfaces alone (path), or media as well (volpath), or either once
     /// (single-scattering, with lights for the ray as a whole, and -classic, in steps); without it
     /// volpath where the scene has media, else path.
@@ -45,7 +44,12 @@ pub(crate) struct SettingsArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
     /// How lights are chosen.
-    #[arg(long, value_name = "SAMPLER", default_value_t = SamplerKind::DEFAULT)]
+    #[arg(
+        long,
+        value_name = "SAMPLER",
+        default_value_t = SamplerKind::DEFAULT,
+        value_parser = named::<SamplerKind>(SamplerKind::ALL.map(SamplerKind::name))
+    )]
     pub(crate) light_sampler: SamplerKind,
     /// How many lights are chosen at the first diffuse point of a path, at most as many as there
     /// are.
@@ -94,11 +98,15 @@ impl SettingsArgs {
         }
     }
 
-    /// The settings for `world`.
+    /// The settings for `world`, whose file asks for paths of at most `file_depth` segments.
     ///
     /// # Errors
     /// When the steps of a march are so short that it would not reach through the scene.
-    pub(crate) fn settings(&self, world: &World) -> Result<RenderSettings, Failure> {
+    pub(crate) fn settings(
+        &self,
+        world: &World,
+        file_depth: Option<u32>,
+    ) -> Result<RenderSettings, Failure> {
         let samples = match (&self.samples, self.spp, self.time) {
             (Some(samples), _, _) => samples.clone(),
             (None, Some(spp), _) => 0..spp,
@@ -110,7 +118,7 @@ impl SettingsArgs {
             time_limit: self.time,
             seed: self.seed,
             path: PathSettings {
-                max_depth: self.max_depth,
+                max_depth: self.max_depth.or(file_depth).unwrap_or(DEFAULT_DEPTH),
                 estimator: match self.estimator {
                     Estimator::Mis => integrator::Estimator::Mis,
                     Estimator::Light => integrator::Estimator::Light,

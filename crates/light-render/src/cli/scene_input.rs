@@ -2,11 +2,12 @@ use std::path::{Path, PathBuf};
 
 use crate::World;
 use clap::Args;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_image};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_environment};
 use lights::glam::Affine3A;
 
 use super::arguments::Emit;
 use super::failure::Failure;
+use super::light_args::LightArgs;
 use super::stdout::complain;
 
 /// Which scene, and what is changed in it.
@@ -17,6 +18,8 @@ pub(crate) struct SceneInput {
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE")]
     pub(crate) env: Option<PathBuf>,
+    #[command(flatten)]
+    light: LightArgs,
     /// Let the front of a material emit light with this radiance; may be repeated.
     #[arg(long, value_name = "MATERIAL=r,g,b")]
     pub(crate) emit: Vec<Emit>,
@@ -30,7 +33,7 @@ impl SceneInput {
     pub(crate) fn read(&self) -> Result<Scene, Failure> {
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = &self.env {
-            let file = read_image(path).map_err(Failure::input)?;
+            let file = read_environment(path).map_err(Failure::input)?;
             scene.warnings.extend(file.warning);
             scene
                 .add_sky(&file.image, Affine3A::IDENTITY)
@@ -48,7 +51,13 @@ impl SceneInput {
             }
             named.for_each(|m| m.emission = Some(Emission::one_sided(*radiance)));
         }
+        self.light.apply(&self.scene, &mut scene);
         Ok(scene)
+    }
+
+    /// Lights a scene in which nothing gives light; what was done, in words.
+    pub(crate) fn light_the_dark(&self, scene: &mut Scene) -> Option<String> {
+        self.light.light_the_dark(&self.scene, scene)
     }
 
     /// Makes a scene ready for rays.

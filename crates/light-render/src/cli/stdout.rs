@@ -22,6 +22,14 @@ pub(crate) fn line(words: fmt::Arguments<'_>) -> Result<(), Failure> {
     checked(writeln!(io::stdout(), "{words}"))
 }
 
+/// Prints bytes to standard output.
+///
+/// # Errors
+/// As for [`line`].
+pub(crate) fn write_all(bytes: &[u8]) -> Result<(), Failure> {
+    checked(io::stdout().write_all(bytes))
+}
+
 /// Hands what is still held back to standard output.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 use crate::View;
 use clap::Args;
-use light_scene::{Camera, Crop, Scene};
+use light_scene::{Camera, Crop, Projection, Scene};
 
 use super::arguments::{LookAt, Window, positive};
 use super::failure::Failure;
@@ -37,14 +37,24 @@ impl ViewArgs {
     /// When the camera or the part of the picture is invalid.
     pub(crate) fn view(&self, scene: &Scene) -> Result<View, Failure> {
         let mut camera = scene.camera_or_default();
+        if self.fov.is_some() && camera.projection != Projection::Perspective {
+            let message = "--fov: expected a scene whose camera is perspective";
+            return Err(Failure::Input(message.into()));
+        }
         let fov = self.fov.map_or(camera.fov, f32::to_radians);
         if let Some(LookAt { eye, target, up }) = self.look_at {
-            let Camera {
-                resolution, crop, ..
-            } = camera;
-            camera = Camera::look_at(eye, target, up, fov)
+            let moved = Camera::look_at(eye, target, up, fov)
                 .map_err(|error| Failure::Input(format!("--look-at: {error}")))?;
-            (camera.resolution, camera.crop) = (resolution, crop);
+            // The rest of the camera stays.
+            camera = Camera {
+                position: moved.position,
+                right: moved.right,
+                up: moved.up,
+                forward: moved.forward,
+                lens: None,
+                exposure: None,
+                ..camera
+            };
         }
         camera.fov = fov;
         let [w, h] = camera.resolution.unwrap_or([512, 512]);

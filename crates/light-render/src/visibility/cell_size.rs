@@ -8,7 +8,9 @@ use crate::View;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct CellSize {
     camera: Vec3,
-    /// Edge of a coarse cell at distance 1.
+    /// Edge of a coarse cell at distance 0.
+    fixed: f32,
+    /// What each unit of distance adds to the edge.
     edge: f32,
 }
 
@@ -17,14 +19,16 @@ impl CellSize {
     const PIXELS: f32 = 20.0;
 
     pub(super) fn of(view: &View) -> Self {
+        let [fixed, edge] = view.pixel_width().map(|width| Self::PIXELS * width);
         Self {
             camera: view.camera().position,
-            edge: Self::PIXELS * view.pixel_angle(),
+            fixed,
+            edge,
         }
     }
 
     #[inline]
     pub(super) fn fine_key(&self, ctx: &LightSampleContext) -> CellKey {
-        CellKey::fine(ctx, self.edge * ctx.p.distance(self.camera))
+        CellKey::fine(ctx, self.fixed + self.edge * ctx.p.distance(self.camera))
     }
 }

@@ -5,7 +5,7 @@ use lights::glam::{Vec2, Vec3};
 use super::World;
 use crate::Surface;
 use crate::bsdf::{
-    Bsdf, CoatedDiffuse, Conductor, Dielectric, Lambert, MetallicRoughness,
+    Bsdf, CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Lambert, MetallicRoughness,
     MetallicRoughnessParameters, Microfacets, Mirror, Scattering, ThinDielectric,
 };
 
@@ -51,6 +51,21 @@ impl World {
             )),
             Finish::MetallicRoughness(finish) => {
                 Bsdf::MetallicRoughness(self.metallic_roughness(finish, surface))
+            }
+            Finish::CoatedConductor {
+                eta,
+                k,
+                alpha,
+                coat_eta,
+                coat_alpha,
+            } => {
+                let base = Conductor {
+                    eta: *eta,
+                    k: *k,
+                    facets: Microfacets::new(*alpha),
+                };
+                let coat = Microfacets::new(*coat_alpha);
+                Bsdf::CoatedConductor(CoatedConductor::new(base, *coat_eta, coat))
             }
             // A boundary between equal indices neither refracts nor reflects.
             Finish::Interface => Bsdf::ThinDielectric(ThinDielectric { eta: 1.0 }),

@@ -75,6 +75,7 @@ fn cases(folder: &Folder) -> Vec<Case> {
             &[&set[..], &[("--var-points", "2")]].concat(),
         ),
         case(&["compare"], &[&picture, &picture], &[]),
+        case(&["completions"], &[&"man".to_owned()], &[]),
         case(
             &["env", "convert"],
             &[&map, &folder.path("converted.exr")],

@@ -3,8 +3,10 @@
 mod environments;
 mod extremes;
 mod folder;
+mod help;
 mod interrupted;
 mod layers;
+mod light;
 mod outputs;
 mod refusals;
 mod samplers;

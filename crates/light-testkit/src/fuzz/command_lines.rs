@@ -5,7 +5,7 @@ use light_render::cli;
 use super::input::Input;
 
 /// Values, valid and not.
-const VALUES: [&str; 32] = [
+const VALUES: [&str; 33] = [
     "a.obj",
     "a.exr",
     "out.png",
@@ -36,6 +36,7 @@ const VALUES: [&str; 32] = [
     "bvh",
     "power",
     "pbrt",
+    "auto",
     "bvh,uniform,,",
     "\u{fc}\u{0}",
 ];
