@@ -6,6 +6,7 @@ use light_math::glam::Vec3;
 
 use crate::build::bins::{Grid, Plane};
 use crate::build::cluster::{Cluster, Sums};
+use crate::build::dominant::Dominant;
 use crate::build::light_primitive::LightPrimitive;
 use crate::build::split_group::SplitGroup;
 use crate::build::subtree::{OutputSlice, ParallelGroup};
@@ -15,6 +16,9 @@ use crate::node::wide_node::WIDTH;
 /// Groups of these sizes are split across their widest axis, the first part as large as a node, so
 /// that the lowest nodes are full.
 const SNAP: RangeInclusive<usize> = WIDTH + 1..=2 * WIDTH;
+
+/// How much less the rest of a group of these sizes costs where one light is split from it.
+const SNAP_SAVING: f32 = 0.5;
 
 /// A group of lights, or of clusters of a few, that is split where the halves cost least.
 #[derive(Debug)]
@@ -62,6 +66,15 @@ impl<'a> BinnedSplit<'a> {
         )
     }
 
+    /// Cluster `place` alone, and the others.
+    fn split_off(self, place: usize, rest_cost: f32) -> (Self, Self) {
+        self.clusters.swap(0, place);
+        let (one, rest) = self.clusters.split_at(1);
+        let bounds = [centers(one), centers(rest)];
+        let costs = [cost(one, bounds[0].min), rest_cost];
+        self.split_at(1, bounds, costs)
+    }
+
     /// Two parts of a few across the widest axis, the first as large as a node.
     fn split_few(self) -> (Self, Self) {
         let axis = self.bounds.diagonal().max_position();
@@ -106,8 +119,13 @@ impl SplitGroup for BinnedSplit<'_> {
     }
 
     fn split(self) -> (Self, Self) {
+        let dominant = Dominant::of(self.clusters, self.bounds.min);
+        let off = |most| dominant.filter(|dominant| dominant.rest_cost < most);
         if SNAP.contains(&self.clusters.len()) {
-            return self.split_few();
+            return match off(SNAP_SAVING * self.cost) {
+                Some(one) => self.split_off(one.place, one.rest_cost),
+                None => self.split_few(),
+            };
         }
         let grid = Grid::new(&self.bounds);
         let Some((axis, plane)) = self.best_plane(&grid) else {
@@ -116,6 +134,9 @@ impl SplitGroup for BinnedSplit<'_> {
             let (middle, bounds) = (self.clusters.len() / 2, [self.bounds; 2]);
             return self.split_at(middle, bounds, costs);
         };
+        if let Some(one) = off(plane.cost()) {
+            return self.split_off(one.place, one.rest_cost);
+        }
         let (middle, bounds) = partition(self.clusters, |p| grid.along(p, axis) <= plane.bin);
         self.split_at(middle, bounds, plane.costs)
     }

@@ -5,6 +5,7 @@ pub(crate) mod bins;
 pub(crate) mod builder;
 pub(crate) mod cluster;
 pub(crate) mod clustering;
+pub(crate) mod dominant;
 pub(crate) mod light_primitive;
 pub(crate) mod lights;
 pub(crate) mod morton;
