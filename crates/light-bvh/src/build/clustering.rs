@@ -1,6 +1,8 @@
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::build::cluster::Cluster;
+use crate::build::dominant::Dominant;
 use crate::build::light_primitive::LightPrimitive;
 use crate::build::morton_range::MortonRange;
 use crate::build::split_group::SplitGroup;
@@ -8,6 +10,10 @@ use crate::parallel::{join, map};
 
 /// Lights of a cluster, at most.
 const CLUSTER: usize = 16;
+
+/// How many times the mean power of clusters one has from which on a light that outshines its rest
+/// is a cluster of its own. Chosen by V: see `docs/light-bvh.md`.
+const BRIGHT: f32 = 8.0;
 
 /// Clusters that one job makes.
 const CHUNK: usize = 512;
@@ -50,8 +56,10 @@ fn add_ends(range: MortonRange<'_>, first: u32, ends: &mut Vec<u32>) {
     add_ends(right, middle, ends);
 }
 
-/// The clusters of `primitives` that end at `ends`.
+/// The clusters of `primitives` that end at `ends`, whose power is a share of that of all lights. A
+/// light that outshines a bright one is a cluster of its own.
 pub(crate) fn clusters(ends: &[u32], primitives: &[LightPrimitive]) -> Vec<Cluster> {
+    let bright = BRIGHT / ends.len() as f32;
     let mut start = 0;
     let chunks = ends.chunks(CHUNK).map(|ends| {
         let first = start;
@@ -62,12 +70,35 @@ pub(crate) fn clusters(ends: &[u32], primitives: &[LightPrimitive]) -> Vec<Clust
         let starts = core::iter::once(&first).chain(ends);
         let mut clusters = Vec::with_capacity(ends.len());
         for (&start, &end) in starts.zip(ends) {
-            let primitives = (start..).zip(&primitives[start as usize..end as usize]);
-            clusters.push(Cluster::join(
-                primitives.map(|(place, primitive)| Cluster::of_primitive(primitive, place)),
-            ));
+            let cluster = cluster(start..end, primitives);
+            if cluster.power < bright {
+                clusters.push(cluster);
+                continue;
+            }
+            let outshines =
+                |&place: &u32| Dominant::is_share(power(primitives, place), cluster.power);
+            match (start..end).find(outshines) {
+                Some(place) => clusters.extend(
+                    [start..place, place..place + 1, place + 1..end]
+                        .into_iter()
+                        .filter(|part| !part.is_empty())
+                        .map(|part| self::cluster(part, primitives)),
+                ),
+                None => clusters.push(cluster),
+            }
         }
         clusters
     });
     clusters.concat()
+}
+
+fn power(primitives: &[LightPrimitive], place: u32) -> f32 {
+    primitives[place as usize].power
+}
+
+/// The lights at these places along the curve.
+fn cluster(places: Range<u32>, primitives: &[LightPrimitive]) -> Cluster {
+    let own = &primitives[places.start as usize..places.end as usize];
+    let lights = places.zip(own);
+    Cluster::join(lights.map(|(place, primitive)| Cluster::of_primitive(primitive, place)))
 }
