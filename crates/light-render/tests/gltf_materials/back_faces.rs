@@ -1,8 +1,8 @@
 use light_scene::glam::{Affine3A, DVec3, Vec3};
 use light_scene::{BackFaces, Color, Instance, Material, Mesh, Prototype, Scene, Surface};
 
+use crate::scenes::{add_sky, direct, plane_of};
 use crate::support::{Shot, agree};
-use crate::{add_sky, direct, plane_of};
 
 /// A matt plane under a sky, and at the height `y` a plate of which the front looks up or down.
 fn under_plate(y: f32, looks_up: bool, back_faces: BackFaces) -> Scene {

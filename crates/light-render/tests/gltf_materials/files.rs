@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use light_scene::glam::Vec3;
 use light_scene::{Camera, Image, Scene, read_scene, write_png};
 
-use crate::{add_sky, add_sun, assert_near, direct};
+use crate::scenes::{add_sky, add_sun, assert_near, direct};
 
 struct Folder(PathBuf);
 

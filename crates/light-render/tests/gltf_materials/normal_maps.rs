@@ -3,8 +3,8 @@ use core::f64::consts::PI;
 use light_scene::glam::{Affine3A, Vec2, Vec3, Vec4};
 use light_scene::{Color, ColorImage, Instance, Prototype, Scene, Surface};
 
+use crate::scenes::{add_sky, add_sun, assert_near, dielectric, direct, plane_of, row};
 use crate::support::ALL;
-use crate::{add_sky, add_sun, assert_near, dielectric, direct, plane_of, row};
 
 /// The normal in tangent space: leaning by 30 degrees, most of it toward u.
 fn leaning() -> Vec3 {

@@ -4,8 +4,8 @@ use light_scene::{
     Surface, UvSet,
 };
 
+use crate::scenes::{add_sky, add_sun, assert_near, dielectric, direct, plane_of, row};
 use crate::support::{Shot, assert_threads_change_nothing, cornell};
-use crate::{add_sky, add_sun, assert_near, dielectric, direct, plane_of, row};
 
 fn of(surface: MetallicRoughness) -> Surface {
     Surface::MetallicRoughness(Box::new(surface))
