@@ -13,6 +13,7 @@ mod crates;
 mod debian;
 mod dependencies;
 mod embedded;
+mod farm;
 mod features;
 mod fuzz;
 mod gallery;
@@ -55,6 +56,8 @@ usage: cargo xtask [COMMAND]
   crates [--write [CRATE...]] compare the counts of dependencies in the README of each library with
                               cargo's, or measure its build and write both
   packages                    make the package of each library, and build it from that
+  farm                        run jobs of `lights farm` by the engines that this machine can have,
+                              with killed tasks and a lost machine
   families                    write the table of families of places into docs/light-bvh.md
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for docs/light-media.md
@@ -94,6 +97,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
         ("oldest", []) => all(oldest::add_steps),
         ("embedded", rest) => all(|steps| embedded::add_steps(steps, rest)),
+        ("farm", []) => all(farm::add_steps),
         ("no-std", []) => all(no_std::add_steps),
         ("bench", [flag, names @ ..]) if flag == "--table" => {
             one("bench --table", || programs::bench_tables(names))

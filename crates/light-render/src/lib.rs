@@ -21,6 +21,7 @@ mod emitter_ids;
 mod exact_sum;
 mod exact_sum_words;
 mod false_color;
+pub mod farm;
 mod file_checksum;
 mod film;
 mod film_row;

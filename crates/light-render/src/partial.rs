@@ -165,6 +165,35 @@ impl PartialPicture {
     /// # Errors
     /// When they are not parts of one picture, overlap, or are none.
     pub fn merge(parts: impl IntoIterator<Item = Self>) -> Result<Film, PartialPictureError> {
+        Self::add_up(parts).map(|(film, ..)| film)
+    }
+
+    /// The part that holds the samples of all `parts`, which come in any order.
+    ///
+    /// # Errors
+    /// As for [`merge`](Self::merge), and when samples between theirs are missing.
+    pub fn join(parts: impl IntoIterator<Item = Self>) -> Result<Self, PartialPictureError> {
+        let (film, mut ranges, identity) = Self::add_up(parts)?;
+        ranges.sort_by_key(|range| range.start);
+        for pair in ranges.windows(2) {
+            let missing = pair[0].end..pair[1].start;
+            if !missing.is_empty() {
+                return Err(PartialPictureError::Gap { samples: missing });
+            }
+        }
+        let ends = ranges.first().zip(ranges.last());
+        let (first, last) = ends.ok_or(PartialPictureError::Nothing)?;
+        Ok(Self {
+            samples: first.start..last.end,
+            film,
+            identity,
+        })
+    }
+
+    /// The film of all parts, their samples, and what they are parts of.
+    fn add_up(
+        parts: impl IntoIterator<Item = Self>,
+    ) -> Result<(Film, Vec<Range<u32>>, PictureIdentity), PartialPictureError> {
         let mut parts = parts.into_iter();
         let first = parts.next().ok_or(PartialPictureError::Nothing)?;
         let mut film = first.film;
@@ -184,7 +213,7 @@ impl PartialPicture {
             film.add(&part.film);
             ranges.push(samples);
         }
-        Ok(film)
+        Ok((film, ranges, first.identity))
     }
 }
 
@@ -259,6 +288,20 @@ mod tests {
         let bytes = file.into_bytes(Path::new("a.exr")).expect("bytes");
         let error = PartialPicture::parse(Path::new("a.exr"), &bytes).expect_err("no part");
         assert!(error.to_string().contains("--samples"), "{error}");
+    }
+
+    #[test]
+    fn joined_parts_are_a_part() {
+        let parts = || [3..7, 0..3, 7..20].map(|range| part(range, "a", 1.0));
+        let joined = PartialPicture::join(parts());
+        assert_eq!(joined, Ok(part(0..20, "a", 1.0)), "as if rendered at once");
+        let [a, b, c] = parts();
+        let samples = 3..7;
+        let gap = Err(PartialPictureError::Gap { samples });
+        assert_eq!(PartialPicture::join([c, b]), gap, "a part is missing");
+        let samples = 3..7;
+        let overlap = Err(PartialPictureError::Overlap { samples });
+        assert_eq!(PartialPicture::join([a.clone(), a]), overlap, "one twice");
     }
 
     #[test]

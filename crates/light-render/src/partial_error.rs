@@ -20,6 +20,11 @@ pub enum PartialPictureError {
         /// The samples of the later part.
         samples: Range<u32>,
     },
+    /// Samples between those of the parts are missing.
+    Gap {
+        /// The first that are missing.
+        samples: Range<u32>,
+    },
     /// There is nothing to add.
     Nothing,
 }
@@ -37,6 +42,10 @@ impl fmt::Display for PartialPictureError {
             Self::Overlap { samples } => {
                 let Range { start, end } = samples;
                 write!(f, "samples {start}..{end} are in another part too")
+            }
+            Self::Gap { samples } => {
+                let Range { start, end } = samples;
+                write!(f, "samples {start}..{end} are in no part")
             }
             Self::Nothing => f.write_str("expected at least one part"),
         }

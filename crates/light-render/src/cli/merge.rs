@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use crate::{PartialPicture, ToneMap};
+use crate::{Film, PartialPicture, ToneMap};
 use clap::Args;
 use light_scene::Image;
 
@@ -19,6 +19,15 @@ pub(crate) struct MergeArgs {
     /// The image to write: .exr (float32 linear RGB) or .png.
     #[arg(short, long, value_name = "IMAGE")]
     output: PathBuf,
+    /// Write a part again, with the samples of all, between which none may be missing.
+    #[arg(long)]
+    part: bool,
+}
+
+/// What parts add up to.
+enum Sum {
+    Picture(Film),
+    Part(PartialPicture),
 }
 
 impl MergeArgs {
@@ -29,6 +38,9 @@ impl MergeArgs {
     /// Parts that cannot be read or do not belong together; an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let output = OutputImage::new(&self.output, Precision::Single)?;
+        if self.part {
+            output.expect_part()?;
+        }
         expect_another(&self.output, &self.parts, "a part for --output")?;
         let mut unread = Ok(());
         let mut last = &self.output;
@@ -38,9 +50,17 @@ impl MergeArgs {
                 .map_err(|error| unread = Err(error))
                 .ok()
         });
-        let film = PartialPicture::merge(parts);
+        let sum = if self.part {
+            PartialPicture::join(parts).map(Sum::Part)
+        } else {
+            PartialPicture::merge(parts).map(Sum::Picture)
+        };
         unread.map_err(Failure::input)?;
-        let film = film.map_err(|error| Failure::Input(format!("{}: {error}", last.display())))?;
+        let sum = sum.map_err(|error| Failure::Input(format!("{}: {error}", last.display())))?;
+        let film = match sum {
+            Sum::Part(part) => return output.write_part(&part),
+            Sum::Picture(film) => film,
+        };
         let (width, height) = film.resolution();
         let image = Image::new(width, height, film.develop()).map_err(Failure::input)?;
         output.write(&image, &ToneMap::fit(image.texels()))

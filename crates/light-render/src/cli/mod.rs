@@ -15,6 +15,7 @@ mod env_regions;
 mod environment;
 mod exit;
 mod failure;
+mod farm;
 mod ies;
 mod info;
 mod layer_args;
@@ -36,7 +37,7 @@ use alloc::collections::BTreeSet;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use light_scene::exit_without_outputs;
 
 /// The conventional exit status of an interrupted program.
@@ -77,6 +78,7 @@ enum Command {
     Compare(compare::CompareArgs),
     Completions(completions::CompletionsArgs),
     Env(env::EnvArgs),
+    Farm(farm::FarmArgs),
     Ies(ies::IesArgs),
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
@@ -86,8 +88,8 @@ enum Command {
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let program = match Program::try_parse() {
-        Ok(program) => program,
+    let (program, typed) = match read() {
+        Ok(read) => read,
         Err(error) => return exit::report_usage(&error),
     };
     // Without a handler the process would end as well, but leave what it is writing.
@@ -97,6 +99,7 @@ pub fn main() -> ExitCode {
         Some(Command::Compare(args)) => args.run(),
         Some(Command::Completions(args)) => args.run(Program::command()),
         Some(Command::Env(args)) => args.run(),
+        Some(Command::Farm(args)) => args.run(&typed),
         Some(Command::Ies(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),
         Some(Command::Merge(args)) => args.run(),
@@ -107,6 +110,14 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// The arguments of the process, and those of the command as they were typed.
+fn read() -> Result<(Program, ArgMatches), clap::Error> {
+    let mut typed = Program::command().try_get_matches()?;
+    let program = Program::from_arg_matches(&typed)?;
+    let of_command = typed.remove_subcommand().map(|(_, typed)| typed);
+    Ok((program, of_command.unwrap_or_default()))
 }
 
 /// Reads a command line, the program's name first, as [`main`] does, and runs nothing.

@@ -64,6 +64,9 @@ pub(crate) struct RenderArgs {
     checkpoint: CheckpointArgs,
     #[command(flatten)]
     layers: LayerArgs,
+    /// Do nothing if the output holds the --samples of this picture already.
+    #[arg(long, requires = "samples")]
+    skip_existing: bool,
     /// Print one line of JSON about the rendering.
     #[arg(long)]
     json: bool,
@@ -107,6 +110,9 @@ impl RenderArgs {
         let identity =
             digest.map(|digest| digest.identity(&view, &settings, sampler_kind, visibility));
         let identity = identity.unwrap_or_default();
+        if self.skip_existing && self.is_there(&identity, &settings) {
+            return Ok(());
+        }
         let checkpoint = self.checkpoint.open(&identity)?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
@@ -169,6 +175,14 @@ impl RenderArgs {
         if let Some(words) = words() {
             complain(format_args!("warning: {words}"));
         }
+    }
+
+    /// Whether all outputs hold the samples of `settings` of this picture, undamaged.
+    fn is_there(&self, identity: &PictureIdentity, settings: &RenderSettings) -> bool {
+        self.output.iter().all(|path| {
+            let part = PartialPicture::read(path);
+            part.is_ok_and(|part| part.samples == settings.samples && part.expect(identity).is_ok())
+        })
     }
 
     /// Whether files will hold exact sums, and say of which picture.

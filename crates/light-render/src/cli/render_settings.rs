@@ -15,6 +15,9 @@ use super::visibility::VisibilityName;
 /// Segments of the longest path where nobody says how many.
 const DEFAULT_DEPTH: u32 = 8;
 
+/// Samples a pixel when nothing is said.
+const DEFAULT_SAMPLES: u32 = 64;
+
 /// Which samples are taken, and how.
 #[derive(Args, Debug)]
 pub(crate) struct SettingsArgs {
@@ -98,6 +101,21 @@ impl SettingsArgs {
         }
     }
 
+    /// How many samples a pixel a whole picture has that `command` cuts into parts.
+    ///
+    /// # Errors
+    /// When a part or a time was asked for instead.
+    pub(crate) fn samples_of_whole(&self, command: &str) -> Result<u32, Failure> {
+        let flag = match (&self.samples, self.time) {
+            (None, None) => return Ok(self.spp.unwrap_or(DEFAULT_SAMPLES)),
+            (Some(_), _) => "--samples",
+            (None, Some(_)) => "--time",
+        };
+        Err(Failure::Input(format!(
+            "{flag}: expected --spp for {command}"
+        )))
+    }
+
     /// The settings for `world`, whose file asks for paths of at most `file_depth` segments.
     ///
     /// # Errors
@@ -111,7 +129,7 @@ impl SettingsArgs {
             (Some(samples), _, _) => samples.clone(),
             (None, Some(spp), _) => 0..spp,
             (None, None, Some(_)) => 0..u32::MAX,
-            (None, None, None) => 0..64,
+            (None, None, None) => 0..DEFAULT_SAMPLES,
         };
         Ok(RenderSettings {
             samples,

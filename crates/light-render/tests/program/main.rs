@@ -2,6 +2,8 @@
 
 mod environments;
 mod extremes;
+#[cfg(unix)]
+mod farm;
 mod folder;
 mod help;
 mod interrupted;

@@ -1,0 +1,15 @@
+//! Jobs for render farms: a picture in parts by its samples, and the merge that waits for them.
+//!
+//! What a task does stands in three scripts that need a shell and the program alone; what is said
+//! to an engine only names them, so that every engine does the same.
+
+mod engine;
+mod hyperqueue;
+mod openjd;
+mod plan;
+mod scripts;
+mod shell;
+mod slurm;
+
+pub use engine::FarmEngine;
+pub use plan::{FarmPlan, FarmPlanError};
