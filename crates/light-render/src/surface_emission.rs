@@ -115,7 +115,7 @@ impl<'a> Textures<'a> {
     /// `desc` with the alpha mask; `None` if the surface is masked everywhere.
     ///
     /// A constant opacity of 0 without a cutoff makes an invisible light with full emission, as in
-    /// pbrt.
+    /// pbrt: the reason is that of [`Alpha`].
     fn masked(
         &mut self,
         desc: DiffuseEmissionDesc<Rgb>,

@@ -27,14 +27,17 @@ fn mean(scene: &Scene, estimator: Estimator) -> (f64, f64) {
     (mean.x, error.x)
 }
 
-fn check(name: &str, whole: &Scene, half: &Scene) {
+const ESTIMATORS: [Estimator; 3] = [Estimator::Mis, Estimator::Light, Estimator::Bsdf];
+
+/// `part` is as bright as a share of `whole`, which may differ by estimator.
+fn check(name: &str, whole: &Scene, part: &Scene, share: impl Fn(Estimator) -> f64) {
     let (full, full_error) = mean(whole, Estimator::Light);
     assert!(full > 0.01, "{name}: the lamp emits light: {full}");
-    for estimator in [Estimator::Mis, Estimator::Light, Estimator::Bsdf] {
-        let (part, error) = mean(half, estimator);
-        let margin = 3.0 * (error + 0.5 * full_error) + 1e-4 * full;
+    for estimator in ESTIMATORS {
+        let ((part, error), share) = (mean(part, estimator), share(estimator));
+        let margin = 3.0 * (error + share * full_error) + 1e-4 * full;
         assert!(
-            (part - 0.5 * full).abs() <= margin,
+            (part - share * full).abs() <= margin,
             "{name}, {estimator:?}: {part} of {full}"
         );
     }
@@ -64,7 +67,16 @@ fn lamps_of_pbrt_files() {
             &format!("{name}_half.pbrt"),
             &format!("{shape} \"float alpha\" 0.5"),
         );
-        check(name, &whole, &half);
+        check(name, &whole, &half, |_| 0.5);
+        // An invisible light, which no ray finds.
+        let invisible = read(
+            &format!("{name}_invisible.pbrt"),
+            &format!("{shape} \"float alpha\" 0"),
+        );
+        check(name, &whole, &invisible, |estimator| match estimator {
+            Estimator::Bsdf => 0.0,
+            _ => 1.0,
+        });
     }
     fs::remove_dir_all(&folder).expect("removed");
 }
@@ -86,7 +98,15 @@ fn lamps_of_obj_files() {
         fs::write(&path, text).expect("a file");
         read_obj(&path).expect("a scene")
     };
-    check("obj", &read("whole", ""), &read("half", "d 0.5"));
+    let whole = read("whole", "");
+    for (share, d) in [
+        (0.5, "d 0.5"),
+        (0.0, "d 0"),
+        (0.25, "Tr 0.75"),
+        (0.0, "Tr 1"),
+    ] {
+        check(d, &whole, &read(&d.replace(' ', "_"), d), |_| share);
+    }
     fs::remove_dir_all(&folder).expect("removed");
 }
 
@@ -103,7 +123,7 @@ fn lamps_of_gltf_files() {
         .collect::<Vec<_>>();
     bytes.extend([0u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
     fs::write(folder.join("a.bin"), bytes).expect("a file");
-    let read = |name: &str, alpha: &str| {
+    let read = |name: &str, alpha: &str, opacity: f32| {
         let text = format!(
             r#"{{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0]}}],
             "nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [
@@ -124,14 +144,17 @@ fn lamps_of_gltf_files() {
                 {{"emissiveFactor": [1, 1, 1], {alpha},
                     "extensions": {{"KHR_materials_emissive_strength":
                     {{"emissiveStrength": 2000}}}},
-                    "pbrMetallicRoughness": {{"baseColorFactor": [0, 0, 0, 0.5],
+                    "pbrMetallicRoughness": {{"baseColorFactor": [0, 0, 0, {opacity}],
                         "metallicFactor": 0}}}}]}}"#
         );
         let path = folder.join(format!("{name}.gltf"));
         fs::write(&path, text).expect("a file");
         read_gltf(&path).expect("a scene")
     };
-    let whole = read("whole", r#""alphaMode": "OPAQUE""#);
-    check("gltf", &whole, &read("half", r#""alphaMode": "BLEND""#));
+    let whole = read("whole", r#""alphaMode": "OPAQUE""#, 0.5);
+    for share in [0.5, 0.0] {
+        let part = read("part", r#""alphaMode": "BLEND""#, share);
+        check("gltf", &whole, &part, |_| f64::from(share));
+    }
     fs::remove_dir_all(&folder).expect("removed");
 }

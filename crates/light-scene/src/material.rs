@@ -120,8 +120,14 @@ pub enum Surface {
 
 /// An alpha mask. Where the opacity is 0, rays pass and nothing is emitted.
 ///
-/// An emissive surface of constant opacity 0 without a cutoff is an exception: it emits as if it
-/// were opaque, and rays do not hit it.
+/// An emissive surface of constant opacity 0 without a cutoff is an exception, for the sake of pbrt
+/// files: it is an invisible light, which emits as if it were opaque and which no ray hits. Like a
+/// point light it is found by light samples alone, and weighted against no other strategy. Files of
+/// other formats make none of it: there a lamp that is wholly transparent emits nothing.
+///
+/// # Source
+/// `DiffuseAreaLight` of `[PBRT4]`, which takes the mask away from such a light and gives it the
+/// type of a point light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Alpha {
     /// The probability, in [0, 1], that a ray hits the surface; the first channel of a colour.
@@ -147,6 +153,17 @@ pub enum EmissionSides {
     Front,
     /// Both, each with the full radiance.
     Both,
+}
+
+impl Alpha {
+    /// Whether the surface is nowhere: constant opacity 0 without a cutoff.
+    pub(crate) fn hides_all(&self) -> bool {
+        let opacity = match self.opacity {
+            Color::Constant(opacity) => opacity.x,
+            Color::Image(_) => return false,
+        };
+        opacity <= 0.0 && self.cutoff.is_none()
+    }
 }
 
 impl Material {

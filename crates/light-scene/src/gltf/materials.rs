@@ -60,6 +60,7 @@ impl<'a> Reader<'a> {
         let base = self.base(item, uv_sets)?;
         let surface = self.surface(item, &base, uv_sets)?;
         let alpha = self.alpha(item, &base, emission.is_some())?;
+        let is_hidden = alpha.as_ref().is_some_and(Alpha::hides_all);
         let normal_map = self.normal_map(item, uv_sets)?;
         // What a renderer computes itself.
         self.document.pass_over(item, "occlusionTexture");
@@ -68,7 +69,7 @@ impl<'a> Reader<'a> {
             Surface::Dielectric { .. } | Surface::ThinDielectric { .. }
         );
         Ok(Material {
-            emission,
+            emission: emission.filter(|_| !is_hidden),
             alpha,
             normal_map,
             // Light leaves glass through its back faces.

@@ -101,9 +101,11 @@ impl Description {
     }
 
     pub(super) fn into_material(self, scene: &Scene) -> Material {
+        let alpha = self.alpha();
+        let is_hidden = alpha.as_ref().is_some_and(Alpha::hides_all);
         Material {
-            emission: self.emission(),
-            alpha: self.alpha(),
+            emission: self.emission().filter(|_| !is_hidden),
+            alpha,
             ..Material::new(self.name.clone(), self.surface(scene))
         }
     }
