@@ -1,8 +1,11 @@
 use lights::math::mis;
 use lights::sources::PdfCoverage;
 
-/// Which strategies find the light that arrives at a surface. All have the same mean; they differ
-/// in noise.
+/// Which strategies find the light that arrives at a surface.
+///
+/// Of lights that rays can hit all have the same mean, and differ in noise. What no ray hits
+/// (points, spots, distant lights, and emitters that are [invisible](light_scene::Alpha)) is
+/// missing from [`Bsdf`](Self::Bsdf), and has the same mean by the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Estimator {
     /// Light samples and material samples, weighted against each other.
@@ -10,7 +13,7 @@ pub enum Estimator {
     Mis,
     /// Light samples alone; only Dirac materials (mirrors) find lights by the way they scatter.
     Light,
-    /// Material samples alone: lights without extent are never found.
+    /// Material samples alone.
     Bsdf,
 }
 
