@@ -68,7 +68,7 @@ impl<'a> Filled<'a> {
     /// tree where it knows what is seen.
     fn variances(&self) -> [f64; 4] {
         let (view, mut sums) = (self.rooms.tree.view(), [0.0; 4]);
-        for p in Rooms::asked() {
+        for p in Rooms::receivers() {
             let ctx = Rooms::floor(p);
             let key = CellKey::fine(&ctx, SIZE);
             let coarse = &self.coarse[&key.coarse()];
@@ -108,7 +108,7 @@ fn variance(rooms: &Rooms, p: Vec3, pmf: impl Fn(LightId) -> f32) -> f64 {
 }
 
 fn keys() -> impl Iterator<Item = CellKey> {
-    Rooms::asked().map(|p| CellKey::fine(&Rooms::floor(p), SIZE))
+    Rooms::receivers().map(|p| CellKey::fine(&Rooms::floor(p), SIZE))
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn filling_is_a_function_of_the_key() {
         assert_eq!(found.factors(), own.factors(), "{:?}", cell.key());
     }
     let aside = |p: Vec3| CellKey::fine(&Rooms::floor(p + Vec3::X * 0.17), SIZE);
-    let unknown = Rooms::asked().map(aside).find(|key| {
+    let unknown = Rooms::receivers().map(aside).find(|key| {
         let is_known = there.fine.contains_key(key);
         !is_known && there.coarse.contains_key(&key.coarse())
     });
@@ -228,7 +228,7 @@ fn cells_that_do_not_pay_become_plain() {
     let grille = |p: Vec3, light: LightId| (p.x * 997.0 + light.0 as f32 * 0.37).fract() > -0.5;
     let walls = |p: Vec3, light: LightId| rooms.sees(p, light);
     let (mut plain, mut kept) = (0, 0);
-    for p in Rooms::asked().step_by(13) {
+    for p in Rooms::receivers().step_by(13) {
         let ctx = Rooms::floor(p);
         let key = CellKey::fine(&ctx, SIZE).coarse();
         assert!(!fill(key, 0.0, &grille).is_plain(), "{key:?}: half is seen");

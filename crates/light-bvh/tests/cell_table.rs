@@ -20,7 +20,7 @@ fn cells(rooms: &Rooms) -> (Vec<CoarseCell>, Vec<FineCell>) {
         ..FillOptions::default()
     };
     let (mut coarse, mut fine): (Vec<CoarseCell>, Vec<FineCell>) = Default::default();
-    for p in Rooms::asked().take(20) {
+    for p in Rooms::receivers().take(20) {
         let key = CellKey::fine(&Rooms::floor(p), 1.0);
         if !coarse.iter().any(|cell| cell.key() == key.coarse()) {
             let places = Rooms::places(key.coarse(), 32);

@@ -39,7 +39,7 @@ fn groups() -> Vec<LightGroups> {
 /// A light outside the groups asked for has probability 0 in every kind of query, and the others
 /// share 1.
 #[test]
-fn only_lights_of_the_groups_asked_for_are_chosen() {
+fn only_lights_of_the_groups_of_the_context_are_chosen() {
     let (mut tree, groups) = (tree(), groups());
     assert!(tree.groups().is_empty(), "none yet");
     let short = tree.set_groups(&groups[1..]);

@@ -188,7 +188,7 @@ fn relative_variance(pmfs: &[f32], f: impl Fn(usize) -> f64) -> f64 {
 }
 
 #[test]
-fn every_random_number_and_every_light_is_answered() {
+fn every_random_number_and_every_light_has_a_result() {
     let tree = build([point_light(Vec3::ZERO), point_light(Vec3::X)]);
     let ctx = LightSampleContext::medium(Vec3::Z);
     for u in [0, u64::MAX] {

@@ -137,7 +137,7 @@ impl Numbers {
 /// Every point of a surface that shines at a point by however little, and every direction within a
 /// cone, has a probability above 0.
 #[test]
-fn lights_are_given_up_only_where_no_part_of_them_shines() {
+fn importance_is_zero_only_where_no_part_of_a_light_emits() {
     let mut numbers = Numbers(5);
     let (mut given_up, mut kept) = (0, 0);
     for round in 0..3000 {

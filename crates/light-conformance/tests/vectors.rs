@@ -14,7 +14,7 @@ fn nothing_fails() {
 }
 
 #[test]
-fn changed_answers_fail() {
+fn changed_results_fail() {
     let table = run_folder(&default_folder(), &Selection::THIN).expect("vectors that pass");
     assert!(table.is_complete(), "{table}");
 }

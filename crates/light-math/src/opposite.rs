@@ -50,8 +50,8 @@ fn multiple_across(l0: f32, l1: f32) -> f32 {
     upper_half((l1 / l0).min(1e30))
 }
 
-/// `v + multiple * axis` up to a rounding of the result and not of its terms, for a multiple of half
-/// the digits.
+/// `v + multiple * axis` up to a rounding of the result and not of its terms, for a multiple of
+/// half the digits.
 ///
 /// Opposite vectors cancel to the part of `v` across `axis`. Both halves of the digits of `axis`
 /// have exact products, and the sum with the first one is exact where it cancels.

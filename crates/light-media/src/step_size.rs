@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn steps_are_equal_and_no_longer_than_asked() {
+    fn steps_are_equal_and_no_longer_than_requested() {
         let march = StepSize::new(0.3)
             .expect("positive")
             .march(Span { t0: 1.0, t1: 2.0 });

@@ -108,7 +108,7 @@ fn a_ray_beside_the_medium_sees_nothing_of_it() {
 }
 
 #[test]
-fn lights_that_are_not_there_or_shine_elsewhere_scatter_nothing() {
+fn missing_lights_and_lights_that_face_away_scatter_nothing() {
     let medium = fog(Region::UNBOUNDED);
     let mut none = || -> f32 { panic!("no random number is needed") };
     for (desc, count, what) in [

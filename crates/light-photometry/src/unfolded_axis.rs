@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use super::axis::{Axis, full_turn};
 use super::web_type::WebType;
 
-/// The angles of an axis completed by symmetry, and for each of them the index of the measured angle with
-/// its values.
+/// The angles of an axis completed by symmetry, and for each of them the index of the measured
+/// angle with its values.
 #[derive(Clone, Debug)]
 pub(super) struct UnfoldedAxis {
     pub(super) angles: Vec<f32>,

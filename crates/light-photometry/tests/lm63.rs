@@ -174,7 +174,7 @@ fn editions_factors_and_words() {
 }
 
 #[test]
-fn tilt_is_included_or_beside() {
+fn tilt_is_included_or_in_a_file() {
     let body = "1 1000 1 2 1 1 1 0 0 0\n1 1 12\n0 90\n0\n10 5\n";
     let tilt = "1\n3\n0 45 90\n1 0.9 0.7\n";
     let lamp = parse(&format!("IESNA91\nTILT=INCLUDE\n{tilt}{body}"));

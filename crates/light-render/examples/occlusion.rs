@@ -1,6 +1,6 @@
 //! How noisy light is after equal time where most lights are hidden: relMSE times seconds of each
-//! way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance of one
-//! choice, split into what better choices can remove and what not.
+//! way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance of
+//! one choice, split into what better choices can remove and what not.
 //!
 //! Each picture is compared with both halves of a reference of many more samples, so that the noise
 //! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and

@@ -1,4 +1,5 @@
-//! Lights with a surface in a scene's list of lights: rays find them as they find emissive geometry.
+//! Lights with a surface in a scene's list of lights: rays find them as they find emissive
+//! geometry.
 
 mod support;
 

@@ -54,7 +54,7 @@ fn assert_refused(name: &str, media: &str, more: &[&str], words: &[&str]) {
 }
 
 #[test]
-fn bad_media_are_told_in_one_line() {
+fn bad_media_give_one_line() {
     let medium = |rest: &str| {
         format!("WorldBegin\nMakeNamedMedium \"m\" \"string type\" {rest}\nLightSource \"point\"")
     };

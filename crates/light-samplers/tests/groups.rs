@@ -153,7 +153,7 @@ fn refits_keep_groups() {
 
 /// A context that asks for all lights gets the bits of a sampler without groups.
 #[test]
-fn groups_change_nothing_for_who_asks_for_all_lights() {
+fn groups_change_nothing_for_contexts_of_all_lights() {
     let plain = BvhLightSampler::new(&lights(0.0)).expect("valid lights");
     let mut grouped = plain.clone();
     grouped.set_groups(groups()).expect("as many");

@@ -125,7 +125,7 @@ fn row() -> Vec<LightExtent> {
 }
 
 #[test]
-fn where_visibility_is_known_as_many_choices_are_made_as_were_asked_for_there() {
+fn known_and_unknown_places_have_their_own_counts() {
     let sampler = InCells::new(&row(), 1, |_| encode_factor(0.5));
     let count = |x: f32| {
         let ctx = LightSampleContext::medium(Vec3::X * x);

@@ -30,13 +30,13 @@ pub fn parse_luminaire(path: &Path, text: &str, files: Files<'_>) -> Result<Lumi
     let luminaire = if extension.eq_ignore_ascii_case("ldt") {
         parse_eulumdat(text)
     } else {
-        parse_lm63(text, |name| read_beside(path, name, files))
+        parse_lm63(text, |name| read_next_to(path, name, files))
     };
     luminaire.map_err(|error| in_luminaire(path, &error))
 }
 
 /// The text of the file `name` in the folder of `path`, or why there is none.
-pub(crate) fn read_beside(path: &Path, name: &str, files: Files<'_>) -> Result<String, String> {
+pub(crate) fn read_next_to(path: &Path, name: &str, files: Files<'_>) -> Result<String, String> {
     let bytes = files.read(&path.with_file_name(name));
     bytes
         .map(|bytes| text_of(&bytes).into_owned())
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tilt_file_is_asked_of_the_files_that_the_caller_allows() {
+    fn a_tilt_file_comes_from_the_files_of_the_caller() {
         let folder = TestFolder::new("luminaire_tilt");
         let text = "TILT=lamp.tlt\n1 1000 1 2 1 1 1 0 0 0\n1 1 12\n0 90\n0\n10 5\n";
         fs::write(folder.path("a.ies"), text).expect("written");

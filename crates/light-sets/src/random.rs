@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn triangles_have_the_asked_power_and_side() {
+    fn triangles_have_the_requested_power_and_side() {
         let mut r = Random::new(1);
         let normal = r.direction();
         let light = r.triangle(Vec3::ONE, normal, 0.1, 5.0, false);

@@ -90,7 +90,7 @@ impl BlockMeans {
         is_known.then(|| self.stored(block, wrap))
     }
 
-    /// The stored mean over a block, whatever the wrap rule of the query.
+    /// The stored mean over a block, the same for every wrap rule.
     pub(crate) fn stored(&self, block: Block, wrap: [Wrap; 2]) -> DVec3 {
         let level = block
             .level

@@ -163,7 +163,8 @@ impl Image {
         (0..height).flat_map(move |y| (0..width).map(move |x| self.texel(x, y)))
     }
 
-    /// Calls `each` with the colour of every texel of row `y`, for whoever reads millions.
+    /// Calls `each` with the colour of every texel of row `y`: faster than single texels where
+    /// there are millions.
     pub(crate) fn for_each_in_row(&self, y: u32, each: impl FnMut(Vec3)) {
         let width = self.size[0] as usize * self.channels.count();
         let numbers = y as usize * width..(y as usize + 1) * width;

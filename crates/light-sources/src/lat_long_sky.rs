@@ -117,7 +117,7 @@ impl LatLongSky {
     /// A direction in the scene, chosen by `u`; `None` if the image is black.
     ///
     /// The direction is one of the texel that was chosen, after all rounding, so that queries
-    /// answer for it what the sample says, unless the texel is smaller than rounding.
+    /// return for it the values of the sample, unless the texel is smaller than rounding.
     pub(crate) fn sample(
         &self,
         image: &Image,

@@ -1,4 +1,4 @@
-//! The kinds of light, in one table: whatever exists once a kind is made from it.
+//! The kinds of light, in one table: all code with one entry a kind is made from it.
 
 use alloc::vec::Vec;
 

@@ -50,7 +50,7 @@ mod tests {
     use crate::rgb::Rgb;
     use crate::texture_mapping::{TextureMapping, Wrap};
 
-    /// A cached mean is that of the queried triangle, whatever was queried before.
+    /// A cached mean is that of the queried triangle, in any order of queries.
     #[test]
     fn what_is_known_is_right() {
         let texels: Vec<f32> = (0..64u16).map(|i| f32::from(i * 7 % 11)).collect();

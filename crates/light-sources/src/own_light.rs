@@ -16,9 +16,9 @@ use light_bounds::{LightExtent, LightSampleContext};
 /// A light of a type of your own, by how rays find it. A [`LightSet`](crate::LightSet) takes it as
 /// any other: `builder.add(OwnLight::Delta(Arc::new(light)))`.
 ///
-/// Its [`extent`](Light::extent) is all that light samplers know of it: too small a box or cone
-/// loses light. A light at infinity of which `phi` or `sample_le` need the sphere of the scene gets
-/// it when it is made. Each query costs a virtual call; other lights of the set cost what they did.
+/// Light samplers use only its [`extent`](Light::extent): too small a box or cone loses light. A
+/// light at infinity of which `phi` or `sample_le` need the sphere of the scene gets it when it is
+/// made. Each query costs a virtual call; other lights of the set cost what they did.
 ///
 /// A clone shares the light. With the feature `serde`, an own light is refused by the serializer
 /// with an error: nothing says what it consists of.

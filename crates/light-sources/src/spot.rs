@@ -62,7 +62,7 @@ impl<C: ColorModel> SpotLight<C> {
         })
     }
 
-    /// From light space to the scene: the light shines along +z.
+    /// From light space to the scene: the light emits along +z.
     #[must_use]
     pub const fn transform(&self) -> &RigidTransform {
         &self.transform

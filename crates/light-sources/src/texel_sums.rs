@@ -8,7 +8,7 @@ use light_math::float::ONE_MINUS_EPSILON;
 
 /// Texels of a grid in proportion to weights, by running sums alone: 4 bytes a texel and 4 a row.
 ///
-/// Whoever asks for a density computes the weight of the texel again.
+/// A query of the density computes the weight of the texel again.
 #[derive(Clone, Debug)]
 pub(crate) struct TexelSums {
     /// What lies before each texel in its row, as a share of the row.

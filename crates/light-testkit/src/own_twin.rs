@@ -8,7 +8,7 @@ use light_sources::{
     OwnLight, PdfCoverage, SceneSphere, SurfacePoint,
 };
 
-/// A light of a type that sets do not know, which answers what the light of `desc` answers.
+/// A light of another type, which forwards every method to the light of `desc`.
 ///
 /// # Errors
 /// When the description is invalid.

@@ -79,8 +79,8 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
     Ok(all)
 }
 
-/// Prints the row of a set of `n` lights with the lights at infinity `beside`; whether it keeps what
-/// is promised.
+/// Prints the row of a set of `n` lights with the lights at infinity `beside`; whether it keeps
+/// what is promised.
 fn check_set(
     device: &Device,
     kind: SetKind,

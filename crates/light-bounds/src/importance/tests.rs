@@ -21,7 +21,7 @@ fn dot(a: Vec3, b: Vec3) -> f64 {
 /// The computed angle of a box is hardly larger than the exact one: a box just beyond the edge
 /// of its emission has no importance.
 #[test]
-fn a_box_that_shines_away_does_not_matter() {
+fn a_box_that_emits_away_has_no_importance() {
     for size in [1e-3, 0.1, 1.0, 3.0] {
         let lamp = lamp(Aabb::new(Vec3::splat(-size), Vec3::splat(size)));
         // From a little less or more below the horizon of its centre than the angle that it

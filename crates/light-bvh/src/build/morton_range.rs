@@ -33,7 +33,7 @@ impl<'a> MortonRange<'a> {
     }
 
     /// Gives the lights of one cell new keys in a finer grid.
-    fn look_closer(&mut self) {
+    fn refine_keys(&mut self) {
         let center = |e: &MortonEntry| self.lights.bounds(e.light).bounds.center();
         let bounds = Aabb::from_points(self.entries.iter().map(center));
         if let Some(grid) = Grid::new(&bounds) {
@@ -73,7 +73,7 @@ impl SplitGroup for MortonRange<'_> {
 
     fn split(mut self) -> (Self, Self) {
         if top_bit(self.entries).is_none() {
-            self.look_closer();
+            self.refine_keys();
         }
         match top_bit(self.entries) {
             Some(bit) => {

@@ -104,7 +104,7 @@ mod tests {
     use light_math::glam::Vec3;
 
     #[test]
-    fn one_type_for_all_kinds_answers_as_each_kind() {
+    fn one_type_for_all_kinds_gives_the_bits_of_each_kind() {
         let lights: Vec<_> = (0..40)
             .map(|i| {
                 let p = Vec3::new((i * 7 % 40) as f32, (i * 11 % 40) as f32, i as f32);

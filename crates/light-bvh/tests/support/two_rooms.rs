@@ -68,7 +68,7 @@ impl Rooms {
     }
 
     /// Points of the floor of the left room, evenly.
-    pub(crate) fn asked() -> impl Iterator<Item = Vec3> {
+    pub(crate) fn receivers() -> impl Iterator<Item = Vec3> {
         (0..400u16).map(|i| {
             let [x, y] = [i % 20, i / 20].map(|k| (f32::from(k) + 0.5) / 20.0);
             Vec3::new(-8.0 * x, 8.0 * y, 0.0)

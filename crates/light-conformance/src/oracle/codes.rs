@@ -89,9 +89,10 @@ pub(crate) fn coordinate(x: f32, min: f32, max: f32) -> Number {
 /// The same for a direction, at least.
 const TURNED: f64 = 0.15;
 
-/// A direction `w` has the coordinates `w[i] / L` on the square, where `L` is the sum of its absolute
-/// components, at least 1. If `w` moves by `d`, the numerator moves by at most `|d|`, and `L` by at
-/// most `sqrt(3) |d|`, so that no coordinate moves by more than `1 + sqrt(3)` times `|d|`.
+/// A direction `w` has the coordinates `w[i] / L` on the square, where `L` is the sum of its
+/// absolute components, at least 1. If `w` moves by `d`, the numerator moves by at most `|d|`, and
+/// `L` by at most `sqrt(3) |d|`, so that no coordinate moves by more than `1 + sqrt(3)` times
+/// `|d|`.
 const STRETCH: f64 = 2.733;
 
 /// Whether `code` is a number rounded to the nearest code, which may be off by `slack` codes.

@@ -85,7 +85,7 @@ fn lights_are_chosen_for_the_part_of_the_ray_in_the_medium() {
 
 /// A dark light costs neither a shadow ray nor a transmittance.
 #[test]
-fn dark_lights_ask_nothing_of_the_scene() {
+fn dark_lights_cause_no_query_of_the_scene() {
     struct Nobody;
     impl Visibility for Nobody {
         fn unoccluded(&self, _from: Vec3, _to: Vec3) -> bool {

@@ -72,7 +72,10 @@ impl MedianCutArgs {
         let lights = MedianCut::new(image.clone(), map, self.sums.into())
             .and_then(|cut| cut.lights(self.n as usize, self.centroid.into()))
             .map_err(|error| refuse(error.to_string()))?;
-        let picture = self.output.clone().unwrap_or_else(|| beside(&self.image));
+        let picture = self
+            .output
+            .clone()
+            .unwrap_or_else(|| default_output(&self.image));
         let drawn = draw_regions(&image, map, &lights).map_err(Failure::input)?;
         write_image(&picture, &drawn).map_err(Failure::input)?;
         if self.csv {
@@ -94,7 +97,7 @@ impl MedianCutArgs {
 }
 
 /// The picture's name where none is given: in the current folder, not in that of the map.
-fn beside(image: &Path) -> PathBuf {
+fn default_output(image: &Path) -> PathBuf {
     let stem = image.file_stem().unwrap_or_default().to_string_lossy();
     PathBuf::from(format!("{stem}-median-cut.png"))
 }

@@ -28,8 +28,8 @@ impl VisibilityCells {
         (size_of::<Sighting>() + 2 * (coarse + fine)) as u64
     };
 
-    /// The cells of what `view` shows of `world`, for the lights of `sampler`, on the threads of the
-    /// current `rayon` pool.
+    /// The cells of what `view` shows of `world`, for the lights of `sampler`, on the threads of
+    /// the current `rayon` pool.
     ///
     /// # Errors
     /// When there are more cells than 32 bits count.

@@ -11,7 +11,7 @@ use lights::sources::{
 use super::item::Item;
 use super::reader::Reader;
 use crate::glam::{Affine3A, Mat3A, Quat, Vec3};
-use crate::luminaire::read_beside;
+use crate::luminaire::read_next_to;
 use crate::{Diagnostic, goniometric_light};
 
 /// Texels per side of the map of a measured luminaire.
@@ -60,7 +60,7 @@ impl<'a> Reader<'a> {
         };
         let text = String::from_utf8_lossy(&bytes);
         let luminaire = parse_lm63(&text, |name| {
-            read_beside(self.document.path(), name, self.buffers.files())
+            read_next_to(self.document.path(), name, self.buffers.files())
         });
         let luminaire = luminaire.map_err(|error| {
             profile.error(&format!("expected an LM-63 file: {}", error.message))

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn every_problem_is_told() {
+    fn every_problem_is_reported() {
         use LightSetProblem as P;
         let light = |line| parse_light(line).expect_err("a bad line");
         assert!(matches!(light("disk 1 2 3"), P::UnknownRecord), "kind");

@@ -1,5 +1,5 @@
-//! Lights of other types in a set: they answer for themselves, and a set takes none that contradicts
-//! itself.
+//! Lights of other types in a set: they answer for themselves, and a set takes none that
+//! contradicts itself.
 
 extern crate alloc;
 

@@ -16,7 +16,8 @@ const HALF_ULP: f64 = 0.5 * f32::EPSILON as f64;
 /// product; 3 of the scalar product.
 const SIDE: f64 = 7.0 + std::f64::consts::SQRT_2;
 
-/// How far rounding turns a direction toward a point: its difference and its division by the length.
+/// How far rounding turns a direction toward a point: its difference and its division by the
+/// length.
 const TURN: f64 = 2.0;
 
 /// How far a point of the triangle is rounded, a sum of three products, over its coordinates.

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_has_the_lamps_that_are_asked_for() {
+    fn every_kind_has_the_requested_lamps() {
         for kind in OcclusionKind::ALL {
             for lamps in [1, 2, 37, 100, 1009, 50_000] {
                 let triangles = load(kind, lamps, 1).emissive_triangle_count();

@@ -40,7 +40,7 @@ impl<'a, C: ColorModel, L: Light<C>> LightCase<'a, C, L> {
         }
     }
 
-    /// Whether samples at `ctx` depend on the coverage that is asked for.
+    /// Whether samples at `ctx` depend on the requested coverage.
     pub(super) fn reads_coverage(&self, ctx: &LightSampleContext) -> bool {
         let mut rng = Rng::new(40);
         (0..64).any(|_| {

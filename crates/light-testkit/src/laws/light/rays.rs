@@ -10,7 +10,7 @@ use crate::{Cap, DensityTest, Estimate, Rng, kolmogorov_smirnov_uniform};
 /// Directions of rays that leave follow `pdf_le`, for lights whose directions do not depend on
 /// where a ray starts.
 ///
-/// `cap` holds all directions of travel, `origin` is where `pdf_le` is asked.
+/// `cap` holds all directions of travel, `origin` is the origin of the rays for `pdf_le`.
 ///
 /// # Panics
 /// If the law does not hold.

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::visibility::cell_factors::{CopiedNode, MAX_COPIED_NODES, inner_child};
-use crate::visibility::counts::{Counts, NodeCounts};
-use crate::visibility::ray_log::{Ray, RayLog};
+use crate::visibility::fill::counts::{Counts, NodeCounts};
+use crate::visibility::fill::ray_log::{Ray, RayLog};
 
 /// A copy of the top of a tree, and the visibility of each child.
 #[derive(Clone, Debug)]

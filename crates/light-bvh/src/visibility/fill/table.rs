@@ -3,8 +3,8 @@ use alloc::vec::Vec;
 use crate::node::wide_node::WIDTH;
 use crate::visibility::cell_factors::CopiedNode;
 use crate::visibility::cell_key::CellKey;
-use crate::visibility::coarse_cell::CoarseCell;
-use crate::visibility::fine_cell::FineCell;
+use crate::visibility::fill::coarse_cell::CoarseCell;
+use crate::visibility::fill::fine_cell::FineCell;
 use crate::visibility::table_error::CellTableError;
 use crate::visibility::table_ref::{CellEntry, CellTableParts, CellTableRef, bucket};
 

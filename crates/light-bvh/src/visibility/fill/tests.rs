@@ -10,11 +10,11 @@ use crate::LightBvh;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::visibility::cell_factors::copied_nodes;
-use crate::visibility::counts::Counts;
-use crate::visibility::gain::Gain;
-use crate::visibility::learn::learn;
-use crate::visibility::mean_importance::mean_importance;
-use crate::visibility::ray_log::RayLog;
+use crate::visibility::fill::counts::Counts;
+use crate::visibility::fill::gain::Gain;
+use crate::visibility::fill::learn::learn;
+use crate::visibility::fill::mean_importance::mean_importance;
+use crate::visibility::fill::ray_log::RayLog;
 use crate::visibility::way::Way;
 use crate::visibility::{
     CellFactors, CellFactorsError, CellKey, CellTable, CellTableRef, CoarseCell, CopiedNode,

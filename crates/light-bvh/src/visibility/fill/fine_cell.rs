@@ -7,16 +7,16 @@ use light_math::glam::Vec2;
 
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::visibility::bottom_up::factors;
 use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
 use crate::visibility::cell_key::CellKey;
-use crate::visibility::coarse_cell::CoarseCell;
-use crate::visibility::counts::NodeCounts;
-use crate::visibility::mean_importance::mean_importance;
-use crate::visibility::options::FillOptions;
-use crate::visibility::ray_log::RayLog;
-use crate::visibility::rays::Rays;
-use crate::visibility::share_code::decode_share;
+use crate::visibility::fill::bottom_up::factors;
+use crate::visibility::fill::coarse_cell::CoarseCell;
+use crate::visibility::fill::counts::NodeCounts;
+use crate::visibility::fill::mean_importance::mean_importance;
+use crate::visibility::fill::options::FillOptions;
+use crate::visibility::fill::ray_log::RayLog;
+use crate::visibility::fill::rays::Rays;
+use crate::visibility::fill::share_code::decode_share;
 
 /// A fine cell: its own factors for the children of the nodes that its coarse cell copies.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,9 +41,12 @@ impl CoarseCell {
         options: &FillOptions,
         visible: impl FnMut(&P, LightId, Vec2) -> bool,
     ) -> FineCell {
+        let without_factors = FineCell {
+            key,
+            factors: Vec::new(),
+        };
         if self.is_plain() {
-            let factors = Vec::new();
-            return FineCell { key, factors };
+            return without_factors;
         }
         let nodes = copied_nodes(&tree, &self.shape).unwrap_or_default();
         let mean = mean_importance(&tree, &nodes[..self.shape.len()], places);
@@ -52,8 +55,9 @@ impl CoarseCell {
             .iter()
             .map(|codes| codes.map(decode_share))
             .collect();
-        let doubts: Vec<_> = known.iter().map(|shares| shares.map(doubt)).collect();
-        let towards = factors(&self.shape, &mean, &doubts, options.floor);
+        // Rays go where their results are least certain, not where the light is.
+        let weights: Vec<_> = known.iter().map(|shares| shares.map(ray_weight)).collect();
+        let ray_factors = factors(&self.shape, &mean, &weights, options.floor);
         let mut rays = Rays {
             tree,
             places,
@@ -61,13 +65,12 @@ impl CoarseCell {
             visible,
             log: RayLog::default(),
         };
-        let cell = CellFactors::of(&self.shape, &towards);
+        let cell = CellFactors::of(&self.shape, &ray_factors);
         rays.in_cell(0, options.fine_rays, cell, |_, _, _| ());
         if rays.log.rays().is_empty() {
-            let factors = Vec::new();
-            return FineCell { key, factors };
+            return without_factors;
         }
-        let shares = seen_again(&self.shape, known, &rays.log);
+        let shares = updated_roots(&self.shape, known, &rays.log);
         FineCell {
             key,
             factors: factors(&self.shape, &mean, &shares, options.floor),
@@ -93,20 +96,22 @@ impl FineCell {
     }
 }
 
-/// The weight of rays to lights of this visible share: largest where the result of a ray is least
-/// certain, with a small minimum.
-fn doubt(visibility: f32) -> f32 {
+/// The weight of rays to lights of this visible share: the standard deviation of the result of one
+/// ray, and a little for lights that are surely seen.
+fn ray_weight(visibility: f32) -> f32 {
     sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
 }
 
-/// The roots of the visibility of each closed child, of which `known` was known before these rays.
-fn seen_again(
+/// The roots of the visible share of each closed child, from the shares `known` before these rays
+/// and their results.
+fn updated_roots(
     shape: &[CopiedNode],
     mut known: Vec<[f32; WIDTH]>,
     log: &RayLog,
 ) -> Vec<[f32; WIDTH]> {
     let mut counts = alloc::vec![NodeCounts::default(); shape.len()];
     for ray in log.rays() {
+        // A ray counts for the deepest child on its path that the cell knows.
         let (mut place, mut level) = (0, 0);
         let mut child = ray.child(level);
         while let Some(copy) = shape[place].copy_of(child) {

@@ -13,8 +13,8 @@ use crate::cut::light_cut::{CutDetail, LightCut};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::visibility::cell_factors::CellFactors;
 use crate::visibility::cell_key::CellKey;
+use crate::visibility::fill::ray_log::RayLog;
 use crate::visibility::hash::mix;
-use crate::visibility::ray_log::RayLog;
 
 /// Steps of a sequence that fills the unit square evenly, in every part of it: 1/p and 1/p^2, where
 /// `p^3 = p + 1`, as fractions of 2^64.

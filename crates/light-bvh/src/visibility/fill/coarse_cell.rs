@@ -7,16 +7,16 @@ use light_math::glam::Vec2;
 
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::visibility::bottom_up::factors;
 use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
 use crate::visibility::cell_key::CellKey;
-use crate::visibility::gain::Gain;
-use crate::visibility::learn::{Learnt, learn};
-use crate::visibility::mean_importance::mean_importance;
-use crate::visibility::options::FillOptions;
-use crate::visibility::ray_log::RayLog;
-use crate::visibility::rays::Rays;
-use crate::visibility::share_code::encode_share;
+use crate::visibility::fill::bottom_up::factors;
+use crate::visibility::fill::gain::Gain;
+use crate::visibility::fill::learn::{Learnt, learn};
+use crate::visibility::fill::mean_importance::mean_importance;
+use crate::visibility::fill::options::FillOptions;
+use crate::visibility::fill::ray_log::RayLog;
+use crate::visibility::fill::rays::Rays;
+use crate::visibility::fill::share_code::encode_share;
 
 /// A coarse cell: the nodes of the tree that it copies, the factors of their children, and the
 /// visible share of their lights. A plain cell has none of them: queries in it use the tree without
@@ -31,8 +31,8 @@ pub struct CoarseCell {
 }
 
 impl CoarseCell {
-    /// The cell of `key` by rays from `places` in it: contexts, or what a ray needs to start from one
-    /// beside it.
+    /// The cell of `key` by rays from `places` in it: contexts, or a type that lends a context and
+    /// holds more for the ray.
     ///
     /// `visible(place, light, u)` returns whether `place` sees the point of `light` that `u` of the
     /// unit square chooses; a light that emits nothing toward `place` counts as not seen. The
