@@ -108,6 +108,7 @@ mod tests {
             n_lights: 100,
             sampler: SamplerKind::Bvh,
             k: 1,
+            points: 256,
             build_ms: time,
             refit_ms: None,
             bytes: 3100,

@@ -1,5 +1,6 @@
 use lights::bounds::LightExtent;
 use lights::samplers::LightSampler;
+use lights::sources::{LightSet, Rgb};
 
 use super::build_time::build_time;
 use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
@@ -24,6 +25,21 @@ impl Candidate {
             kind,
             n_lights: extents.len(),
             sampler: AnyLightSampler::over(kind, extents)?,
+        })
+    }
+
+    /// Builds the sampler of the given kind for the lights of a scene.
+    ///
+    /// # Errors
+    /// The first light that the sampler refuses.
+    pub(super) fn for_lights(
+        kind: SamplerKind,
+        lights: &LightSet<Rgb>,
+    ) -> Result<Self, AnyLightSamplerError> {
+        Ok(Self {
+            kind,
+            n_lights: lights.len(),
+            sampler: AnyLightSampler::new(kind, lights)?,
         })
     }
 

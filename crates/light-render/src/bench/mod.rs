@@ -7,20 +7,26 @@
 //! visibility; [`PictureBench`] times whole pictures.
 
 mod build_time;
-mod camera_receiver;
 mod candidate;
+mod contributions;
 mod cpu_time;
 mod ground_truth;
 mod laws;
+mod measure;
 mod occluders;
 mod options;
 mod pictures;
+mod pixel_variance;
 mod query;
 mod receiver;
 mod refits;
 mod row;
+mod scene;
+mod scene_query;
+mod scene_receiver;
 mod scene_variance;
 mod statistics;
+mod surface_points;
 mod timing;
 mod unlit_pixels;
 mod variance;
@@ -31,9 +37,12 @@ pub use ground_truth::GroundTruth;
 pub use laws::Laws;
 pub use options::BenchOptions;
 pub use pictures::{PictureBench, RelativeError, TimedPicture};
+pub use pixel_variance::{PixelVariance, pixel_variance};
 pub use receiver::BenchReceiverKind;
 pub use refits::{RefitRow, refits};
 pub use row::BenchRow;
+pub use scene::{SceneBenchOptions, bench_scene};
+pub use scene_receiver::Shadows;
 pub use scene_variance::{ChoiceKind, RelativeVariance, SceneVariance, scene_variance};
 pub use timing::QueryTime;
 pub(crate) use unlit_pixels::pixels_without_lights;
@@ -43,8 +52,8 @@ pub use variance_split::{LightMoments, VarianceSplit};
 use light_sets::BenchSet;
 
 use crate::AnyLightSamplerError;
-use build_time::build_time;
 use candidate::Candidate;
+use measure::Plan;
 use query::Query;
 
 /// One row for each sampler, all measured in this run and in turns, so that their ratios are valid
@@ -61,53 +70,17 @@ pub fn bench(
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
     let extents = set.extents();
-    let query = Query::new(set, options);
-    let var_points = options.points_of(set);
-
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build()
-        .expect("threads for building");
-    let built: Vec<(f64, Candidate)> = options
-        .samplers
-        .iter()
-        .map(|&kind| {
-            let (ms, candidate) = pool.install(|| build_time(|| Candidate::new(kind, &extents)));
-            Ok((ms, candidate?))
-        })
-        .collect::<Result<_, AnyLightSamplerError>>()?;
-    let candidates: Vec<&Candidate> = built.iter().map(|(_, candidate)| candidate).collect();
-    let times = timing::queries(&candidates, &query.contexts, options.k);
-
-    let rows = built
-        .iter()
-        .zip(times)
-        .map(|((build_ms, candidate), time)| {
-            let variance = pool.install(|| {
-                if options.k == 1 {
-                    variance::exact(candidate, set, &query, var_points)
-                } else {
-                    variance::repeated(candidate, set, &query, var_points, options.k)
-                }
-            });
-            let refit_ms = pool.install(|| candidate.refit_ms(&extents));
-            let laws = pool.install(|| laws::check(candidate, &query.contexts));
-            BenchRow {
-                set: name.to_owned(),
-                n_lights: set.lights.len(),
-                sampler: candidate.kind(),
-                k: options.k,
-                build_ms: *build_ms,
-                refit_ms,
-                bytes: candidate.bytes(),
-                depth: candidate.depth(),
-                time,
-                variance,
-                laws,
-            }
-        })
-        .collect();
-    Ok(rows)
+    let plan = Plan {
+        set: name,
+        samplers: &options.samplers,
+        k: options.k,
+        points: options.points_of(set),
+        threads: options.threads,
+        extents: &extents,
+    };
+    plan.measure(&Query::new(set, options), |kind| {
+        Candidate::new(kind, &extents)
+    })
 }
 
 #[cfg(test)]

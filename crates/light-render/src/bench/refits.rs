@@ -71,7 +71,7 @@ pub fn refits(
                 points: set.points.clone(),
             };
             let query = Query::new(&set, options);
-            let variance = |candidate: &Candidate| variance::exact(candidate, &set, &query, points);
+            let variance = |candidate: &Candidate| variance::exact(candidate, &query, points);
             following.refit(&set.extents())?;
             rows.push(RefitRow {
                 set: name.to_owned(),

@@ -18,6 +18,8 @@ pub struct BenchRow {
     pub sampler: SamplerKind,
     /// Samples of one call.
     pub k: u32,
+    /// Points that the variance was taken over.
+    pub points: usize,
     /// Milliseconds to build.
     pub build_ms: f64,
     /// Milliseconds to refit to lights that moved, if the sampler can.
@@ -69,6 +71,7 @@ impl BenchRow {
             "n_lights": self.n_lights,
             "sampler": self.sampler.name(),
             "k": self.k,
+            "v_points": self.points,
             "build_ms": self.build_ms,
             "refit_ms": self.refit_ms,
             "bytes": self.bytes,

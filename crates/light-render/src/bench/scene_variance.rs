@@ -2,7 +2,7 @@ use lights::bounds::{LightId, LightSampleContext};
 use lights::samplers::LightSampler;
 use rayon::prelude::*;
 
-use super::camera_receiver::{points, receivers};
+use super::scene_receiver::{points, receivers};
 use super::variance_split::{LightMoments, VarianceSplit};
 use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind, View, World};
 
@@ -190,6 +190,7 @@ impl SceneVariance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Shadows;
     use light_scene::{OcclusionKind, OcclusionScene};
     use lights::glam::Vec2;
     use lights::math::fraction::to_f32;
@@ -224,7 +225,7 @@ mod tests {
                 continue;
             };
             let u = Vec2::new(to_f32(rng.next_u64()), to_f32(rng.next_u64()));
-            let [_, f] = receiver.gives(&world, choice.light, u);
+            let [_, f] = receiver.gives(&world, choice.light, u, Shadows::Cast);
             let x = f / f64::from(choice.pmf);
             sum += x;
             squares += x * x;

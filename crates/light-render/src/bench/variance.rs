@@ -1,11 +1,9 @@
-use light_sets::BenchSet;
-use lights::bounds::LightId;
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use super::query::Query;
+use super::contributions::{Contributions, contributors};
 use super::statistics::Summary;
 use super::variance_split::{LightMoments, VarianceSplit};
 
@@ -53,23 +51,20 @@ struct AtPoint {
     ceiling: Option<Ceiling>,
 }
 
-/// The variance of one sample, summed over all lights.
+/// The variance of one sample, summed over all lights, at the first `points` receivers.
 pub(super) fn exact(
     candidate: &Candidate,
-    set: &BenchSet,
-    query: &Query,
+    contributions: &impl Contributions,
     points: usize,
 ) -> Variance {
-    let at_points = query.receivers[..points]
+    let at_points = contributions.contexts()[..points]
         .par_iter()
-        .map(|receiver| {
-            let lights: Vec<(LightMoments, f64)> = (0u32..)
-                .zip(&set.lights)
-                .map(|(id, light)| (id, query.moments(light, receiver)))
-                .filter(|(_, light)| light.unoccluded > 0.0)
+        .enumerate()
+        .map(|(receiver, ctx)| {
+            let lights: Vec<(LightMoments, f64)> = contributors(contributions, receiver)
                 .map(|(id, light)| {
                     let seen = light.mean > 0.0;
-                    let pmf = || candidate.sampler().pmf(&receiver.ctx, LightId(id));
+                    let pmf = || candidate.sampler().pmf(ctx, id);
                     (light, if seen { f64::from(pmf()) } else { 0.0 })
                 })
                 .collect();
@@ -96,30 +91,28 @@ fn at_point(lights: &[(LightMoments, f64)]) -> AtPoint {
     }
 }
 
-/// `k` times the variance of the mean of `k` samples, from repeated calls.
+/// `k` times the variance of the mean of `k` samples, from repeated calls at the first `points`
+/// receivers.
 pub(super) fn repeated(
     candidate: &Candidate,
-    set: &BenchSet,
-    query: &Query,
+    contributions: &impl Contributions,
     points: usize,
     k: u32,
 ) -> Variance {
-    let at_points = query.receivers[..points]
+    let at_points = contributions.contexts()[..points]
         .par_iter()
         .enumerate()
-        .map(|(i, receiver)| {
-            let total: f64 = set
-                .lights
-                .iter()
-                .map(|light| query.contribution(light, receiver))
+        .map(|(i, ctx)| {
+            let total: f64 = contributors(contributions, i)
+                .map(|(_, light)| light.mean)
                 .sum();
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
-            let here = candidate.sampler().at(&receiver.ctx, k);
+            let here = candidate.sampler().at(ctx, k);
             for _ in 0..CALLS {
                 let mut mean = 0.0;
                 for sample in here.samples(rng.next_u64()) {
-                    let f = query.contribution(&set.lights[sample.light.index()], receiver);
+                    let f = contributions.moments(i, sample.light).mean;
                     mean += f / f64::from(sample.pmf) / f64::from(k);
                 }
                 squares += (mean - total) * (mean - total) / CALLS as f64;

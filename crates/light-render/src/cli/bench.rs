@@ -1,32 +1,53 @@
 use core::fmt;
-use core::str::FromStr;
 use std::path::PathBuf;
 
 use crate::SamplerKind;
 use crate::bench::{
-    BenchOptions, BenchReceiverKind, BenchRow, GroundTruth, RefitRow, bench, refits,
+    BenchOptions, BenchReceiverKind, BenchRow, GroundTruth, RefitRow, SceneBenchOptions, Shadows,
+    bench, bench_scene, refits,
 };
 use clap::Args;
 use light_sets::{BenchSet, SetKind};
 use serde_json::Value;
 
-use super::arguments::{named, threads};
+use super::arguments::{Emit, named, threads};
 use super::failure::Failure;
 use super::memory_check::check_memory;
+use super::output_file::refuse;
+use super::sampler_list::{list, samplers};
+use super::scene_input::{SceneInput, report_warnings};
 use super::stdout::say;
 
 /// What a light takes while samplers are built over it one after another and measured side by side:
 /// itself, its bounds, and a node in each of them.
 const BYTES_PER_LIGHT: u64 = 400;
 
-/// Measure light samplers side by side on a set of lights.
+/// Measure light samplers side by side on the lights of a scene, or on a set of lights.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
+  lights bench room.obj --shadows
   lights bench --generate clusters --n 100000 --samplers bvh-reference,bvh
   lights bench --lights a.lights --points a.points --json")]
 pub(crate) struct BenchArgs {
+    /// The scene, whose lights are seen from points on its surfaces: an .obj, .pbrt, .gltf or .glb
+    /// file, or the name of a scene that ships.
+    scene: Option<PathBuf>,
+    /// A lat-long environment around the scene: .exr or .hdr.
+    #[arg(long, value_name = "IMAGE", requires = "scene")]
+    env: Option<PathBuf>,
+    /// Let the front of a material emit light with this radiance; may be repeated.
+    #[arg(long, value_name = "MATERIAL=r,g,b", requires = "scene")]
+    emit: Vec<Emit>,
+    /// Let the surfaces of the scene hide its lights.
+    #[arg(long, requires = "scene", conflicts_with_all = ["generate", "lights"])]
+    shadows: bool,
     /// Lights of the set to read; needs --points.
-    #[arg(long, value_name = "FILE", requires = "points")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "points",
+        conflicts_with = "scene"
+    )]
     lights: Option<PathBuf>,
     /// Shading points of the set to read; needs --lights.
     #[arg(long, value_name = "FILE", requires = "lights")]
@@ -35,7 +56,7 @@ pub(crate) struct BenchArgs {
     #[arg(
         long,
         value_name = "KIND",
-        conflicts_with_all = ["lights", "points"],
+        conflicts_with_all = ["lights", "points", "scene"],
         value_parser = named::<SetKind>(SetKind::all().map(SetKind::name))
     )]
     generate: Option<SetKind>,
@@ -44,40 +65,43 @@ pub(crate) struct BenchArgs {
         long,
         value_name = "N",
         default_value_t = 10_000,
+        conflicts_with = "scene",
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     n: u32,
-    /// Seed of the set to make.
-    #[arg(long, default_value_t = 1)]
+    /// Seed of the set to make, or of the points on surfaces.
+    #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Keep the set as PREFIX.lights and PREFIX.points.
-    #[arg(long, value_name = "PREFIX")]
+    #[arg(long, value_name = "PREFIX", conflicts_with = "scene")]
     write: Option<PathBuf>,
     /// Samplers to measure, with commas between: uniform, power, exhaustive, bvh-reference, bvh,
     /// bvh-morton.
-    #[arg(long, value_name = "LIST", default_value_t = default_samplers())]
+    #[arg(long, value_name = "LIST", default_value_t = list(&SamplerKind::SUBLINEAR))]
     samplers: String,
     /// Samples of one call, at most 4096.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 12))]
     k: u32,
-    /// Points that the variance is taken over. By default all, or 256 above 10 thousand lights.
+    /// Points that the variance is taken over. By default all, or 256 above 10 thousand lights; in
+    /// a scene 4096, or fewer of more than 512 lights.
     #[arg(long, value_name = "M")]
     var_points: Option<usize>,
     /// Threads for building, at most 1024.
     #[arg(long, value_name = "T", default_value_t = 1, value_parser = threads)]
     threads: usize,
     /// Contribution of a triangle: `centroid`, or `area` for the mean over sixteen points of it.
-    #[arg(long = "truth", default_value = "centroid")]
+    #[arg(long = "truth", default_value = "centroid", conflicts_with = "scene")]
     ground_truth: GroundTruth,
     /// The receivers: `diffuse`, `two-sided`, `medium`, or `glossy:ROUGHNESS` for half diffuse,
     /// half microfacets.
-    #[arg(long, default_value = "diffuse")]
+    #[arg(long, default_value = "diffuse", conflicts_with = "scene")]
     receiver: BenchReceiverKind,
     /// Spheres that block light, a tenth of the set's volume together; at most 65536.
     #[arg(
         long,
         value_name = "N",
         default_value_t = 0,
+        conflicts_with = "scene",
         value_parser = clap::value_parser!(u32).range(..=1 << 16)
     )]
     occluders: u32,
@@ -86,7 +110,7 @@ pub(crate) struct BenchArgs {
     #[arg(
         long,
         value_name = "N",
-        conflicts_with = "k",
+        conflicts_with_all = ["k", "scene"],
         value_parser = clap::value_parser!(u32).range(..=20)
     )]
     refits: Option<u32>,
@@ -101,17 +125,16 @@ impl BenchArgs {
     /// # Errors
     /// A file that cannot be read or written, or arguments that do not fit together.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let samplers: Vec<SamplerKind> = self
-            .samplers
-            .split(',')
-            .map(SamplerKind::from_str)
-            .collect::<Result<_, _>>()
-            .map_err(|error| Failure::Input(format!("--samplers: {error}")))?;
+        let samplers = samplers(&self.samplers)?;
         // The measurement starts its threads as if that could not fail.
         rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
             .build()
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
+        if let Some(scene) = &self.scene {
+            let input = SceneInput::new(scene.clone(), self.env.clone(), self.emit.clone());
+            return self.run_scene(&input, samplers);
+        }
         let (name, set) = self.set()?;
         if let Some(prefix) = &self.write {
             light_scene::write_light_set(&set, prefix).map_err(Failure::input)?;
@@ -132,6 +155,56 @@ impl BenchArgs {
             let rows = bench(&name, &set, &options).map_err(Failure::input)?;
             self.print(&BenchRow::header(), &rows, BenchRow::json)
         }
+    }
+
+    /// Measures on the lights of a scene.
+    fn run_scene(&self, input: &SceneInput, samplers: Vec<SamplerKind>) -> Result<(), Failure> {
+        let scene = input.read()?;
+        report_warnings(&scene.warnings);
+        let world = input.build(scene)?;
+        let lights = world.lights().len();
+        let path = &input.scene;
+        if lights == 0 {
+            return Err(refuse(path, "no light in the scene: expected one or more"));
+        }
+        let options = SceneBenchOptions {
+            samplers,
+            k: self.k,
+            var_points: self.var_points,
+            threads: self.threads.max(1),
+            seed: self.seed,
+            shadows: if self.shadows {
+                Shadows::Cast
+            } else {
+                Shadows::Off
+            },
+        };
+        let name = path
+            .file_stem()
+            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let rows = bench_scene(&name, &world, &options).map_err(Failure::input)?;
+        let Some(row) = rows.first() else {
+            let message = "no point that lights could be seen from: expected a surface that \
+                           scatters light into more than single directions";
+            return Err(refuse(path, message));
+        };
+        self.print(&BenchRow::header(), &rows, BenchRow::json)?;
+        if self.json {
+            return Ok(());
+        }
+        let strata = SceneBenchOptions::strata_for(lights);
+        let way = if self.shadows {
+            "what surfaces hide does not count"
+        } else {
+            "nothing in the way"
+        };
+        let how = if self.k == 1 { "exact" } else { "estimated" };
+        say!(
+            "V at {} points of surfaces, {how}, over all {lights} lights: each by {} points of it, \
+             {way}.",
+            row.points,
+            strata * strata
+        )
     }
 
     /// A table, or one JSON object a row.
@@ -163,7 +236,9 @@ impl BenchArgs {
             return Ok((name, set));
         }
         let kind = self.generate.ok_or_else(|| {
-            Failure::Input("expected --generate KIND, or --lights FILE --points FILE".into())
+            Failure::Input(
+                "expected a SCENE, --generate KIND, or --lights FILE --points FILE".into(),
+            )
         })?;
         check_memory(
             &format!("--n {}", self.n),
@@ -174,8 +249,4 @@ impl BenchArgs {
             BenchSet::generate(kind, self.n as usize, self.seed),
         ))
     }
-}
-
-fn default_samplers() -> String {
-    SamplerKind::SUBLINEAR.map(SamplerKind::name).join(",")
 }

@@ -28,6 +28,7 @@ mod progress;
 mod references;
 mod render;
 mod render_settings;
+mod sampler_list;
 mod scene_input;
 mod stdout;
 mod view_args;

@@ -26,6 +26,16 @@ pub(crate) struct SceneInput {
 }
 
 impl SceneInput {
+    /// A scene with this environment and these materials turned on.
+    pub(crate) fn new(scene: PathBuf, env: Option<PathBuf>, emit: Vec<Emit>) -> Self {
+        Self {
+            scene,
+            env,
+            light: LightArgs::default(),
+            emit,
+        }
+    }
+
     /// Reads the scene with all that belongs to it.
     ///
     /// # Errors

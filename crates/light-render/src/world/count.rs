@@ -59,6 +59,18 @@ impl World {
             .find_map(|(instance, ranges)| Some(PrimitiveId::in_instance(among(ranges)?, instance)))
     }
 
+    /// All triangles and spheres, those of prototypes once per instance, in the order of
+    /// [`primitive`](Self::primitive).
+    pub(crate) fn primitives(&self) -> impl Iterator<Item = PrimitiveId> {
+        let world = self.accel.world().into_iter().flatten();
+        let instances = (0u32..).zip(self.accel.instances());
+        let in_instances = instances.flat_map(|(instance, ranges)| {
+            let numbers = ranges.into_iter().flatten();
+            numbers.map(move |number| PrimitiveId::in_instance(number, instance))
+        });
+        world.map(PrimitiveId::new).chain(in_instances)
+    }
+
     /// The sum of `of` over the ranges of world space and of every instance.
     fn count(&self, of: impl Fn([Range<u32>; 2]) -> usize) -> usize {
         of(self.accel.world()) + self.accel.instances().map(of).sum::<usize>()

@@ -158,7 +158,7 @@ impl World {
     }
 
     /// Whether the primitive is a sphere.
-    pub(super) fn is_sphere(&self, primitive: PrimitiveId) -> bool {
+    pub(crate) fn is_sphere(&self, primitive: PrimitiveId) -> bool {
         matches!(self.stored(primitive), Stored::Sphere(_))
     }
 

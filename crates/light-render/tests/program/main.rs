@@ -1,4 +1,5 @@
 //! The program as a process: its output, its exit status and the files that it leaves.
+mod bench_scene;
 
 mod environments;
 mod extremes;

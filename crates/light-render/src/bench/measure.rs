@@ -1,0 +1,83 @@
+use lights::bounds::LightExtent;
+
+use super::build_time::build_time;
+use super::candidate::Candidate;
+use super::contributions::Contributions;
+use super::row::BenchRow;
+use super::{laws, timing, variance};
+use crate::{AnyLightSamplerError, SamplerKind};
+
+/// What is measured of samplers.
+pub(super) struct Plan<'a> {
+    /// The name in the rows.
+    pub(super) set: &'a str,
+    /// The samplers, in the order of the rows.
+    pub(super) samplers: &'a [SamplerKind],
+    /// Samples of one call.
+    pub(super) k: u32,
+    /// How many of the receivers the variance is taken over.
+    pub(super) points: usize,
+    /// Threads that build a tree and sum the variance.
+    pub(super) threads: usize,
+    /// The extents of the lights, for refits.
+    pub(super) extents: &'a [LightExtent],
+}
+
+impl Plan<'_> {
+    /// One row for each sampler, all measured in turns, so that their ratios are valid on a busy
+    /// machine. `make` builds a sampler.
+    ///
+    /// # Errors
+    /// The first light that a sampler refuses.
+    ///
+    /// # Panics
+    /// If the system refuses to start the threads.
+    pub(super) fn measure(
+        &self,
+        contributions: &impl Contributions,
+        make: impl Fn(SamplerKind) -> Result<Candidate, AnyLightSamplerError> + Sync,
+    ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .expect("threads for building");
+        let built: Vec<(f64, Candidate)> = self
+            .samplers
+            .iter()
+            .map(|&kind| {
+                let (ms, candidate) = pool.install(|| build_time(|| make(kind)));
+                Ok((ms, candidate?))
+            })
+            .collect::<Result<_, AnyLightSamplerError>>()?;
+        let candidates: Vec<&Candidate> = built.iter().map(|(_, candidate)| candidate).collect();
+        let contexts = contributions.contexts();
+        let times = timing::queries(&candidates, contexts, self.k);
+        let rows = built
+            .iter()
+            .zip(times)
+            .map(|((build_ms, candidate), time)| {
+                let variance = pool.install(|| match self.k {
+                    1 => variance::exact(candidate, contributions, self.points),
+                    k => variance::repeated(candidate, contributions, self.points, k),
+                });
+                let refit_ms = pool.install(|| candidate.refit_ms(self.extents));
+                let laws = pool.install(|| laws::check(candidate, contexts));
+                BenchRow {
+                    set: self.set.to_owned(),
+                    n_lights: contributions.lights(),
+                    sampler: candidate.kind(),
+                    k: self.k,
+                    points: self.points,
+                    build_ms: *build_ms,
+                    refit_ms,
+                    bytes: candidate.bytes(),
+                    depth: candidate.depth(),
+                    time,
+                    variance,
+                    laws,
+                }
+            })
+            .collect();
+        Ok(rows)
+    }
+}
