@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use crate::{Comparison, difference};
+use crate::{Comparison, Flip, difference};
 use clap::Args;
 use light_scene::{Diagnostic, Image, read_image, write_image};
 use serde_json::json;
@@ -61,11 +61,12 @@ impl CompareArgs {
             expect_another(path, &inputs, "the images for --diff")?;
             write_difference(path, &image, &reference)?;
         }
-        self.print(&comparison)?;
+        let flip = FlipMeans::of(&image, &reference)?;
+        self.print(&comparison, &flip)?;
         self.check(&comparison)
     }
 
-    fn print(&self, c: &Comparison) -> Result<(), Failure> {
+    fn print(&self, c: &Comparison, flip: &FlipMeans) -> Result<(), Failure> {
         let (bias, error) = (c.bias.to_array(), c.bias_error.to_array());
         if self.json {
             let line = json!({
@@ -73,6 +74,8 @@ impl CompareArgs {
                 "mse": c.mse,
                 "bias": bias,
                 "bias_se": error,
+                "flip_ldr": flip.ldr,
+                "flip_hdr": flip.hdr,
             });
             return say!("{line}");
         }
@@ -81,7 +84,8 @@ impl CompareArgs {
         for (name, (bias, error)) in ["R", "G", "B"].into_iter().zip(bias.into_iter().zip(error)) {
             say!("bias {name} {bias:+.6e} +- {error:.1e}")?;
         }
-        Ok(())
+        say!("FLIP   {:.6} on a screen, radiance clamped at 1", flip.ldr)?;
+        say!("FLIP   {:.6} over the exposures of the reference", flip.hdr)
     }
 
     fn check(&self, c: &Comparison) -> Result<(), Failure> {
@@ -98,6 +102,27 @@ impl CompareArgs {
             }
         }
         Ok(())
+    }
+}
+
+/// The means of FLIP: 0 where both pictures look the same, at most 1.
+struct FlipMeans {
+    ldr: f64,
+    hdr: f64,
+}
+
+impl FlipMeans {
+    fn of(image: &Image, reference: &Image) -> Result<Self, Failure> {
+        let (a, b) = (image.texels(), reference.texels());
+        let width = image.width();
+        let mean = |flip: Option<Flip>| {
+            let flip = flip.ok_or_else(|| Failure::Input("nothing to compare".into()));
+            flip.map(|flip| flip.mean())
+        };
+        Ok(Self {
+            ldr: mean(Flip::ldr(a, b, width))?,
+            hdr: mean(Flip::hdr(a, b, width))?,
+        })
     }
 }
 
