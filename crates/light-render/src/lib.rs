@@ -39,6 +39,7 @@ mod primitive_id;
 mod raster;
 mod ray;
 mod render;
+mod report;
 mod sample_stream;
 mod scene_digest;
 mod scene_lights;

@@ -55,8 +55,8 @@ pub use files::Files;
 pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};
 pub use image::{
-    ChannelFile, Image, ImageError, ImageFile, parse_exr, parse_image, read_environment,
-    read_image, write_exr, write_exr_half, write_image, write_png,
+    ChannelFile, Image, ImageError, ImageFile, encode_png, parse_exr, parse_image,
+    read_environment, read_image, write_exr, write_exr_half, write_image, write_png,
 };
 pub use instance::{Instance, Prototype};
 pub use light_set::{LightSetError, LightSetProblem, read_light_set, write_light_set};

@@ -167,6 +167,14 @@ pub(crate) fn sample_range(text: &str) -> Result<Range<u32>, String> {
         .ok_or_else(|| "expected A..B, with whole numbers and A below B".into())
 }
 
+/// Column and row of a pixel: `X,Y`.
+pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text
+        .split_once(',')
+        .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    parsed.ok_or_else(|| "expected X,Y, whole numbers from the top left corner".into())
+}
+
 /// Exactly `N` finite numbers with commas between.
 fn numbers<const N: usize>(text: &str) -> Result<[f32; N], String> {
     let parsed: Result<Vec<f32>, _> = text.split(',').map(|n| n.trim().parse()).collect();
@@ -225,6 +233,14 @@ mod tests {
         assert_eq!(sample_range("3..7"), Ok(3..7), "four samples");
         for bad in ["", "3", "7..3", "3..3", "-1..2", "a..b"] {
             assert!(sample_range(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn pixels_have_two_whole_numbers() {
+        assert_eq!(pixel("3, 4"), Ok([3, 4]), "column and row");
+        for bad in ["", "3", "3,4,5", "-1,0", "1.5,0", "a,b"] {
+            assert!(pixel(bad).is_err(), "{bad}");
         }
     }
 

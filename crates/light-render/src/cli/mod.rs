@@ -28,6 +28,7 @@ mod progress;
 mod references;
 mod render;
 mod render_settings;
+mod report;
 mod sampler_list;
 mod scene_input;
 mod stdout;
@@ -84,6 +85,7 @@ enum Command {
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
     Render(Box<render::RenderArgs>),
+    Report(Box<report::ReportArgs>),
 }
 
 /// Runs the program with the arguments of the process.
@@ -105,6 +107,7 @@ pub fn main() -> ExitCode {
         Some(Command::Info(args)) => args.run(),
         Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),
+        Some(Command::Report(args)) => args.run(),
         None => demo::run(),
     };
     match result.and_then(|()| stdout::flush()) {

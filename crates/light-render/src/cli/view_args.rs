@@ -6,7 +6,7 @@ use super::arguments::{LookAt, Window, positive};
 use super::failure::Failure;
 
 /// The camera, and the size of the picture.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub(crate) struct ViewArgs {
     /// Width of the image in pixels.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
@@ -31,6 +31,27 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
+    /// The same, with the picture of the scene's own size scaled down so that its longer side has
+    /// at most `side` pixels. A size that was asked for stays.
+    pub(crate) fn at_most(&self, scene: &Scene, side: u32) -> Self {
+        let camera = scene.camera_or_default();
+        let [w, h] = camera.resolution.unwrap_or([512, 512]);
+        let is_asked_for = self.width.is_some() || self.height.is_some();
+        if is_asked_for || w.max(h) <= side {
+            self.clone()
+        } else if w >= h {
+            Self {
+                width: Some(side),
+                ..self.clone()
+            }
+        } else {
+            Self {
+                height: Some(side),
+                ..self.clone()
+            }
+        }
+    }
+
     /// The scene's camera, with what the arguments change, in the picture's size.
     ///
     /// # Errors

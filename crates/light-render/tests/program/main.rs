@@ -12,6 +12,7 @@ mod layers;
 mod light;
 mod outputs;
 mod refusals;
+mod report;
 mod samplers;
 mod visibility;
 mod watched;

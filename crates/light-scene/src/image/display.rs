@@ -30,6 +30,14 @@ pub(super) fn parse_hdr(
 /// # Errors
 /// When the file cannot be written; nothing is left behind then.
 pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
+    write_atomically(path, &encode_png(path, image)?)
+}
+
+/// The bytes of an 8-bit sRGB PNG file, as [`write_png`] writes them; `path` names it in messages.
+///
+/// # Errors
+/// When the image cannot be encoded.
+pub fn encode_png(path: &Path, image: &Image) -> Result<Vec<u8>, Diagnostic> {
     let channels = image.texels().iter().flat_map(Vec3::to_array);
     let encoded: Vec<u8> = channels.map(srgb::encode_byte).collect();
     let mut bytes = Vec::new();
@@ -37,7 +45,7 @@ pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
     let (width, height) = (image.width(), image.height());
     let written = encoder.write_image(&encoded, width, height, ExtendedColorType::Rgb8);
     written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
-    write_atomically(path, &bytes)
+    Ok(bytes)
 }
 
 /// Writes a Radiance HDR (RGBE) file: 8 bits a channel under a common exponent.

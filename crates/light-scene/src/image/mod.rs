@@ -16,7 +16,7 @@ mod texel_budget;
 
 pub use channels::ChannelFile;
 pub(crate) use display::write_hdr;
-pub use display::write_png;
+pub use display::{encode_png, write_png};
 pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
     IMAGE_ENDINGS, is_image_name, parse_opacity, read_encoded_from, read_environment_from,
