@@ -32,6 +32,7 @@ mod inventory;
 mod light_layers;
 mod light_sample_time;
 mod light_sampler;
+mod live;
 mod partial;
 mod partial_error;
 mod picture_identity;
@@ -71,7 +72,9 @@ pub use partial_error::PartialPictureError;
 pub use picture_identity::PictureIdentity;
 pub use primitive_id::PrimitiveId;
 pub use ray::Ray;
-pub use render::{LayerRendering, Progress, RenderSettings, Rendering, render, render_layers};
+pub use render::{
+    LayerRendering, Progress, RenderSettings, Rendering, render, render_layers, render_while,
+};
 pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};
 pub use scene_digest::{SceneDigest, SceneDigestError};
 pub use scene_lights_error::SceneLightsError;

@@ -1,4 +1,4 @@
-use core::ops::Range;
+use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicU64, Ordering};
 use core::time::Duration;
 use std::time::Instant;
@@ -65,13 +65,30 @@ pub fn render<S: LightSampler + Sync>(
     view: &View,
     sampler: &S,
     settings: &RenderSettings,
-    report: impl FnMut(Progress),
+    mut report: impl FnMut(Progress),
+) -> Rendering {
+    render_while(world, view, sampler, settings, |progress, _| {
+        report(progress);
+        ControlFlow::Continue(())
+    })
+}
+
+/// As [`render`], until `watch` breaks: after each pass over the picture it hears of the progress
+/// and sees the film so far. What was rendered until then is the picture.
+#[must_use]
+pub fn render_while<S: LightSampler + Sync>(
+    world: &World,
+    view: &View,
+    sampler: &S,
+    settings: &RenderSettings,
+    mut watch: impl FnMut(Progress, &Film) -> ControlFlow<()>,
 ) -> Rendering {
     let (width, height) = view.crop().size();
     let mut film = Film::new(width, height);
     let films = core::slice::from_mut(&mut film);
     let scene = (world, view, sampler);
-    let taken = expose(films, scene, settings, Total::default, report);
+    let watch = |progress, films: &[Film]| watch(progress, &films[0]);
+    let taken = expose(films, scene, settings, Total::default, watch);
     taken.rendering(film)
 }
 
@@ -112,14 +129,18 @@ pub fn render_layers<S: LightSampler + Sync>(
     sampler: &S,
     settings: &RenderSettings,
     layers: &LightLayers,
-    report: impl FnMut(Progress),
+    mut report: impl FnMut(Progress),
 ) -> LayerRendering {
     let (width, height) = view.crop().size();
     let film = Film::new(width, height);
     let mut films = vec![film; layers.names().len()];
     let scene = (world, view, sampler);
     let sum = || LayerSums::new(layers);
-    let taken = expose(&mut films, scene, settings, sum, report);
+    let watch = |progress, _: &[Film]| {
+        report(progress);
+        ControlFlow::Continue(())
+    };
+    let taken = expose(&mut films, scene, settings, sum, watch);
     let mut whole = films[0].clone();
     for layer in &films[1..] {
         whole.add_light(layer);
@@ -153,13 +174,13 @@ impl Taken {
     }
 }
 
-/// Adds the samples of `settings` to `films`, one for each layer of a `sum`.
+/// Adds the samples of `settings` to `films`, one for each layer of a `sum`, until `watch` breaks.
 fn expose<S: LightSampler + Sync, L: LightSum>(
     films: &mut [Film],
     (world, view, sampler): (&World, &View, &S),
     settings: &RenderSettings,
     sum: impl Fn() -> L + Sync,
-    mut report: impl FnMut(Progress),
+    mut watch: impl FnMut(Progress, &[Film]) -> ControlFlow<()>,
 ) -> Taken {
     let Crop { min, max } = view.crop();
     let (rays, rejected) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -203,10 +224,13 @@ fn expose<S: LightSampler + Sync, L: LightSum>(
                 rays.fetch_add(row_rays, Ordering::Relaxed);
             });
         next = pass.end;
-        report(Progress {
+        let progress = Progress {
             done: done(settings, next, start.elapsed()),
             samples: next - first,
-        });
+        };
+        if watch(progress, films).is_break() {
+            break;
+        }
     }
     Taken {
         elapsed: start.elapsed(),

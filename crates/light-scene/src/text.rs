@@ -8,6 +8,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use crate::glam::Vec3;
+use crate::read_files::record;
 use crate::{Diagnostic, Location};
 
 /// The text of a file.
@@ -29,6 +30,7 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
 /// many.
 pub(crate) fn read_all(path: &Path) -> io::Result<Vec<u8>> {
     const MOST: u64 = 1 << 28;
+    record(path);
     let file = File::open(path)?;
     if file.metadata()?.is_file() {
         return fs::read(path);

@@ -1,10 +1,11 @@
+use core::ops::ControlFlow;
 use core::time::Duration;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::{
     AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    View, World, render,
+    View, World, render_while,
 };
 use clap::Args;
 
@@ -47,6 +48,11 @@ impl CheckpointArgs {
         self.checkpoint.is_some()
     }
 
+    /// The file that was asked for.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.checkpoint.as_deref()
+    }
+
     /// Makes sure that a checkpoint can be written, and is none of the `outputs`.
     ///
     /// # Errors
@@ -81,8 +87,8 @@ impl CheckpointArgs {
 }
 
 impl Checkpoint {
-    /// Renders the samples that are missing, and writes the file again and again. Time and rays are
-    /// those of this run.
+    /// Renders the samples that are missing, and writes the file again and again, until `watch`
+    /// breaks. Time and rays are those of this run. `watch` sees the picture of the last writing.
     ///
     /// # Errors
     /// When the file holds more samples than requested, or cannot be written.
@@ -92,7 +98,7 @@ impl Checkpoint {
         view: &View,
         sampler: &AnyLightSampler,
         settings: &RenderSettings,
-        report: impl Fn(Progress),
+        mut watch: impl FnMut(Progress, &Film) -> ControlFlow<()>,
     ) -> Result<Rendering, Failure> {
         let start = Instant::now();
         let (width, height) = view.crop().size();
@@ -107,7 +113,8 @@ impl Checkpoint {
             return Err(refuse(&self.path, message));
         }
         let (mut rays, mut rejected) = (0, 0);
-        while part.samples.end < wanted {
+        let mut flow = ControlFlow::Continue(());
+        while part.samples.end < wanted && flow.is_continue() {
             let next = part.samples.end;
             let left = settings
                 .time_limit
@@ -120,19 +127,22 @@ impl Checkpoint {
                 time_limit: Some(left.map_or(self.every, |left| left.min(self.every))),
                 ..settings.clone()
             };
-            let show = |p: Progress| {
+            let show = |p: Progress, film: &Film| {
                 let samples = next + p.samples;
                 let of_samples = f64::from(samples) / f64::from(wanted);
                 let of_time = |limit: Duration| start.elapsed().as_secs_f64() / limit.as_secs_f64();
                 let done = settings
                     .time_limit
                     .map_or(of_samples, |limit| of_samples.max(of_time(limit)));
-                report(Progress {
+                let progress = Progress {
                     done: done.min(1.0),
                     samples,
-                });
+                };
+                let film = if next == 0 { film } else { &part.film };
+                flow = watch(progress, film);
+                flow
             };
-            let rendering = render(world, view, sampler, &some, show);
+            let rendering = render_while(world, view, sampler, &some, show);
             rays += rendering.rays;
             rejected += rendering.rejected;
             part.append(&rendering.film);

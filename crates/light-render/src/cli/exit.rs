@@ -1,6 +1,7 @@
 use std::process::ExitCode;
 
 use super::failure::Failure;
+use super::interrupt::INTERRUPTED;
 use super::stdout::{complain, flush, line};
 
 impl Failure {
@@ -9,6 +10,7 @@ impl Failure {
         let (message, status) = match self {
             Self::Input(message) => (message, 2),
             Self::Check(message) => (message, 1),
+            Self::Interrupted(message) => (message, INTERRUPTED),
         };
         complain(format_args!("{}", one_line(message)));
         ExitCode::from(status)

@@ -8,6 +8,8 @@ pub(crate) enum Failure {
     Input(String),
     /// A requested check failed: status 1.
     Check(String),
+    /// Somebody stopped it; the message says what there is and how to go on: status 130.
+    Interrupted(String),
 }
 
 impl Failure {

@@ -18,8 +18,10 @@ mod failure;
 mod farm;
 mod ies;
 mod info;
+mod interrupt;
 mod layer_args;
 mod light_args;
+mod live_args;
 mod memory_check;
 mod merge;
 mod output_file;
@@ -27,11 +29,13 @@ mod output_image;
 mod progress;
 mod references;
 mod render;
+mod render_report;
 mod render_settings;
 mod report;
 mod sampler_list;
 mod scene_input;
 mod stdout;
+mod unfinished;
 mod view_args;
 mod visibility;
 
@@ -40,10 +44,6 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use light_scene::exit_without_outputs;
-
-/// The conventional exit status of an interrupted program.
-const INTERRUPTED: i32 = 130;
 
 /// What the help of the program ends with.
 const AFTER_HELP: &str = "\
@@ -76,7 +76,7 @@ struct Program {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Bench(bench::BenchArgs),
+    Bench(Box<bench::BenchArgs>),
     Compare(compare::CompareArgs),
     Completions(completions::CompletionsArgs),
     Env(env::EnvArgs),
@@ -95,8 +95,7 @@ pub fn main() -> ExitCode {
         Ok(read) => read,
         Err(error) => return exit::report_usage(&error),
     };
-    // Without a handler the process would end as well, but leave what it is writing.
-    drop(ctrlc::set_handler(|| exit_without_outputs(INTERRUPTED)));
+    interrupt::listen();
     let result = match program.command {
         Some(Command::Bench(args)) => args.run(),
         Some(Command::Compare(args)) => args.run(),

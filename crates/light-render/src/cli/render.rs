@@ -1,16 +1,15 @@
-use core::time::Duration;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use light_scene::{Diagnostic, Image};
+use light_scene::{Diagnostic, Image, record_read_files, recorded_read_files};
 use lights::glam::Vec3;
-use serde_json::json;
 
 use crate::light_sample_time::light_sample_time;
+use crate::live::FileStamps;
 use crate::{
-    AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, Rendering,
-    SceneDigest, View, Visibility, World, inventory, render, render_layers,
+    AnyLightSampler, Film, PartialPicture, PictureIdentity, Progress, RenderSettings, SceneDigest,
+    View, Visibility, inventory, render_layers, render_while,
 };
 
 use super::arguments::threads;
@@ -18,15 +17,19 @@ use super::checkpoint::CheckpointArgs;
 use super::display_args::DisplayArgs;
 use super::doubts;
 use super::failure::Failure;
+use super::interrupt::GentleStop;
 use super::layer_args::LayerArgs;
+use super::live_args::LiveArgs;
 use super::memory_check::{PICTURE, check_cells_memory, check_memory};
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
+use super::render_report::RenderReport;
 use super::render_settings::SettingsArgs;
 use super::scene_input::{SceneInput, report_warnings};
 use super::stdout::{complain, say};
+use super::unfinished::Unfinished;
 use super::view_args::ViewArgs;
-use super::visibility::{CellCosts, with_cells};
+use super::visibility::with_cells;
 
 /// Render a scene into an image.
 #[derive(Args, Debug)]
@@ -67,6 +70,8 @@ pub(crate) struct RenderArgs {
     /// Do nothing if the output holds the --samples of this picture already.
     #[arg(long, requires = "samples")]
     skip_existing: bool,
+    #[command(flatten)]
+    live: LiveArgs,
     /// Print one line of JSON about the rendering.
     #[arg(long)]
     json: bool,
@@ -76,11 +81,35 @@ pub(crate) struct RenderArgs {
 }
 
 impl RenderArgs {
-    /// Renders, and writes the image.
+    /// Renders, and writes the image; with --watch again and again.
     ///
     /// # Errors
     /// Bad input, more memory than there is, or an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        if !self.live.watch {
+            return self.run_once(&mut None);
+        }
+        let mut rendered = false;
+        loop {
+            record_read_files();
+            let mut stamps = None;
+            match self.run_once(&mut stamps) {
+                Ok(()) => rendered = true,
+                Err(Failure::Input(message)) if rendered => complain(format_args!("{message}")),
+                Err(failure) => return Err(failure),
+            }
+            let stamps = stamps.unwrap_or_else(|| FileStamps::of(recorded_read_files()));
+            if let Some(path) = stamps.wait(|| false)
+                && !self.quiet
+            {
+                complain(format_args!("{} has changed", path.display()));
+            }
+        }
+    }
+
+    /// Renders, and writes the image. With --watch, `stamps` become those of the files of the
+    /// scene, and nothing is written if one changes meanwhile.
+    fn run_once(&self, stamps: &mut Option<FileStamps>) -> Result<(), Failure> {
         let outputs = self.outputs()?;
         let visibility = self.settings.visibility()?;
         self.checkpoint.expect_place(&self.output)?;
@@ -91,11 +120,14 @@ impl RenderArgs {
             lit.iter()
                 .for_each(|words| complain(format_args!("{words}")));
         }
+        if self.live.watch {
+            *stamps = Some(FileStamps::of(recorded_read_files()));
+        }
         let view = self.view.view(&scene)?;
         self.check_memory(&view, visibility)?;
         let file_depth = scene.max_depth;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
-        let digest = self.keeps_sums().then(|| SceneDigest::new(&scene));
+        let digest = (self.keeps_sums() || self.stops_gently()).then(|| SceneDigest::new(&scene));
         let digest = digest.transpose().map_err(Failure::input)?;
         let world = self.input.build(scene)?;
         if world.lights().is_empty() && !world.has_media() {
@@ -131,9 +163,18 @@ impl RenderArgs {
         };
         let line = ProgressLine::new(self.input.scene.display().to_string(), volume);
         let show = |p: Progress| line.show(p.done, format!("{} spp", p.samples));
+        let stop = self.stops_gently().then(GentleStop::begin);
+        let size = view.crop().size();
+        let mut watcher =
+            self.live
+                .watcher(&self.output[0], size, stamps.as_mut(), stop.as_ref())?;
+        let mut watch = |progress, film: &Film| {
+            show(progress);
+            watcher.look(film)
+        };
         let (rendering, films) = pool.install(|| match (checkpoint, &layers) {
             (Some(checkpoint), _) => {
-                let whole = checkpoint.render(&world, &view, &sampler, &settings, show)?;
+                let whole = checkpoint.render(&world, &view, &sampler, &settings, &mut watch)?;
                 Ok((whole, Vec::new()))
             }
             (None, Some(layers)) => {
@@ -141,11 +182,15 @@ impl RenderArgs {
                 Ok((made.whole, made.layers))
             }
             (None, None) => {
-                let whole = render(&world, &view, &sampler, &settings, show);
+                let whole = render_while(&world, &view, &sampler, &settings, &mut watch);
                 Ok::<_, Failure>((whole, Vec::new()))
             }
         })?;
         drop(line);
+        watcher.finish(&rendering.film);
+        if watcher.has_changed() {
+            return Ok(());
+        }
         let names = layers.iter().flat_map(|layers| layers.names()).cloned();
         let layers: Vec<_> = names.zip(films.iter().map(Film::develop)).collect();
         drop(films);
@@ -156,14 +201,44 @@ impl RenderArgs {
             ));
         }
         let report = self.json.then(|| {
-            let sample_ns = light_sample_time(&world, &view, &sampler);
-            self.report(&world, &rendering, build_ms, sample_ns, &cells)
+            let sample_time = light_sample_time(&world, &view, &sampler);
+            RenderReport {
+                scene: &self.input.scene,
+                sampler: sampler_kind,
+                world: &world,
+                rendering: &rendering,
+                build_ms,
+                sample_time,
+                cells: &cells,
+            }
+            .json()
         });
-        let picture = (rendering.film, layers);
-        self.write(&outputs, &settings, identity, picture, exposure)?;
-        match report {
-            Some(report) => say!("{report}"),
-            None => Ok(()),
+        let is_stopped = stop.as_ref().is_some_and(GentleStop::is_asked);
+        drop(stop);
+        let mut film = rendering.film;
+        let mut interrupted = None;
+        if is_stopped && film.samples() < settings.samples.end {
+            let (kept, failure) = self.unfinished().keep(film, identity.clone())?;
+            (film, interrupted) = (kept, Some(failure));
+        }
+        self.write(&outputs, &settings, identity, (film, layers), exposure)?;
+        if let Some(report) = report {
+            say!("{report}")?;
+        }
+        interrupted.map_or(Ok(()), Err)
+    }
+
+    /// Whether Ctrl-C lets the rendering end with what there is: not where a part of a picture or
+    /// layers are wanted, which nothing could go on from.
+    fn stops_gently(&self) -> bool {
+        self.settings.samples.is_none() && !self.layers.is_wanted()
+    }
+
+    fn unfinished(&self) -> Unfinished<'_> {
+        Unfinished {
+            output: &self.output[0],
+            wanted: self.settings.wanted_samples(),
+            checkpoint: self.checkpoint.path(),
         }
     }
 
@@ -264,29 +339,6 @@ impl RenderArgs {
         outputs.iter().try_for_each(|output| match &layers[..] {
             [] => output.write(&image, &tone_map),
             layers => output.write_layers(&image, layers, &tone_map),
-        })
-    }
-
-    fn report(
-        &self,
-        world: &World,
-        rendering: &Rendering,
-        build_ms: f64,
-        sample_time: Option<Duration>,
-        cells: &CellCosts,
-    ) -> serde_json::Value {
-        json!({
-            "scene": self.input.scene.display().to_string(),
-            "sampler": self.settings.light_sampler.name(),
-            "seconds": rendering.elapsed.as_secs_f64(),
-            "spp": rendering.film.samples(),
-            "lights": world.lights().len(),
-            "triangles": world.triangle_count(),
-            "tree_build_ms": build_ms,
-            "ns_per_light_sample": sample_time.map(|time| time.as_secs_f64() * 1e9),
-            "rays": rendering.rays,
-            "visibility_seconds": cells.seconds,
-            "visibility_bytes": cells.bytes,
         })
     }
 }

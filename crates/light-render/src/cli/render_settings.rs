@@ -116,6 +116,15 @@ impl SettingsArgs {
         )))
     }
 
+    /// Samples a pixel, unless they are as many as fit into a time.
+    pub(crate) const fn wanted_samples(&self) -> Option<u32> {
+        match (self.spp, self.time) {
+            (Some(spp), _) => Some(spp),
+            (None, Some(_)) => None,
+            (None, None) => Some(DEFAULT_SAMPLES),
+        }
+    }
+
     /// The settings for `world`, whose file asks for paths of at most `file_depth` segments.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ mod help;
 mod interrupted;
 mod layers;
 mod light;
+mod live;
 mod outputs;
 mod refusals;
 mod report;

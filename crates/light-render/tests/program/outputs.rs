@@ -179,8 +179,10 @@ mod full {
             assert!(killed.expect("sent").success(), "{signal} is sent");
             let status = child.wait().expect("an end");
             assert_eq!(status.code(), Some(130), "{signal}: {status}");
-            let names = ["kept.exr", "scene.mtl", "scene.obj"];
+            let names = ["kept.exr", "out.exr", "scene.mtl", "scene.obj"];
             assert_eq!(folder.names(), names, "nothing half written");
+            let picture = light_scene::read_image(Path::new(&out));
+            assert!(picture.is_ok(), "what there is is a picture");
             let part = light_render::PartialPicture::read(Path::new(&kept));
             assert!(part.is_ok(), "the checkpoint is whole");
         }
