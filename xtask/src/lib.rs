@@ -15,6 +15,7 @@ mod dependencies;
 mod embedded;
 mod farm;
 mod features;
+mod foreign;
 mod fuzz;
 mod gallery;
 mod gpu;
@@ -59,6 +60,8 @@ usage: cargo xtask [COMMAND]
   farm                        run jobs of `lights farm` by the engines that this machine can have,
                               with killed tasks and a lost machine
   families                    write the table of families of places into docs/light-bvh.md
+  foreign DIR                 render every scene file below a folder, tiny and within limits, and
+                              print what became of it
   gallery                     remake the pictures of the README and the references of the demo
   march-convergence           redraw how marches through media converge, for docs/light-media.md
   median-cut-table [IMAGE...] remeasure median-cut lights for docs/light-sources.md
@@ -111,6 +114,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
         ("crates", rest) => one("builds of each crate alone", || crates::crates(rest)),
         ("packages", []) => all(packages::add_steps),
+        ("foreign", rest) => one("foreign scenes", || foreign::foreign(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
         ("march-convergence", []) => one("march-convergence", programs::march_convergence),
         ("median-cut-table", images) => {
