@@ -1,8 +1,9 @@
-// The numbers of the Rust crates: light-bvh, light-samplers, light-math (warp),
-// light-sources (shape), and the kinds of rows. Generated.
+// The numbers of the Rust crates: light-bvh, light-samplers, light-bounds,
+// light-math (warp), light-sources (shape), and the kinds of rows. Generated.
 
 const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
+const LIGHT_CUT_THRESHOLD: f32 = 0.08;
 const LIGHT_DISTANCE: f32 = 0.09;
 const LIGHT_FAR: f32 = 1e36;
 const LIGHT_GLOSSY_DISTANCE: f32 = 0.03;
@@ -11,6 +12,7 @@ const LIGHT_HEIGHT: f32 = 0.43;
 const LIGHT_LEAST_SHARE: f32 = 0.0009765625;
 const LIGHT_LEAST_SPREAD: f32 = 0.51961523;
 const LIGHT_LEAST_TOTAL: f32 = 1e-10;
+const LIGHT_MAX_ZOOM: f32 = 1073741800.0;
 const LIGHT_MIN_ALPHA: f32 = 0.01;
 const LIGHT_MIN_COS: f32 = 0.001;
 const LIGHT_MIN_DIFFUSE: f32 = 0.02;
@@ -24,6 +26,10 @@ const LIGHT_STEP_EDGE: f32 = 4.87;
 const LIGHT_UNIT: f32 = 127.25;
 const LIGHT_WIDENING: f32 = 0.375;
 const LIGHT_HORIZON_SLACK: f32 = 1e-5;
+const LIGHT_COS_SLACK: f32 = 2e-6;
+const LIGHT_EDGE_SLACK: f32 = 1.7e-5;
+const LIGHT_SIN_GROWTH: f32 = 1.0000004;
+const LIGHT_CODE_ERROR: f32 = 6.9e-5;
 const LIGHT_NEGLIGIBLE: f32 = 1e-20;
 const LIGHT_NEWTON_PRECISION: f32 = 1e-6;
 const LIGHT_NEWTON_REACH: f32 = 0.25;
@@ -46,6 +52,7 @@ const LIGHT_KIND_RECTANGLE: u32 = 6u;
 const LIGHT_KIND_SPHERE: u32 = 7u;
 const LIGHT_SIDES_FRONT: u32 = 1u;
 const LIGHT_SIDES_BACK: u32 = 2u;
+const LIGHT_CUT_NODES: u32 = 24u;
 
 // Fractions of 2^64, random numbers that choices use up: x is the upper, y the lower word.
 
@@ -62,6 +69,12 @@ fn light_fraction_divide(r: u32, u: vec2<u32>, g: u32) -> vec2<u32> {
     let n1 = ((n2 % g) << 16u) | (u.y >> 16u);
     let n0 = ((n1 % g) << 16u) | (u.y & 0xffffu);
     return vec2<u32>(((n3 / g) << 16u) | (n2 / g), ((n1 / g) << 16u) | (n0 / g));
+}
+
+// The fraction at the relative position u in the part `i` of `count` equal ones; count is at most
+// 65536.
+fn light_fraction_stratum(i: u32, count: u32, u: vec2<u32>) -> vec2<u32> {
+    return light_fraction_divide(i, u, count);
 }
 
 // u * 2^16, without its whole part.
@@ -598,9 +611,19 @@ struct LightParts {
 
 struct LightWeights {
     lanes: array<vec4<f32>, 4>,
+    // Squared width over squared distance of each child; 0 where it is seen from afar.
+    angular_size_sq: array<vec4<f32>, 4>,
     total: f32,
     // One over the unit of length that they are in.
     inv_unit: f32,
+}
+
+// A child of a node, how many parts of 2^16 it has, and what is left of the random number. It has
+// no parts where no child can contribute.
+struct LightChild {
+    child: u32,
+    parts: u32,
+    u: vec2<u32>,
 }
 
 // The tree whose rows begin in row `first`: light_tree_rows of the crate makes them.
@@ -613,36 +636,57 @@ fn light_tree(first: u32) -> LightTree {
 
 // A light, chosen by the fraction u about in proportion to the unoccluded light of each.
 fn light_tree_sample(tree: LightTree, receiver: LightReceiver, u: vec2<u32>) -> SampledLight {
+    return light_tree_descend(tree, receiver, 0u, 1.0, u);
+}
+
+// From a node, which was reached with the probability `pmf`, down to a light.
+fn light_tree_descend(
+    tree: LightTree,
+    receiver: LightReceiver,
+    from_node: u32,
+    from_pmf: f32,
+    u: vec2<u32>,
+) -> SampledLight {
     let none = SampledLight(0u, 0.0, u);
-    var index = 0u;
-    var pmf = 1.0;
+    var index = from_node;
+    var pmf = from_pmf;
     var rest = u;
     for (var level = 0u; level < LIGHT_MAX_DEPTH && index < tree.node_count; level++) {
         var node = light_node(tree.nodes + 14u * index);
-        let parts = light_parts(&node, receiver);
-        var place = rest.x >> 16u;
-        var child = 16u;
-        var chosen = 0u;
-        for (var k = 0u; k < 16u; k++) {
-            let own = parts.lanes[k >> 2u][k & 3u];
-            if child == 16u && place < own {
-                child = k;
-                chosen = own;
-            }
-            place -= select(0u, own, child == 16u);
-        }
-        if child == 16u {
+        let chosen = light_choose(light_parts(light_trusted_weights(&node, receiver)), rest);
+        if chosen.parts == 0u {
             return none;
         }
-        pmf = light_positive_product(pmf, f32(chosen) * (1.0 / 65536.0));
-        rest = light_fraction_divide(place, light_fraction_after_16_bits(rest), chosen);
-        if child >= node.inner {
-            let entry = node.light_base + child - node.inner;
+        pmf = light_positive_product(pmf, f32(chosen.parts) * (1.0 / 65536.0));
+        rest = chosen.u;
+        if chosen.child >= node.inner {
+            let entry = node.light_base + chosen.child - node.inner;
             return SampledLight(light_entry(tree.order, entry), pmf, rest);
         }
-        index = node.child_base + child;
+        index = node.child_base + chosen.child;
     }
     return none;
+}
+
+// The child that the random number falls on.
+fn light_choose(parts: LightParts, u: vec2<u32>) -> LightChild {
+    var all = parts;
+    var place = u.x >> 16u;
+    var child = 16u;
+    var chosen = 0u;
+    for (var k = 0u; k < 16u; k++) {
+        let own = all.lanes[k >> 2u][k & 3u];
+        if child == 16u && place < own {
+            child = k;
+            chosen = own;
+        }
+        place -= select(0u, own, child == 16u);
+    }
+    if child == 16u {
+        return LightChild(0u, 0u, u);
+    }
+    let rest = light_fraction_divide(place, light_fraction_after_16_bits(u), chosen);
+    return LightChild(child, chosen, rest);
 }
 
 // The probability with which light_tree_sample returns `light`, with the same bits.
@@ -659,7 +703,7 @@ fn light_tree_pmf(tree: LightTree, receiver: LightReceiver, light: u32) -> f32 {
     while slot != LIGHT_NOWHERE && levels < LIGHT_MAX_DEPTH {
         let child = slot & 15u;
         var node = light_node(tree.nodes + 14u * (slot >> 4u));
-        let parts = light_parts(&node, receiver);
+        var parts = light_parts(light_trusted_weights(&node, receiver));
         shares[levels] = f32(parts.lanes[child >> 2u][child & 3u]) * (1.0 / 65536.0);
         levels++;
         slot = node.parent;
@@ -680,18 +724,23 @@ fn light_tree_irradiance(tree: LightTree, receiver: LightReceiver) -> f32 {
     }
     var node = light_node(tree.nodes);
     let weights = light_trusted_weights(&node, receiver);
-    if !(weights.total > 0.0) {
+    return light_irradiance(weights.total, weights.inv_unit, node.gain);
+}
+
+// The irradiance that a sum of weights means, in whose unit of length `inv_unit` is one, times
+// `gain`.
+fn light_irradiance(total: f32, inv_unit: f32, gain: f32) -> f32 {
+    if !(total > 0.0) {
         return 0.0;
     }
     // Intensities are counted twice.
-    let irradiance = (0.5 * weights.total * weights.inv_unit) * (node.gain * weights.inv_unit);
+    let irradiance = (0.5 * total * inv_unit) * (gain * inv_unit);
     return clamp(irradiance, LIGHT_MIN, LIGHT_MAX);
 }
 
 // The parts of 2^16 of each child: at least one where it can contribute, none elsewhere. They sum
 // to 2^16, because the first one takes what is left over, or to 0.
-fn light_parts(node: ptr<function, LightNode>, receiver: LightReceiver) -> LightParts {
-    let weights = light_trusted_weights(node, receiver);
+fn light_parts(weights: LightWeights) -> LightParts {
     var parts: LightParts;
     if !(weights.total > 0.0) {
         return parts;
@@ -721,7 +770,9 @@ fn light_trusted_weights(node: ptr<function, LightNode>, receiver: LightReceiver
         return weights;
     }
     let frame = light_frame_from_afar(*node, receiver.p, light_reach(receiver));
-    return light_weights(node, receiver, frame);
+    var from_afar = light_weights(node, receiver, frame);
+    from_afar.angular_size_sq = array<vec4<f32>, 4>();
+    return from_afar;
 }
 
 fn light_weights(
@@ -733,6 +784,8 @@ fn light_weights(
     for (var word = 0u; word < 4u; word++) {
         let children = light_children(node, frame, word);
         weights.lanes[word] = light_importance(receiver, children, frame.inv_unit);
+        let width = light_width(children);
+        weights.angular_size_sq[word] = width * width * (1.0 / children.dist_sq);
     }
     let least = vec4<f32>(light_total(weights.lanes) * LIGHT_LEAST_SHARE);
     for (var word = 0u; word < 4u; word++) {
@@ -757,6 +810,195 @@ fn light_entry(first: u32, entry: u32) -> u32 {
 // The product of two probabilities: 0 only if one of them is.
 fn light_positive_product(a: f32, b: f32) -> f32 {
     return select(0.0, max(a * b, LIGHT_MIN), a > 0.0 && b > 0.0);
+}
+
+// Several choices at one receiver, from a cut through the tree: LightCut of light-bvh.
+
+// The nodes of a cut, breadth first. Weights are not kept: a choice computes those of its node
+// again, for memory of a thread is scarcer than time.
+struct LightCut {
+    tree: LightTree,
+    receiver: LightReceiver,
+    nodes: array<u32, LIGHT_CUT_NODES>,
+    // A bit for each child that is a node of the cut itself.
+    opened: array<u32, LIGHT_CUT_NODES>,
+    // Where the parts of 2^16 of each node end.
+    ends: array<u32, LIGHT_CUT_NODES>,
+    count: u32,
+    // Of all weights.
+    sum: f32,
+    // One over the root's unit of length.
+    inv_unit: f32,
+}
+
+// The cut for several choices at a receiver: groups whose estimate is rough are opened.
+fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
+    var cut: LightCut;
+    cut.tree = tree;
+    cut.receiver = receiver;
+    cut.inv_unit = 1.0;
+    var totals: array<f32, LIGHT_CUT_NODES>;
+    var count = select(0u, 1u, tree.node_count > 0u);
+    var limit = 0.0;
+    // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
+    for (var index = 0u; index < count; index++) {
+        var node = light_node(tree.nodes + 14u * cut.nodes[index]);
+        var weights = light_trusted_weights(&node, receiver);
+        if index == 0u {
+            cut.inv_unit = weights.inv_unit;
+        }
+        weights = light_cut_scaled(weights, node.gain, cut.inv_unit);
+        if index == 0u {
+            limit = LIGHT_CUT_THRESHOLD * light_total(weights.lanes);
+        }
+        var opened = 0u;
+        for (var k = 0u; k < node.inner; k++) {
+            let rough = weights.lanes[k >> 2u][k & 3u] * weights.angular_size_sq[k >> 2u][k & 3u];
+            opened |= select(0u, 1u << k, rough > limit);
+        }
+        // A node whose children do not all fit opens none.
+        if count + countOneBits(opened) > LIGHT_CUT_NODES {
+            opened = 0u;
+        }
+        for (var left = opened; left != 0u; left &= left - 1u) {
+            cut.nodes[count] = node.child_base + firstTrailingBit(left);
+            count++;
+        }
+        cut.opened[index] = opened;
+        totals[index] = light_total(light_cut_unopened(weights, opened).lanes);
+        cut.sum += totals[index];
+    }
+    cut.count = count;
+    let scale = min((65536.0 - f32(LIGHT_CUT_NODES)) / cut.sum, LIGHT_MAX);
+    var left_over = 65536u;
+    for (var index = 0u; index < count; index++) {
+        cut.ends[index] = select(0u, 1u + u32(totals[index] * scale), totals[index] > 0.0);
+        left_over -= cut.ends[index];
+    }
+    // What is left over goes to the first with any weight.
+    var end = 0u;
+    for (var index = 0u; index < count; index++) {
+        let has_weight = cut.ends[index] > 0u;
+        end += cut.ends[index] + select(0u, left_over, has_weight);
+        left_over = select(left_over, 0u, has_weight);
+        cut.ends[index] = end;
+    }
+    return cut;
+}
+
+// A light. For several choices it takes light_fraction_stratum of each.
+fn light_cut_sample(cut: ptr<function, LightCut>, u: vec2<u32>) -> SampledLight {
+    let none = SampledLight(0u, 0.0, u);
+    if !((*cut).sum > 0.0) {
+        return none;
+    }
+    let place = u.x >> 16u;
+    var index = 0u;
+    while index < (*cut).count && (*cut).ends[index] <= place {
+        index++;
+    }
+    if index == (*cut).count {
+        return none;
+    }
+    let start = light_cut_start(cut, index);
+    let parts = (*cut).ends[index] - start;
+    let rest = light_fraction_divide(place - start, light_fraction_after_16_bits(u), parts);
+    let tree = (*cut).tree;
+    var node = light_node(tree.nodes + 14u * (*cut).nodes[index]);
+    let chosen = light_choose(light_parts(light_cut_weights(cut, &node, index)), rest);
+    if chosen.parts == 0u {
+        return none;
+    }
+    let of_node = f32(parts) * (1.0 / 65536.0);
+    let pmf = light_positive_product(of_node, f32(chosen.parts) * (1.0 / 65536.0));
+    if chosen.child >= node.inner {
+        let entry = node.light_base + chosen.child - node.inner;
+        return SampledLight(light_entry(tree.order, entry), pmf, chosen.u);
+    }
+    let child = node.child_base + chosen.child;
+    return light_tree_descend(tree, (*cut).receiver, child, pmf, chosen.u);
+}
+
+// The probability with which light_cut_sample returns `light`, with the same bits.
+fn light_cut_pmf(cut: ptr<function, LightCut>, light: u32) -> f32 {
+    let tree = (*cut).tree;
+    if light >= tree.light_count {
+        return 0.0;
+    }
+    var shares: array<f32, 24>;
+    var levels = 0u;
+    var pmf = 0.0;
+    var slot = light_entry(tree.slots, light);
+    while slot != LIGHT_NOWHERE && levels < LIGHT_MAX_DEPTH {
+        let child = slot & 15u;
+        var node = light_node(tree.nodes + 14u * (slot >> 4u));
+        var index = 0u;
+        while index < (*cut).count && (*cut).nodes[index] != slot >> 4u {
+            index++;
+        }
+        if index < (*cut).count {
+            var parts = light_parts(light_cut_weights(cut, &node, index));
+            let of_node = (*cut).ends[index] - light_cut_start(cut, index);
+            let within = f32(parts.lanes[child >> 2u][child & 3u]) * (1.0 / 65536.0);
+            pmf = light_positive_product(f32(of_node) * (1.0 / 65536.0), within);
+            break;
+        }
+        var parts = light_parts(light_trusted_weights(&node, (*cut).receiver));
+        shares[levels] = f32(parts.lanes[child >> 2u][child & 3u]) * (1.0 / 65536.0);
+        levels++;
+        slot = node.parent;
+    }
+    // Multiplied from the cut down, as a sample does it.
+    while levels > 0u {
+        levels--;
+        pmf = light_positive_product(pmf, shares[levels]);
+    }
+    return pmf;
+}
+
+// About the irradiance by the lights of the tree, if all of them have power 1 together.
+fn light_cut_irradiance(cut: ptr<function, LightCut>) -> f32 {
+    return light_irradiance((*cut).sum, (*cut).inv_unit, 1.0);
+}
+
+// Where the parts of one of the nodes begin.
+fn light_cut_start(cut: ptr<function, LightCut>, index: u32) -> u32 {
+    return select(0u, (*cut).ends[max(index, 1u) - 1u], index > 0u);
+}
+
+// The weights of one of the nodes, without the children that are nodes of the cut themselves.
+fn light_cut_weights(
+    cut: ptr<function, LightCut>,
+    node: ptr<function, LightNode>,
+    index: u32,
+) -> LightWeights {
+    let weights = light_trusted_weights(node, (*cut).receiver);
+    let scaled = light_cut_scaled(weights, (*node).gain, (*cut).inv_unit);
+    return light_cut_unopened(scaled, (*cut).opened[index]);
+}
+
+// Weights of a node in the root's unit. Where distances differ by more than LIGHT_MAX_ZOOM, they
+// lose their proportion and keep their sign.
+fn light_cut_scaled(weights: LightWeights, gain: f32, inv_unit: f32) -> LightWeights {
+    var scaled = weights;
+    let zoom = min(weights.inv_unit / inv_unit, LIGHT_MAX_ZOOM);
+    let scale = max(gain * zoom * zoom, LIGHT_MIN);
+    for (var word = 0u; word < 4u; word++) {
+        let lanes = weights.lanes[word];
+        let some = max(lanes * scale, vec4<f32>(LIGHT_MIN));
+        scaled.lanes[word] = select(vec4<f32>(0.0), some, lanes > vec4<f32>(0.0));
+    }
+    return scaled;
+}
+
+fn light_cut_unopened(weights: LightWeights, opened: u32) -> LightWeights {
+    var some = weights;
+    for (var word = 0u; word < 4u; word++) {
+        let bits = (vec4<u32>(opened) >> (vec4<u32>(0u, 1u, 2u, 3u) + 4u * word)) & vec4<u32>(1u);
+        some.lanes[word] = select(weights.lanes[word], vec4<f32>(0.0), bits == vec4<u32>(1u));
+    }
+    some.total = light_total(some.lanes);
+    return some;
 }
 
 // Lights at infinity beside those of a tree: BvhLightSamplerRef of light-samplers.
@@ -795,17 +1037,13 @@ fn light_sampler_sample(
     if sampler.infinite_count == 0u {
         return light_tree_sample(sampler.tree, receiver, u);
     }
-    let share = light_share(sampler, receiver, u.x >> 16u, LIGHT_NOWHERE);
-    if share.parts == 0u {
-        return SampledLight(0u, 0.0, u);
+    let of_unit_power = light_tree_irradiance(sampler.tree, receiver);
+    let first = light_first_sample(sampler, receiver, of_unit_power, u);
+    if first.light != LIGHT_NOWHERE {
+        return first;
     }
-    let pmf = f32(share.parts) * (1.0 / 65536.0);
-    let rest = light_fraction_divide(share.place, light_fraction_after_16_bits(u), share.parts);
-    if share.index > 0u {
-        return SampledLight(light_infinite_id(sampler, share.index - 1u), pmf, rest);
-    }
-    var sampled = light_tree_sample(sampler.tree, receiver, rest);
-    sampled.pmf = light_positive_product(pmf, sampled.pmf);
+    var sampled = light_tree_sample(sampler.tree, receiver, first.u);
+    sampled.pmf = light_positive_product(first.pmf, sampled.pmf);
     return sampled;
 }
 
@@ -814,16 +1052,96 @@ fn light_sampler_pmf(sampler: LightSampler, receiver: LightReceiver, light: u32)
     if sampler.infinite_count == 0u {
         return light_tree_pmf(sampler.tree, receiver, light);
     }
-    var index = 0u;
-    for (var i = 0u; i < sampler.infinite_count; i++) {
-        index = select(index, i + 1u, light_infinite_id(sampler, i) == light);
-    }
-    let share = light_share(sampler, receiver, 0u, index);
-    let pmf = f32(share.parts) * (1.0 / 65536.0);
+    let index = light_first_index(sampler, light);
+    let of_unit_power = light_tree_irradiance(sampler.tree, receiver);
+    let pmf = light_first_pmf(sampler, receiver, of_unit_power, index);
     if index > 0u {
         return pmf;
     }
     return light_positive_product(pmf, light_tree_pmf(sampler.tree, receiver, light));
+}
+
+// What a sampler knows at a receiver for several choices there.
+struct LightSamplerCut {
+    sampler: LightSampler,
+    cut: LightCut,
+}
+
+// A sampler at a receiver, for several choices: closer to the lights' contributions than single
+// ones, with probabilities of its own.
+fn light_sampler_cut(sampler: LightSampler, receiver: LightReceiver) -> LightSamplerCut {
+    return LightSamplerCut(sampler, light_tree_cut(sampler.tree, receiver));
+}
+
+// A light. For several choices it takes light_fraction_stratum of each.
+fn light_sampler_cut_sample(here: ptr<function, LightSamplerCut>, u: vec2<u32>) -> SampledLight {
+    var cut = (*here).cut;
+    if (*here).sampler.infinite_count == 0u {
+        return light_cut_sample(&cut, u);
+    }
+    let of_unit_power = light_cut_irradiance(&cut);
+    let first = light_first_sample((*here).sampler, cut.receiver, of_unit_power, u);
+    if first.light != LIGHT_NOWHERE {
+        return first;
+    }
+    var sampled = light_cut_sample(&cut, first.u);
+    sampled.pmf = light_positive_product(first.pmf, sampled.pmf);
+    return sampled;
+}
+
+// The probability with which light_sampler_cut_sample returns `light`, with the same bits.
+fn light_sampler_cut_pmf(here: ptr<function, LightSamplerCut>, light: u32) -> f32 {
+    var cut = (*here).cut;
+    if (*here).sampler.infinite_count == 0u {
+        return light_cut_pmf(&cut, light);
+    }
+    let index = light_first_index((*here).sampler, light);
+    let of_unit_power = light_cut_irradiance(&cut);
+    let pmf = light_first_pmf((*here).sampler, cut.receiver, of_unit_power, index);
+    if index > 0u {
+        return pmf;
+    }
+    return light_positive_product(pmf, light_cut_pmf(&cut, light));
+}
+
+// A light at infinity; or LIGHT_NOWHERE, which stands for the tree, with what is left of u; or the
+// probability 0 where nothing has weight.
+fn light_first_sample(
+    sampler: LightSampler,
+    receiver: LightReceiver,
+    of_unit_power: f32,
+    u: vec2<u32>,
+) -> SampledLight {
+    let share = light_share(sampler, receiver, of_unit_power, u.x >> 16u, LIGHT_NOWHERE);
+    if share.parts == 0u {
+        return SampledLight(0u, 0.0, u);
+    }
+    let pmf = f32(share.parts) * (1.0 / 65536.0);
+    let rest = light_fraction_divide(share.place, light_fraction_after_16_bits(u), share.parts);
+    if share.index > 0u {
+        return SampledLight(light_infinite_id(sampler, share.index - 1u), pmf, rest);
+    }
+    return SampledLight(LIGHT_NOWHERE, pmf, rest);
+}
+
+// The probability of the first choice `index`.
+fn light_first_pmf(
+    sampler: LightSampler,
+    receiver: LightReceiver,
+    of_unit_power: f32,
+    index: u32,
+) -> f32 {
+    let share = light_share(sampler, receiver, of_unit_power, 0u, index);
+    return f32(share.parts) * (1.0 / 65536.0);
+}
+
+// 0 for a light of the tree, one more than its number for a light at infinity.
+fn light_first_index(sampler: LightSampler, light: u32) -> u32 {
+    var index = 0u;
+    for (var i = 0u; i < sampler.infinite_count; i++) {
+        index = select(index, i + 1u, light_infinite_id(sampler, i) == light);
+    }
+    return index;
 }
 
 // The share `wanted`, or that on which `at` falls, a place below 2^16, if `wanted` is
@@ -831,10 +1149,10 @@ fn light_sampler_pmf(sampler: LightSampler, receiver: LightReceiver, light: u32)
 fn light_share(
     sampler: LightSampler,
     receiver: LightReceiver,
+    of_unit_power: f32,
     at: u32,
     wanted: u32,
 ) -> LightShare {
-    let of_unit_power = light_tree_irradiance(sampler.tree, receiver);
     let in_tree = min(light_positive_product(of_unit_power, sampler.power), LIGHT_MAX);
     let count = 1u + sampler.infinite_count;
     var total = 0.0;
@@ -993,6 +1311,142 @@ fn light_frame(z: vec3<f32>) -> mat3x3<f32> {
     let b = z.x * z.y * a;
     let x = vec3<f32>(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x);
     return mat3x3<f32>(x, vec3<f32>(b, sign + z.y * z.y * a, -z.y), z);
+}
+
+// Bounds of lights in 24 bytes, and their importance: CompactLightBounds of light-bounds.
+
+// Bounds of many lights, and the box that their codes are relative to.
+struct LightCompactBounds {
+    // The row of the first word, of six for each light.
+    words: u32,
+    count: u32,
+    lower: vec3<f32>,
+    upper: vec3<f32>,
+}
+
+// Where some lights are and where they emit to: LightBounds of light-bounds.
+struct LightBounds {
+    lower: vec3<f32>,
+    upper: vec3<f32>,
+    w: vec3<f32>,
+    phi: f32,
+    cos_theta_o: f32,
+    cos_theta_e: f32,
+    two_sided: bool,
+}
+
+// An angle by its sine (x) and cosine (y).
+alias LightAngle = vec2<f32>;
+
+// The bounds whose rows begin in row `first`: compact_bounds_rows of the crate makes them.
+fn light_compact_bounds(first: u32) -> LightCompactBounds {
+    let lower = light_row(first);
+    let upper = light_row(first + 1u);
+    return LightCompactBounds(
+        first + 2u,
+        lower.w,
+        bitcast<vec3<f32>>(lower.xyz),
+        bitcast<vec3<f32>>(upper.xyz),
+    );
+}
+
+// The bounds of one of them; i is below their number.
+fn light_compact_bounds_decode(all: LightCompactBounds, i: u32) -> LightBounds {
+    var words: array<u32, 6>;
+    for (var k = 0u; k < 6u; k++) {
+        words[k] = light_entry(all.words, 6u * i + k);
+    }
+    let low = vec3<u32>(words[3], words[3] >> 16u, words[4]) & vec3<u32>(0xffffu);
+    let high = vec3<u32>(words[4] >> 16u, words[5], words[5] >> 16u) & vec3<u32>(0xffffu);
+    return LightBounds(
+        light_compact_corner(all, low),
+        light_compact_corner(all, high),
+        light_octahedral_decode(words[0]),
+        bitcast<f32>(words[1]),
+        light_widened(words[2] & 0x7fffu),
+        light_compact_cosine(words[2] >> 15u),
+        (words[2] >> 30u) == 1u,
+    );
+}
+
+fn light_compact_corner(all: LightCompactBounds, code: vec3<u32>) -> vec3<f32> {
+    let t = vec3<f32>(code) / 65535.0;
+    return all.lower * (1.0 - t) + all.upper * t;
+}
+
+// Of the lowest 15 bits.
+fn light_compact_cosine(code: u32) -> f32 {
+    return 2.0 * (f32(code & 0x7fffu) / 32767.0) - 1.0;
+}
+
+// The cosine of an angle that is larger than that of a code by the error of an axis.
+fn light_widened(code: u32) -> f32 {
+    // Next to 1 the sine takes the last digit of a cosine, which a driver may round otherwise.
+    if code == 0x7fffu {
+        return 0x1.fffffep-1;
+    }
+    let cos_theta = light_compact_cosine(code);
+    let sin_theta = sqrt(max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
+    let lost = LIGHT_CODE_ERROR * (sin_theta + 0.5 * LIGHT_CODE_ERROR * cos_theta);
+    return max(cos_theta - lost - 0x1p-24, -1.0);
+}
+
+// How much the lights may contribute at a receiver, relative to others; 0 only where none of them
+// can. A surface counts light from both sides, a segment its beginning.
+fn light_bounds_importance(bounds: LightBounds, receiver: LightReceiver) -> f32 {
+    if bounds.phi == 0.0 {
+        return 0.0;
+    }
+    let center = bounds.lower * 0.5 + bounds.upper * 0.5;
+    let away = receiver.p - center;
+    let box = max(bounds.upper - center, center - bounds.lower);
+    let size = max(abs(away), box);
+    let scale = light_inverse_power_of_two(max(size.x, max(size.y, size.z)));
+    let to_p = away * scale;
+    let half = box * scale;
+    let dist_sq = dot(to_p, to_p);
+    let radius_sq = dot(half, half);
+    if !(dist_sq + radius_sq <= LIGHT_MAX) {
+        return LIGHT_MIN;
+    }
+    let dist = sqrt(dist_sq);
+    let sin_b = sqrt(radius_sq) * LIGHT_SIN_GROWTH;
+    var cosines = 1.0;
+    if sin_b < dist {
+        let from_light = to_p / dist;
+        let sin_subtended = sin_b / dist;
+        let cos_subtended = sqrt(max(0.0, (1.0 - sin_subtended) * (1.0 + sin_subtended)));
+        let subtended = LightAngle(sin_subtended, cos_subtended);
+        let cos_w = dot(bounds.w, from_light);
+        let along = select(cos_w, abs(cos_w), bounds.two_sided);
+        let to_axis = LightAngle(length(cross(bounds.w, from_light)), along);
+        let beyond_normals = light_angle_difference(to_axis, light_angle_by(bounds.cos_theta_o));
+        let cos_emission = light_angle_difference(beyond_normals, subtended).y;
+        if cos_emission < bounds.cos_theta_e - LIGHT_EDGE_SLACK {
+            return 0.0;
+        }
+        var cos_incidence = 1.0;
+        if receiver.kind != LIGHT_MEDIUM && receiver.kind != LIGHT_SEGMENT {
+            let to_normal = light_angle_by(min(abs(dot(receiver.n, from_light)), 1.0));
+            cos_incidence = light_angle_difference(to_normal, subtended).y;
+        }
+        cosines = max(cos_emission, LIGHT_COS_SLACK) * max(cos_incidence, LIGHT_COS_SLACK);
+    }
+    let half_diagonal = 0.5 * length((bounds.upper - bounds.lower) * scale);
+    let clamped_dist_sq = max(dist_sq, half_diagonal * scale);
+    let importance = bounds.phi * scale / clamped_dist_sq * scale * cosines;
+    return clamp(importance, LIGHT_MIN, 0.25 * LIGHT_MAX);
+}
+
+fn light_angle_by(cos_theta: f32) -> LightAngle {
+    return LightAngle(sqrt(max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta))), cos_theta);
+}
+
+// The difference, at least 0.
+fn light_angle_difference(a: LightAngle, b: LightAngle) -> LightAngle {
+    let sin_theta = max(a.x * b.y - a.y * b.x, 0.0);
+    let difference = LightAngle(sin_theta, a.y * b.y + a.x * b.x);
+    return select(difference, LightAngle(0.0, 1.0), a.y > b.y);
 }
 
 // A triangle as it is seen from a point, and its solid angle: solid_angle of light-math.

@@ -24,6 +24,13 @@ const EDGE_SLACK: f32 = COS_SLACK + 1.5 * AXIS_TOLERANCE;
 /// Factor on the sine of the angle that a box subtends, more than its rounding.
 const SIN_GROWTH: f32 = 1.0 + 3.0 * f32::EPSILON;
 
+/// The numbers in [`LightBounds::importance`], by name, for ports of it to another language.
+pub const IMPORTANCE_CONSTANTS: [(&str, f32); 3] = [
+    ("COS_SLACK", COS_SLACK),
+    ("EDGE_SLACK", EDGE_SLACK),
+    ("SIN_GROWTH", SIN_GROWTH),
+];
+
 impl LightBounds {
     /// The importance of the bounded lights at `ctx`, relative to other bounds; no absolute scale.
     ///

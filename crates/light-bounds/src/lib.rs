@@ -24,6 +24,7 @@ pub use context::{Gloss, LightSampleContext, ReceiverKind, ReceiverSides};
 pub use emission_lobe::{EmissionLine, EmissionLobe};
 pub use error::{InfiniteBoundsError, LightBoundsError};
 pub use extent::{InfiniteBounds, LightExtent};
+pub use importance::IMPORTANCE_CONSTANTS;
 pub use light_bounds::LightBounds;
 pub use light_groups::LightGroups;
 pub use light_id::LightId;

@@ -1,5 +1,7 @@
 //! What a port of the queries to another language has to know.
 
+use crate::cut::grow::MAX_ZOOM;
+use crate::cut::light_cut;
 use crate::importance::child_importance::{
     BOX_EMISSION, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
 };
@@ -13,9 +15,10 @@ use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 22] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 24] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
+    ("CUT_THRESHOLD", light_cut::THRESHOLD),
     ("DISTANCE", DISTANCE),
     ("FAR", FAR),
     ("GLOSSY_DISTANCE", glossy::DISTANCE),
@@ -24,6 +27,7 @@ pub const QUERY_CONSTANTS: [(&str, f32); 22] = [
     ("LEAST_SHARE", LEAST_SHARE),
     ("LEAST_SPREAD", LEAST_SPREAD),
     ("LEAST_TOTAL", LEAST_TOTAL),
+    ("MAX_ZOOM", MAX_ZOOM),
     ("MIN_ALPHA", MIN_ALPHA),
     ("MIN_COS", MIN_COS),
     ("MIN_DIFFUSE", MIN_DIFFUSE),

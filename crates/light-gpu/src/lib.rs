@@ -16,6 +16,7 @@ mod source;
 
 pub use light_rows::{UnsupportedLight, light_set_rows};
 pub use rows::{
-    TooManyInfiniteLights, alias_table_rows, light_sampler_rows, light_tree_rows, node_rows,
+    TooManyInfiniteLights, alias_table_rows, compact_bounds_rows, light_sampler_rows,
+    light_tree_rows, node_rows,
 };
 pub use source::{LIGHTS_WGSL, constants, flat};

@@ -2,7 +2,8 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use light_samplers::BvhLightSamplerRef;
-use light_samplers::light_bvh::light_bounds::InfiniteBounds;
+use light_samplers::light_bvh::light_bounds::{CompactLightBounds, InfiniteBounds};
+use light_samplers::light_bvh::light_math::Aabb;
 use light_samplers::light_bvh::light_math::distribution::AliasBin;
 use light_samplers::light_bvh::{LightBvhRef, WideNode};
 
@@ -92,6 +93,24 @@ pub fn node_rows(nodes: &[WideNode]) -> &[[u32; 4]] {
 pub fn alias_table_rows(bins: &[AliasBin]) -> Vec<[u32; 4]> {
     let row = |bin: &AliasBin| [bin.own, bin.alias, bin.pmf.to_bits(), 0];
     bins.iter().map(row).collect()
+}
+
+/// Rows of bounds of lights within the box `all`: two of the box and the number of lights, then six
+/// words a light.
+///
+/// In a buffer from row `first` on they are what `light_compact_bounds(first)` reads.
+///
+/// # Panics
+/// If there are more than 2^29 lights, whose words a shader cannot count.
+#[must_use]
+pub fn compact_bounds_rows(bounds: &[CompactLightBounds], all: &Aabb) -> Vec<[u32; 4]> {
+    let count = u32::try_from(bounds.len()).ok().filter(|&n| n <= 1 << 29);
+    let count = count.expect("fewer than 2^32 words");
+    let [ax, ay, az] = all.min.to_array().map(f32::to_bits);
+    let [bx, by, bz] = all.max.to_array().map(f32::to_bits);
+    let mut rows = Vec::from([[ax, ay, az, count], [bx, by, bz, 0]]);
+    push_words(&mut rows, bytemuck::cast_slice(bounds));
+    rows
 }
 
 /// Adds words, four a row; the last row ends with zeros.

@@ -3,7 +3,9 @@ use alloc::string::String;
 
 use crate::light_rows::KINDS;
 use light_samplers::HORIZON_SLACK;
-use light_samplers::light_bvh::QUERY_CONSTANTS;
+use light_samplers::light_bvh::light_bounds::IMPORTANCE_CONSTANTS;
+use light_samplers::light_bvh::{CutDetail, QUERY_CONSTANTS};
+use light_sources::light_math::OctahedralVector;
 use light_sources::light_math::warp::WARP_CONSTANTS;
 use light_sources::shape::SHAPE_CONSTANTS;
 
@@ -15,7 +17,7 @@ use light_sources::shape::SHAPE_CONSTANTS;
 pub const LIGHTS_WGSL: &str = include_str!("../lights.wgsl");
 
 /// The modules, in the order of the text, each after what it needs.
-const MODULES: [&str; 15] = [
+const MODULES: [&str; 17] = [
     include_str!("../wesl/fraction.wesl"),
     include_str!("../wesl/alias_table.wesl"),
     include_str!("../wesl/sphere_maps.wesl"),
@@ -23,8 +25,10 @@ const MODULES: [&str; 15] = [
     include_str!("../wesl/children.wesl"),
     include_str!("../wesl/importance.wesl"),
     include_str!("../wesl/light_tree.wesl"),
+    include_str!("../wesl/light_cut.wesl"),
     include_str!("../wesl/light_sampler.wesl"),
     include_str!("../wesl/warps.wesl"),
+    include_str!("../wesl/compact_bounds.wesl"),
     include_str!("../wesl/seen_triangle.wesl"),
     include_str!("../wesl/spherical_triangle.wesl"),
     include_str!("../wesl/spherical_rectangle.wesl"),
@@ -33,20 +37,27 @@ const MODULES: [&str; 15] = [
     include_str!("../wesl/light_set.wesl"),
 ];
 
+#[expect(clippy::cast_possible_truncation, reason = "a few nodes")]
+const CUT_NODES: u32 = CutDetail::MAX_NODES as u32;
+
 /// The module of constants, with the numbers of the Rust crates: `wesl/constants.wesl`.
 #[must_use]
 pub fn constants() -> String {
-    let head = "// The numbers of the Rust crates: light-bvh, light-samplers, light-math (warp),\n\
-                // light-sources (shape), and the kinds of rows. Generated.\n\n";
+    let head = "// The numbers of the Rust crates: light-bvh, light-samplers, light-bounds,\n\
+                // light-math (warp), light-sources (shape), and the kinds of rows. Generated.\n\n";
     let numbers = QUERY_CONSTANTS
         .iter()
         .chain(&[("HORIZON_SLACK", HORIZON_SLACK)])
+        .chain(&IMPORTANCE_CONSTANTS)
+        .chain(&[("CODE_ERROR", OctahedralVector::MAX_ANGULAR_ERROR)])
         .chain(&WARP_CONSTANTS)
         .chain(&SHAPE_CONSTANTS)
         .map(|(name, value)| format!("const LIGHT_{name}: f32 = {value:?};\n"));
     let kinds = KINDS
         .iter()
-        .map(|(name, kind)| format!("const LIGHT_{name}: u32 = {kind}u;\n"));
+        .copied()
+        .chain([("CUT_NODES", CUT_NODES)])
+        .map(|(name, number)| format!("const LIGHT_{name}: u32 = {number}u;\n"));
     numbers
         .chain(kinds)
         .fold(head.into(), |text: String, line| text + &line)

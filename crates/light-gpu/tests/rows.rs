@@ -1,13 +1,14 @@
 //! Rows are what the shader's comments say of them.
 
-use light_gpu::light_bvh::light_bounds::{LightBounds, LightExtent};
+use light_gpu::light_bvh::light_bounds::{CompactLightBounds, LightBounds, LightExtent};
 use light_gpu::light_bvh::light_math::distribution::AliasTable;
 use light_gpu::light_bvh::light_math::{Aabb, DirectionCone, glam::Vec3};
 use light_gpu::light_bvh::{LightBvh, WideNode};
 use light_gpu::light_samplers::BvhLightSampler;
 use light_gpu::light_samplers::light_bounds::InfiniteBounds;
 use light_gpu::{
-    TooManyInfiniteLights, alias_table_rows, light_sampler_rows, light_tree_rows, node_rows,
+    TooManyInfiniteLights, alias_table_rows, compact_bounds_rows, light_sampler_rows,
+    light_tree_rows, node_rows,
 };
 
 fn lamps(count: u16) -> LightBvh {
@@ -86,6 +87,49 @@ fn a_bin_is_a_row() {
     for (row, bin) in rows.iter().zip(table.bins()) {
         assert_eq!(*row, [bin.own, bin.alias, bin.pmf.to_bits(), 0], "{bin:?}");
     }
+}
+
+fn bounds(cos_theta_o: f32) -> LightBounds {
+    LightBounds {
+        bounds: Aabb::from_point(Vec3::new(1.0, 2.0, 3.0)),
+        w: Vec3::Z,
+        phi: 5.0,
+        cos_theta_o,
+        cos_theta_e: 0.5,
+        two_sided: true,
+    }
+}
+
+#[test]
+fn compact_bounds_are_six_words_after_their_box() {
+    let all = Aabb::new(Vec3::new(-1.0, -2.0, -3.0), Vec3::new(4.0, 5.0, 6.0));
+    let two = [0.25, 1.0].map(|cos| CompactLightBounds::encode(&bounds(cos), &all));
+    let rows = compact_bounds_rows(&two, &all);
+    assert_eq!(rows.len(), 2 + 3, "two of the box, twelve words");
+    let [x, y, z, count] = rows[0];
+    let lower = [x, y, z].map(f32::from_bits);
+    assert_eq!(
+        (lower, count),
+        ([-1.0, -2.0, -3.0], 2),
+        "the box and the count"
+    );
+    assert_eq!(f32::from_bits(rows[1][2]), 6.0, "its upper corner");
+    let words = &rows[2..].as_flattened()[6..];
+    assert_eq!(words[0], two[1].w().to_bits(), "the axis of the second");
+    assert_eq!(f32::from_bits(words[1]), 5.0, "its power");
+    assert_eq!(words[2], two[1].packed(), "its cosines");
+    let [ax, ay, az] = two[1].bounds().min.map(u32::from);
+    let [bx, by, bz] = two[1].bounds().max.map(u32::from);
+    let corners = [ax | ay << 16, az | bx << 16, by | bz << 16];
+    assert_eq!(words[3..], corners, "its box");
+}
+
+/// The shader has this number in place of what it would round.
+#[test]
+fn a_cone_of_one_normal_is_widened_to_the_number_below_1() {
+    let all = Aabb::from_point(Vec3::new(1.0, 2.0, 3.0));
+    let decoded = CompactLightBounds::encode(&bounds(1.0), &all).decode(&all);
+    assert_eq!(decoded.cos_theta_o, 1.0f32.next_down(), "0x1.fffffep-1");
 }
 
 fn skies(count: usize) -> BvhLightSampler {

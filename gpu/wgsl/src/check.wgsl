@@ -5,6 +5,7 @@
 @group(0) @binding(2) var<storage, read_write> answers: array<Answer>;
 @group(0) @binding(3) var<storage, read_write> mapped: array<Mapped>;
 @group(0) @binding(4) var<storage, read_write> arrived: array<Arrived>;
+@group(0) @binding(5) var<storage, read_write> weighed: array<Weighed>;
 
 struct Query {
     p: vec3<f32>,
@@ -57,6 +58,19 @@ struct Arrived {
     unused: u32,
 }
 
+struct Weighed {
+    // The bounds of light `other`, and their importance.
+    lower: vec3<f32>,
+    importance: f32,
+    upper: vec3<f32>,
+    phi: f32,
+    w: vec3<f32>,
+    cos_theta_o: f32,
+    cos_theta_e: f32,
+    two_sided: u32,
+    unused: vec2<u32>,
+}
+
 fn light_row(i: u32) -> vec4<u32> {
     return rows[i];
 }
@@ -93,6 +107,43 @@ fn choose(@builtin(global_invocation_id) id: vec3<u32>) {
     let again = light_sampler_pmf(sampler, asked, sampled.light);
     let other = light_sampler_pmf(sampler, asked, query.other);
     answers[id.x] = Answer(sampled.light, sampled.pmf, sampled.u, again, other, vec2<u32>(0u));
+}
+
+// One of four choices by a cut.
+@compute @workgroup_size(64)
+fn choose_by_cut(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&queries) {
+        return;
+    }
+    let query = queries[id.x];
+    var here = light_sampler_cut(light_sampler(0u), receiver(query));
+    let u = light_fraction_stratum(query.u.x & 3u, 4u, query.u);
+    let sampled = light_sampler_cut_sample(&here, u);
+    let again = light_sampler_cut_pmf(&here, sampled.light);
+    let other = light_sampler_cut_pmf(&here, query.other);
+    answers[id.x] = Answer(sampled.light, sampled.pmf, sampled.u, again, other, vec2<u32>(0u));
+}
+
+// The rows are those of compact bounds here.
+@compute @workgroup_size(64)
+fn weigh(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&queries) {
+        return;
+    }
+    let query = queries[id.x];
+    let bounds = light_compact_bounds_decode(light_compact_bounds(0u), query.other);
+    let importance = light_bounds_importance(bounds, receiver(query));
+    weighed[id.x] = Weighed(
+        bounds.lower,
+        importance,
+        bounds.upper,
+        bounds.phi,
+        bounds.w,
+        bounds.cos_theta_o,
+        bounds.cos_theta_e,
+        u32(bounds.two_sided),
+        vec2<u32>(0u),
+    );
 }
 
 // The rows are those of an alias table here.

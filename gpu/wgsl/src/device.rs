@@ -1,5 +1,7 @@
 //! The shader on whatever driver there is.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -15,6 +17,8 @@ pub struct Device {
     device: wgpu::Device,
     queue: wgpu::Queue,
     module: wgpu::ShaderModule,
+    /// By entry point: a software driver takes longer to compile one than to run it.
+    pipelines: RefCell<BTreeMap<String, wgpu::ComputePipeline>>,
 }
 
 impl Device {
@@ -49,12 +53,32 @@ impl Device {
             device,
             queue,
             module,
+            pipelines: RefCell::default(),
         })
     }
 
     /// What the driver calls it.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The compiled entry point.
+    fn pipeline(&self, entry: &str) -> wgpu::ComputePipeline {
+        let mut pipelines = self.pipelines.borrow_mut();
+        let compile = || {
+            let options = wgpu::PipelineCompilationOptions::default();
+            let descriptor = wgpu::ComputePipelineDescriptor {
+                label: None,
+                layout: None,
+                module: &self.module,
+                entry_point: Some(entry),
+                compilation_options: options,
+                cache: None,
+            };
+            self.device.create_compute_pipeline(&descriptor)
+        };
+        let known = pipelines.entry(entry.to_owned());
+        known.or_insert_with(compile).clone()
     }
 
     /// What the entry point `entry` writes to its buffer of `binding` for the queries, and the
@@ -68,16 +92,7 @@ impl Device {
         rows: &[[u32; 4]],
         queries: &[Query],
     ) -> Result<(Vec<A>, f64), String> {
-        let pipeline = self
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: None,
-                layout: None,
-                module: &self.module,
-                entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
+        let pipeline = self.pipeline(entry);
         let filled = |contents: &[u8]| {
             self.device.create_buffer_init(&BufferInitDescriptor {
                 label: None,

@@ -7,6 +7,7 @@
 //! Before all of it, what arrives from lights of each kind.
 
 mod arrivals;
+mod bounds;
 mod device;
 mod maps;
 mod query;
@@ -23,7 +24,7 @@ use light_sets::{BenchSet, SetKind};
 
 use crate::device::Device;
 use crate::query::{Answer, Query};
-use crate::tally::Tally;
+use crate::tally::{Choices, Tally};
 
 /// The exit status that says that there is no device.
 const NO_DEVICE: u8 = 77;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
 fn check(device: &Device, count: u32) -> Result<bool, String> {
     println!("{count} queries a set on {}", device.name());
     let mut all = arrivals::check(device, count)?;
+    all &= bounds::check(device, count, &KINDS)?;
     println!("\n{}", Tally::HEAD);
     for kind in KINDS {
         for n in [100, 10_000, 1_000_000] {
@@ -97,15 +99,20 @@ fn check_set(
     let queries: Vec<Query> = (0..count)
         .map(|i| Query::new(&set, lights.len(), i))
         .collect();
-    let (answers, seconds) = device.run::<Answer>(("choose", 2), &rows, &queries)?;
-    let mut tally = Tally::default();
-    for (query, answer) in queries.iter().zip(&answers) {
-        tally.add(&sampler, query, answer);
-    }
     let beside = if beside.is_empty() { "" } else { " and a sky" };
     let name = format!("{} {n}{beside}", kind.name());
-    println!("{}", tally.row(&name, seconds));
-    Ok(tally.holds())
+    let mut all = true;
+    for choices in [Choices::Single, Choices::OfFour] {
+        let entry = choices.entry_point();
+        let (answers, seconds) = device.run::<Answer>((entry, 2), &rows, &queries)?;
+        let mut tally = Tally::default();
+        for (query, answer) in queries.iter().zip(&answers) {
+            tally.add(&sampler, choices, query, answer);
+        }
+        println!("{}", tally.row(&format!("{name}{choices}"), seconds));
+        all &= tally.holds();
+    }
+    Ok(all)
 }
 
 /// A uniform sky, a sun, and a sky that is brighter on one side.

@@ -69,6 +69,21 @@ pub struct Arrived {
     unused: u32,
 }
 
+/// What the shader says of the bounds of a query's light.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct Weighed {
+    pub lower: [f32; 3],
+    pub importance: f32,
+    pub upper: [f32; 3],
+    pub phi: f32,
+    pub w: [f32; 3],
+    pub cos_theta_o: f32,
+    pub cos_theta_e: f32,
+    pub two_sided: u32,
+    unused: [u32; 2],
+}
+
 impl Query {
     /// Query `i` about the light `light`, at a point of a cube of the edge 4 about the origin, of
     /// each kind of receiver in turn.
@@ -128,6 +143,11 @@ impl Query {
     /// The random number.
     pub const fn u(&self) -> u64 {
         light_math::fraction::from_words(self.u[0], self.u[1])
+    }
+
+    /// The random number of one of four choices.
+    pub const fn u_of_four(&self) -> u64 {
+        light_math::fraction::stratum(self.u[0] & 3, 4, self.u())
     }
 
     /// The normal, or the extent of a segment.

@@ -1,5 +1,7 @@
 //! How the shader's answers compare with those of the crates.
 
+use core::fmt;
+
 use light_bounds::LightId;
 use light_samplers::{BvhLightSamplerRef, LightSampler};
 
@@ -7,6 +9,35 @@ use crate::query::{Answer, Query};
 
 /// The least share of queries for which the shader has to choose the same light.
 const SAME: f64 = 0.99;
+
+/// How many lights are chosen at a receiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choices {
+    /// One, from the root.
+    Single,
+    /// One of four, by a cut.
+    OfFour,
+}
+
+impl Choices {
+    /// That of the shader.
+    pub const fn entry_point(self) -> &'static str {
+        match self {
+            Self::Single => "choose",
+            Self::OfFour => "choose_by_cut",
+        }
+    }
+}
+
+impl fmt::Display for Choices {
+    /// What a row of the table adds to the name of a set.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Single => "",
+            Self::OfFour => ", of four",
+        })
+    }
+}
 
 /// What differs between the answers to so many queries.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,20 +66,30 @@ impl Tally {
 | --- | ---: | ---: | ---: | ---: | ---: | ---: |";
 
     /// Compares the answer to one query with those of the crates.
-    pub fn add(&mut self, sampler: &BvhLightSamplerRef<'_>, query: &Query, theirs: &Answer) {
+    pub fn add(
+        &mut self,
+        sampler: &BvhLightSamplerRef<'_>,
+        choices: Choices,
+        query: &Query,
+        theirs: &Answer,
+    ) {
         self.queries += 1;
-        let ctx = &query.context();
-        let chosen = sampler.sample(ctx, query.u()).map(|s| s.light);
+        let (count, u) = match choices {
+            Choices::Single => (1, query.u()),
+            Choices::OfFour => (4, query.u_of_four()),
+        };
+        let here = sampler.at(&query.context(), count);
+        let chosen = here.sample(u).map(|s| s.light);
         let light = LightId(theirs.light);
         let theirs_chosen = (theirs.pmf > 0.0).then_some(light);
         if chosen != theirs_chosen {
             self.others += 1;
         }
         if theirs_chosen.is_some() {
-            self.compare(sampler.pmf(ctx, light), theirs.pmf);
+            self.compare(here.pmf(light), theirs.pmf);
             self.unequal += u32::from(theirs.again.to_bits() != theirs.pmf.to_bits());
         }
-        self.compare(sampler.pmf(ctx, query.other()), theirs.other);
+        self.compare(here.pmf(query.other()), theirs.other);
     }
 
     fn compare(&mut self, ours: f32, theirs: f32) {

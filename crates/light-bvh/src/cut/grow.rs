@@ -14,7 +14,7 @@ use crate::simd::dispatch;
 
 /// How much more a nearer node may count per unit of its weight: where distances differ by more
 /// than 2^30, weights lose their proportion and keep their sign.
-const MAX_ZOOM: f32 = 1_073_741_824.0;
+pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
 
 impl<'a> LightBvhRef<'a> {
     /// A cut through the tree for `receiver`, for several choices there.

@@ -13,6 +13,9 @@ use crate::query::weights::{Weights, irradiance};
 /// Nodes that a cut may hold.
 pub(crate) const MAX_NODES: usize = 24;
 
+/// The threshold of the default detail.
+pub(crate) const THRESHOLD: f32 = 0.08;
+
 /// How far a cut is refined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutDetail {
@@ -28,6 +31,9 @@ pub enum CutDetailError {
 }
 
 impl CutDetail {
+    /// The most nodes of a cut, however fine.
+    pub const MAX_NODES: usize = MAX_NODES;
+
     /// A group of lights is opened while its share of the whole, times its squared width over its
     /// squared distance, is above `threshold`, a number of at least 0.
     ///
@@ -59,7 +65,9 @@ impl Error for CutDetailError {}
 
 impl Default for CutDetail {
     fn default() -> Self {
-        Self { threshold: 0.08 }
+        Self {
+            threshold: THRESHOLD,
+        }
     }
 }
 
