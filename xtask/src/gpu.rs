@@ -1,6 +1,6 @@
 //! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver
-//! of this machine, or on Mesa's software driver from Debian; then
-//! the picture of `examples/gbuffer`.
+//! of this machine, or on Mesa's software driver from Debian; then the pictures of the examples
+//! `gbuffer` and `techniques`.
 
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ const DRIVER: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 /// When the shaders answer otherwise than they may, or the check does not build.
 pub fn gpu(arguments: &[String]) -> StepResult {
     if holds(check(arguments))? {
-        return picture(&[]);
+        return pictures(&[]);
     }
     println!("    no driver for Vulkan, Metal or DirectX 12");
     let folder = match unpacked("vulkan", &DRIVER.map(String::from)) {
@@ -44,18 +44,20 @@ pub fn gpu(arguments: &[String]) -> StepResult {
     if !holds(with_driver)? {
         return Ok(Outcome::Skipped("Mesa's driver does not run here".into()));
     }
-    picture(&driver)
+    pictures(&driver)
 }
 
-/// Lights the picture of the example, which holds it against the CPU's.
-fn picture(driver: &[(&str, String)]) -> StepResult {
-    let mut command = program(["--example", "gbuffer"]);
-    command.envs(driver.iter().cloned());
-    if command.status().map_err(|e| e.to_string())?.success() {
-        Ok(Outcome::Passed)
-    } else {
-        Err("the example `gbuffer` fails".into())
+/// Lights the pictures of the examples, which hold them against the CPU's.
+fn pictures(driver: &[(&str, String)]) -> StepResult {
+    for example in ["gbuffer", "techniques"] {
+        println!();
+        let mut command = program(["--example", example]);
+        command.envs(driver.iter().cloned());
+        if !command.status().map_err(|e| e.to_string())?.success() {
+            return Err(format!("the example `{example}` fails"));
+        }
     }
+    Ok(Outcome::Passed)
 }
 
 fn check(arguments: &[String]) -> Command {

@@ -19,9 +19,12 @@ use light_math::fraction::from_words;
 use light_math::glam::{Vec2, Vec3};
 use light_scene::Image;
 
-use pixels::{SIZE, pixels};
+use pixels::pixels;
 
 type Result<T> = core::result::Result<T, Box<dyn core::error::Error>>;
+
+/// Columns and rows of the picture.
+const SIZE: [u32; 2] = [320, 180];
 
 /// The share of the pixels that may differ by more than [`ERROR`].
 const OFF: f64 = 0.01;
@@ -33,7 +36,7 @@ fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1);
     let frames: u32 = arguments.next().map_or(Ok(16), |n| n.parse())?;
     let picture = arguments.next();
-    let (lights, pixels) = pixels()?;
+    let (lights, pixels) = pixels(SIZE)?;
     let start = std::time::Instant::now();
     let sums = lit::lit(&lights, &pixels, frames)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -50,6 +53,7 @@ fn main() -> Result<()> {
         "{:.3} % of the pixels as the CPU has them, within {ERROR:e}; the mean {bias:+.1e}",
         100.0 * (1.0 - off)
     );
+    println!("relMSE against the CPU {:.1e}", rel_mse(&theirs, &ours));
     if let Some(path) = picture {
         let shown = theirs.iter().map(|l| (8.0 * *l) / (1.0 + 8.0 * *l));
         let image = Image::new(width, height, shown.collect())?;
@@ -59,6 +63,16 @@ fn main() -> Result<()> {
         return Err("the two pictures differ".into());
     }
     Ok(())
+}
+
+/// The mean over pixels and channels of the squared difference over the squared reference plus a
+/// hundredth of its squared mean.
+fn rel_mse(picture: &[Vec3], reference: &[Vec3]) -> f32 {
+    let count = 3.0 * reference.len() as f32;
+    let mean = reference.iter().map(|p| p.element_sum()).sum::<f32>() / count;
+    let error =
+        |(a, b): (&Vec3, &Vec3)| ((a - b) * (a - b) / (b * b + 0.01 * mean * mean)).element_sum();
+    picture.iter().zip(reference).map(error).sum::<f32>() / count
 }
 
 /// The same picture by the crates.

@@ -9,13 +9,11 @@ use light_math::glam::{Vec2, Vec3};
 use light_render::{View, World};
 use light_scene::{BuiltinScene, Scene};
 
-/// Columns and rows of the picture.
-pub const SIZE: [u32; 2] = [320, 180];
-
 /// The lights of the night, and the pixels that see it, four rows each: place, normal, albedo and
-/// emission.
-pub fn pixels() -> Result<(LightSet<Rgb>, Vec<[f32; 16]>), Box<dyn Error>> {
-    let [width, height] = SIZE;
+/// emission; of a picture of so many columns and rows.
+pub fn pixels(
+    [width, height]: [u32; 2],
+) -> Result<(LightSet<Rgb>, Vec<[f32; 16]>), Box<dyn Error>> {
     let scene = BuiltinScene::Night.load();
     let view = View::new(&scene.camera_or_default(), width, height)?;
     let emitters = emitters(&scene);
