@@ -29,9 +29,11 @@ pub trait Light<C: ColorModel> {
     /// The radiance that a surface reflects is estimated by `bsdf * l * |cos| / (pdf * pmf)`, where
     /// `cos` is that at the receiver and `pmf` the probability with which the light was chosen. Of
     /// several choices the sum is divided by their number.
-    /// The example [`direct_lighting`][1] weights such samples against those of the BSDF.
+    /// The example [`direct_lighting`][1] takes such samples, and [`mis`][2] weights them against
+    /// those of the BSDF.
     ///
     /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/direct_lighting.rs
+    /// [2]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/mis.rs
     fn sample_li(
         &self,
         ctx: &LightSampleContext,

@@ -66,7 +66,7 @@ impl FarmArgs {
         .map_err(|error| Failure::Input(format!("farm: {error}")))?;
         fs::create_dir_all(&self.output)
             .map_err(|error| refuse(&self.output, format!("cannot be made: {error}")))?;
-        for (name, text) in plan.files(self.engine) {
+        for (name, text) in self.engine.files(&plan) {
             let path = self.output.join(name);
             write_atomically(&path, text.as_bytes()).map_err(Failure::input)?;
         }

@@ -29,6 +29,7 @@ mod output_image;
 mod progress;
 mod references;
 mod render;
+mod render_args;
 mod render_report;
 mod render_settings;
 mod report;
@@ -84,7 +85,7 @@ enum Command {
     Ies(ies::IesArgs),
     Info(info::InfoArgs),
     Merge(merge::MergeArgs),
-    Render(Box<render::RenderArgs>),
+    Render(Box<render_args::RenderArgs>),
     Report(Box<report::ReportArgs>),
 }
 

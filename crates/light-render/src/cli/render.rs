@@ -1,7 +1,6 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::Args;
 use light_scene::{Diagnostic, Image, record_read_files, recorded_read_files};
 use lights::glam::Vec3;
 
@@ -12,73 +11,18 @@ use crate::{
     View, Visibility, inventory, render_layers, render_while,
 };
 
-use super::arguments::threads;
-use super::checkpoint::CheckpointArgs;
-use super::display_args::DisplayArgs;
 use super::doubts;
 use super::failure::Failure;
 use super::interrupt::GentleStop;
-use super::layer_args::LayerArgs;
-use super::live_args::LiveArgs;
 use super::memory_check::{PICTURE, check_cells_memory, check_memory};
 use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
+use super::render_args::RenderArgs;
 use super::render_report::RenderReport;
-use super::render_settings::SettingsArgs;
-use super::scene_input::{SceneInput, report_warnings};
+use super::scene_input::report_warnings;
 use super::stdout::{complain, say};
 use super::unfinished::Unfinished;
-use super::view_args::ViewArgs;
 use super::visibility::with_cells;
-
-/// Render a scene into an image.
-#[derive(Args, Debug)]
-#[command(
-    allow_negative_numbers = true,
-    after_help = "Examples:
-  lights render room.obj -o room.png --width 960 --spp 256
-  lights render car.glb --env studio.exr --env-scale 0.5 -o car.exr -o car.png
-  lights render model.obj --sky overcast --exposure auto --tone-map reinhard -o model.png
-  lights render scene.pbrt --time 60 --light-sampler bvh -o scene.exr
-  lights render night --samples 0..64 -o part-0.exr   (lights merge adds the parts)
-  lights render night --checkpoint night.part.exr --spp 1024 -o night.exr
-
-Exit status: 0 done, 2 bad usage or bad input."
-)]
-pub(crate) struct RenderArgs {
-    #[command(flatten)]
-    input: SceneInput,
-    /// The image to write: .exr (float32 linear RGB) or .png; more than once for more than one.
-    #[arg(short, long, value_name = "IMAGE", required = true)]
-    output: Vec<PathBuf>,
-    /// Write .exr files of half floats.
-    #[arg(long)]
-    half: bool,
-    #[command(flatten)]
-    settings: SettingsArgs,
-    /// Threads, at most 1024; 0 = one a core.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
-    threads: usize,
-    #[command(flatten)]
-    view: ViewArgs,
-    #[command(flatten)]
-    display: DisplayArgs,
-    #[command(flatten)]
-    checkpoint: CheckpointArgs,
-    #[command(flatten)]
-    layers: LayerArgs,
-    /// Do nothing if the output holds the --samples of this picture already.
-    #[arg(long, requires = "samples")]
-    skip_existing: bool,
-    #[command(flatten)]
-    live: LiveArgs,
-    /// Print one line of JSON about the rendering.
-    #[arg(long)]
-    json: bool,
-    /// Print nothing but results: no progress, no warnings.
-    #[arg(long)]
-    quiet: bool,
-}
 
 impl RenderArgs {
     /// Renders, and writes the image; with --watch again and again.

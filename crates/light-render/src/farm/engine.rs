@@ -1,7 +1,7 @@
 use core::fmt;
 use core::str::FromStr;
 
-use super::{FarmPlan, hyperqueue, openjd, slurm};
+use super::{FarmPlan, hyperqueue, openjd, scripts, slurm};
 
 /// What runs the tasks of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,13 +48,21 @@ impl FarmEngine {
         }
     }
 
-    /// The text of the job.
-    pub(super) fn job(self, plan: &FarmPlan) -> String {
-        match self {
+    /// The files of the job by their names in the folder of the plan, the engine's last.
+    #[must_use]
+    pub fn files(self, plan: &FarmPlan) -> Vec<(&'static str, String)> {
+        let mut files = vec![(scripts::PART, scripts::part(plan))];
+        if plan.groups().is_some() {
+            files.push((scripts::GROUP, scripts::group(plan)));
+        }
+        files.push((scripts::MERGE, scripts::merge(plan)));
+        let job = match self {
             Self::Slurm => slurm::job(plan),
             Self::HyperQueue => hyperqueue::job(plan),
             Self::OpenJd => openjd::job(plan),
-        }
+        };
+        files.push((self.file(), job));
+        files
     }
 }
 

@@ -3,8 +3,6 @@ use core::fmt;
 use core::num::NonZeroU32;
 use core::ops::Range;
 
-use super::{FarmEngine, scripts};
-
 /// A picture in parts, for engines that start each part when and where they like.
 ///
 /// Parts are ranges of samples: part `i` of `n` takes those from `samples * i / n` to
@@ -79,18 +77,6 @@ impl FarmPlan {
         let words = [&self.name, &self.folder, &self.working_folder];
         let is_read = |word: &&String| word.contains("{{") || word.contains(char::is_control);
         words.into_iter().chain(&self.render).find(is_read).cloned()
-    }
-
-    /// The files of the job by their names in the folder, the engine's last.
-    #[must_use]
-    pub fn files(&self, engine: FarmEngine) -> Vec<(&'static str, String)> {
-        let mut files = vec![(scripts::PART, scripts::part(self))];
-        if self.groups().is_some() {
-            files.push((scripts::GROUP, scripts::group(self)));
-        }
-        files.push((scripts::MERGE, scripts::merge(self)));
-        files.push((engine.file(), engine.job(self)));
-        files
     }
 
     /// What engines show.
@@ -173,7 +159,7 @@ impl Error for FarmPlanError {}
 mod tests {
     use super::*;
 
-    pub(in super::super) fn plan(samples: u32, parts: u32) -> Result<FarmPlan, FarmPlanError> {
+    fn plan(samples: u32, parts: u32) -> Result<FarmPlan, FarmPlanError> {
         let folders = ["/farm/job".into(), "/home/it's".into()];
         let render = vec!["scene.obj".into(), "--group".into(), "a=b*".into()];
         let parts = NonZeroU32::new(parts).expect("parts");
@@ -211,10 +197,5 @@ mod tests {
     fn groups_are_of_many_parts_alone() {
         assert_eq!(plan(99, 32).map(|plan| plan.groups()), Ok(None), "few");
         assert_eq!(plan(99, 33).map(|plan| plan.groups()), Ok(Some(2)), "many");
-        for (parts, files) in [(32, 3), (33, 4)] {
-            let plan = plan(99, parts).expect("a plan");
-            let names: Vec<_> = plan.files(FarmEngine::OpenJd);
-            assert_eq!(names.len(), files, "{parts} parts");
-        }
     }
 }

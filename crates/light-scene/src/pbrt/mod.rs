@@ -54,6 +54,7 @@ mod textures;
 #[cfg(test)]
 mod textures_tests;
 mod tokens;
+mod upgrade;
 mod version3;
 mod view;
 

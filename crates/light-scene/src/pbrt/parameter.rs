@@ -3,7 +3,7 @@ use core::fmt;
 use std::path::Path;
 
 use super::tokens::{Token, Tokens, number_of};
-use super::version3::UPGRADE;
+use super::upgrade::UPGRADE;
 use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, Location};

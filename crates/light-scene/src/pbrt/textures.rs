@@ -4,7 +4,7 @@ use super::file_loc::Typed;
 use super::state::Reader;
 use super::texture_kind::TextureKind;
 use super::tokens::Tokens;
-use super::version3::UPGRADE;
+use super::upgrade::UPGRADE;
 use crate::glam::Vec3;
 use crate::scene_light::scaled;
 use crate::text::shown;

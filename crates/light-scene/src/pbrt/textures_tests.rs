@@ -209,6 +209,6 @@ fn what_is_not_understood_is_named() {
     }
     let error = read("Texture \"t\" \"color\" \"constant\"").map(|_| ());
     let expected = "dir/a.pbrt:2: expected \"float\" or \"spectrum\", found \"color\"";
-    let expected = format!("{expected}; {}", super::version3::UPGRADE);
+    let expected = format!("{expected}; {}", super::upgrade::UPGRADE);
     assert_eq!(error, Err(expected), "a type of older files");
 }

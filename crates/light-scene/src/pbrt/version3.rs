@@ -2,11 +2,8 @@
 
 use super::file_loc::FileLoc;
 use super::state::Reader;
+use super::upgrade::UPGRADE;
 use crate::Diagnostic;
-
-/// What to do with such a file.
-pub(super) const UPGRADE: &str = "this is written as for pbrt-v3: `pbrt --upgrade OLD.pbrt > NEW.pbrt` of pbrt-v4 makes a file \
-     that is read";
 
 /// Types of directives that pbrt-v3 has and pbrt-v4 does not.
 const TYPES: [(&str, &[&str]); 4] = [
