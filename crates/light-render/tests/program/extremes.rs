@@ -62,6 +62,12 @@ fn cases(folder: &Folder) -> Vec<Case> {
     };
     let small = [("--width", "4"), ("--height", "2"), ("--spp", "1")];
     let out = ("--output", "out.exr");
+    let job = [("--output", "job"), ("--parts", "1"), ("--engine", "slurm")];
+    let page = [
+        ("--output", "page.html"),
+        ("--samplers", "uniform"),
+        ("--time", "0.01"),
+    ];
     let set = [
         ("--generate", "uniform"),
         ("--n", "20"),
@@ -82,9 +88,11 @@ fn cases(folder: &Folder) -> Vec<Case> {
             &[],
         ),
         case(&["env", "median-cut"], &[&map], &[("-n", "2")]),
+        case(&["farm"], &[&scene], &[&small[..], &job].concat()),
         case(&["ies"], &[&ies], &[]),
         case(&["info"], &[&scene], &[]),
         case(&["merge"], &[&part], &[out]),
+        case(&["report"], &[&scene], &[&small[..2], &page].concat()),
     ]
 }
 
@@ -146,7 +154,8 @@ fn arguments(case: &Case, flag: &str, value: &str) -> Vec<String> {
     others.for_each(|(flag, value)| add(flag, value));
     match flag {
         // As many samples as fit.
-        "--spp" | "--samples" => add("--time", "0.05"),
+        "--spp" | "--samples" if case.command != ["farm"] => add("--time", "0.05"),
+        "--time" if case.command == ["report"] => add("--reference-time", "0.01"),
         "--step" => add("--integrator", "single-scattering-classic"),
         "--checkpoint-every" => add("--checkpoint", "kept.exr"),
         _ => {}
