@@ -1,5 +1,5 @@
-//! The kernels of `gpu/ptx`: `cargo xtask ptx` makes `kernels.ptx` again, `cargo xtask gpu` assembles
-//! it, and runs it where there is a GPU.
+//! The kernels of `gpu/ptx`: `cargo xtask ptx` makes `kernels.ptx` again, `cargo xtask gpu`
+//! assembles it, and runs it where there is a GPU.
 
 use std::fs;
 use std::path::PathBuf;
@@ -245,8 +245,8 @@ fn usage(report: &str) -> Result<Vec<Usage>, String> {
     Ok(kernels)
 }
 
-/// That every operation on floats rounds to the nearest, alone, and none is of 64 bits: an operation
-/// that says so is never fused with another.
+/// That every operation on floats rounds to the nearest, alone, and none is of 64 bits: an
+/// operation that says so is never fused with another.
 fn rounded(text: &str) -> Result<(), String> {
     for (number, line) in (1..).zip(text.lines()) {
         let Some(instruction) = line.split_whitespace().find(|word| !word.starts_with('@')) else {

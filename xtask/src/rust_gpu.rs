@@ -1,5 +1,5 @@
-//! `cargo xtask rust-gpu [--write]`: the places of the core that rust-gpu does not take, against the
-//! table in `docs/rust-gpu.md`.
+//! `cargo xtask rust-gpu [--write]`: the places of the core that rust-gpu does not take, against
+//! the table in `docs/rust-gpu.md`.
 //!
 //! A scan of the sources, since the compiler of rust-gpu is not at hand: tests, comments, strings,
 //! and what needs an allocator are left out.

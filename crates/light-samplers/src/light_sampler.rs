@@ -27,9 +27,9 @@ pub trait LightSampler {
     /// The choice of `count` lights at `ctx`, one by one from equal parts of `[0, 1)`.
     ///
     /// A sampler may keep what it has computed for `ctx`, and refine its estimates for several
-    /// choices: the probabilities are then those of [`LightChoices::pmf`]. It may make fewer choices
-    /// where fewer serve better: [`LightChoices::count`] says how many. One without such work
-    /// returns [`LightChoices::one_by_one`]. The example [`many_lights`][1] lights a plain
+    /// choices: the probabilities are then those of [`LightChoices::pmf`]. It may make fewer
+    /// choices where fewer serve better: [`LightChoices::count`] says how many. One without such
+    /// work returns [`LightChoices::one_by_one`]. The example [`many_lights`][1] lights a plain
     /// by it.
     ///
     /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/many_lights.rs

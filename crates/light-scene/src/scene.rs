@@ -156,8 +156,8 @@ impl Scene {
         of(&self.meshes) + instanced
     }
 
-    /// The scene's camera or, without one, a camera whose view contains the whole scene: raised, from
-    /// the right of what is in front, with y up.
+    /// The scene's camera or, without one, a camera whose view contains the whole scene: raised,
+    /// from the right of what is in front, with y up.
     #[must_use]
     pub fn camera_or_default(&self) -> Camera {
         let default = || Camera::framing(&self.bounds(), Vec3::new(-0.6, -0.45, -1.0));

@@ -37,9 +37,9 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
 ///
 /// The box holds the child's lights. A child that emits to both sides alike has offset 0 and its
-/// power doubled. A child is soft if it is anything but one flat light or one spot. The deviation of
-/// axis and offset has six bits, of which three are the exponent: 0.52 to 122. A power has five bits
-/// of exponent and three of mantissa, less their value for 0.
+/// power doubled. A child is soft if it is anything but one flat light or one spot. The deviation
+/// of axis and offset has six bits, of which three are the exponent: 0.52 to 122. A power has five
+/// bits of exponent and three of mantissa, less their value for 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]

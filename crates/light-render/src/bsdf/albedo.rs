@@ -60,7 +60,8 @@ impl Albedo {
     }
 }
 
-/// The node below `x`, in `[0, 1]`, of `count` even ones, and how far `x` is on the way to the next.
+/// The node below `x`, in `[0, 1]`, of `count` even ones, and how far `x` is on the way to the
+/// next.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,

@@ -151,7 +151,8 @@ impl CoatedConductor {
     #[inline]
     fn refracted(&self, w: Vec3) -> Vec3 {
         let (x, y) = (w.x / self.eta, w.y / self.eta);
-        // No sine exceeds 1 on the way into what is denser; into what is thinner the way is grazing.
+        // No sine exceeds 1 on the way into what is denser; into what is thinner the way is
+        // grazing.
         let z = (1.0 - x * x - y * y).max(1e-6).sqrt();
         Vec3::new(x, y, if w.z < 0.0 { -z } else { z }).normalize()
     }

@@ -11,7 +11,12 @@ use super::arguments::{named, positive};
 pub(crate) struct LightArgs {
     /// A sky that the program brings along, in place of those of the scene: white all around, blue
     /// with the sun 60 degrees high, or grey clouds.
-    #[arg(long, value_name = "NAME", value_parser = named::<BuiltinSky>(BuiltinSky::ALL.map(BuiltinSky::name)), conflicts_with = "env")]
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_parser = named::<BuiltinSky>(BuiltinSky::ALL.map(BuiltinSky::name)),
+        conflicts_with = "env"
+    )]
     sky: Option<BuiltinSky>,
     /// Make skies and suns so many times as bright.
     #[arg(long, value_name = "FACTOR", value_parser = positive)]

@@ -16,8 +16,8 @@ impl Drop for Folder {
     }
 }
 
-/// A square in the plane y = 0 with a front that looks up, u along +x and (0, 0) of its image in the
-/// corner of least x and z.
+/// A square in the plane y = 0 with a front that looks up, u along +x and (0, 0) of its image in
+/// the corner of least x and z.
 fn square(folder: &Folder, material: &str) -> Scene {
     let corners: [[f32; 5]; 4] = [
         [-1.0, 0.0, -1.0, 0.0, 0.0],

@@ -14,7 +14,7 @@ pub(super) struct Document {
     path: PathBuf,
     pub(super) root: Value,
     /// The addresses of the members that were read.
-    pub(super) asked: RefCell<HashSet<*const Value>>,
+    pub(super) visited: RefCell<HashSet<*const Value>>,
 }
 
 impl Document {
@@ -26,7 +26,7 @@ impl Document {
         Ok(Self {
             path: path.to_path_buf(),
             root,
-            asked: RefCell::default(),
+            visited: RefCell::default(),
         })
     }
 

@@ -23,9 +23,9 @@ impl Document {
         }
     }
 
-    /// A part that a reader asks for.
-    pub(super) fn ask<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
-        self.asked.borrow_mut().insert(core::ptr::from_ref(value));
+    /// A part that a reader visits: it is not among the unread ones.
+    pub(super) fn visit<'a>(&'a self, value: &'a Value, path: String) -> Item<'a> {
+        self.visited.borrow_mut().insert(core::ptr::from_ref(value));
         Item {
             document: self,
             value,
@@ -72,7 +72,7 @@ impl<'a> Item<'a> {
     /// A member of this object, if it is there.
     pub(super) fn get(&self, name: &str) -> Result<Option<Self>, Diagnostic> {
         let value = self.map()?.get(name);
-        Ok(value.map(|value| self.document.ask(value, joined(&self.path, name))))
+        Ok(value.map(|value| self.document.visit(value, joined(&self.path, name))))
     }
 
     /// A required member of this object.
@@ -110,7 +110,9 @@ impl<'a> Item<'a> {
                 array.len()
             ))
         })?;
-        Ok(self.document.ask(value, format!("{}[{index}]", self.path)))
+        Ok(self
+            .document
+            .visit(value, format!("{}[{index}]", self.path)))
     }
 
     /// The element of a list of the root that this index refers to.

@@ -10,7 +10,7 @@ pub(super) struct Materials {
     pub(super) default: Option<MaterialId>,
 }
 
-/// A material, and what it asks of a mesh.
+/// A material, and what it needs of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KnownMaterial {
     pub(super) id: MaterialId,

@@ -36,7 +36,7 @@ impl Document {
 
     /// Counts a value and all in it as read.
     pub(super) fn ask_all(&self, value: &Value) {
-        self.asked.borrow_mut().insert(core::ptr::from_ref(value));
+        self.visited.borrow_mut().insert(core::ptr::from_ref(value));
         match value {
             Value::Object(members) => members.values().for_each(|value| self.ask_all(value)),
             Value::Array(elements) => elements.iter().for_each(|value| self.ask_all(value)),

@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
             fits(&colors, all.len())?;
             mesh.colors = Some(all);
         }
-        // What nothing asks for has no effect.
+        // What no material reads has no effect.
         attributes.pass_over_members(&["TEXCOORD_", "TANGENT"]);
         let corners = match primitive.get("indices")? {
             Some(indices) => self.accessor(&indices)?.indices(count)?,

@@ -65,7 +65,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read(mut self) -> Result<Scene, Diagnostic> {
         self.nodes()?;
         self.add_instances()?;
-        for item in self.document.unasked() {
+        for item in self.document.unvisited() {
             self.warnings.add(&item, "was ignored");
         }
         self.scene.warnings.splice(0..0, self.warnings.finish());

@@ -22,22 +22,22 @@ const SAYS_NOTHING: [&str; 9] = [
 
 impl Document {
     /// The members that were not read.
-    pub(super) fn unasked(&self) -> Vec<Item<'_>> {
-        let mut unasked = Unasked {
-            asked: &self.asked.borrow(),
+    pub(super) fn unvisited(&self) -> Vec<Item<'_>> {
+        let mut unvisited = Unvisited {
+            visited: &self.visited.borrow(),
             found: Vec::new(),
         };
-        unasked.walk(self.root());
-        unasked.found
+        unvisited.walk(self.root());
+        unvisited.found
     }
 }
 
-struct Unasked<'a, 'b> {
-    asked: &'b HashSet<*const Value>,
+struct Unvisited<'a, 'b> {
+    visited: &'b HashSet<*const Value>,
     found: Vec<Item<'a>>,
 }
 
-impl<'a> Unasked<'a, '_> {
+impl<'a> Unvisited<'a, '_> {
     fn walk(&mut self, item: Item<'a>) {
         match item.value {
             Value::Object(members) => {
@@ -65,9 +65,9 @@ impl<'a> Unasked<'a, '_> {
             value,
             path,
         };
-        // Who does not know an extension does not ask for its list either.
+        // A list of extensions is not a member of its own.
         let is_list_of_extensions = item.path.ends_with("extensions");
-        if is_list_of_extensions || self.asked.contains(&core::ptr::from_ref(value)) {
+        if is_list_of_extensions || self.visited.contains(&core::ptr::from_ref(value)) {
             self.walk(item);
         } else {
             self.found.push(item);
@@ -89,8 +89,8 @@ mod tests {
         for item in document.root().list("a").expect("a list") {
             item.number_or("x", 0.0).expect("a number");
         }
-        let unasked = document.unasked();
-        let paths: Vec<_> = unasked.iter().map(|item| item.path.as_str()).collect();
+        let unvisited = document.unvisited();
+        let paths: Vec<_> = unvisited.iter().map(|item| item.path.as_str()).collect();
         let expected = ["a[0].y", "a[1].y", "b", "c", "extensions.E"];
         assert_eq!(paths, expected, "each of them, and nothing below");
     }

@@ -24,7 +24,11 @@ mod tests {
     #[test]
     fn two_sets_find_a_place() {
         let mut sets = UvSets::default();
-        assert_eq!(sets.place(1), Some(UvSet::First), "the first that is asked");
+        assert_eq!(
+            sets.place(1),
+            Some(UvSet::First),
+            "the first that is needed"
+        );
         assert_eq!(sets.place(0), Some(UvSet::Second), "another");
         assert_eq!(sets.place(1), Some(UvSet::First), "again");
         assert_eq!(sets.place(2), None, "a third");

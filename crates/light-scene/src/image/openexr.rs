@@ -21,7 +21,8 @@ const MAX_TEXELS: usize = 1 << 27;
 const MOST_EXPANDED: usize = 1032;
 
 /// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of
-/// half or float samples. Chromaticities that the file states are honoured: the image is of Rec. 709.
+/// half or float samples. Chromaticities that the file states are honoured: the image is of Rec.
+/// 709.
 ///
 /// `path` names the file in messages.
 ///

@@ -158,8 +158,8 @@ impl Reader {
         Ok(true)
     }
 
-    /// `ActiveTransform`: what follows moves the scene at the start of the motion, at its end, or at
-    /// both.
+    /// `ActiveTransform`: what follows moves the scene at the start of the motion, at its end, or
+    /// at both.
     fn active_transform(
         &mut self,
         at: FileLoc<'_>,

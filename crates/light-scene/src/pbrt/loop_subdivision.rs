@@ -195,8 +195,8 @@ mod tests {
         scene.meshes[0].clone()
     }
 
-    /// By hand: a vertex of valence 4 moves to (1 - 4 w) p + w times the sum of its neighbours, which
-    /// is 0, with w = 1 / (4 + 4) in the limit.
+    /// By hand: a vertex of valence 4 moves to (1 - 4 w) p + w times the sum of its neighbours,
+    /// which is 0, with w = 1 / (4 + 4) in the limit.
     #[test]
     fn an_octahedron_becomes_round() {
         let flat = subdivided(&format!("{OCTAHEDRON} \"integer levels\" 0"));

@@ -1,4 +1,5 @@
-//! The core's queries as kernels, one thread a query. `cargo xtask ptx` makes `kernels.ptx` of them.
+//! The core's queries as kernels, one thread a query. `cargo xtask ptx` makes `kernels.ptx` of
+//! them.
 //!
 //! A kernel takes the arrays of a tree as pointers and counts, then queries, answers and their
 //! number. Threads beyond that number do nothing.

@@ -1,8 +1,8 @@
 //! What games do today against the tree, in the same compute pass, at equal time:
 //! `cargo run --release --example techniques -- [SECONDS]`.
 //!
-//! Each technique adds frames to the picture of the canal by night for so many seconds (default: 4):
-//! of processor time on a software driver, of the clock on a graphics card. A reference of many
+//! Each technique adds frames to the picture of the canal by night for so many seconds (default:
+//! 4): of processor time on a software driver, of the clock on a graphics card. A reference of many
 //! choices by the CPU says how far each picture is off. Shadows are in none of them.
 
 mod compute;
