@@ -1,3 +1,4 @@
+#[cfg(feature = "alloc")]
 use super::normal::tiny_length;
 use crate::glam::{Vec2, Vec3};
 
