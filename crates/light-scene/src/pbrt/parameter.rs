@@ -261,3 +261,17 @@ fn is_broken_number(word: &str) -> bool {
 pub(super) const fn single(number: f64) -> f32 {
     number as f32
 }
+
+/// What is said of a parameter that is of none of `kinds`.
+pub(super) fn wrong_type(found: &Parameter, kinds: &[ParameterType]) -> String {
+    let name = shown(&found.name);
+    let kinds: Vec<String> = kinds
+        .iter()
+        .map(|kind| format!("\"{kind} {name}\""))
+        .collect();
+    format!(
+        "expected {}, found \"{} {name}\"",
+        kinds.join(" or "),
+        found.kind
+    )
+}

@@ -3,11 +3,11 @@ use core::cell::RefCell;
 use std::collections::HashSet;
 use std::path::Path;
 
-use super::parameter::{Parameter, ParameterType};
+use super::parameter::{Parameter, ParameterType, wrong_type};
 use super::spectrum;
 use super::tokens::{Token, Tokens};
 use crate::glam::{Vec2, Vec3};
-use crate::text::{shown, text_of};
+use crate::text::text_of;
 use crate::{Diagnostic, Files, Location};
 
 /// The parameter list of a directive, which records which parameters were read and the first error.
@@ -286,19 +286,6 @@ impl Parameters {
         own.map(|p| (p, &*self.path))
             .or_else(|| self.inherited.iter().find_map(|earlier| earlier.find(name)))
     }
-}
-
-fn wrong_type(found: &Parameter, kinds: &[ParameterType]) -> String {
-    let name = shown(&found.name);
-    let kinds: Vec<String> = kinds
-        .iter()
-        .map(|kind| format!("\"{kind} {name}\""))
-        .collect();
-    format!(
-        "expected {}, found \"{} {name}\"",
-        kinds.join(" or "),
-        found.kind
-    )
 }
 
 #[expect(
