@@ -1,6 +1,7 @@
 use lights::glam::{Vec2, Vec3};
 
-use super::conductor::{Conductor, reflect};
+use super::clear_coat::ClearCoat;
+use super::conductor::Conductor;
 use super::microfacets::Microfacets;
 use super::{BsdfSample, fresnel};
 
@@ -17,8 +18,7 @@ use super::{BsdfSample, fresnel};
 pub struct CoatedConductor {
     /// The metal, with an index of refraction relative to the coat.
     base: Conductor,
-    eta: f32,
-    facets: Microfacets,
+    coat: ClearCoat,
 }
 
 impl CoatedConductor {
@@ -31,14 +31,15 @@ impl CoatedConductor {
             k: base.k / eta,
             ..base
         };
-        Self { base, eta, facets }
+        let coat = ClearCoat { eta, facets };
+        Self { base, coat }
     }
 
     /// The larger roughness of both layers: of the reflected light nothing is diffuse.
     #[inline]
     #[must_use]
     pub(super) fn gloss(&self) -> (f32, f32) {
-        let alpha = self.facets.alpha().max(self.base.facets.alpha());
+        let alpha = self.coat.facets.alpha().max(self.base.facets.alpha());
         (alpha, 0.0)
     }
 
@@ -46,7 +47,7 @@ impl CoatedConductor {
     #[inline]
     #[must_use]
     pub(super) fn is_dirac(&self) -> bool {
-        self.facets.is_smooth() && self.base.facets.is_smooth()
+        self.coat.facets.is_smooth() && self.base.facets.is_smooth()
     }
 
     /// The scattering function times `|cos theta_i|`.
@@ -57,11 +58,7 @@ impl CoatedConductor {
             return Vec3::ZERO;
         }
         let base = self.base_eval(wo, wi);
-        let Some(wm) = self.facet(wo, wi) else {
-            return base;
-        };
-        let share = fresnel::dielectric(wo.dot(wm).abs(), self.eta);
-        base + share * self.facets.d(wm) * self.facets.g(wo, wi) / (4.0 * wo.z.abs())
+        base + self.coat.eval(wo, wi)
     }
 
     /// The density of [`sample`](Self::sample), Diracs of smooth layers left out.
@@ -72,9 +69,7 @@ impl CoatedConductor {
             return 0.0;
         }
         let p = self.coat_probability(wo);
-        let coat = self.facet(wo, wi).map_or(0.0, |wm| {
-            self.facets.visible_pdf(wo, wm) / (4.0 * wo.dot(wm).abs())
-        });
+        let coat = self.coat.pdf(wo, wi);
         let (inner_wo, inner_wi) = (self.refracted(wo), self.refracted(wi));
         let base = self.base.pdf(inner_wo, inner_wi) * self.squeezed(wi, inner_wi);
         p * coat + (1.0 - p) * base
@@ -95,28 +90,22 @@ impl CoatedConductor {
             })
         };
         let wi = if u_lobe < p {
-            if self.facets.is_smooth() {
-                let share = fresnel::dielectric(wo.z.abs(), self.eta);
-                return mirrored(Vec3::splat(share / p));
+            if self.coat.facets.is_smooth() {
+                return mirrored(Vec3::splat(self.coat.reflects(wo) / p));
             }
-            reflect(wo, self.facets.sample_visible(wo * side, u) * side)
+            self.coat.sample(wo, side, u)
         } else {
             let inner_wo = self.refracted(wo);
             let inner = self.base.sample(inner_wo, u)?;
             if inner.pdf.is_none() {
-                let passes = self.passes(wo) * self.passes(wo);
+                let passes = self.coat.passes(wo) * self.coat.passes(wo);
                 let weight = inner.weight * passes * self.again(inner.weight, wo, wo);
                 return mirrored(weight / (1.0 - p));
             }
             self.leaving(inner.wi)?
         };
         let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi) / pdf,
-            pdf: Some(pdf),
-            eta: 1.0,
-        })
+        BsdfSample::reflected(wi, || self.eval(wo, wi), pdf)
     }
 
     /// What the metal reflects through the coat, times `|cos theta_i|`.
@@ -129,7 +118,7 @@ impl CoatedConductor {
         }
         let middle = (inner_wo + inner_wi).normalize_or_zero();
         let metal = fresnel::conductor(inner_wo.dot(middle).abs(), self.base.eta, self.base.k);
-        let passes = self.passes(wo) * self.passes(wi) * self.squeezed(wi, inner_wi);
+        let passes = self.coat.passes(wo) * self.coat.passes(wi) * self.squeezed(wi, inner_wi);
         reflected * self.again(metal, wo, wi) * passes
     }
 
@@ -137,20 +126,20 @@ impl CoatedConductor {
     /// each time.
     #[inline]
     fn again(&self, metal: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
-        let kept = 1.0 - 0.5 * (self.passes(wo) + self.passes(wi));
+        let kept = 1.0 - 0.5 * (self.coat.passes(wo) + self.coat.passes(wi));
         1.0 / (1.0 - metal * kept)
     }
 
     /// Solid angle inside of the coat over that outside of it.
     #[inline]
     fn squeezed(&self, w: Vec3, inner: Vec3) -> f32 {
-        (w.z / inner.z).abs() / (self.eta * self.eta)
+        (w.z / inner.z).abs() / (self.coat.eta * self.coat.eta)
     }
 
     /// The direction inside of the coat of one outside, both away from the metal.
     #[inline]
     fn refracted(&self, w: Vec3) -> Vec3 {
-        let (x, y) = (w.x / self.eta, w.y / self.eta);
+        let (x, y) = (w.x / self.coat.eta, w.y / self.coat.eta);
         // No sine exceeds 1 on the way into what is denser; into what is thinner the way is
         // grazing.
         let z = (1.0 - x * x - y * y).max(1e-6).sqrt();
@@ -160,7 +149,7 @@ impl CoatedConductor {
     /// The direction outside of one inside; `None` where all of the light stays inside.
     #[inline]
     fn leaving(&self, inner: Vec3) -> Option<Vec3> {
-        let (x, y) = (inner.x * self.eta, inner.y * self.eta);
+        let (x, y) = (inner.x * self.coat.eta, inner.y * self.coat.eta);
         let cos_squared = 1.0 - x * x - y * y;
         (cos_squared > 0.0).then(|| {
             let z = cos_squared.sqrt();
@@ -169,25 +158,8 @@ impl CoatedConductor {
     }
 
     #[inline]
-    fn passes(&self, w: Vec3) -> f32 {
-        1.0 - fresnel::dielectric(w.z.abs(), self.eta)
-    }
-
-    #[inline]
     fn coat_probability(&self, wo: Vec3) -> f32 {
-        let coat = fresnel::dielectric(wo.z.abs(), self.eta);
         let metal = fresnel::conductor(wo.z.abs(), self.base.eta, self.base.k);
-        let base = (1.0 - coat) * metal.max_element();
-        // Both have a positive probability, so that no direction is lost.
-        (coat / (coat + base)).clamp(0.1, 0.9)
-    }
-
-    #[inline]
-    fn facet(&self, wo: Vec3, wi: Vec3) -> Option<Vec3> {
-        if self.facets.is_smooth() {
-            return None;
-        }
-        let wm = (wo + wi).try_normalize()?;
-        Some(if wm.z < 0.0 { -wm } else { wm })
+        self.coat.probability(wo, metal.max_element())
     }
 }

@@ -3,7 +3,7 @@ use core::f32::consts::FRAC_1_PI;
 use lights::glam::{Vec2, Vec3};
 use lights::math::warp::cosine_hemisphere;
 
-use super::conductor::reflect;
+use super::clear_coat::ClearCoat;
 use super::microfacets::Microfacets;
 use super::{BsdfSample, fresnel};
 
@@ -20,8 +20,7 @@ use super::{BsdfSample, fresnel};
 pub struct CoatedDiffuse {
     /// Reflectance of the base, with all reflections inside of the coat, divided by pi.
     base: Vec3,
-    eta: f32,
-    facets: Microfacets,
+    coat: ClearCoat,
 }
 
 impl CoatedDiffuse {
@@ -32,8 +31,7 @@ impl CoatedDiffuse {
         let kept = fresnel::diffuse_internal_reflectance(eta);
         Self {
             base: reflectance / (1.0 - reflectance * kept) / (eta * eta),
-            eta,
-            facets,
+            coat: ClearCoat { eta, facets },
         }
     }
 
@@ -41,9 +39,9 @@ impl CoatedDiffuse {
     #[inline]
     #[must_use]
     pub(super) fn gloss(&self) -> (f32, f32) {
-        let coat = fresnel::dielectric(1.0, self.eta);
+        let coat = fresnel::dielectric(1.0, self.coat.eta);
         let base = self.base.element_sum() / 3.0;
-        (self.facets.alpha(), base / (base + coat))
+        (self.coat.facets.alpha(), base / (base + coat))
     }
 
     /// The scattering function times `|cos theta_i|`.
@@ -53,12 +51,9 @@ impl CoatedDiffuse {
         if !(wo.z * wi.z > 0.0) {
             return Vec3::ZERO;
         }
-        let base = self.base * (self.passes(wo) * self.passes(wi) * wi.z.abs() * FRAC_1_PI);
-        let Some(wm) = self.facet(wo, wi) else {
-            return base;
-        };
-        let share = fresnel::dielectric(wo.dot(wm).abs(), self.eta);
-        base + share * self.facets.d(wm) * self.facets.g(wo, wi) / (4.0 * wo.z.abs())
+        let base =
+            self.base * (self.coat.passes(wo) * self.coat.passes(wi) * wi.z.abs() * FRAC_1_PI);
+        base + self.coat.eval(wo, wi)
     }
 
     /// The density of [`sample`](Self::sample), the Dirac of a smooth coat left out.
@@ -69,9 +64,7 @@ impl CoatedDiffuse {
             return 0.0;
         }
         let p = self.coat_probability(wo);
-        let coat = self.facet(wo, wi).map_or(0.0, |wm| {
-            self.facets.visible_pdf(wo, wm) / (4.0 * wo.dot(wm).abs())
-        });
+        let coat = self.coat.pdf(wo, wi);
         p * coat + (1.0 - p) * cosine_hemisphere::pdf(wi.z.abs())
     }
 
@@ -82,46 +75,24 @@ impl CoatedDiffuse {
         let p = self.coat_probability(wo);
         let side = if wo.z < 0.0 { -1.0 } else { 1.0 };
         let wi = if u_lobe < p {
-            if self.facets.is_smooth() {
+            if self.coat.facets.is_smooth() {
                 return Some(BsdfSample {
                     wi: Vec3::new(-wo.x, -wo.y, wo.z),
-                    weight: Vec3::splat(fresnel::dielectric(wo.z.abs(), self.eta) / p),
+                    weight: Vec3::splat(self.coat.reflects(wo) / p),
                     pdf: None,
                     eta: 1.0,
                 });
             }
-            reflect(wo, self.facets.sample_visible(wo * side, u) * side)
+            self.coat.sample(wo, side, u)
         } else {
             cosine_hemisphere::sample(u) * side
         };
         let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi) / pdf,
-            pdf: Some(pdf),
-            eta: 1.0,
-        })
-    }
-
-    #[inline]
-    fn passes(&self, w: Vec3) -> f32 {
-        1.0 - fresnel::dielectric(w.z.abs(), self.eta)
+        BsdfSample::reflected(wi, || self.eval(wo, wi), pdf)
     }
 
     #[inline]
     fn coat_probability(&self, wo: Vec3) -> f32 {
-        let coat = fresnel::dielectric(wo.z.abs(), self.eta);
-        let base = (1.0 - coat) * self.base.max_element();
-        // Both have a positive probability, so that no direction is lost.
-        (coat / (coat + base)).clamp(0.1, 0.9)
-    }
-
-    #[inline]
-    fn facet(&self, wo: Vec3, wi: Vec3) -> Option<Vec3> {
-        if self.facets.is_smooth() {
-            return None;
-        }
-        let wm = (wo + wi).try_normalize()?;
-        Some(if wm.z < 0.0 { -wm } else { wm })
+        self.coat.probability(wo, self.base.max_element())
     }
 }

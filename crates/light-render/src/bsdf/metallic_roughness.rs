@@ -205,12 +205,7 @@ impl MetallicRoughness {
             by(&coat.facets)
         };
         let pdf = self.pdf(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi) / pdf,
-            pdf: Some(pdf),
-            eta: 1.0,
-        })
+        BsdfSample::reflected(wi, || self.eval(wo, wi), pdf)
     }
 
     /// The share of light that passes the dielectric, under the cosine `cos`.

@@ -5,6 +5,7 @@
 //! from the surface.
 
 mod albedo;
+mod clear_coat;
 mod coated_conductor;
 mod coated_diffuse;
 mod conductor;
@@ -65,6 +66,20 @@ pub struct BsdfSample {
     /// Index of refraction on the side of `wi` over that on the side of `wo`: radiance is
     /// scaled by its square.
     pub eta: f32,
+}
+
+impl BsdfSample {
+    /// A reflection towards `wi`, of which the scattering function is `eval` and the density `pdf`;
+    /// `None` where that is 0.
+    #[inline]
+    fn reflected(wi: Vec3, eval: impl FnOnce() -> Vec3, pdf: f32) -> Option<Self> {
+        (pdf > 0.0).then(|| Self {
+            wi,
+            weight: eval() / pdf,
+            pdf: Some(pdf),
+            eta: 1.0,
+        })
+    }
 }
 
 impl Bsdf {
