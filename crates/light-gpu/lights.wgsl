@@ -1,5 +1,6 @@
 // The numbers of the Rust crates: light-bvh, light-samplers, light-bounds,
-// light-math (warp), light-sources (shape), and the kinds of rows. Generated.
+// light-math (warp), light-sources (shape, environment maps), and the kinds of rows.
+// Generated.
 
 const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
@@ -43,6 +44,9 @@ const LIGHT_SMALL_BOUND: f32 = 0.00059400004;
 const LIGHT_SMALL_SOLID_ANGLE: f32 = 0.0003;
 const LIGHT_SPHERE_ERROR: f32 = 4.7683716e-7;
 const LIGHT_WIDEST_SLACK: f32 = 0.5;
+const LIGHT_FIRST_INSET: f32 = 0.999;
+const LIGHT_SECOND_INSET: f32 = 0.97;
+const LIGHT_THIRD_INSET: f32 = 0.5;
 const LIGHT_KIND_POINT: u32 = 1u;
 const LIGHT_KIND_SPOT: u32 = 2u;
 const LIGHT_KIND_DISTANT: u32 = 3u;
@@ -50,6 +54,8 @@ const LIGHT_KIND_UNIFORM: u32 = 4u;
 const LIGHT_KIND_TRIANGLE: u32 = 5u;
 const LIGHT_KIND_RECTANGLE: u32 = 6u;
 const LIGHT_KIND_SPHERE: u32 = 7u;
+const LIGHT_KIND_LAT_LONG: u32 = 8u;
+const LIGHT_KIND_EQUAL_AREA: u32 = 9u;
 const LIGHT_SIDES_FRONT: u32 = 1u;
 const LIGHT_SIDES_BACK: u32 = 2u;
 const LIGHT_CUT_NODES: u32 = 24u;
@@ -1313,6 +1319,163 @@ fn light_frame(z: vec3<f32>) -> mat3x3<f32> {
     return mat3x3<f32>(x, vec3<f32>(b, sign + z.y * z.y * a, -z.y), z);
 }
 
+// Directions toward a picture of the sky: ImageInfiniteLight of light-sources.
+
+// Where the parts of a picture begin, in rows.
+struct LightEnvironment {
+    // From light space to the scene.
+    turn: mat3x3<f32>,
+    // Columns and rows of the picture; none where it is black.
+    size: vec2<u32>,
+    is_lat_long: bool,
+    // One row a texel: its radiance, and the density of its directions.
+    texels: u32,
+    // Words: where texels begin in their row, where rows begin, and edges of rows.
+    columns: u32,
+    rows: u32,
+    caps: u32,
+}
+
+// A direction, its density per solid angle, and the radiance from there. There is none where pdf
+// is 0.
+struct LightEnvironmentSample {
+    l: vec3<f32>,
+    pdf: f32,
+    wi: vec3<f32>,
+}
+
+// One of the parts of [0, 1], and the place in it.
+struct LightBin {
+    index: u32,
+    place: f32,
+}
+
+// The picture whose rows begin in row `first`.
+fn light_environment(
+    first: u32,
+    size: vec2<u32>,
+    is_lat_long: bool,
+    turn: mat3x3<f32>,
+) -> LightEnvironment {
+    let columns = first + size.x * size.y;
+    let rows = columns + ((size.x * size.y + 3u) >> 2u);
+    let caps = rows + ((size.y + 3u) >> 2u);
+    return LightEnvironment(turn, size, is_lat_long, first, columns, rows, caps);
+}
+
+// A direction by u in [0, 1)^2, in proportion to the texels: u.y picks the row.
+fn light_environment_sample(sky: LightEnvironment, u: vec2<f32>) -> LightEnvironmentSample {
+    var sample: LightEnvironmentSample;
+    if sky.size.x == 0u {
+        return sample;
+    }
+    let row = light_bin(sky.rows, 0u, sky.size.y, u.y);
+    let column = light_bin(sky.columns, row.index * sky.size.x, sky.size.x, u.x);
+    let texel = vec2<u32>(column.index, row.index);
+    let from_middle = vec2<f32>(column.place, row.place) - 0.5;
+    // Rounding may move a direction beyond the edge of its texel.
+    var insets = array<f32, 4>(1.0, LIGHT_FIRST_INSET, LIGHT_SECOND_INSET, LIGHT_THIRD_INSET);
+    for (var i = 0u; i < 4u; i++) {
+        let place = 0.5 + from_middle * insets[i];
+        sample.wi = sky.turn * light_environment_direction(sky, texel, place);
+        if all(light_environment_texel(sky, sample.wi) == texel) {
+            break;
+        }
+    }
+    let found = light_environment_row(sky, texel);
+    sample.l = found.xyz;
+    sample.pdf = found.w;
+    return sample;
+}
+
+// The radiance from the direction wi, and its density.
+fn light_environment_toward(sky: LightEnvironment, wi: vec3<f32>) -> LightEnvironmentSample {
+    if sky.size.x == 0u {
+        return LightEnvironmentSample(vec3<f32>(0.0), 0.0, wi);
+    }
+    let found = light_environment_row(sky, light_environment_texel(sky, wi));
+    return LightEnvironmentSample(found.xyz, found.w, wi);
+}
+
+fn light_environment_row(sky: LightEnvironment, texel: vec2<u32>) -> vec4<f32> {
+    return bitcast<vec4<f32>>(light_row(sky.texels + texel.y * sky.size.x + texel.x));
+}
+
+// Column and row of the texel that holds a direction of the scene.
+fn light_environment_texel(sky: LightEnvironment, wi: vec3<f32>) -> vec2<u32> {
+    // Of a rotation or a reflection the transposed matrix is the inverse.
+    let w = wi * sky.turn;
+    var p: vec2<f32>;
+    if sky.is_lat_long {
+        p = light_lat_long_point(w);
+    } else {
+        p = light_sphere_to_square(w);
+    }
+    let last = sky.size - 1u;
+    return min(vec2<u32>(max(p * vec2<f32>(sky.size), vec2<f32>(0.0))), last);
+}
+
+// The direction, in light space, of a place in [0, 1]^2 of a texel.
+fn light_environment_direction(
+    sky: LightEnvironment,
+    texel: vec2<u32>,
+    place: vec2<f32>,
+) -> vec3<f32> {
+    if !sky.is_lat_long {
+        return light_square_to_sphere((vec2<f32>(texel) + place) / vec2<f32>(sky.size));
+    }
+    // From the nearer pole, where the share of the sphere keeps its digits.
+    let is_upper = texel.y < sky.size.y - texel.y;
+    let row = select(sky.size.y - 1u - texel.y, texel.y, is_upper);
+    let part = select(1.0 - place.y, place.y, is_upper);
+    let near = light_number(sky.caps, row);
+    let far = light_number(sky.caps, row + 1u);
+    let share = near + part * (far - near);
+    let sin_t = 2.0 * sqrt(share * (1.0 - share));
+    let y = select(-1.0, 1.0, is_upper) * (1.0 - 2.0 * share);
+    // From the middle of the map, where the angle is small.
+    let azimuth = light_azimuth((f32(texel.x) + place.x) / f32(sky.size.x) - 0.5);
+    return vec3<f32>(-sin_t * azimuth.y, y, sin_t * azimuth.x);
+}
+
+// The point in [0, 1]^2 of a direction: rows of latitude from +y down, whose middle looks to +z.
+fn light_lat_long_point(d: vec3<f32>) -> vec2<f32> {
+    let sin_t = length(d.xz);
+    if sin_t == 0.0 {
+        return vec2<f32>(0.0, select(0.0, 1.0, d.y < 0.0));
+    }
+    let u = 0.15915494309 * atan2(d.x, -d.z);
+    return vec2<f32>(select(u, u + 1.0, u < 0.0), 0.31830988618 * atan2(sin_t, d.y));
+}
+
+// The last of `count` bins that begins at or below u, and where u lies between its ends. Their
+// beginnings are entries, from `start` on, of the array in row `first`; the last one ends at 1.
+fn light_bin(first: u32, start: u32, count: u32, u: f32) -> LightBin {
+    let within = clamp(u, 0.0, 0x1.fffffep-1);
+    var low = 0u;
+    var high = count;
+    while low < high {
+        let middle = (low + high) >> 1u;
+        if light_number(first, start + middle) <= within {
+            low = middle + 1u;
+        } else {
+            high = middle;
+        }
+    }
+    let index = max(low, 1u) - 1u;
+    let begin = light_number(first, start + index);
+    var end = 1.0;
+    if index + 1u < count {
+        end = light_number(first, start + index + 1u);
+    }
+    return LightBin(index, (within - begin) / (end - begin));
+}
+
+// A number of an array that begins in row `first`.
+fn light_number(first: u32, entry: u32) -> f32 {
+    return bitcast<f32>(light_entry(first, entry));
+}
+
 // Bounds of lights in 24 bytes, and their importance: CompactLightBounds of light-bounds.
 
 // Bounds of many lights, and the box that their codes are relative to.
@@ -2286,7 +2449,7 @@ struct LightRecord {
     sides: u32,
     // Where it is, or the direction toward it.
     a: vec3<f32>,
-    // What it emits, and a number besides.
+    // What it emits, and a number besides; of an environment map an axis.
     l: vec4<f32>,
     b: vec4<f32>,
     c: vec4<f32>,
@@ -2319,8 +2482,13 @@ fn light_set_sample_li(
         sample.wi = select(light_uniform_sphere(u), it.a, is_distant);
         sample.pdf = select(LIGHT_INV_SPHERE, 1.0, is_distant);
         sample.l = it.l.xyz;
-        sample.p_light = receiver.p + sample.wi * (2.0 * lights.radius);
+        sample.p_light = light_beyond(lights, receiver, sample.wi);
         return sample;
+    }
+    if light_is_environment(it) {
+        let found = light_environment_sample(light_record_environment(lights, light, it), u);
+        let p = light_beyond(lights, receiver, found.wi);
+        return LightLiSample(found.l, found.pdf, found.wi, p, vec3<f32>(0.0));
     }
     var at: LightShapeSample;
     if it.kind == LIGHT_KIND_TRIANGLE {
@@ -2355,8 +2523,40 @@ fn light_set_pdf_li(lights: LightSet, light: u32, receiver: LightReceiver, wi: v
         return light_rectangle_pdf(light_rectangle(it.a, it.b.xyz, it.c.xyz), receiver, wi);
     } else if it.kind == LIGHT_KIND_SPHERE {
         return light_sphere_pdf(light_record_sphere(it), receiver, wi);
+    } else if light_is_environment(it) {
+        return light_environment_toward(light_record_environment(lights, light, it), wi).pdf;
     }
     return 0.0;
+}
+
+// The radiance of `light` along a ray that leaves the scene in the direction wi: of skies alone.
+fn light_set_le(lights: LightSet, light: u32, wi: vec3<f32>) -> vec3<f32> {
+    if light >= lights.count {
+        return vec3<f32>(0.0);
+    }
+    let it = light_record(lights, light);
+    if light_is_environment(it) {
+        return light_environment_toward(light_record_environment(lights, light, it), wi).l;
+    }
+    return select(vec3<f32>(0.0), it.l.xyz, it.kind == LIGHT_KIND_UNIFORM);
+}
+
+// A point outside of the scene.
+fn light_beyond(lights: LightSet, receiver: LightReceiver, wi: vec3<f32>) -> vec3<f32> {
+    return receiver.p + wi * (2.0 * lights.radius);
+}
+
+fn light_is_environment(it: LightRecord) -> bool {
+    return it.kind == LIGHT_KIND_LAT_LONG || it.kind == LIGHT_KIND_EQUAL_AREA;
+}
+
+// Its axes are those of the record; its size and the row of its table, counted from the head of
+// the set, are whole numbers in the last row.
+fn light_record_environment(lights: LightSet, light: u32, it: LightRecord) -> LightEnvironment {
+    let table = light_row(lights.lights + 4u * light + 3u);
+    let turn = mat3x3<f32>(it.a, it.l.xyz, it.b.xyz);
+    let is_lat_long = it.kind == LIGHT_KIND_LAT_LONG;
+    return light_environment(lights.lights - 1u + table.x, table.yz, is_lat_long, turn);
 }
 
 fn light_record(lights: LightSet, light: u32) -> LightRecord {

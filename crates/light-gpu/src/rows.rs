@@ -114,7 +114,7 @@ pub fn compact_bounds_rows(bounds: &[CompactLightBounds], all: &Aabb) -> Vec<[u3
 }
 
 /// Adds words, four a row; the last row ends with zeros.
-fn push_words(rows: &mut Vec<[u32; 4]>, words: &[u32]) {
+pub(crate) fn push_words(rows: &mut Vec<[u32; 4]>, words: &[u32]) {
     rows.extend(words.chunks(WORDS).map(|words| {
         let mut row = [0; WORDS];
         row[..words.len()].copy_from_slice(words);

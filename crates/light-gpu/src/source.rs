@@ -5,6 +5,7 @@ use crate::light_rows::KINDS;
 use light_samplers::HORIZON_SLACK;
 use light_samplers::light_bvh::light_bounds::IMPORTANCE_CONSTANTS;
 use light_samplers::light_bvh::{CutDetail, QUERY_CONSTANTS};
+use light_sources::ENVIRONMENT_CONSTANTS;
 use light_sources::light_math::OctahedralVector;
 use light_sources::light_math::warp::WARP_CONSTANTS;
 use light_sources::shape::SHAPE_CONSTANTS;
@@ -17,7 +18,7 @@ use light_sources::shape::SHAPE_CONSTANTS;
 pub const LIGHTS_WGSL: &str = include_str!("../lights.wgsl");
 
 /// The modules, in the order of the text, each after what it needs.
-const MODULES: [&str; 17] = [
+const MODULES: [&str; 18] = [
     include_str!("../wesl/fraction.wesl"),
     include_str!("../wesl/alias_table.wesl"),
     include_str!("../wesl/sphere_maps.wesl"),
@@ -28,6 +29,7 @@ const MODULES: [&str; 17] = [
     include_str!("../wesl/light_cut.wesl"),
     include_str!("../wesl/light_sampler.wesl"),
     include_str!("../wesl/warps.wesl"),
+    include_str!("../wesl/environment.wesl"),
     include_str!("../wesl/compact_bounds.wesl"),
     include_str!("../wesl/seen_triangle.wesl"),
     include_str!("../wesl/spherical_triangle.wesl"),
@@ -44,7 +46,8 @@ const CUT_NODES: u32 = CutDetail::MAX_NODES as u32;
 #[must_use]
 pub fn constants() -> String {
     let head = "// The numbers of the Rust crates: light-bvh, light-samplers, light-bounds,\n\
-                // light-math (warp), light-sources (shape), and the kinds of rows. Generated.\n\n";
+                // light-math (warp), light-sources (shape, environment maps), and the kinds of rows.\n\
+                // Generated.\n\n";
     let numbers = QUERY_CONSTANTS
         .iter()
         .chain(&[("HORIZON_SLACK", HORIZON_SLACK)])
@@ -52,6 +55,7 @@ pub fn constants() -> String {
         .chain(&[("CODE_ERROR", OctahedralVector::MAX_ANGULAR_ERROR)])
         .chain(&WARP_CONSTANTS)
         .chain(&SHAPE_CONSTANTS)
+        .chain(&ENVIRONMENT_CONSTANTS)
         .map(|(name, value)| format!("const LIGHT_{name}: f32 = {value:?};\n"));
     let kinds = KINDS
         .iter()

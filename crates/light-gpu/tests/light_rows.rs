@@ -4,8 +4,9 @@ use light_gpu::light_sources::glam::{Affine3A, Vec3};
 use light_gpu::light_sources::light_bounds::LightId;
 use light_gpu::light_sources::shape::ShapeDesc;
 use light_gpu::light_sources::{
-    AreaLightDesc, DiffuseEmissionDesc, IntensityAmount, LightDesc, LightSet, LightSetBuilder,
-    MeshLightDesc, PointLightDesc, RadianceAmount, Rgb, SceneSphere, Sides, SurfaceColor,
+    AreaLightDesc, Channels, DiffuseEmissionDesc, EnvironmentMap, Image, ImageInfiniteLightDesc,
+    IntensityAmount, LightDesc, LightSet, LightSetBuilder, MeshLightDesc, PointLightDesc,
+    RadianceAmount, Rgb, SceneSphere, Sides, SurfaceColor,
 };
 use light_gpu::{UnsupportedLight, light_set_rows};
 
@@ -66,6 +67,66 @@ fn sides_are_in_the_second_byte() {
     };
     let codes = [Sides::Front, Sides::Back, Sides::Both].map(code);
     assert_eq!(codes, [1, 2, 3], "front, back, both");
+}
+
+fn sky(map: fn(Image) -> EnvironmentMap, size: [u32; 2], texel: f32) -> LightDesc<Rgb> {
+    let texels = (0..size[0] * size[1]).map(|i| texel * (1.0 + i as f32));
+    let image = Image::from_f32(size, Channels::Gray, texels.collect::<Vec<f32>>());
+    ImageInfiniteLightDesc {
+        transform: Affine3A::from_rotation_z(0.5),
+        amount: RadianceAmount::Radiometric(2.0),
+        map: map(image.expect("an image")),
+    }
+    .into()
+}
+
+/// The row of a light's table, columns and rows of its picture.
+fn place_of_table(rows: &[[u32; 4]], light: usize) -> [usize; 3] {
+    let [first, width, height, _] = rows[4 + 4 * light].map(|n| n as usize);
+    [first, width, height]
+}
+
+#[test]
+fn tables_of_pictures_follow_all_lights() {
+    let lat_long = sky(EnvironmentMap::LatLong, [3, 5], 1.0);
+    let equal_area = sky(EnvironmentMap::EqualArea, [3, 3], 1.0);
+    let point = PointLightDesc::new(Vec3::Z, COLOR, IntensityAmount::Radiometric(1.0));
+    let rows = light_set_rows(&set([lat_long, point.into(), equal_area])).expect("known kinds");
+    let [first, width, height] = place_of_table(&rows, 0);
+    assert_eq!(
+        [first, width, height],
+        [1 + 3 * 4, 3, 5],
+        "after the lights"
+    );
+    // 15 texels, 15 beginnings of columns and 5 of rows, and 4 caps.
+    let second = first + 15 + 4 + 2 + 1;
+    assert_eq!(place_of_table(&rows, 2), [second, 3, 3], "after the first");
+    assert_eq!(rows.len(), second + 9 + 3 + 1, "without caps");
+    assert_eq!(
+        vector(rows[first + 4]),
+        [10.0; 3],
+        "radiance of the fifth texel"
+    );
+    let words = rows[first + 15..].as_flattened();
+    assert_eq!(
+        f32::from_bits(words[4]),
+        4.0 / 15.0,
+        "4 of 4 + 5 + 6 lies before it"
+    );
+    let [x, y] = [Vec3::X, Vec3::Y].map(|axis| {
+        let turned = Affine3A::from_rotation_z(0.5).transform_vector3(axis);
+        turned.to_array()
+    });
+    let near = |a: [f32; 3], b: [f32; 3]| Vec3::from(a).distance(Vec3::from(b)) < 1e-6;
+    assert!(near(vector(rows[1]), x) && near(vector(rows[2]), y), "axes");
+    assert_ne!(rows[1][3], rows[9][3], "kinds");
+}
+
+#[test]
+fn a_black_picture_has_no_texels() {
+    let rows = light_set_rows(&set([sky(EnvironmentMap::LatLong, [4, 2], 0.0)])).expect("a sky");
+    assert_eq!(rows.len(), 1 + 4, "the light alone");
+    assert_eq!(place_of_table(&rows, 0)[1..], [0, 0], "nothing to choose");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 
+use crate::environment_table::EnvironmentTable;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::mis_compensation::compensate;
@@ -36,11 +37,16 @@ impl EqualAreaSky {
         self.complete.bytes() + self.compensated.bytes()
     }
 
-    fn table(&self, coverage: PdfCoverage) -> &SphereTable {
+    fn of(&self, coverage: PdfCoverage) -> &SphereTable {
         match coverage {
             PdfCoverage::Complete => &self.complete,
             PdfCoverage::Incomplete => &self.compensated,
         }
+    }
+
+    /// The numbers of [`sample`](Self::sample); `None` if the image is black.
+    pub(crate) fn table(&self, coverage: PdfCoverage) -> Option<EnvironmentTable> {
+        self.of(coverage).table()
     }
 
     /// A direction in the scene, chosen by `u`; `None` if the image is black.
@@ -51,7 +57,7 @@ impl EqualAreaSky {
         coverage: PdfCoverage,
         transform: &RigidTransform,
     ) -> Option<SkySample> {
-        let SphereSample { uv, w, pdf } = self.table(coverage).sample(u)?;
+        let SphereSample { uv, w, pdf } = self.of(coverage).sample(u)?;
         Some(SkySample {
             uv,
             texel: image.nearest(uv),
@@ -62,7 +68,7 @@ impl EqualAreaSky {
 
     /// The density in sr^-1 of the direction `w`, in light space.
     pub(crate) fn pdf(&self, w: Vec3, coverage: PdfCoverage) -> f32 {
-        self.table(coverage).pdf(w)
+        self.of(coverage).pdf(w)
     }
 }
 

@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
+use crate::environment_table::EnvironmentTable;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc, ImageInfiniteLightError};
@@ -99,6 +100,26 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
             scene,
             color: PhantomData,
         })
+    }
+
+    /// The numbers by which directions are chosen, copied for a sampler elsewhere, as a shader;
+    /// `None` if the picture is black.
+    #[must_use]
+    pub fn table(&self, coverage: PdfCoverage) -> Option<EnvironmentTable> {
+        self.sky.table(coverage)
+    }
+
+    /// The radiance in W m^-2 sr^-1 from the directions of the texel in column `x` and row `y`;
+    /// beyond the edge, of the one nearest to it.
+    #[must_use]
+    pub fn texel_radiance(&self, [x, y]: [u32; 2], wavelengths: &C::Wavelengths) -> C::Radiance {
+        self.radiance(self.sky.image.texel(x, y), wavelengths)
+    }
+
+    /// How the light is turned; its origin does not count.
+    #[must_use]
+    pub const fn transform(&self) -> &RigidTransform {
+        &self.transform
     }
 
     pub(crate) fn image(&self) -> &Image {

@@ -1,3 +1,4 @@
+use crate::environment_table::EnvironmentTable;
 use crate::equal_area_sky::EqualAreaSky;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
@@ -64,6 +65,14 @@ impl ImageSky {
         match &self.directions {
             Directions::EqualArea(sky) => sky.bytes(),
             Directions::LatLong(sky) => sky.bytes(),
+        }
+    }
+
+    /// The numbers of [`sample`](Self::sample); `None` if the picture is black.
+    pub(crate) fn table(&self, coverage: PdfCoverage) -> Option<EnvironmentTable> {
+        match &self.directions {
+            Directions::EqualArea(sky) => sky.table(coverage),
+            Directions::LatLong(sky) => sky.table(&self.image, coverage),
         }
     }
 

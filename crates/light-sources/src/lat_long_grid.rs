@@ -27,6 +27,12 @@ impl LatLongGrid {
         Self { size, shares }
     }
 
+    /// The shares of the sphere within the upper edges of rows, from the pole to the first edge at
+    /// or below the equator.
+    pub(crate) fn shares(&self) -> &[f32] {
+        &self.shares
+    }
+
     /// The share of the sphere that row `y` covers: half the difference of the cosines at its
     /// edges.
     pub(crate) fn row_share(&self, y: u32) -> f64 {

@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 use core::f64::consts::FRAC_1_PI;
 
+use crate::environment_table::{EnvironmentTable, INSETS};
 use crate::glam::{DVec2, Vec2, Vec3};
 use crate::image::Image;
 use crate::lat_long_grid::LatLongGrid;
@@ -11,7 +12,7 @@ use crate::sky_means::SkyMeans;
 use crate::sky_sample::SkySample;
 use crate::texel_sums::{TexelPlace, TexelSums};
 use light_math::float::inverse_power_of_two;
-use light_math::lat_long;
+use light_math::{SphereMap, lat_long};
 
 /// Directions of the sphere in proportion to the texels of a lat-long image: uniform over the solid
 /// angle of the texel that is chosen.
@@ -46,10 +47,6 @@ struct RowMoments {
     /// Weights times the directions of columns.
     aside: DVec2,
 }
-
-/// How much of its distance from the middle of its texel a sample keeps, one try after the other,
-/// if its direction was rounded to beyond an edge.
-const INSETS: [f32; 3] = [0.999, 0.97, 0.5];
 
 impl LatLongSky {
     /// The directions of `image`, and its means.
@@ -112,6 +109,21 @@ impl LatLongSky {
             PdfCoverage::Complete => self.complete.as_ref(),
             PdfCoverage::Incomplete => self.compensated.as_ref().or(self.complete.as_ref()),
         }
+    }
+
+    /// The numbers of [`sample`](Self::sample), for samplers elsewhere; `None` if the image is
+    /// black.
+    pub(crate) fn table(&self, image: &Image, coverage: PdfCoverage) -> Option<EnvironmentTable> {
+        let choice = self.choice(coverage)?;
+        let [columns, rows] = choice.sums.shares();
+        Some(EnvironmentTable {
+            map: SphereMap::LatLong,
+            size: image.size(),
+            columns: columns.to_vec(),
+            rows: rows.to_vec(),
+            densities: image.texels().map(|texel| choice.pdf(texel)).collect(),
+            caps: self.grid.shares().to_vec(),
+        })
     }
 
     /// A direction in the scene, chosen by `u`; `None` if the image is black.

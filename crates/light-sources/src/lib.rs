@@ -45,6 +45,8 @@ mod distant;
 #[cfg(feature = "alloc")]
 mod emission_lobe;
 #[cfg(feature = "alloc")]
+mod environment_table;
+#[cfg(feature = "alloc")]
 mod equal_area_sky;
 #[cfg(feature = "alloc")]
 mod floor;
@@ -180,6 +182,8 @@ pub use diffuse_emission::{DiffuseEmission, DiffuseEmissionError};
 #[cfg(feature = "alloc")]
 pub use diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
 pub use distant::{DistantLight, DistantLightDesc, DistantLightError};
+#[cfg(feature = "alloc")]
+pub use environment_table::{ENVIRONMENT_CONSTANTS, EnvironmentTable};
 pub use flux::Flux;
 #[cfg(feature = "alloc")]
 pub use goniometric::{GoniometricLight, GoniometricLightDesc, GoniometricLightError};

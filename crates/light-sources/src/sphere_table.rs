@@ -1,7 +1,9 @@
 use alloc::vec::Vec;
 use core::f32::consts::FRAC_1_PI;
 
+use crate::environment_table::EnvironmentTable;
 use crate::glam::{Vec2, Vec3};
+use light_math::SphereMap;
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
 
@@ -34,6 +36,26 @@ impl SphereTable {
     pub(crate) fn bytes(&self) -> usize {
         let table = self.0.as_ref();
         table.map_or(0, |table| size_of_val(table.table()))
+    }
+
+    /// The numbers of [`sample`](Self::sample), for samplers elsewhere; `None` if all weights are
+    /// zero.
+    pub(crate) fn table(&self) -> Option<EnvironmentTable> {
+        let table = self.0.as_ref()?;
+        let [width, height] = table.resolution();
+        let (densities, sums) = table.table().split_at(width * height);
+        let (columns, rows) = sums.split_at((width + 1) * height);
+        let columns = columns.chunks_exact(width + 1);
+        #[expect(clippy::cast_possible_truncation, reason = "sizes are u32")]
+        Some(EnvironmentTable {
+            map: SphereMap::EqualArea,
+            size: [width as u32, height as u32],
+            // Each row ends with 1, as the rows themselves do.
+            columns: columns.flat_map(|row| &row[..width]).copied().collect(),
+            rows: rows[..height].to_vec(),
+            densities: densities.iter().map(|d| d * PER_STERADIAN).collect(),
+            caps: Vec::new(),
+        })
     }
 
     pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {

@@ -67,6 +67,11 @@ impl TexelSums {
         size_of_val::<[f32]>(&self.rows) + size_of_val::<[f32]>(&self.marginal)
     }
 
+    /// What lies before each texel in its row, row by row, and what lies before each row.
+    pub(crate) fn shares(&self) -> [&[f32]; 2] {
+        [&self.rows, &self.marginal]
+    }
+
     /// The place for `u` in `[0, 1)^2`: `u.y` picks the row, `u.x` the place in it.
     #[inline]
     pub(crate) fn sample(&self, u: Vec2) -> TexelPlace {

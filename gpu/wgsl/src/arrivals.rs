@@ -4,17 +4,17 @@ use light_gpu::light_set_rows;
 use light_math::glam::{Affine3A, Quat, Vec3};
 use light_sources::shape::ShapeDesc;
 use light_sources::{
-    AreaLightDesc, DiffuseEmissionDesc, DistantLightDesc, IntensityAmount, IrradianceAmount, Light,
-    LightDesc, LightDescError, LightSet, LightSetBuilder, MediumInterface, MeshLightDesc,
-    PdfCoverage, PointLightDesc, RadianceAmount, Rgb, SceneSphere, Sides, SpotLightDesc,
-    SurfaceColor, UniformInfiniteLightDesc,
+    AreaLightDesc, Channels, DiffuseEmissionDesc, DistantLightDesc, EnvironmentMap, Image,
+    ImageInfiniteLightDesc, IntensityAmount, IrradianceAmount, Light, LightDesc, LightDescError,
+    LightSet, LightSetBuilder, MediumInterface, MeshLightDesc, PdfCoverage, PointLightDesc,
+    RadianceAmount, Rgb, SceneSphere, Sides, SpotLightDesc, SurfaceColor, UniformInfiniteLightDesc,
 };
 
 use crate::device::Device;
 use crate::query::{Arrived, Query, Random};
 
 /// The kinds of lights.
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 10] = [
     "point",
     "spot",
     "distant",
@@ -23,6 +23,8 @@ const KINDS: [&str; 8] = [
     "mesh",
     "rectangle",
     "sphere",
+    "lat-long picture",
+    "equal-area picture",
 ];
 
 /// Lights of each kind.
@@ -47,6 +49,8 @@ struct Kind {
     pdf_off: u32,
     /// Those of a direction that has nothing to do with the light.
     other_off: u32,
+    /// Radiance along a ray that leaves the scene, off by more, or 0 on one side alone.
+    le_off: u32,
     /// The largest differences of a density and of a direction among the samples.
     largest: [f32; 2],
 }
@@ -58,7 +62,7 @@ struct Kind {
 pub fn check(device: &Device, count: u32) -> Result<bool, String> {
     let head = "\
 | lights | alike within 1e-4 | largest density, direction | one side alone | pdf_li off | \
-of any direction |
+of any direction, le |
 | --- | ---: | ---: | ---: | ---: | ---: |";
     println!("\n{head}");
     let mut all = true;
@@ -87,6 +91,8 @@ impl Kind {
         let complete = PdfCoverage::Complete;
         let toward = light.pdf_li(ctx, query.wo(), complete);
         self.other_off += u32::from(!is_near(toward, theirs.toward));
+        let le = light.le(ctx.p, query.wo(), &()).element_sum();
+        self.le_off += u32::from(!is_near(le, theirs.le));
         let ours = light.sample_li(ctx, query.place(), &(), complete);
         let Some(ours) = ours.filter(|_| theirs.pdf > 0.0) else {
             self.unlike += u32::from(ours.is_some() || theirs.pdf > 0.0);
@@ -107,18 +113,23 @@ impl Kind {
 
     fn holds(&self) -> bool {
         let few = |count: u32| f64::from(count) <= OFF * f64::from(self.queries);
-        few(self.unlike) && few(self.off) && few(self.pdf_off) && few(self.other_off)
+        few(self.unlike)
+            && few(self.off)
+            && few(self.pdf_off)
+            && few(self.other_off)
+            && few(self.le_off)
     }
 
     fn row(&self, kind: &str) -> String {
         let percent = |count: u32| 100.0 * f64::from(count) / f64::from(self.queries);
         let [pdf, turn] = self.largest;
         format!(
-            "| {kind} | {:.4} % | {pdf:.1e}, {turn:.1e} | {:.4} % | {:.4} % | {:.4} % |",
+            "| {kind} | {:.4} % | {pdf:.1e}, {turn:.1e} | {:.4} % | {:.4} % | {:.4} %, {:.4} % |",
             100.0 - percent(self.off),
             percent(self.unlike),
             percent(self.pdf_off),
             percent(self.other_off),
+            percent(self.le_off),
         )
     }
 }
@@ -137,6 +148,16 @@ fn lights(kind: &str) -> Result<LightSet<Rgb>, LightDescError> {
         lights.add(light(kind, i, &mut || random.unit()))?;
     }
     Ok(lights.build())
+}
+
+/// A picture of very unlike texels, of which a third are black.
+fn picture([width, height]: [u32; 2], unit: &mut impl FnMut() -> f32) -> Image {
+    let mut texel = || {
+        let brightness = (unit() * 1.5 - 0.5).max(0.0) * 1e4f32.powf(unit());
+        [unit(), unit(), unit()].map(|channel| channel * brightness)
+    };
+    let texels: Vec<f32> = (0..width * height).flat_map(|_| texel()).collect();
+    Image::from_f32([width, height], Channels::Rgb, texels).expect("finite texels")
 }
 
 fn light(kind: &str, i: u32, unit: &mut impl FnMut() -> f32) -> LightDesc<Rgb> {
@@ -179,6 +200,20 @@ fn light(kind: &str, i: u32, unit: &mut impl FnMut() -> f32) -> LightDesc<Rgb> {
         "uniform" => {
             let amount = RadianceAmount::Radiometric(1.0);
             return UniformInfiniteLightDesc::new(color, amount).into();
+        }
+        "lat-long picture" | "equal-area picture" => {
+            let map = if kind == "lat-long picture" {
+                EnvironmentMap::LatLong(picture([1 + i % 37, 1 + i % 19], unit))
+            } else {
+                EnvironmentMap::EqualArea(picture([1 + i % 23; 2], unit))
+            };
+            let transform = Affine3A::from_quat(turn);
+            return ImageInfiniteLightDesc {
+                transform,
+                map,
+                amount: RadianceAmount::default(),
+            }
+            .into();
         }
         "mesh" => return MeshLightDesc::new(corners, vec![[0, 1, 2]], emission).into(),
         "triangle" => ShapeDesc::Triangle(corners),

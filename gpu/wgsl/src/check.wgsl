@@ -55,7 +55,8 @@ struct Arrived {
     // What it says of the direction wo.
     toward: f32,
     n_light: vec3<f32>,
-    unused: u32,
+    // The sum of the channels of what light_set_le says of it.
+    le: f32,
 }
 
 struct Weighed {
@@ -189,6 +190,6 @@ fn arrive(@builtin(global_invocation_id) id: vec3<u32>) {
         sample.p_light,
         light_set_pdf_li(lights, query.other, asked, query.wo),
         sample.n_light,
-        0u,
+        dot(light_set_le(lights, query.other, query.wo), vec3<f32>(1.0)),
     );
 }

@@ -66,7 +66,8 @@ pub struct Arrived {
     /// That of the direction to the viewer.
     pub toward: f32,
     pub n_light: [f32; 3],
-    unused: u32,
+    /// The sum of the channels of what arrives along a ray in that direction.
+    pub le: f32,
 }
 
 /// What the shader says of the bounds of a query's light.
