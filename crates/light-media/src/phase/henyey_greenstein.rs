@@ -1,4 +1,5 @@
-use super::{AsymmetryError, PhaseFunction, check_asymmetry};
+use super::asymmetry::{AsymmetryError, check_asymmetry};
+use super::phase_function::PhaseFunction;
 use core::f32::consts::PI;
 use light_math::float;
 

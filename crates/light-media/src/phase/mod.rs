@@ -1,43 +1,24 @@
 //! Phase functions: the distribution of scattered directions.
 
+mod asymmetry;
 mod henyey_greenstein;
 mod isotropic;
 mod mie;
+mod phase_function;
 mod rayleigh;
 mod schlick;
 
+pub use asymmetry::AsymmetryError;
 pub use henyey_greenstein::HenyeyGreenstein;
 pub use isotropic::Isotropic;
 pub use mie::{MieHazy, MieMurky};
+pub use phase_function::{PhaseFunction, PhaseSample};
 pub use rayleigh::Rayleigh;
 pub use schlick::Schlick;
 
 use core::f32::consts::TAU;
 use light_math::glam::{Vec2, Vec3};
 use light_math::{Frame, float};
-
-/// A phase function that depends on the angle of deflection alone.
-///
-/// `cos_theta` is the cosine between the directions of travel before and after the event: 1 is
-/// straight on, -1 straight back. For directions `wo` and
-/// `wi` that both point away from the event it is `-dot(wo, wi)`. Every phase function here is
-/// sampled exactly, so its density is its value.
-pub trait PhaseFunction {
-    /// The phase function per steradian; integrates to one over the sphere.
-    fn value(&self, cos_theta: f32) -> f32;
-
-    /// A cosine of deflection in `[-1, 1]` with density `TAU * value`, from `u` in `[0, 1)`.
-    fn sample_cos(&self, u: f32) -> f32;
-}
-
-/// A direction chosen by a phase function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhaseSample {
-    /// Unit direction toward which the path goes on.
-    pub wi: Vec3,
-    /// Its density per steradian, which is also the phase function's value.
-    pub pdf: f32,
-}
 
 /// The phase functions of this crate as one enum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,31 +89,6 @@ impl PhaseFunction for Phase {
             Self::MieHazy(f) => f.sample_cos(u),
             Self::MieMurky(f) => f.sample_cos(u),
         }
-    }
-}
-
-/// Why an asymmetry parameter is invalid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum AsymmetryError {
-    /// `g` or `k` does not lie strictly between -1 and 1, where the phase function has a density.
-    OutOfRange,
-}
-
-impl core::fmt::Display for AsymmetryError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("the asymmetry of a phase function must lie between -1 and 1, both excluded")
-    }
-}
-
-impl core::error::Error for AsymmetryError {}
-
-/// `x` if it lies strictly between -1 and 1.
-fn check_asymmetry(x: f32) -> Result<f32, AsymmetryError> {
-    if x > -1.0 && x < 1.0 {
-        Ok(x)
-    } else {
-        Err(AsymmetryError::OutOfRange)
     }
 }
 

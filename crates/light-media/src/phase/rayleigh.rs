@@ -1,4 +1,4 @@
-use super::PhaseFunction;
+use super::phase_function::PhaseFunction;
 use core::f32::consts::PI;
 use light_math::float;
 

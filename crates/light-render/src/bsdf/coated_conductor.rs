@@ -1,9 +1,10 @@
 use lights::glam::{Vec2, Vec3};
 
+use super::bsdf_sample::BsdfSample;
 use super::clear_coat::ClearCoat;
 use super::conductor::Conductor;
+use super::fresnel;
 use super::microfacets::Microfacets;
-use super::{BsdfSample, fresnel};
 
 /// A metal under a clear coat: lacquered brass, car paint. Opaque, the same on both sides.
 ///

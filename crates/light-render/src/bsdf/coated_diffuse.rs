@@ -3,9 +3,10 @@ use core::f32::consts::FRAC_1_PI;
 use lights::glam::{Vec2, Vec3};
 use lights::math::warp::cosine_hemisphere;
 
+use super::bsdf_sample::BsdfSample;
 use super::clear_coat::ClearCoat;
+use super::fresnel;
 use super::microfacets::Microfacets;
-use super::{BsdfSample, fresnel};
 
 /// A diffuse base under a clear coat: lacquered wood, plastic. Opaque, the same on both sides.
 ///

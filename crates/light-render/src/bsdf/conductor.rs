@@ -1,7 +1,8 @@
 use lights::glam::{Vec2, Vec3};
 
+use super::bsdf_sample::BsdfSample;
+use super::fresnel;
 use super::microfacets::Microfacets;
-use super::{BsdfSample, fresnel};
 
 /// A metal: microfacets that reflect with the Fresnel factor of a conductor.
 ///

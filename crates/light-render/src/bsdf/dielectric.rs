@@ -1,8 +1,9 @@
 use lights::glam::{Vec2, Vec3};
 
+use super::bsdf_sample::BsdfSample;
 use super::conductor::reflect;
+use super::fresnel;
 use super::microfacets::Microfacets;
-use super::{BsdfSample, fresnel};
 
 /// Glass or water: microfacets that reflect and refract.
 ///

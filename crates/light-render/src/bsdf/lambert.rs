@@ -3,7 +3,7 @@ use core::f32::consts::FRAC_1_PI;
 use lights::glam::{Vec2, Vec3};
 use lights::math::warp::cosine_hemisphere;
 
-use super::BsdfSample;
+use super::bsdf_sample::BsdfSample;
 
 /// Lambertian scattering: paint where it reflects, paper where it transmits too.
 #[derive(Clone, Copy, Debug, PartialEq)]

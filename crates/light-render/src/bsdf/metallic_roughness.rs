@@ -4,9 +4,10 @@ use lights::glam::{Vec2, Vec3};
 use lights::math::warp::cosine_hemisphere;
 
 use super::albedo::Albedo;
+use super::bsdf_sample::BsdfSample;
 use super::conductor::reflect;
+use super::fresnel;
 use super::microfacets::Microfacets;
-use super::{BsdfSample, fresnel};
 
 /// A mixture of a metal and of a diffuse base below a dielectric, as glTF describes surfaces, and a
 /// clear coat above both. Opaque, the same on both sides.

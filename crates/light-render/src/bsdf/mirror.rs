@@ -1,6 +1,6 @@
 use lights::glam::Vec3;
 
-use super::BsdfSample;
+use super::bsdf_sample::BsdfSample;
 
 /// A plane mirror of constant reflectance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 use lights::glam::Vec3;
 
-use super::{BsdfSample, fresnel};
+use super::bsdf_sample::BsdfSample;
+use super::fresnel;
 
 /// A thin pane of glass: reflects and transmits without refraction, with all internal reflections.
 ///
