@@ -1,6 +1,7 @@
 //! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
 
 use crate::arrows;
+use crate::circles;
 use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
@@ -20,6 +21,7 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     steps.run("format", format);
     steps.run("references", references::check);
     steps.run("arrows between crates", || arrows::arrows(&[]));
+    steps.run("circles of imports", circles::check);
     steps.run("lints of the workspace", || {
         lints(&["--workspace", "--all-targets"]).map(|()| Outcome::Passed)
     });

@@ -7,6 +7,7 @@ mod arrows;
 mod bench;
 mod check;
 mod ci;
+mod circles;
 mod counts;
 mod coverage;
 mod crates;
@@ -37,7 +38,7 @@ use tools::Install;
 const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
 
-  (none)                      format, lints, tests over each feature set, documentation
+  (none)                      format, imports, lints, tests over each feature set, documentation
   ci [--tested]               the same, bare targets, the oldest toolchain, packages, fuzz smoke,
                               instruction counts (--tested: `cargo test --workspace` ran before)
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
@@ -56,6 +57,7 @@ usage: cargo xtask [COMMAND]
                               manifests, or write it
   crates [--write [CRATE...]] compare the counts of dependencies in the README of each library with
                               cargo's, or measure its build and write both
+  circles                     find source files that import each other
   packages                    make the package of each library, and build it from that
   farm                        run jobs of `lights farm` by the engines that this machine can have,
                               with killed tasks and a lost machine
@@ -113,6 +115,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("api", rest) => one("public items", || api::api(rest)),
         ("arrows", rest) => one("arrows between crates", || arrows::arrows(rest)),
         ("crates", rest) => one("builds of each crate alone", || crates::crates(rest)),
+        ("circles", []) => one("circles of imports", circles::check),
         ("packages", []) => all(packages::add_steps),
         ("foreign", rest) => one("foreign scenes", || foreign::foreign(rest)),
         ("gallery", []) => one("gallery", gallery::gallery),
