@@ -13,23 +13,25 @@ use lights::math::{Aabb, OctahedralVector, equal_area, warp};
 fn directions(c: &mut Criterion) {
     let mut group = c.benchmark_group("directions");
     let mut codes = Queries::new(|rng| OctahedralVector::from_bits(rng.u32()));
-    group.bench_function("octahedral decode", |b| b.iter(|| codes.ask().decode()));
+    group.bench_function("octahedral decode", |b| {
+        b.iter(|| codes.next_query().decode())
+    });
     let mut vectors = Queries::new(Rng::direction);
     group.bench_function("octahedral encode", |b| {
-        b.iter(|| OctahedralVector::encode(vectors.ask()));
+        b.iter(|| OctahedralVector::encode(vectors.next_query()));
     });
     let mut us = squares();
     group.bench_function("equal-area square to sphere", |b| {
-        b.iter(|| equal_area::square_to_sphere(us.ask()));
+        b.iter(|| equal_area::square_to_sphere(us.next_query()));
     });
     group.bench_function("equal-area sphere to square", |b| {
-        b.iter(|| equal_area::sphere_to_square(vectors.ask()));
+        b.iter(|| equal_area::sphere_to_square(vectors.next_query()));
     });
     group.bench_function("cosine hemisphere", |b| {
-        b.iter(|| warp::cosine_hemisphere::sample(us.ask()));
+        b.iter(|| warp::cosine_hemisphere::sample(us.next_query()));
     });
     group.bench_function("uniform sphere", |b| {
-        b.iter(|| warp::uniform_sphere::sample(us.ask()));
+        b.iter(|| warp::uniform_sphere::sample(us.next_query()));
     });
 }
 
@@ -44,18 +46,18 @@ fn tables(c: &mut Criterion) {
     let alias = AliasTable::new(&weights).expect("weights");
     let mut fractions = Queries::new(Rng::u64);
     group.bench_function("alias table sample", |b| {
-        b.iter(|| alias.sample(fractions.ask()));
+        b.iter(|| alias.sample(fractions.next_query()));
     });
     let line = PiecewiseConstant1D::new(&weights).expect("weights");
     group.bench_function("piecewise constant 1D sample", |b| {
-        b.iter(|| line.sample(us.ask().x));
+        b.iter(|| line.sample(us.next_query().x));
     });
     let image = PiecewiseConstant2D::new(&weights, WIDTH, N / WIDTH).expect("weights");
     group.bench_function("piecewise constant 2D sample", |b| {
-        b.iter(|| image.sample(us.ask()));
+        b.iter(|| image.sample(us.next_query()));
     });
     group.bench_function("piecewise constant 2D pdf", |b| {
-        b.iter(|| image.pdf(us.ask()));
+        b.iter(|| image.pdf(us.next_query()));
     });
 }
 
@@ -78,10 +80,10 @@ fn importance(c: &mut Criterion) {
     let mut light = || lights.next().expect("a cycle");
     let mut group = c.benchmark_group("importance");
     group.bench_function("exact bounds", |b| {
-        b.iter(|| black_box(&bounds[light()]).importance(&queries.ask().0));
+        b.iter(|| black_box(&bounds[light()]).importance(&queries.next_query().0));
     });
     group.bench_function("compact bounds", |b| {
-        b.iter(|| black_box(&compact[light()]).importance(&all, &queries.ask().0));
+        b.iter(|| black_box(&compact[light()]).importance(&all, &queries.next_query().0));
     });
 }
 

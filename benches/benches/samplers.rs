@@ -72,7 +72,7 @@ fn bench_sample(
     let mut queries = queries_of(set);
     group.bench_function(BenchmarkId::new(by, name(set)), |b| {
         b.iter(|| {
-            let (ctx, u) = queries.ask();
+            let (ctx, u) = queries.next_query();
             sampler.sample(&ctx, u)
         });
     });
@@ -89,7 +89,7 @@ fn bench_pmf(
     let mut asked = queries_of(set);
     let mut queries = Queries::new(|_| {
         loop {
-            let (ctx, u) = asked.ask();
+            let (ctx, u) = asked.next_query();
             if let Some(chosen) = sampler.sample(&ctx, u) {
                 break (ctx, chosen.light);
             }
@@ -97,7 +97,7 @@ fn bench_pmf(
     });
     group.bench_function(BenchmarkId::new(by, name(set)), |b| {
         b.iter(|| {
-            let (ctx, light) = queries.ask();
+            let (ctx, light) = queries.next_query();
             sampler.pmf(&ctx, light)
         });
     });

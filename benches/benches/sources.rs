@@ -179,18 +179,18 @@ fn sources(c: &mut Criterion) {
         let mut asked = queries.clone();
         c.bench_function(&format!("sample_li/{name}"), |b| {
             b.iter(|| {
-                let (ctx, u) = asked.ask();
+                let (ctx, u) = asked.next_query();
                 sample(&ctx, u)
             });
         });
         let mut asked = queries.clone();
         let mut toward = Queries::new(|_| {
-            let (ctx, u) = asked.ask();
+            let (ctx, u) = asked.next_query();
             (ctx, sample(&ctx, u).map_or(Vec3::Z, |s| s.wi))
         });
         c.bench_function(&format!("pdf_li/{name}"), |b| {
             b.iter(|| {
-                let (ctx, wi) = toward.ask();
+                let (ctx, wi) = toward.next_query();
                 light.pdf_li(&ctx, wi, PdfCoverage::Complete)
             });
         });

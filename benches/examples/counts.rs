@@ -55,7 +55,7 @@ fn main() {
 }
 
 fn calls<T: Copy>(mut queries: Queries<T>, mut call: impl FnMut(T)) {
-    (0..CALLS).for_each(|_| call(queries.ask()));
+    (0..CALLS).for_each(|_| call(queries.next_query()));
 }
 
 fn alias_sample() {
@@ -245,7 +245,7 @@ fn chosen(
     let mut asked = queries_of(set);
     Queries::new(|_| {
         loop {
-            let (ctx, u) = asked.ask();
+            let (ctx, u) = asked.next_query();
             if let Some(chosen) = sampler.sample(&ctx, u) {
                 break (ctx, chosen.light);
             }

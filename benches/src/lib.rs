@@ -30,7 +30,7 @@ impl<T: Copy> Queries<T> {
 
     /// The next query; after the last one the first.
     #[inline]
-    pub fn ask(&mut self) -> T {
+    pub fn next_query(&mut self) -> T {
         let query = self.queries[self.next];
         self.next = (self.next + 1) % self.queries.len();
         query

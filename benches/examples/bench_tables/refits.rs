@@ -30,7 +30,7 @@ pub(super) fn table() -> Result<String, String> {
                 return Err(format!("energy is lost\n{row}"));
             }
             let mut line = format!("| {name} | {} | {:.2} |", row.moved, row.degradation);
-            for variance in [row.refitted, row.built_anew] {
+            for variance in [row.refitted, row.rebuilt] {
                 line += &format!(" {} | {} |", figure(variance.mean), figure(variance.p99));
             }
             println!("{line}");

@@ -40,7 +40,7 @@ impl Spot {
     }
 
     /// Whether it shines at the context, by more than what bounds in single precision can tell.
-    fn shines_at(&self, ctx: &LightSampleContext) -> bool {
+    fn emits_at(&self, ctx: &LightSampleContext) -> bool {
         let away = angle(double(self.axis), between(self.position, ctx.p));
         let ReceiverKind::Surface { ns, sides, .. } = *ctx.kind() else {
             panic!("receivers on surfaces only")
@@ -141,7 +141,7 @@ fn check(
         let surface = LightSampleContext::surface(p, n, n);
         for ctx in [LightSampleContext::two_sided(p, n, n), surface] {
             for (id, spot) in (0..).map(LightId).zip(spots) {
-                if spot.shines_at(&ctx) {
+                if spot.emits_at(&ctx) {
                     assert!(
                         tree.pmf(&ctx, id) > 0.0,
                         "{name}: {id:?} of {} shines at {ctx:?}: {spot:?}",

@@ -168,7 +168,7 @@ fn what_emits_everywhere_is_no_needle() {
 
 /// The line of a measured lobe is a mean: what it emits beyond its edge is not known.
 #[test]
-fn narrow_lobes_may_shine_anywhere() {
+fn narrow_lobes_may_emit_anywhere() {
     for length in [0.4, 0.7, 0.9, 0.99, 0.9999] {
         let bounds = LightBounds {
             bounds: Aabb::from_point(Vec3::ZERO),

@@ -43,7 +43,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// `BOX_EMISSION`: a spot anywhere in a cube, whose nearest corner is just behind the receiver.
 #[test]
-fn a_spot_in_the_corner_of_its_box_shines_at_a_receiver_in_front_of_the_corner() {
+fn a_spot_in_the_corner_of_its_box_emits_at_a_receiver_in_front_of_the_corner() {
     for signs in 0..8u8 {
         let w = Vec3::from_array([0, 1, 2].map(|i| 1.0 - f32::from(signs >> i & 1) * 2.0));
         let axis = w.normalize();

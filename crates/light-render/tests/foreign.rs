@@ -197,7 +197,7 @@ fn a_lens_out_of_focus() {
 }
 
 #[test]
-fn pictures_that_shine_and_that_are_lit() {
+fn pictures_that_emit_and_that_are_lit() {
     assert_agrees("screen");
 }
 

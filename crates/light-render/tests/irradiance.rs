@@ -200,7 +200,7 @@ fn a_lamp_gives_its_form_factor() {
 }
 
 #[test]
-fn a_lamp_shines_to_its_front_or_to_both_sides() {
+fn a_lamp_emits_to_its_front_or_to_both_sides() {
     let color = Vec3::new(3.0, 2.0, 1.0);
     let [a, b, c, d] = LAMP;
     let turned = [d, c, b, a];

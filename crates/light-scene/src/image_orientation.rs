@@ -16,7 +16,7 @@ use crate::{Color, Diagnostic, Files, Image, Scene, Surface, parse_obj};
 const LEVELS: [u8; 4] = [60, 120, 180, 240];
 
 /// What a file beside a scene holds.
-fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     match path.to_str() {
         Some("a.png") => {
             let picture = image::GrayImage::from_raw(2, 2, LEVELS.to_vec());
@@ -73,7 +73,7 @@ fn assert_upright(scene: &Scene, format: &str) {
 
 #[test]
 fn pictures_stand_upright_in_every_format() {
-    let files = Files::new(&beside);
+    let files = Files::new(&read_sibling);
     let obj = "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
         vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
     assert_upright(

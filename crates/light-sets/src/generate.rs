@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn all_lights_shine_however_small_they_are() {
+    fn all_lights_emit_however_small_they_are() {
         for kind in SetKind::all() {
             let set = BenchSet::generate(kind, 300, 3);
             for bounds in set.lights.iter().map(SetLight::bounds) {

@@ -55,9 +55,11 @@ fn queries(board: &Board, measured: &[Measured]) -> String {
 }
 
 fn sizes(measured: &[Measured]) -> String {
-    let mut table = "| program | code, bytes | constants | static variables | 64-bit floats | code by crate |\n\
-                     | --- | ---: | ---: | ---: | --- | --- |\n"
-        .to_owned();
+    let mut table = "\
+| program | code, bytes | constants | static variables | 64-bit floats | code by crate |
+| --- | ---: | ---: | ---: | --- | --- |
+"
+    .to_owned();
     for Measured {
         firmware, program, ..
     } in measured

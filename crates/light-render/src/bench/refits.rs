@@ -34,7 +34,7 @@ pub struct RefitRow {
     /// Variance with the refitted hierarchy.
     pub refitted: Variance,
     /// Variance with a new build.
-    pub built_anew: Variance,
+    pub rebuilt: Variance,
 }
 
 /// A row for each hierarchy and step: each light moves along a line of its own, twice
@@ -80,7 +80,7 @@ pub fn refits(
                 moved,
                 degradation: following.degradation().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
-                built_anew: variance(&Candidate::new(sampler, &set.extents())?),
+                rebuilt: variance(&Candidate::new(sampler, &set.extents())?),
             });
         }
     }
@@ -145,9 +145,9 @@ impl RefitRow {
             "v_mean": self.refitted.mean,
             "v_median": self.refitted.median,
             "v_p99": self.refitted.p99,
-            "v_mean_built_anew": self.built_anew.mean,
-            "v_median_built_anew": self.built_anew.median,
-            "v_p99_built_anew": self.built_anew.p99,
+            "v_mean_rebuilt": self.rebuilt.mean,
+            "v_median_rebuilt": self.rebuilt.median,
+            "v_p99_rebuilt": self.rebuilt.p99,
             "lost_energy": self.refitted.lost_energy,
         })
     }
@@ -165,8 +165,8 @@ impl fmt::Display for RefitRow {
             self.degradation,
             self.refitted.mean,
             self.refitted.p99,
-            self.built_anew.mean,
-            self.built_anew.p99,
+            self.rebuilt.mean,
+            self.rebuilt.p99,
         )
     }
 }

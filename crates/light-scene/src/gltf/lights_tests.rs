@@ -5,7 +5,7 @@ use super::tests::read;
 use crate::glam::Vec3;
 
 #[test]
-fn punctual_lights_in_candela_and_lux_shine_along_minus_z() {
+fn punctual_lights_in_candela_and_lux_emit_along_minus_z() {
     let scene = read(
         r#""scenes": [{"nodes": [0, 1, 2]}], "nodes": [
             {"name": "bulb", "translation": [1, 2, 3], "scale": [7, 7, 7],

@@ -16,7 +16,7 @@ fn read(first: &str) -> Result<Scene, String> {
     const MATERIALS: &[u8] =
         b"MakeNamedMaterial \"red\" \"string type\" [ \"diffuse\" ] \"rgb reflectance\" \
             [ .9 .1 .1 ]";
-    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         match path.to_str() {
             Some("dir/geometry/all.pbrt") => Ok(GEOMETRY.into()),
             Some("dir/geometry/a.ply") => Ok(TRIANGLE.into()),
@@ -24,7 +24,7 @@ fn read(first: &str) -> Result<Scene, String> {
             _ => Err(Diagnostic::file(path, "cannot be read")),
         }
     }
-    let scene = parse_pbrt(Path::new("dir/a.pbrt"), first, Files::new(&beside));
+    let scene = parse_pbrt(Path::new("dir/a.pbrt"), first, Files::new(&read_sibling));
     scene.map_err(|error| error.to_string())
 }
 
@@ -144,7 +144,7 @@ fn the_world_and_the_camera_are_coordinate_systems() {
 /// Each file includes the next one twice: at a depth of 30 they are 2^30.
 #[test]
 fn files_that_double_are_refused_by_a_limit() {
-    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         let name = path.file_name().and_then(|name| name.to_str());
         let depth: u32 = name.and_then(|name| name.parse().ok()).unwrap_or_default();
         let next = format!("Include \"{}\"\n", depth + 1);
@@ -157,7 +157,7 @@ fn files_that_double_are_refused_by_a_limit() {
     let scene = parse_pbrt(
         Path::new("a"),
         "WorldBegin Include \"1\"",
-        Files::new(&beside),
+        Files::new(&read_sibling),
     );
     let error = scene.map(|_| ()).expect_err("too many").to_string();
     assert!(

@@ -22,7 +22,7 @@ fn turned(Vec3 { x, y, z }: Vec3) -> Vec3 {
 
 /// The bytes of the files beside the scene: a picture of 4 by `rows` blocks, the brightness of each
 /// in proportion to its number, and a luminaire of type C with another intensity in each quadrant.
-fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     const BLOCK: u32 = 16;
     let picture = |rows: u32| {
         let texel = |x: u32, y: u32| {
@@ -56,7 +56,7 @@ fn number(light: f32) -> f32 {
 }
 
 fn scene(text: &str) -> Scene {
-    let scene = parse_pbrt(Path::new("a"), text, Files::new(&beside)).expect("a scene");
+    let scene = parse_pbrt(Path::new("a"), text, Files::new(&read_sibling)).expect("a scene");
     assert_eq!(scene.warnings, [], "{text}");
     scene
 }
@@ -163,7 +163,7 @@ fn portals_are_in_the_world_and_show_the_sky_as_it_lies() {
 fn level(camera: &str, w: Vec3) -> f32 {
     let lamp = "LightSource \"goniometric\" \"string filename\" \"a.ies\"";
     let text = format!("{camera} Camera \"perspective\" WorldBegin {lamp}");
-    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&beside)).expect("a scene");
+    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&read_sibling)).expect("a scene");
     let LightDesc::Goniometric(desc) = scene.lights[0].clone() else {
         panic!("a goniometric light");
     };
@@ -203,7 +203,7 @@ fn images_on_surfaces_stand_upright() {
     let texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"square.png\"
         Material \"diffuse\" \"texture reflectance\" \"t\"";
     let text = format!("WorldBegin {texture} {lamp} {shape}");
-    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&beside)).expect("a scene");
+    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&read_sibling)).expect("a scene");
     let material = scene.material(scene.meshes[0].material);
     let emitted = material.emission.expect("a lamp").radiance;
     let crate::Surface::Diffuse { reflectance } = material.surface else {

@@ -10,7 +10,7 @@ use crate::{Diagnostic, Files};
 
 /// The light of a file beside a white image.
 fn light(text: &str) -> LightDesc<Rgb> {
-    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         assert_eq!(path, Path::new("white.png"), "the image");
         Ok(png(image::GrayImage::from_pixel(
             64,
@@ -19,7 +19,7 @@ fn light(text: &str) -> LightDesc<Rgb> {
         )))
     }
     let text = format!("WorldBegin LightSource {text}");
-    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&beside)).expect("a scene");
+    let scene = parse_pbrt(Path::new("a"), &text, Files::new(&read_sibling)).expect("a scene");
     assert_eq!(scene.warnings, [], "{text}");
     scene.lights[0].clone()
 }

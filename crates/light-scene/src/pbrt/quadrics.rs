@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn quadrics_shine_with_the_power_that_is_asked_for_or_that_of_their_area() {
+    fn quadrics_emit_with_the_power_that_is_asked_for_or_that_of_their_area() {
         let shapes = [
             ("\"disk\" \"float radius\" 2", 4.0 * PI),
             (

@@ -10,7 +10,7 @@ use crate::{Alpha, Color, ColorImage, Diagnostic, Files, Scene, Surface};
 /// A disk whose reflectance and alpha are the textures `t` of colours and of numbers, beside images
 /// of one and of two texels.
 fn read(text: &str) -> Result<Scene, String> {
-    fn beside(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         let texel = |color| image::RgbImage::from_pixel(1, 1, image::Rgb(color));
         match path.to_str() {
             Some("dir/grey.png") => Ok(png(texel([51; 3]))),
@@ -22,7 +22,7 @@ fn read(text: &str) -> Result<Scene, String> {
     let shape = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0] \"texture alpha\" \"t\"";
     let text =
         format!("WorldBegin\n{text}\nMaterial \"diffuse\" \"texture reflectance\" \"t\" {shape}");
-    let scene = parse_pbrt(Path::new("dir/a.pbrt"), &text, Files::new(&beside));
+    let scene = parse_pbrt(Path::new("dir/a.pbrt"), &text, Files::new(&read_sibling));
     scene.map_err(|error| error.to_string())
 }
 

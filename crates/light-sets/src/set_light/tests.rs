@@ -8,7 +8,7 @@ fn floor() -> SetPoint {
 }
 
 #[test]
-fn triangle_shines_from_its_front_only_unless_two_sided() {
+fn triangle_emits_from_its_front_only_unless_two_sided() {
     let facing_down = [Vec3::Z, Vec3::Z + Vec3::Y, Vec3::Z + Vec3::X];
     let facing_up = [Vec3::Z, Vec3::Z + Vec3::X, Vec3::Z + Vec3::Y];
     let f = |vertices, two_sided| {

@@ -98,7 +98,7 @@ fn offsets_leave_what_receivers_round_off() {
 }
 
 #[test]
-fn nothing_sharp_shines_beyond_its_axis_and_offset() {
+fn nothing_sharp_emits_beyond_its_axis_and_offset() {
     let mut next = numbers();
     let (mut sharp, mut lit) = (0, 0);
     for _ in 0..1000 {

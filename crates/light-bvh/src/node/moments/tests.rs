@@ -164,7 +164,7 @@ fn lights_of_other_kinds_join_spots_as_steps() {
 }
 
 #[test]
-fn angles_beyond_half_a_turn_shine_everywhere() {
+fn angles_beyond_half_a_turn_emit_everywhere() {
     for (cos_o, cos_e) in [
         (-1.0, -1.0),
         (-1.0, 1.0),
