@@ -5,6 +5,8 @@
 //! textured surface or a sky), intensity and luminance are those of its white, `(1, 1, 1)`: an
 //! image in cd/m^2 has the luminance `Nit(1.0)`.
 
+use core::f32::consts::PI;
+
 use crate::flux::Flux;
 use crate::scaled_emission::EmissionError;
 use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
@@ -83,6 +85,12 @@ impl IrradianceAmount {
 }
 
 impl RadianceAmount {
+    /// The luminance of a uniform sky that gives open ground an illuminance of `lux`.
+    #[must_use]
+    pub const fn of_sky(lux: Lux) -> Self {
+        Self::Luminance(Nit(lux.0 / PI))
+    }
+
     /// The factor of an emission that has the given radiance.
     pub(crate) fn scale(self, radiance: Flux) -> Result<f32, EmissionError> {
         match self {

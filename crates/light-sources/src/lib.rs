@@ -137,6 +137,8 @@ mod scene_sphere;
 pub mod shape;
 mod sides;
 #[cfg(feature = "alloc")]
+mod sky_irradiance;
+#[cfg(feature = "alloc")]
 mod sky_means;
 #[cfg(feature = "alloc")]
 mod sky_sample;

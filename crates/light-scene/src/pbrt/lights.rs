@@ -1,6 +1,5 @@
 use core::f32::consts::{FRAC_1_PI, PI};
 
-use lights::math::equal_area::square_to_sphere;
 use lights::math::spectrum::photometric::{K_M, Lumen};
 use lights::math::spectrum::rec709_luminance;
 use lights::sources::{
@@ -13,7 +12,7 @@ use lights::sources::{
 use super::file_loc::Typed;
 use super::image_key::ImageKey;
 use super::state::{AreaLight, FLATTENED, Reader};
-use crate::glam::{Affine3A, Quat, Vec2, Vec3};
+use crate::glam::{Affine3A, Quat, Vec3};
 use crate::image::read_environment_from;
 use crate::scene_light::scaled;
 use crate::{Color, ColorImage, Diagnostic};
@@ -130,8 +129,9 @@ impl Reader {
             return Err(typed.at.diagnostic(message));
         }
         let asked = parameters.positive("illuminance");
-        let of_one = asked.map(|asked| asked / upward_illuminance(&image));
         let map = EnvironmentMap::EqualArea(image);
+        // That of a surface that looks to +z in the map's space, as pbrt has it.
+        let of_one = asked.map(|asked| asked / rec709_luminance(map.irradiance(Vec3::Z)));
         let amount = RadianceAmount::Radiometric(scale * of_one.unwrap_or(1.0));
         let Some(portal) = portal else {
             return Ok(LightDesc::ImageInfinite(ImageInfiniteLightDesc {
@@ -222,22 +222,6 @@ fn one_color(color: Vec3) -> Result<Image, ImageError> {
     const SIDE: u32 = 32;
     let texels = (0..SIDE * SIDE).flat_map(|_| color.to_array());
     Image::from_f32([SIDE, SIDE], Channels::Rgb, texels.collect::<Vec<_>>())
-}
-
-/// What an equal-area map gives a surface that looks to its +z: the sum of luminance, cosine and
-/// solid angle.
-fn upward_illuminance(map: &Image) -> f32 {
-    let [n, _] = map.size();
-    let seen = |(index, texel): (u32, Vec3)| {
-        let center = Vec2::new((index % n) as f32, (index / n) as f32) + 0.5;
-        let up = square_to_sphere(center / n as f32).z.max(0.0);
-        f64::from(rec709_luminance(texel) * up)
-    };
-    let sum: f64 = (0..).zip(map.texels()).map(seen).sum();
-    let solid_angle = 4.0 * core::f64::consts::PI / (f64::from(n) * f64::from(n));
-    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    let illuminance = (sum * solid_angle) as f32;
-    illuminance
 }
 
 /// The factor of the emission that gives the stated power over this effective solid angle, or
