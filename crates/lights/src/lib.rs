@@ -10,6 +10,8 @@
 )]
 #![forbid(unsafe_code)]
 
+pub mod guide;
+
 pub use light_bounds as bounds;
 pub use light_bvh as bvh;
 pub use light_math as math;
