@@ -1,7 +1,6 @@
 //! Families of places: both hierarchies, at two sizes, on seeds that nothing was tuned on.
 
 use light_render::SamplerKind;
-use light_render::bench::BenchOptions;
 use light_sets::{BenchSet, Family, SetKind};
 
 use super::measure::{figure, measure, options};
@@ -22,10 +21,8 @@ pub(super) fn table() -> Result<String, String> {
     let mut table = HEADER.to_owned();
     for family in Family::ALL {
         for (lights, points) in SIZES {
-            let options = BenchOptions {
-                threads: 2,
-                ..options(&[SamplerKind::BvhReference, SamplerKind::Bvh], points)
-            };
+            let mut options = options(&[SamplerKind::BvhReference, SamplerKind::Bvh], points);
+            options.measurement.threads = 2;
             let mut sums = [0.0; 7];
             for seed in SEEDS {
                 let kind = SetKind::Place(family);

@@ -1,7 +1,7 @@
 //! Time, variance, memory and builds of the hierarchies side by side.
 
 use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, BenchRow};
+use light_render::bench::BenchRow;
 use light_sets::{BenchSet, SetKind};
 
 use super::measure::{figure, measure, options, set};
@@ -58,11 +58,9 @@ fn rows(kind: SetKind, set: &BenchSet, points: usize) -> Result<Vec<BenchRow>, S
     // What is measured with the same number of samples is measured in one run, in turns.
     for same in LINES.chunk_by(|a, b| a.1 == b.1) {
         let samplers: Vec<SamplerKind> = same.iter().map(|line| line.0).collect();
-        let options = BenchOptions {
-            k: same[0].1,
-            threads: 2,
-            ..options(&samplers, points)
-        };
+        let mut options = options(&samplers, points);
+        options.measurement.k = same[0].1;
+        options.measurement.threads = 2;
         rows.extend(measure(kind, set, &options)?);
     }
     Ok(rows)

@@ -1,7 +1,7 @@
 //! One measurement of a table: the machinery of `lights bench` on a generated set.
 
 use light_render::SamplerKind;
-use light_render::bench::{BenchOptions, BenchRow, bench};
+use light_render::bench::{BenchOptions, BenchRow, Measurement, bench};
 use light_sets::{BenchSet, SetKind};
 
 /// Seed of the sets of all tables.
@@ -15,8 +15,11 @@ pub(super) fn set(kind: SetKind, n: u32) -> BenchSet {
 /// The variance of these samplers over so many points, otherwise as `lights bench` measures.
 pub(super) fn options(samplers: &[SamplerKind], points: usize) -> BenchOptions {
     BenchOptions {
-        samplers: samplers.to_vec(),
-        var_points: Some(points),
+        measurement: Measurement {
+            samplers: samplers.to_vec(),
+            var_points: Some(points),
+            ..Measurement::default()
+        },
         ..BenchOptions::default()
     }
 }

@@ -3,6 +3,7 @@ use lights::bounds::LightExtent;
 use super::build_time::build_time;
 use super::candidate::Candidate;
 use super::contributions::Contributions;
+use super::measurement::Measurement;
 use super::row::BenchRow;
 use super::{laws, timing, variance};
 use crate::{AnyLightSamplerError, SamplerKind};
@@ -11,14 +12,10 @@ use crate::{AnyLightSamplerError, SamplerKind};
 pub(super) struct Plan<'a> {
     /// The name in the rows.
     pub(super) set: &'a str,
-    /// The samplers, in the order of the rows.
-    pub(super) samplers: &'a [SamplerKind],
-    /// Samples of one call.
-    pub(super) k: u32,
+    /// What is measured of them.
+    pub(super) measurement: &'a Measurement,
     /// How many of the receivers the variance is taken over.
     pub(super) points: usize,
-    /// Threads that build a tree and sum the variance.
-    pub(super) threads: usize,
     /// The extents of the lights, for refits.
     pub(super) extents: &'a [LightExtent],
 }
@@ -37,12 +34,17 @@ impl Plan<'_> {
         contributions: &impl Contributions,
         make: impl Fn(SamplerKind) -> Result<Candidate, AnyLightSamplerError> + Sync,
     ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
+        let &Measurement {
+            ref samplers,
+            k,
+            threads,
+            ..
+        } = self.measurement;
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads)
+            .num_threads(threads)
             .build()
             .expect("threads for building");
-        let built: Vec<(f64, Candidate)> = self
-            .samplers
+        let built: Vec<(f64, Candidate)> = samplers
             .iter()
             .map(|&kind| {
                 let (ms, candidate) = pool.install(|| build_time(|| make(kind)));
@@ -51,12 +53,12 @@ impl Plan<'_> {
             .collect::<Result<_, AnyLightSamplerError>>()?;
         let candidates: Vec<&Candidate> = built.iter().map(|(_, candidate)| candidate).collect();
         let contexts = contributions.contexts();
-        let times = timing::queries(&candidates, contexts, self.k);
+        let times = timing::queries(&candidates, contexts, k);
         let rows = built
             .iter()
             .zip(times)
             .map(|((build_ms, candidate), time)| {
-                let variance = pool.install(|| match self.k {
+                let variance = pool.install(|| match k {
                     1 => variance::exact(candidate, contributions, self.points),
                     k => variance::repeated(candidate, contributions, self.points, k),
                 });
@@ -66,7 +68,7 @@ impl Plan<'_> {
                     set: self.set.to_owned(),
                     n_lights: contributions.lights(),
                     sampler: candidate.kind(),
-                    k: self.k,
+                    k,
                     points: self.points,
                     build_ms: *build_ms,
                     refit_ms,

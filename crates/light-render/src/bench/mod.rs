@@ -13,6 +13,7 @@ mod cpu_time;
 mod ground_truth;
 mod laws;
 mod measure;
+mod measurement;
 mod occluders;
 mod options;
 mod pictures;
@@ -35,6 +36,7 @@ mod variance_split;
 pub use cpu_time::CpuTimer;
 pub use ground_truth::GroundTruth;
 pub use laws::Laws;
+pub use measurement::Measurement;
 pub use options::BenchOptions;
 pub use pictures::{PictureBench, RelativeError, TimedPicture};
 pub use pixel_variance::{PixelVariance, pixel_variance};
@@ -72,10 +74,8 @@ pub fn bench(
     let extents = set.extents();
     let plan = Plan {
         set: name,
-        samplers: &options.samplers,
-        k: options.k,
+        measurement: &options.measurement,
         points: options.points_of(set),
-        threads: options.threads,
         extents: &extents,
     };
     plan.measure(&Query::new(set, options), |kind| {
@@ -90,10 +90,17 @@ mod tests {
     use light_sets::SetKind;
 
     fn options(k: u32) -> BenchOptions {
+        of(SamplerKind::Uniform, k)
+    }
+
+    fn of(sampler: SamplerKind, k: u32) -> BenchOptions {
         BenchOptions {
-            samplers: vec![SamplerKind::Uniform],
-            k,
-            var_points: Some(16),
+            measurement: Measurement {
+                samplers: vec![sampler],
+                k,
+                var_points: Some(16),
+                ..Measurement::default()
+            },
             ..BenchOptions::default()
         }
     }
@@ -159,10 +166,7 @@ mod tests {
     fn a_light_that_is_refused_is_named() {
         let mut set = BenchSet::generate(SetKind::Uniform, 10, 1);
         set.lights[7] = set.lights[7].moved(lights::math::glam::Vec3::splat(1e38));
-        let options = BenchOptions {
-            samplers: vec![SamplerKind::Bvh],
-            ..options(1)
-        };
+        let options = of(SamplerKind::Bvh, 1);
         let error = bench("uniform", &set, &options).expect_err("too far");
         assert!(error.to_string().starts_with("light 7: "), "{error}");
         let error = refits("uniform", &set, &options, 1).expect_err("too far");

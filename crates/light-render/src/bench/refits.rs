@@ -57,7 +57,7 @@ pub fn refits(
         .collect();
     let points = options.points_of(set);
     let mut rows = Vec::new();
-    for &sampler in &options.samplers {
+    for &sampler in &options.measurement.samplers {
         let mut following = Candidate::new(sampler, &set.extents())?;
         let Some(at_first) = following.degradation() else {
             continue;
@@ -174,14 +174,18 @@ impl fmt::Display for RefitRow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Measurement;
     use light_sets::SetKind;
 
     #[test]
     fn a_hierarchy_that_follows_loses_nothing_but_grows_loose() {
         let set = BenchSet::generate(SetKind::Uniform, 500, 1);
         let options = BenchOptions {
-            samplers: vec![SamplerKind::Uniform, SamplerKind::Bvh],
-            var_points: Some(16),
+            measurement: Measurement {
+                samplers: vec![SamplerKind::Uniform, SamplerKind::Bvh],
+                var_points: Some(16),
+                ..Measurement::default()
+            },
             ..BenchOptions::default()
         };
         let rows = refits("uniform", &set, &options, 7).expect("valid lights");

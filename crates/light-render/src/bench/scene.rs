@@ -1,26 +1,21 @@
 use super::candidate::Candidate;
 use super::measure::Plan;
+use super::measurement::Measurement;
 use super::row::BenchRow;
 use super::scene_query::SceneQuery;
 use super::scene_receiver::Shadows;
 use super::surface_points::on_surfaces;
-use crate::{AnyLightSamplerError, SamplerKind, World};
+use crate::{AnyLightSamplerError, World};
 
 /// How many points of surfaces are drawn at most.
 const MOST_POINTS: usize = 4096;
 
-/// How samplers are measured on the lights of a scene.
+/// How samplers are measured on the lights of a scene. By default with nothing in the way.
 #[derive(Clone, Debug)]
 pub struct SceneBenchOptions {
-    /// The samplers, in the order of the rows.
-    pub samplers: Vec<SamplerKind>,
-    /// Samples of one call.
-    pub k: u32,
-    /// How many points of surfaces the variance is taken over, at most 4096; `None`: as many as
-    /// [`points_for`](Self::points_for) says.
-    pub var_points: Option<usize>,
-    /// Threads that build a tree and sum the variance. Queries are timed on one.
-    pub threads: usize,
+    /// What is measured. The variance is taken over at most 4096 points of surfaces; without a
+    /// number of its own over as many as [`points_for`](Self::points_for) says.
+    pub measurement: Measurement,
     /// Chooses the points.
     pub seed: u64,
     /// Whether surfaces of the scene hide lights.
@@ -28,14 +23,9 @@ pub struct SceneBenchOptions {
 }
 
 impl Default for SceneBenchOptions {
-    /// One sample a call with nothing in the way, one thread, the samplers whose time does not grow
-    /// with the lights.
     fn default() -> Self {
         Self {
-            samplers: SamplerKind::SUBLINEAR.to_vec(),
-            k: 1,
-            var_points: None,
-            threads: 1,
+            measurement: Measurement::default(),
             seed: 1,
             shadows: Shadows::default(),
         }
@@ -64,7 +54,10 @@ impl SceneBenchOptions {
         };
         let strata = usize::from(Self::strata_for(lights));
         let fitting = (looks / (lights.max(1) * strata * strata)).clamp(16, MOST_POINTS);
-        self.var_points.unwrap_or(fitting).min(MOST_POINTS)
+        self.measurement
+            .var_points
+            .unwrap_or(fitting)
+            .min(MOST_POINTS)
     }
 }
 
@@ -92,10 +85,8 @@ pub fn bench_scene(
     }
     let plan = Plan {
         set: name,
-        samplers: &options.samplers,
-        k: options.k,
+        measurement: &options.measurement,
         points: options.points_for(lights.len()).min(receivers.len()),
-        threads: options.threads,
         extents: &lights.extents(),
     };
     let strata = SceneBenchOptions::strata_for(lights.len());
@@ -106,12 +97,24 @@ pub fn bench_scene(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SamplerKind;
     use light_scene::{BuiltinScene, Emission, Material, Mesh, Scene, Surface};
     use lights::glam::Vec3;
 
     fn rows(scene: Scene, options: &SceneBenchOptions) -> Vec<BenchRow> {
         let world = World::new(scene).expect("valid");
         bench_scene("scene", &world, options).expect("lights")
+    }
+
+    fn options(samplers: &[SamplerKind]) -> SceneBenchOptions {
+        SceneBenchOptions {
+            measurement: Measurement {
+                samplers: samplers.to_vec(),
+                var_points: Some(64),
+                ..Measurement::default()
+            },
+            ..SceneBenchOptions::default()
+        }
     }
 
     /// A floor of 2 x 2 and two lamps of 0.2 x 0.2 over it that look down, the second three times
@@ -144,11 +147,7 @@ mod tests {
 
     #[test]
     fn the_sum_over_choices_is_the_variance() {
-        let options = SceneBenchOptions {
-            samplers: vec![SamplerKind::Uniform, SamplerKind::Exhaustive],
-            var_points: Some(64),
-            ..SceneBenchOptions::default()
-        };
+        let options = options(&[SamplerKind::Uniform, SamplerKind::Exhaustive]);
         let floor = || Material::diffuse("floor", Vec3::ONE);
         let [uniform, exhaustive] = &rows(two_lamps(floor(), false), &options)[..] else {
             panic!("two rows");
@@ -167,11 +166,7 @@ mod tests {
 
     #[test]
     fn shadows_hide_lights() {
-        let options = SceneBenchOptions {
-            samplers: vec![SamplerKind::Uniform],
-            var_points: Some(64),
-            ..SceneBenchOptions::default()
-        };
+        let options = options(&[SamplerKind::Uniform]);
         let floor = || Material::diffuse("floor", Vec3::ONE);
         let arriving = |shadows| {
             let options = SceneBenchOptions {

@@ -3,19 +3,19 @@ use std::path::PathBuf;
 
 use crate::SamplerKind;
 use crate::bench::{
-    BenchOptions, BenchReceiverKind, BenchRow, GroundTruth, RefitRow, SceneBenchOptions, Shadows,
-    bench, bench_scene, refits,
+    BenchOptions, BenchReceiverKind, BenchRow, GroundTruth, Measurement, RefitRow,
+    SceneBenchOptions, Shadows, bench, bench_scene, refits,
 };
 use clap::Args;
 use light_sets::{BenchSet, SetKind};
 use serde_json::Value;
 
-use super::arguments::{Emit, named, threads};
+use super::arguments::{named, threads};
 use super::failure::Failure;
 use super::memory_check::check_memory;
 use super::output_file::refuse;
 use super::sampler_list::{list, samplers};
-use super::scene_input::{SceneInput, report_warnings};
+use super::scene_input::{SceneChanges, SceneInput};
 use super::stdout::say;
 
 /// What a light takes while samplers are built over it one after another and measured side by side:
@@ -26,18 +26,15 @@ const BYTES_PER_LIGHT: u64 = 400;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   lights bench room.obj --shadows
+  lights bench chair.glb --sky clear-noon
   lights bench --generate clusters --n 100000 --samplers bvh-reference,bvh
   lights bench --lights a.lights --points a.points --json")]
 pub(crate) struct BenchArgs {
     /// The scene, whose lights are seen from points on its surfaces: an .obj, .pbrt, .gltf or .glb
     /// file, or the name of a scene that ships.
     scene: Option<PathBuf>,
-    /// A lat-long environment around the scene: .exr or .hdr.
-    #[arg(long, value_name = "IMAGE", requires = "scene")]
-    env: Option<PathBuf>,
-    /// Let the front of a material emit light with this radiance; may be repeated.
-    #[arg(long, value_name = "MATERIAL=r,g,b", requires = "scene")]
-    emit: Vec<Emit>,
+    #[command(flatten)]
+    changes: SceneChanges,
     /// Let the surfaces of the scene hide its lights.
     #[arg(long, requires = "scene", conflicts_with_all = ["generate", "lights"])]
     shadows: bool,
@@ -132,18 +129,18 @@ impl BenchArgs {
             .build()
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         if let Some(scene) = &self.scene {
-            let input = SceneInput::new(scene.clone(), self.env.clone(), self.emit.clone());
-            return self.run_scene(&input, samplers);
+            let input = SceneInput {
+                scene: scene.clone(),
+                changes: self.changes.clone(),
+            };
+            return self.run_scene(&input, self.measurement(samplers));
         }
         let (name, set) = self.set()?;
         if let Some(prefix) = &self.write {
             light_scene::write_light_set(&set, prefix).map_err(Failure::input)?;
         }
         let options = BenchOptions {
-            samplers,
-            k: self.k,
-            var_points: self.var_points,
-            threads: self.threads.max(1),
+            measurement: self.measurement(samplers),
             ground_truth: self.ground_truth,
             receiver: self.receiver,
             occluders: self.occluders as usize,
@@ -157,21 +154,23 @@ impl BenchArgs {
         }
     }
 
-    /// Measures on the lights of a scene.
-    fn run_scene(&self, input: &SceneInput, samplers: Vec<SamplerKind>) -> Result<(), Failure> {
-        let scene = input.read()?;
-        report_warnings(&scene.warnings);
-        let world = input.build(scene)?;
-        let lights = world.lights().len();
-        let path = &input.scene;
-        if lights == 0 {
-            return Err(refuse(path, "no light in the scene: expected one or more"));
-        }
-        let options = SceneBenchOptions {
+    fn measurement(&self, samplers: Vec<SamplerKind>) -> Measurement {
+        Measurement {
             samplers,
             k: self.k,
             var_points: self.var_points,
             threads: self.threads.max(1),
+        }
+    }
+
+    /// Measures on the lights of a scene.
+    fn run_scene(&self, input: &SceneInput, measurement: Measurement) -> Result<(), Failure> {
+        let world = input.build(input.read_lit(false)?)?;
+        input.expect_light(&world)?;
+        let lights = world.lights().len();
+        let path = &input.scene;
+        let options = SceneBenchOptions {
+            measurement,
             seed: self.seed,
             shadows: if self.shadows {
                 Shadows::Cast

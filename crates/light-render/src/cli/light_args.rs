@@ -7,7 +7,7 @@ use lights::glam::Vec3;
 use super::arguments::{named, positive};
 
 /// What is changed in a scene's light.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct LightArgs {
     /// A sky that the program brings along, in place of those of the scene: white all around, blue
     /// with the sun 60 degrees high, or grey clouds.
@@ -15,14 +15,15 @@ pub(crate) struct LightArgs {
         long,
         value_name = "NAME",
         value_parser = named::<BuiltinSky>(BuiltinSky::ALL.map(BuiltinSky::name)),
-        conflicts_with = "env"
+        conflicts_with = "env",
+        requires = "scene"
     )]
     sky: Option<BuiltinSky>,
     /// Make skies and suns so many times as bright.
-    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "scene")]
     env_scale: Option<f32>,
     /// Make all other lights so many times as bright.
-    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "scene")]
     light_scale: Option<f32>,
 }
 

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use light_scene::{Diagnostic, Image, record_read_files, recorded_read_files};
+use light_scene::{Image, record_read_files, recorded_read_files};
 use lights::glam::Vec3;
 
 use crate::light_sample_time::light_sample_time;
@@ -19,7 +19,6 @@ use super::output_image::{OutputImage, Precision};
 use super::progress::{ProgressLine, Volume};
 use super::render_args::RenderArgs;
 use super::render_report::RenderReport;
-use super::scene_input::report_warnings;
 use super::stdout::{complain, say};
 use super::unfinished::Unfinished;
 use super::visibility::with_cells;
@@ -57,13 +56,7 @@ impl RenderArgs {
         let outputs = self.outputs()?;
         let visibility = self.settings.visibility()?;
         self.checkpoint.expect_place(&self.output)?;
-        let mut scene = self.input.read()?;
-        let lit = self.input.light_the_dark(&mut scene);
-        if !self.quiet {
-            report_warnings(&scene.warnings);
-            lit.iter()
-                .for_each(|words| complain(format_args!("{words}")));
-        }
+        let scene = self.input.read_lit(self.quiet)?;
         if self.live.watch {
             *stamps = Some(FileStamps::of(recorded_read_files()));
         }
@@ -74,10 +67,8 @@ impl RenderArgs {
         let digest = (self.keeps_sums() || self.stops_gently()).then(|| SceneDigest::new(&scene));
         let digest = digest.transpose().map_err(Failure::input)?;
         let world = self.input.build(scene)?;
-        if world.lights().is_empty() && !world.has_media() {
-            let nothing =
-                "no light in the scene is above 0: expected one, --env IMAGE or --sky NAME";
-            return Err(Failure::input(Diagnostic::file(&self.input.scene, nothing)));
+        if !world.has_media() {
+            self.input.expect_light(&world)?;
         }
         self.doubt(|| doubts::of_lamps(&inventory(world.lights())));
         let settings = self.settings.settings(&world, file_depth)?;

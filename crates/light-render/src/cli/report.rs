@@ -12,10 +12,10 @@ use crate::{AnyLightSamplerError, Film, SamplerKind, ToneMap, View, World};
 use super::arguments::{pixel, seconds, threads};
 use super::failure::Failure;
 use super::memory_check::{PICTURE, check_memory};
-use super::output_file::{expect_another, expect_writable, refuse};
+use super::output_file::{expect_another, expect_writable};
 use super::progress::{ProgressLine, Volume};
 use super::sampler_list::samplers;
-use super::scene_input::{SceneInput, report_warnings};
+use super::scene_input::SceneInput;
 use super::stdout::say;
 use super::view_args::ViewArgs;
 
@@ -88,11 +88,8 @@ impl ReportArgs {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         self.expect_output()?;
         let wanted = self.samplers.as_deref().map(samplers).transpose()?;
-        let scene = self.input.read()?;
+        let scene = self.input.read_lit(self.quiet)?;
         let warnings: Vec<String> = scene.warnings.iter().map(ToString::to_string).collect();
-        if !self.quiet {
-            report_warnings(&scene.warnings);
-        }
         let view = match self.reference {
             Some(_) => self.view.view(&scene)?,
             None => self.view.at_most(&scene, SIDE).view(&scene)?,
@@ -104,10 +101,7 @@ impl ReportArgs {
         let what = format!("pictures of {width} x {height} pixels (--width, --height)");
         check_memory(&what, pixels * (PICTURE + Film::BYTES_PER_PIXEL) * PICTURES)?;
         let world = self.input.build(scene)?;
-        if world.lights().is_empty() {
-            let nothing = "no light in the scene: expected a material with Ke, or --env IMAGE";
-            return Err(refuse(&self.input.scene, nothing));
-        }
+        self.input.expect_light(&world)?;
         let options = self.options(&world, wanted, warnings);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
@@ -132,7 +126,7 @@ impl ReportArgs {
     fn expect_output(&self) -> Result<(), Failure> {
         let others = [
             Some(&self.input.scene),
-            self.input.env.as_ref(),
+            self.input.changes.env.as_ref(),
             self.reference.as_ref(),
         ];
         let others: Vec<PathBuf> = others.into_iter().flatten().cloned().collect();

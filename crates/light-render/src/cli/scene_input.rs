@@ -8,6 +8,7 @@ use lights::glam::Affine3A;
 use super::arguments::Emit;
 use super::failure::Failure;
 use super::light_args::LightArgs;
+use super::output_file::refuse;
 use super::stdout::complain;
 
 /// Which scene, and what is changed in it.
@@ -15,41 +16,39 @@ use super::stdout::complain;
 pub(crate) struct SceneInput {
     /// The scene: an .obj, .pbrt, .gltf or .glb file, or the name of a scene that ships.
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) changes: SceneChanges,
+}
+
+/// What is changed in a scene, for commands with an argument `scene`.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct SceneChanges {
     /// A lat-long environment around the scene: .exr or .hdr.
-    #[arg(long, value_name = "IMAGE")]
+    #[arg(long, value_name = "IMAGE", requires = "scene")]
     pub(crate) env: Option<PathBuf>,
     #[command(flatten)]
     light: LightArgs,
     /// Let the front of a material emit light with this radiance; may be repeated.
-    #[arg(long, value_name = "MATERIAL=r,g,b")]
-    pub(crate) emit: Vec<Emit>,
+    #[arg(long, value_name = "MATERIAL=r,g,b", requires = "scene")]
+    emit: Vec<Emit>,
 }
 
 impl SceneInput {
-    /// A scene with this environment and these materials turned on.
-    pub(crate) fn new(scene: PathBuf, env: Option<PathBuf>, emit: Vec<Emit>) -> Self {
-        Self {
-            scene,
-            env,
-            light: LightArgs::default(),
-            emit,
-        }
-    }
-
     /// Reads the scene with all that belongs to it.
     ///
     /// # Errors
     /// When a file cannot be read or is invalid.
     pub(crate) fn read(&self) -> Result<Scene, Failure> {
+        let SceneChanges { env, light, emit } = &self.changes;
         let mut scene = read_scene(&self.scene)?;
-        if let Some(path) = &self.env {
+        if let Some(path) = env {
             let file = read_environment(path).map_err(Failure::input)?;
             scene.warnings.extend(file.warning);
             scene
                 .add_sky(&file.image, Affine3A::IDENTITY)
                 .map_err(Failure::input)?;
         }
-        for Emit { material, radiance } in &self.emit {
+        for Emit { material, radiance } in emit {
             let mut named = scene
                 .materials
                 .iter_mut()
@@ -61,13 +60,36 @@ impl SceneInput {
             }
             named.for_each(|m| m.emission = Some(Emission::one_sided(*radiance)));
         }
-        self.light.apply(&self.scene, &mut scene);
+        light.apply(&self.scene, &mut scene);
         Ok(scene)
     }
 
-    /// Lights a scene in which nothing gives light; what was done, in words.
-    pub(crate) fn light_the_dark(&self, scene: &mut Scene) -> Option<String> {
-        self.light.light_the_dark(&self.scene, scene)
+    /// Reads the scene as [`read`](Self::read) does, and gives it a sky if nothing in it gives
+    /// light. What the readers repaired and which sky it is go to standard error, unless `is_quiet`.
+    ///
+    /// # Errors
+    /// When a file cannot be read or is invalid.
+    pub(crate) fn read_lit(&self, is_quiet: bool) -> Result<Scene, Failure> {
+        let mut scene = self.read()?;
+        let sky = self.changes.light.light_the_dark(&self.scene, &mut scene);
+        if !is_quiet {
+            report_warnings(&scene.warnings);
+            sky.iter()
+                .for_each(|words| complain(format_args!("{words}")));
+        }
+        Ok(scene)
+    }
+
+    /// Makes sure that a scene of `world` has light.
+    ///
+    /// # Errors
+    /// When no light of it is above 0.
+    pub(crate) fn expect_light(&self, world: &World) -> Result<(), Failure> {
+        if !world.lights().is_empty() {
+            return Ok(());
+        }
+        let nothing = "no light in the scene is above 0: expected one, --env IMAGE or --sky NAME";
+        Err(refuse(&self.scene, nothing))
     }
 
     /// Makes a scene ready for rays.

@@ -1,6 +1,6 @@
 use core::time::Duration;
 
-use crate::bench::{BenchRow, PixelVariance, SceneBenchOptions, bench_scene};
+use crate::bench::{BenchRow, Measurement, PixelVariance, SceneBenchOptions, bench_scene};
 use crate::integrator::PathSettings;
 use crate::{
     AnyLightSampler, AnyLightSamplerError, Comparison, Flip, LightInventory, SamplerKind, View,
@@ -128,17 +128,18 @@ impl SceneReport {
 
 /// Each sampler's choices at points of surfaces; none where no surface scatters light.
 fn choices(world: &World, options: &ReportOptions) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
-    let bench = SceneBenchOptions {
+    let measurement = Measurement {
         samplers: options.samplers.clone(),
         threads: rayon::current_num_threads(),
+        ..Measurement::default()
+    };
+    let mut bench = SceneBenchOptions {
+        measurement,
         ..SceneBenchOptions::default()
     };
     // A quarter of the points that `lights bench` takes: the page has pictures as well.
     let points = bench.points_for(world.lights().len()).div_ceil(4);
-    let bench = SceneBenchOptions {
-        var_points: Some(points),
-        ..bench
-    };
+    bench.measurement.var_points = Some(points);
     bench_scene(&options.scene, world, &bench)
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::folder::{Folder, LIT, UNLIT, assert_refused, stdout};
+use crate::folder::{Folder, LIT, UNLIT, assert_refused, lights, stdout};
 
 #[test]
 fn the_lights_of_a_scene_are_measured_like_those_of_a_set() {
@@ -50,11 +50,74 @@ fn the_lights_of_a_scene_are_measured_like_those_of_a_set() {
     }
 }
 
+/// What the rows of `args` say, and what comes on standard error.
+fn rows_and_words(args: &[&str]) -> (Vec<Value>, String) {
+    let output = lights(args);
+    let [rows, words] = [output.stdout, output.stderr].map(|text| {
+        let text = String::from_utf8(text);
+        text.expect("text")
+    });
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {words}");
+    let rows = rows.lines().map(serde_json::from_str);
+    (rows.collect::<Result<_, _>>().expect("JSON"), words)
+}
+
+#[test]
+fn a_scene_without_light_is_measured_under_the_sky_that_a_picture_shows() {
+    let folder = Folder::new("bench-dark");
+    let dark = folder.scene(UNLIT);
+    let few = ["--samplers", "uniform", "--var-points", "8", "--json"];
+    let measure = |more: &[&str]| rows_and_words(&[&["bench", &dark], &few[..], more].concat());
+    let (rows, words) = measure(&[]);
+    assert_eq!(rows[0]["n_lights"], 1, "a sky: {rows:?}");
+    assert!(
+        words.contains("no light in the scene") && words.contains("`overcast`"),
+        "{words}"
+    );
+    // A clear sky has a sun beside it.
+    let (rows, words) = measure(&["--sky", "clear-noon"]);
+    assert_eq!((&rows[0]["n_lights"], &words[..]), (&2.into(), ""));
+}
+
+#[test]
+fn scales_change_what_each_light_of_a_scene_gives() {
+    let folder = Folder::new("bench-scales");
+    let scene = folder.scene(LIT);
+    let few = ["--samplers", "uniform", "--var-points", "8", "--json"];
+    let v = |more: &[&str]| {
+        let sky = ["bench", &scene, "--sky", "uniform"];
+        let (rows, _) = rows_and_words(&[&sky, &few[..], more].concat());
+        rows[0]["v_mean"].as_f64().expect("a number")
+    };
+    let plain = v(&[]);
+    for more in [["--env-scale", "1e-6"], ["--light-scale", "1e-6"]] {
+        let scaled = v(&more);
+        assert!(
+            (scaled - plain).abs() > 1e-2 * plain,
+            "{more:?}: {scaled}, {plain}"
+        );
+    }
+    // As much of both is the same again.
+    let both = v(&["--env-scale", "8", "--light-scale", "8"]);
+    assert!((both - plain).abs() < 1e-4 * plain, "{both}, {plain}");
+}
+
 #[test]
 fn what_does_not_fit_a_scene_is_refused() {
     let folder = Folder::new("bench-refused");
-    let dark = folder.scene(UNLIT);
-    assert_refused(&["bench", &dark], &["scene.obj", "no light"]);
+    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" WorldBegin";
+    let black = folder.file("black.pbrt", fog);
+    assert_refused(&["bench", &black], &["black.pbrt", "no light", "--sky"]);
+    for flag in ["--env-scale", "--light-scale"] {
+        assert_refused(
+            &["bench", "--generate", "uniform", flag, "2"],
+            &[flag, "SCENE"],
+        );
+    }
+    assert_refused(
+        &["bench", "--generate", "uniform", "--sky", "overcast"],
+        &["--sky", "SCENE"],
+    );
     let lamp = folder.file("lamp.mtl", "newmtl lamp\nKe 1 1 1\n");
     assert!(lamp.ends_with("lamp.mtl"), "{lamp}");
     let text = "mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::folder::{Folder, LIT, UNLIT, assert_refused, stdout};
+use crate::folder::{Folder, LIT, UNLIT, assert_refused, lights, stdout};
 
 const QUICK: [&str; 6] = ["--width", "16", "--time", "0.05", "--max-depth", "3"];
 
@@ -223,7 +223,33 @@ fn bad_input_is_refused_before_any_work() {
         &["report", &scene, "-o", &nowhere],
         &["page.html", "cannot be written"],
     );
-    let dark = folder.scene(UNLIT);
-    assert_refused(&["report", &dark, "-o", &out], &["scene.obj", "no light"]);
+    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" WorldBegin";
+    let black = folder.file("black.pbrt", fog);
+    assert_refused(
+        &["report", &black, "-o", &out],
+        &["black.pbrt", "no light", "--sky"],
+    );
     assert!(!Path::new(&out).exists(), "no page");
+}
+
+#[test]
+fn a_scene_without_light_is_compared_under_the_sky_that_a_picture_shows() {
+    let folder = Folder::new("report-dark");
+    let dark = folder.scene(UNLIT);
+    let out = folder.path("page.html");
+    let report = |more: &[&str]| {
+        let few = ["report", &dark, "-o", &out, "--samplers", "uniform"];
+        let output = lights(&[&few, &QUICK[..], more].concat());
+        let words = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(0), "{words}");
+        words
+    };
+    let words = report(&[]);
+    assert!(
+        words.contains("no light in the scene") && words.contains("`overcast`"),
+        "{words}"
+    );
+    assert!(Path::new(&out).exists(), "a page");
+    let words = report(&["--sky", "uniform", "--quiet"]);
+    assert_eq!(words, "", "it was asked for");
 }
