@@ -9,22 +9,42 @@ use crate::file_checksum::hex;
 /// every number. Values that differ anywhere have different digests, on all
 /// platforms and for any number of threads.
 pub(crate) fn content_digest(value: &impl Serialize) -> String {
-    let mut content = Content(Sha256::new());
+    let mut content = Content {
+        hash: Sha256::new(),
+        waiting: Vec::with_capacity(Content::BLOCK),
+    };
     // Lists of unknown length are the only failure, and no scene has one.
     let written = value.serialize(&mut content);
     debug_assert!(written.is_ok(), "a list of unknown length");
-    hex(&content.0.finalize()[..16])
+    content.hash.update(&content.waiting);
+    hex(&content.hash.finalize()[..16])
 }
 
 /// Serialises a value into bytes: numbers in little-endian order; lists and texts after their
 /// length; variants after their name. No two values of a type have the same bytes.
-struct Content(Sha256);
+struct Content {
+    hash: Sha256,
+    /// Bytes for the hash, which is slow at single numbers.
+    waiting: Vec<u8>,
+}
 
 type Written = Result<(), fmt::Error>;
 
 impl Content {
+    /// How many bytes wait at most.
+    const BLOCK: usize = 1 << 12;
+
+    #[inline]
     fn bytes(&mut self, bytes: &[u8]) -> Written {
-        self.0.update(bytes);
+        if self.waiting.len() + bytes.len() > Self::BLOCK {
+            self.hash.update(&self.waiting);
+            self.waiting.clear();
+        }
+        if bytes.len() > Self::BLOCK {
+            self.hash.update(bytes);
+        } else {
+            self.waiting.extend_from_slice(bytes);
+        }
         Ok(())
     }
 

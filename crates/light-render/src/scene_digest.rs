@@ -6,15 +6,19 @@ use lights::sources::LightDesc;
 
 use crate::content_digest::content_digest;
 use crate::integrator::PathSettings;
-use crate::{PictureIdentity, RenderSettings, SamplerKind, View, Visibility};
+use crate::{PictureIdentity, RenderSettings, SamplerKind, View, Visibility, World};
 
 /// The layout of files with parts of pictures, and the rules by which samples are made: one that
 /// changes makes other pictures.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
-/// Digests of all of a scene that its picture depends on, taken before the scene becomes a world.
+/// Digests of what a picture depends on and the world of a scene does not keep as it was described:
+/// lights without a surface, and media. Taken before the scene becomes a world.
+///
+/// The rest is most of a scene, and the world keeps it: [`identity`](Self::identity) takes its
+/// digests when they are needed.
 #[derive(Clone, Debug)]
-pub struct SceneDigest([(&'static str, String); 5]);
+pub struct SceneDigest([(&'static str, String); 2]);
 
 /// Why a scene has no digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,19 +32,20 @@ pub enum SceneDigestError {
 }
 
 impl SceneDigest {
-    /// The digests of a scene: every vertex, material, texel, light and medium counts.
+    /// The digests of a scene: everything about a light or a medium counts.
     ///
     /// # Errors
     /// When the scene has an own light.
     pub fn new(scene: &Scene) -> Result<Self, SceneDigestError> {
         // No field may be left out unseen, so that each is named.
         let Scene {
-            meshes,
-            spheres,
-            prototypes,
-            instances,
-            materials,
-            images,
+            // The world knows these.
+            meshes: _,
+            spheres: _,
+            prototypes: _,
+            instances: _,
+            materials: _,
+            images: _,
             lights,
             // They say nothing about the picture, as long as it has no layers.
             light_names: _,
@@ -58,21 +63,19 @@ impl SceneDigest {
         if let Some(light) = lights.iter().position(is_own) {
             return Err(SceneDigestError::OwnLight { light });
         }
-        let geometry = (meshes, spheres, prototypes, instances);
         Ok(Self([
-            ("geometry", content_digest(&geometry)),
-            ("materials", content_digest(materials)),
-            ("images", content_digest(images)),
             ("lights", content_digest(lights)),
             ("media", content_digest(&(media, camera_medium))),
         ]))
     }
 
-    /// The identity of the picture of `view` of the scene, rendered with `sampler`, `visibility`
-    /// and `settings`.
+    /// The identity of the picture of `view` of the scene that became `world`, rendered with
+    /// `sampler`, `visibility` and `settings`. Takes time in proportion to the geometry and images
+    /// of the world: every vertex, material and texel counts.
     #[must_use]
     pub fn identity(
         &self,
+        world: &World,
         view: &View,
         settings: &RenderSettings,
         sampler: SamplerKind,
@@ -97,6 +100,7 @@ impl SceneDigest {
         let version = format!("{FORMAT} of lights {}", env!("CARGO_PKG_VERSION"));
         let Self(scene) = self;
         let scene = scene.iter().map(|(name, digest)| (*name, digest.clone()));
+        let scene = world.digests().into_iter().chain(scene);
         let rest = [
             ("format", version),
             ("camera", camera_digest(view.camera())),

@@ -75,7 +75,7 @@ impl SceneLights {
         }
         let mut emissive_spheres = Vec::new();
         for (index, sphere) in spheres.iter().enumerate() {
-            let material = &materials[sphere.material];
+            let material = &materials[sphere.material()];
             if let Some((desc, is_masked)) = textures.sphere_light(sphere, material) {
                 let source = add(&mut builder, &material.name, desc)?;
                 emissive_spheres.push((index, source, is_masked));
@@ -115,7 +115,7 @@ impl SceneLights {
         for (index, source, is_masked) in emissive_spheres {
             let id = lights.first_id(source);
             emitters.set_sphere(index, id);
-            add_masked(id, 1, spheres[index].material, is_masked);
+            add_masked(id, 1, spheres[index].material(), is_masked);
         }
         masked.sort_by_key(|lights| lights.ids.start);
         let has_type = |id: &LightId, light_type| {

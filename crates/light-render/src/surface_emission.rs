@@ -66,7 +66,7 @@ impl<'a> Textures<'a> {
         material: &Material,
     ) -> Option<EmissiveSurface> {
         let (mut emission, is_masked) = self.emission(material)?;
-        if sphere.front == SphereFront::Inside {
+        if sphere.described.front == SphereFront::Inside {
             if emission.sides == Sides::Front {
                 emission.sides = Sides::Back;
             }

@@ -7,7 +7,7 @@ use lights::sources::shape::Triangle;
 use lights::sources::{EmissionMask, LightDesc, MeshIndices, Rgb};
 
 /// The triangles of one material, with vertices that the lights share.
-#[derive(Debug)]
+#[derive(Debug, serde::Serialize)]
 pub(crate) struct WorldMesh {
     pub(crate) name: String,
     pub(crate) positions: Arc<[Vec3]>,
@@ -19,7 +19,7 @@ pub(crate) struct WorldMesh {
 }
 
 /// What few meshes have at their vertices, and no light knows.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, serde::Serialize)]
 pub(crate) struct ShadingAttributes {
     pub(crate) second_uvs: Option<Vec<Vec2>>,
     pub(crate) tangents: Option<Vec<Vec4>>,

@@ -7,15 +7,19 @@ use lights::sources::shape::{AnyShape, Sphere};
 use crate::WorldError;
 
 /// A sphere of one material.
-#[derive(Debug)]
+#[derive(Debug, serde::Serialize)]
 pub(crate) struct WorldSphere {
-    pub(crate) name: String,
+    pub(crate) described: light_scene::Sphere,
+    /// It follows from the description.
+    #[serde(skip)]
     pub(crate) shape: Sphere,
-    pub(crate) front: SphereFront,
-    pub(crate) material: usize,
 }
 
 impl WorldSphere {
+    pub(crate) fn material(&self) -> usize {
+        self.described.material.0 as usize
+    }
+
     /// The point whose outward normal has the octahedral coordinates `coords`, with that normal.
     #[inline]
     pub(super) fn at(&self, coords: Vec2) -> SurfacePoint {
@@ -25,7 +29,7 @@ impl WorldSphere {
     /// The normal of the front, where that of the outside is `n`.
     #[inline]
     pub(super) fn front_normal(&self, n: Vec3) -> Vec3 {
-        match self.front {
+        match self.described.front {
             SphereFront::Outside => n,
             SphereFront::Inside => -n,
         }
@@ -35,15 +39,12 @@ impl WorldSphere {
 impl TryFrom<light_scene::Sphere> for WorldSphere {
     type Error = WorldError;
 
-    fn try_from(sphere: light_scene::Sphere) -> Result<Self, WorldError> {
-        match sphere.shape().build() {
-            Ok(AnyShape::Sphere(shape)) => Ok(Self {
-                name: sphere.name,
-                shape,
-                front: sphere.front,
-                material: sphere.material.0 as usize,
+    fn try_from(described: light_scene::Sphere) -> Result<Self, WorldError> {
+        match described.shape().build() {
+            Ok(AnyShape::Sphere(shape)) => Ok(Self { described, shape }),
+            _ => Err(WorldError::Sphere {
+                name: described.name,
             }),
-            _ => Err(WorldError::Sphere { name: sphere.name }),
         }
     }
 }

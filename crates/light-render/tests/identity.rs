@@ -7,7 +7,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use light_render::integrator::{Estimator, Integrator, PathSettings, SingleScattering};
-use light_render::{PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility};
+use light_render::{
+    PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility, World,
+};
 use light_scene::glam::Vec3;
 use light_scene::{Camera, Crop, Diagnostic, Files, Image, Scene, parse_scene, write_image};
 use lights::media::StepSize;
@@ -71,7 +73,8 @@ AttributeBegin
   Shape "bilinearmesh" "point3 P" [ 0 3 0  1 3 0  0 3 1  1 3 1.5 ]
 AttributeEnd
 ObjectBegin "thing"
-  Shape "trianglemesh" "point3 P" [ 0 0 0  .5 0 0  0 .5 .125 ]
+  Shape "trianglemesh" "point3 P" [ 0 0 0  .5 0 0  0 .5 .125  .5 .5 .25 ]
+    "integer indices" [ 0 1 2  2 1 3 ]
   Shape "sphere" "float radius" .05
 ObjectEnd
 Translate .5 1.5 .25
@@ -135,7 +138,9 @@ fn view(camera: &Camera) -> Option<View> {
 fn identity(scene: &Scene) -> Option<PictureIdentity> {
     let view = view(&scene.camera_or_default())?;
     let digest = SceneDigest::new(scene).ok()?;
-    Some(digest.identity(&view, &settings(), SamplerKind::Bvh, Visibility::Off))
+    let world = World::new(scene.clone()).ok()?;
+    let (settings, off) = (settings(), Visibility::Off);
+    Some(digest.identity(&world, &view, &settings, SamplerKind::Bvh, off))
 }
 
 /// Where the numbers of a text begin and end, those in names left out.
@@ -236,15 +241,16 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let scene = folder.scene(SCENE).expect("a scene");
     let digest = SceneDigest::new(&scene).expect("no own light");
     let camera = scene.camera.expect("a camera");
+    let world = World::new(scene).expect("a world");
     let (sampler, off) = (SamplerKind::Bvh, Visibility::Off);
     let base = View::new(&camera, 20, 10).expect("a view");
-    let expected = digest.identity(&base, &settings(), sampler, off);
+    let expected = digest.identity(&world, &base, &settings(), sampler, off);
     let differs = |identity: PictureIdentity, name: &str| {
         let difference = identity.difference(&expected);
         let difference = difference.unwrap_or_else(|| panic!("{name} counts"));
         assert!(difference.starts_with(name), "{name}: {difference}");
     };
-    let of_view = |view: View| digest.identity(&view, &settings(), sampler, off);
+    let of_view = |view: View| digest.identity(&world, &view, &settings(), sampler, off);
     let of_camera = |camera: &Camera| of_view(View::new(camera, 20, 10).expect("a view"));
     differs(of_view(View::new(&camera, 21, 10).expect("a view")), "size");
     let crop = Crop {
@@ -270,7 +276,7 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
     let with = |change: &dyn Fn(&mut RenderSettings)| {
         let mut settings = settings();
         change(&mut settings);
-        digest.identity(&base, &settings, sampler, off)
+        digest.identity(&world, &base, &settings, sampler, off)
     };
     differs(with(&|s| s.seed = 8), "seed 8, expected 7");
     differs(with(&|s| s.path.max_depth = 6), "depth");
@@ -288,9 +294,9 @@ fn view_and_settings_count_but_how_it_is_shown_does_not() {
         })
     };
     assert_ne!(marching(0.5), marching(0.25), "the step");
-    let other = digest.identity(&base, &settings(), SamplerKind::Power, off);
+    let other = digest.identity(&world, &base, &settings(), SamplerKind::Power, off);
     differs(other, "light sampler power, expected bvh");
-    let other = digest.identity(&base, &settings(), sampler, Visibility::Cells);
+    let other = digest.identity(&world, &base, &settings(), sampler, Visibility::Cells);
     differs(other, "visibility cells, expected off");
     let more = with(&|s| {
         s.samples = 4..9;

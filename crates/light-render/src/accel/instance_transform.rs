@@ -31,6 +31,11 @@ impl InstanceTransform {
         })
     }
 
+    /// From object space to world space.
+    pub(crate) const fn to_world(self) -> Affine3A {
+        self.to_world
+    }
+
     /// Takes a point from object space to world space.
     #[inline]
     #[must_use]

@@ -68,19 +68,23 @@ impl CheckpointArgs {
         expect_writable(path)
     }
 
-    /// The checkpoint of the picture of this `identity`.
+    /// The checkpoint of the picture of the `identity`, which is asked for only if there is one.
     ///
     /// # Errors
     /// When the file cannot be read, or is of another picture.
-    pub(crate) fn open(&self, identity: &PictureIdentity) -> Result<Option<Checkpoint>, Failure> {
+    pub(crate) fn open(
+        &self,
+        identity: impl FnOnce() -> PictureIdentity,
+    ) -> Result<Option<Checkpoint>, Failure> {
         let Some(path) = &self.checkpoint else {
             return Ok(None);
         };
-        let part = path.exists().then(|| read(path, identity)).transpose()?;
+        let identity = identity();
+        let part = path.exists().then(|| read(path, &identity)).transpose()?;
         Ok(Some(Checkpoint {
             path: path.clone(),
             every: self.checkpoint_every,
-            identity: identity.clone(),
+            identity,
             part,
         }))
     }

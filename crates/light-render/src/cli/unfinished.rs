@@ -16,14 +16,15 @@ pub(super) struct Unfinished<'a> {
 }
 
 impl Unfinished<'_> {
-    /// Keeps the sums of all samples in a checkpoint, unless there is one, and says how to go on.
+    /// Keeps the sums of all samples in a checkpoint of the picture of `identity`, unless there is
+    /// one, and says how to go on.
     ///
     /// # Errors
     /// When the checkpoint cannot be written.
     pub(super) fn keep(
         &self,
         film: Film,
-        identity: PictureIdentity,
+        identity: impl FnOnce() -> PictureIdentity,
     ) -> Result<(Film, Failure), Failure> {
         let samples = film.samples();
         let of = self
@@ -41,7 +42,7 @@ impl Unfinished<'_> {
         let part = PartialPicture {
             samples: 0..samples,
             film,
-            identity,
+            identity: identity(),
         };
         part.write(&path).map_err(Failure::input)?;
         let message = format!(

@@ -19,7 +19,8 @@ impl World {
             }
             SceneSource::Sphere(index) => {
                 let sphere = &self.spheres[index];
-                [&self.materials[sphere.material].name, &sphere.name].map(Cow::from)
+                let name = &sphere.described.name;
+                [&self.materials[sphere.material()].name, name].map(Cow::from)
             }
             SceneSource::Light(index) => {
                 let kind = Cow::from(kind(&self.lights.get(light)?));

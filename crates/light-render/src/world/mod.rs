@@ -1,5 +1,6 @@
 mod alpha_mask;
 mod count;
+mod digests;
 mod error;
 mod light_names;
 mod listed_lights;

@@ -78,7 +78,7 @@ impl World {
     pub(super) fn material(&self, primitive: PrimitiveId) -> (usize, &Material) {
         let id = match self.stored(primitive) {
             Stored::Triangle { mesh, .. } => mesh.material,
-            Stored::Sphere(sphere) => sphere.material,
+            Stored::Sphere(sphere) => sphere.material(),
             Stored::Listed => self.materials.len() - 1,
         };
         (id, &self.materials[id])

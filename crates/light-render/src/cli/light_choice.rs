@@ -1,0 +1,36 @@
+use std::time::Instant;
+
+use crate::AnyLightSampler;
+
+use super::failure::Failure;
+use super::prepared_picture::PreparedPicture;
+use super::visibility::{CellCosts, with_cells};
+
+/// What chooses the lights of a picture, and what it took to build.
+#[derive(Debug)]
+pub(super) struct LightChoice {
+    pub(super) sampler: AnyLightSampler,
+    /// Milliseconds, without the cells of visibility.
+    pub(super) build_ms: f64,
+    pub(super) cells: CellCosts,
+}
+
+impl LightChoice {
+    /// Builds the sampler, in the current `rayon` pool.
+    ///
+    /// # Errors
+    /// A light that the sampler refuses, or more cells than 32 bits count.
+    pub(super) fn new(picture: &PreparedPicture) -> Result<Self, Failure> {
+        let PreparedPicture { world, view, .. } = picture;
+        let start = Instant::now();
+        let sampler = AnyLightSampler::new(picture.sampler, world.lights());
+        let sampler = sampler.map_err(Failure::input)?;
+        let build_ms = start.elapsed().as_secs_f64() * 1e3;
+        let (sampler, cells) = with_cells(sampler, picture.visibility, world, view)?;
+        Ok(Self {
+            sampler,
+            build_ms,
+            cells,
+        })
+    }
+}

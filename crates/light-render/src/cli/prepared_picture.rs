@@ -1,0 +1,32 @@
+use crate::{
+    LightLayers, PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility, World,
+};
+
+/// All that a picture depends on.
+#[derive(Debug)]
+pub(super) struct PreparedPicture {
+    pub(super) world: World,
+    pub(super) view: View,
+    pub(super) settings: RenderSettings,
+    pub(super) sampler: SamplerKind,
+    pub(super) visibility: Visibility,
+    /// Parts of its light that are wanted apart.
+    pub(super) layers: Option<LightLayers>,
+    /// How bright the file wants it shown.
+    pub(super) exposure: Option<f32>,
+    pub(super) digest: SceneDigest,
+}
+
+impl PreparedPicture {
+    /// Its identity, for files that hold parts of it. Takes the digest of the whole scene.
+    pub(super) fn identity(&self) -> PictureIdentity {
+        let Self {
+            world,
+            view,
+            settings,
+            ..
+        } = self;
+        self.digest
+            .identity(world, view, settings, self.sampler, self.visibility)
+    }
+}

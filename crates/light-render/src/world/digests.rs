@@ -1,0 +1,25 @@
+use super::World;
+use crate::content_digest::content_digest;
+
+impl World {
+    /// Digests of what rays meet, each with the name of what it is of: every vertex, material and
+    /// texel counts. Lights without a surface and media are not in them.
+    pub(crate) fn digests(&self) -> [(&'static str, String); 3] {
+        // By content, because the order in the hierarchy is a matter of how that is built.
+        let instances = (0u32..).zip(self.accel.instances());
+        let mut instances: Vec<_> = instances
+            .map(|(instance, [triangles, spheres])| {
+                let transform = self.accel.instance_transform(instance).to_world();
+                let bits = transform.to_cols_array().map(f32::to_bits);
+                ([triangles.start, spheres.start], bits)
+            })
+            .collect();
+        instances.sort_unstable();
+        let geometry = (&self.meshes, &self.spheres, self.accel.world(), instances);
+        [
+            ("geometry", content_digest(&geometry)),
+            ("materials", content_digest(&self.materials)),
+            ("images", content_digest(&self.images)),
+        ]
+    }
+}
