@@ -2,7 +2,7 @@
 
 use alloc::borrow::Cow;
 use core::iter::Enumerate;
-use core::str::{Lines, SplitWhitespace};
+use core::str::Lines;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
@@ -13,7 +13,9 @@ use crate::{Diagnostic, Location};
 
 /// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
-    Ok(text_of(&read_bytes(path)?).into_owned())
+    let text = String::from_utf8(read_bytes(path)?);
+    // Most files are valid, which is checked much faster than the rest is found.
+    Ok(text.unwrap_or_else(|error| text_of(error.as_bytes()).into_owned()))
 }
 
 /// Bytes as text; those that are not UTF-8 become replacement characters.
@@ -80,6 +82,9 @@ impl<'a> Iterator for LogicalLines<'a> {
 
 /// A `#` starts a comment at the start of a word only: file names may hold one.
 fn without_comment(line: &str) -> &str {
+    if !line.as_bytes().contains(&b'#') {
+        return line.trim_end();
+    }
     let starts_comment = |&(at, _): &(usize, &str)| {
         let before = line[..at].chars().next_back();
         before.is_none_or(char::is_whitespace)
@@ -93,7 +98,8 @@ fn without_comment(line: &str) -> &str {
 pub(crate) struct Line<'a> {
     path: &'a Path,
     number: usize,
-    words: SplitWhitespace<'a>,
+    /// What has not been read yet.
+    rest: &'a str,
 }
 
 impl<'a> Line<'a> {
@@ -101,7 +107,7 @@ impl<'a> Line<'a> {
         Self {
             path,
             number,
-            words: text.split_whitespace(),
+            rest: text,
         }
     }
 
@@ -122,12 +128,21 @@ impl<'a> Line<'a> {
 
     /// The next word, if there is one.
     pub(crate) fn word(&mut self) -> Option<&'a str> {
-        self.words.next()
+        let text = self.rest.trim_start();
+        // The end of most words is found by their bytes.
+        let is_end = |byte: u8| matches!(byte, b' ' | b'\t'..=b'\r') || !byte.is_ascii();
+        let end = match text.bytes().position(is_end) {
+            Some(at) if !text.as_bytes()[at].is_ascii() => text.find(char::is_whitespace),
+            end => end,
+        };
+        let (word, rest) = text.split_at(end.unwrap_or(text.len()));
+        self.rest = rest;
+        (!word.is_empty()).then_some(word)
     }
 
     /// The words that are left, separated by single blanks: a name or path that may hold blanks.
     pub(crate) fn rest(&mut self, what: &str) -> Result<String, Diagnostic> {
-        let words: Vec<&str> = self.words.by_ref().collect();
+        let words: Vec<&str> = core::iter::from_fn(|| self.word()).collect();
         if words.is_empty() {
             return Err(self.diagnostic(format!("expected {what}")));
         }
@@ -190,6 +205,23 @@ mod tests {
         for (line, (number, text)) in lines.iter().zip(expected) {
             assert_eq!(line.0, number, "the first line's number");
             assert_eq!(line.1, text, "the text");
+        }
+    }
+
+    #[test]
+    fn words_are_those_between_blanks_of_any_alphabet() {
+        let texts = [
+            "",
+            " \t ",
+            "f 1/2/3  4//5\t6 ",
+            "usemtl na\u{ef}f \u{3000}w\u{e4}nde\u{a0}x",
+            "\u{2003}a\u{b}b\u{c}c\u{85}d",
+        ];
+        for text in texts {
+            let mut line = Line::new(Path::new("a"), 1, text);
+            let words: Vec<&str> = core::iter::from_fn(|| line.word()).collect();
+            let expected: Vec<&str> = text.split_whitespace().collect();
+            assert_eq!(words, expected, "{text:?}");
         }
     }
 

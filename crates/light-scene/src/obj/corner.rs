@@ -32,7 +32,7 @@ impl Corner {
     /// When the word is another, or names what is not there; but a normal may be named where there
     /// is none at all.
     pub(super) fn parse(word: &str, counts: Counts, line: &Line<'_>) -> Result<Self, Diagnostic> {
-        let mut parts = word.split('/');
+        let mut parts = word.as_bytes().split(|&byte| byte == b'/');
         let broken = || {
             let word = shown(word);
             line.diagnostic(format!(
@@ -40,8 +40,8 @@ impl Corner {
             ))
         };
         let mut number = || match parts.next() {
-            None | Some("") => Ok(None),
-            Some(number) => number.parse::<i64>().map(Some).map_err(|_| broken()),
+            None | Some([]) => Ok(None),
+            Some(digits) => whole_number(digits).map(Some).ok_or_else(broken),
         };
         let (position, uv, normal) = (number()?, number()?, number()?);
         if parts.next().is_some() {
@@ -87,6 +87,20 @@ impl Corner {
     }
 }
 
+/// The number that `digits` are, with or without a sign; `None` if they are no number of 64 bits.
+fn whole_number(digits: &[u8]) -> Option<i64> {
+    let (is_negative, digits) = match digits {
+        [b'-', digits @ ..] => (true, digits),
+        [b'+', digits @ ..] | digits => (false, digits),
+    };
+    let append = |number: i64, digit: &u8| {
+        let digit = digit.is_ascii_digit().then(|| i64::from(digit - b'0'))?;
+        number.checked_mul(10)?.checked_add(digit)
+    };
+    let number = digits.iter().try_fold(0, append)?;
+    (!digits.is_empty()).then_some(if is_negative { -number } else { number })
+}
+
 /// The index from 0 that `number` means: 1 is the first of `count`, -1 the last.
 fn resolve(number: i64, count: usize) -> Option<usize> {
     let index = if number > 0 {
@@ -100,6 +114,19 @@ fn resolve(number: i64, count: usize) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_have_digits_and_a_sign() {
+        let most = i64::MAX.to_string();
+        let good = ["0", "-0", "+7", "-12", "0031", &most];
+        for text in good {
+            let number = whole_number(text.as_bytes());
+            assert_eq!(number, text.parse().ok(), "{text}");
+        }
+        for text in ["", "-", "+", "--1", "1.0", " 1", "1e3", "9223372036854775808"] {
+            assert_eq!(whole_number(text.as_bytes()), None, "{text}");
+        }
+    }
 
     #[test]
     fn indices_count_from_one_or_backwards() {
