@@ -22,6 +22,9 @@ use super::stdout::say;
 /// itself, its bounds, and a node in each of them.
 const BYTES_PER_LIGHT: u64 = 400;
 
+/// What is said of a scene, and not of a set.
+const OF_A_SCENE: [&str; 6] = ["scene", "env", "sky", "env_scale", "light_scale", "emit"];
+
 /// Measure light samplers side by side on the lights of a scene, or on a set of lights.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
@@ -43,7 +46,7 @@ pub(crate) struct BenchArgs {
         long,
         value_name = "FILE",
         requires = "points",
-        conflicts_with = "scene"
+        conflicts_with_all = OF_A_SCENE
     )]
     lights: Option<PathBuf>,
     /// Shading points of the set to read; needs --lights.
@@ -53,7 +56,7 @@ pub(crate) struct BenchArgs {
     #[arg(
         long,
         value_name = "KIND",
-        conflicts_with_all = ["lights", "points", "scene"],
+        conflicts_with_all = ["lights", "points"].into_iter().chain(OF_A_SCENE),
         value_parser = named::<SetKind>(SetKind::all().map(SetKind::name))
     )]
     generate: Option<SetKind>,
