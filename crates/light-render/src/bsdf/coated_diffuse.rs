@@ -16,7 +16,8 @@ use super::microfacets::Microfacets;
 ///
 /// # Source
 /// `[Weidlich2007]`, section 3, for a Lambertian base, with the geometric series of reflections
-/// inside of the coat.
+/// inside of the coat. Mitsuba's `plastic` leaves the reflectance out of that series unless
+/// `nonlinear` is set, and keeps middle tones brighter than light that goes to and fro leaves them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoatedDiffuse {
     /// Reflectance of the base, with all reflections inside of the coat, divided by pi.

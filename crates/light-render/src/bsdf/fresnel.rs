@@ -89,10 +89,10 @@ pub(super) fn refract(wi: Vec3, n: Vec3, eta: f32) -> Option<(Vec3, f32)> {
 #[must_use]
 pub(super) fn diffuse_internal_reflectance(eta: f32) -> f32 {
     const STEPS: u8 = 16;
-    // Cosine-weighted means are means over the squared cosine; from outside there is no kink to
-    // integrate over.
+    // The integral over the cosine, from outside, where there is no kink.
     let steps = (0..STEPS).map(|i| (f32::from(i) + 0.5) / f32::from(STEPS));
-    let outside = steps.map(|x| dielectric(x.sqrt(), eta)).sum::<f32>() / f32::from(STEPS);
+    let weighted = steps.map(|cos| 2.0 * cos * dielectric(cos, eta));
+    let outside = weighted.sum::<f32>() / f32::from(STEPS);
     1.0 - (1.0 - outside) / (eta * eta)
 }
 

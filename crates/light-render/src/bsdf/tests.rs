@@ -1,8 +1,8 @@
 //! The laws of scattering functions.
 
 use super::*;
-use core::f32::consts::{PI, TAU};
-use lights::math::warp::uniform_sphere;
+use core::f32::consts::{FRAC_1_PI, PI, TAU};
+use lights::math::warp::{cosine_hemisphere, uniform_sphere};
 
 fn subjects() -> Vec<(&'static str, Bsdf)> {
     let facets = |x, y| Microfacets::new(Vec2::new(x, y));
@@ -203,6 +203,39 @@ fn a_coat_takes_nothing_away() {
         let p = share / coat;
         let sum = share + metal * (1.0 - p);
         assert!((sum - 1.0).abs() < 1e-3, "from {wo}: {sum}");
+    }
+}
+
+/// What a smooth coat on a matt base reflects is what comes out of it after any number of
+/// reflections inside, each by the internal reflectance, here summed from inside; of a white base
+/// all.
+#[test]
+fn a_coated_base_reflects_the_series_of_reflections_inside() {
+    const STEPS: u16 = 50_000;
+    let eta = 1.5;
+    // Cosine-weighted means are means over the squared cosine.
+    let steps = (0..STEPS).map(|i| (f32::from(i) + 0.5) / f32::from(STEPS));
+    let inside = steps.map(|x| f64::from(fresnel::dielectric(-x.sqrt(), eta)));
+    let inside = inside.sum::<f64>() / f64::from(STEPS);
+    for reflectance in [1.0, 0.5, 0.1] {
+        let smooth = Microfacets::new(Vec2::ZERO);
+        let coated = CoatedDiffuse::new(Vec3::splat(reflectance), eta, smooth);
+        for wo in viewers() {
+            let n = 256;
+            let values = grid(n).map(|u| {
+                let wi = cosine_hemisphere::sample(u);
+                let wi = wi.with_z(wi.z * wo.z.signum());
+                f64::from(coated.eval(wo, wi).x / (wi.z.abs() * FRAC_1_PI))
+            });
+            let base = values.sum::<f64>() / f64::from(u32::from(n) * u32::from(n));
+            let coat = f64::from(fresnel::dielectric(wo.z.abs(), eta));
+            let white = f64::from(reflectance);
+            let expected = (1.0 - coat) * white * (1.0 - inside) / (1.0 - white * inside);
+            assert!(
+                (base - expected).abs() < 1e-3,
+                "{reflectance} from {wo}: {base}, not {expected}"
+            );
+        }
     }
 }
 
