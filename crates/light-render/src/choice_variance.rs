@@ -6,14 +6,14 @@ use lights::sources::{Light, PdfCoverage};
 use crate::World;
 
 /// The exact relative variance of one choice by `sampler` among the lights of `world`: the median
-/// over points on the triangles and spheres of the scene. The contribution of a light is that of
+/// over points on the triangles and quadrics of the scene. The contribution of a light is that of
 /// its middle without occlusion; 0 means choices in proportion to it. `None` if no point is lit.
 #[must_use]
 pub(crate) fn choice_variance<S: LightSampler>(world: &World, sampler: &S) -> Option<f64> {
     /// Light evaluations in all, so that the result takes about a second.
     const LOOKS: usize = 2_000_000;
     const POINTS: usize = 64;
-    let primitives = world.triangle_count() + world.sphere_count();
+    let primitives = world.triangle_count() + world.quadric_count();
     let points = (LOOKS / world.lights().len().max(1)).clamp(1, POINTS);
     let mut variances: Vec<f64> = (0..points.min(primitives))
         .filter_map(|i| {

@@ -1,20 +1,20 @@
 use lights::bounds::LightId;
 
-/// Maps emissive meshes and spheres to the ids of their lights.
+/// Maps emissive meshes and quadrics to the ids of their lights.
 #[derive(Debug)]
 pub(crate) struct EmitterIds {
     /// For each mesh in world space, the id of its first triangle; the others follow in order.
     meshes: Box<[Option<LightId>]>,
     /// For each sphere in world space, its id.
-    spheres: Box<[Option<LightId>]>,
+    quadrics: Box<[Option<LightId>]>,
 }
 
 impl EmitterIds {
-    /// No ids for so many meshes and spheres.
-    pub(crate) fn new(meshes: usize, spheres: usize) -> Self {
+    /// No ids for so many meshes and quadrics.
+    pub(crate) fn new(meshes: usize, quadrics: usize) -> Self {
         Self {
             meshes: vec![None; meshes].into(),
-            spheres: vec![None; spheres].into(),
+            quadrics: vec![None; quadrics].into(),
         }
     }
 
@@ -23,9 +23,9 @@ impl EmitterIds {
         self.meshes[mesh] = first;
     }
 
-    /// Sets the id of a sphere.
-    pub(crate) fn set_sphere(&mut self, sphere: usize, id: Option<LightId>) {
-        self.spheres[sphere] = id;
+    /// Sets the id of a quadric.
+    pub(crate) fn set_quadric(&mut self, quadric: usize, id: Option<LightId>) {
+        self.quadrics[quadric] = id;
     }
 
     /// The light of triangle `index` of a mesh; `None` if the mesh is not emissive, as those of
@@ -36,9 +36,9 @@ impl EmitterIds {
         Some(LightId(first + index))
     }
 
-    /// The light of a sphere; `None` if it is not emissive, as those of prototypes.
+    /// The light of a quadric; `None` if it is not emissive, as those of prototypes.
     #[inline]
-    pub(crate) fn sphere(&self, sphere: usize) -> Option<LightId> {
-        *self.spheres.get(sphere)?
+    pub(crate) fn quadric(&self, quadric: usize) -> Option<LightId> {
+        *self.quadrics.get(quadric)?
     }
 }

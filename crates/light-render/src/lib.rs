@@ -54,9 +54,9 @@ mod visibility;
 mod world;
 mod world_media;
 mod world_mesh;
-mod world_sphere;
+mod world_quadric;
 
-pub use accel::{Accel, Hit, InstanceTransform, Prototype};
+pub use accel::{Accel, Hit, InstanceTransform, Prototype, QuadricShape};
 pub use compare::Comparison;
 pub use exact_sum::ExactSum;
 pub use false_color::difference;

@@ -41,7 +41,7 @@ impl SceneDigest {
         let Scene {
             // The world knows these.
             meshes: _,
-            spheres: _,
+            quadrics: _,
             prototypes: _,
             instances: _,
             materials: _,

@@ -11,13 +11,13 @@ use crate::SceneLightsError;
 use crate::emitter_ids::EmitterIds;
 use crate::surface_emission::{AlphaMaskedLights, Textures};
 use crate::world_mesh::WorldMesh;
-use crate::world_sphere::WorldSphere;
+use crate::world_quadric::WorldQuadric;
 
 /// The lights of a scene.
 #[derive(Debug)]
 pub(crate) struct SceneLights {
     pub(crate) lights: LightSet<Rgb>,
-    /// The ids of emissive meshes and spheres.
+    /// The ids of emissive meshes and quadrics.
     pub(crate) emitters: EmitterIds,
     /// What each source is, in the order of their ids.
     pub(crate) sources: Vec<SceneSource>,
@@ -38,8 +38,8 @@ pub(crate) struct SceneLights {
 pub(crate) enum SceneSource {
     /// An emissive mesh in world space.
     Mesh(usize),
-    /// An emissive sphere in world space.
-    Sphere(usize),
+    /// An emissive quadric in world space.
+    Quadric(usize),
     /// A light of the scene's list.
     Light(usize),
 }
@@ -48,7 +48,7 @@ impl SceneLights {
     /// Builds all lights.
     pub(crate) fn new(
         meshes: &[WorldMesh],
-        spheres: &[WorldSphere],
+        quadrics: &[WorldQuadric],
         materials: &[Material],
         images: &[Image],
         scene_lights: Vec<LightDesc<Rgb>>,
@@ -73,13 +73,13 @@ impl SceneLights {
                 sources.push(SceneSource::Mesh(index));
             }
         }
-        let mut emissive_spheres = Vec::new();
-        for (index, sphere) in spheres.iter().enumerate() {
-            let material = &materials[sphere.material()];
-            if let Some((desc, is_masked)) = textures.sphere_light(sphere, material) {
+        let mut emissive_quadrics = Vec::new();
+        for (index, quadric) in quadrics.iter().enumerate() {
+            let material = &materials[quadric.material()];
+            if let Some((desc, is_masked)) = textures.quadric_light(quadric, material) {
                 let source = add(&mut builder, &material.name, desc)?;
-                emissive_spheres.push((index, source, is_masked));
-                sources.push(SceneSource::Sphere(index));
+                emissive_quadrics.push((index, source, is_masked));
+                sources.push(SceneSource::Quadric(index));
             }
         }
         let mut listed = Vec::new();
@@ -94,7 +94,7 @@ impl SceneLights {
             sources.push(SceneSource::Light(number));
         }
         let lights = builder.build();
-        let mut emitters = EmitterIds::new(meshes.len() + listed_meshes.len(), spheres.len());
+        let mut emitters = EmitterIds::new(meshes.len() + listed_meshes.len(), quadrics.len());
         for (index, (source, _)) in (meshes.len()..).zip(&listed_meshes) {
             emitters.set_mesh(index, lights.first_id(*source));
         }
@@ -112,10 +112,10 @@ impl SceneLights {
             let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
             add_masked(first, count, mesh.material, is_masked);
         }
-        for (index, source, is_masked) in emissive_spheres {
+        for (index, source, is_masked) in emissive_quadrics {
             let id = lights.first_id(source);
-            emitters.set_sphere(index, id);
-            add_masked(id, 1, spheres[index].material(), is_masked);
+            emitters.set_quadric(index, id);
+            add_masked(id, 1, quadrics[index].material(), is_masked);
         }
         masked.sort_by_key(|lights| lights.ids.start);
         let has_type = |id: &LightId, light_type| {

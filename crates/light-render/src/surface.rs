@@ -1,9 +1,8 @@
 use lights::bounds::LightSampleContext;
 use lights::glam::{Vec2, Vec3};
 use lights::sources::SurfacePoint;
-use lights::sources::shape::Sphere;
 
-use crate::{PrimitiveId, Ray};
+use crate::{PrimitiveId, QuadricShape, Ray};
 
 /// A point on a surface where a path meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,13 +61,13 @@ impl Surface {
         }
     }
 
-    /// The point `at` of a sphere, with its normal; the error bound is that of a triangle.
+    /// The point `at` of a quadric, with its normal; the error bound is that of a triangle.
     #[must_use]
-    pub(crate) fn on_sphere(id: PrimitiveId, sphere: &Sphere, at: &SurfacePoint) -> Self {
+    pub(crate) fn on_quadric(id: PrimitiveId, shape: &QuadricShape, at: &SurfacePoint) -> Self {
         let &SurfacePoint { p, n, uv } = at;
         Self {
             p,
-            p_error: (sphere.center().abs() + n.abs() * sphere.radius()) * ERROR,
+            p_error: shape.magnitude(n) * ERROR,
             n,
             ns: n,
             uv,

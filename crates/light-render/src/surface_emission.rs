@@ -1,7 +1,7 @@
 use core::ops::Range;
 use std::collections::HashMap;
 
-use light_scene::{Alpha, Color, EmissionSides, ImageId, Material, SphereFront};
+use light_scene::{Alpha, Color, EmissionSides, ImageId, Material, QuadricFront};
 use lights::glam::Vec3;
 use lights::sources::{
     AlphaMask, AreaLightDesc, DiffuseEmissionDesc, EmissionMask, Image, LightDesc, MediumInterface,
@@ -9,7 +9,7 @@ use lights::sources::{
 };
 
 use crate::world_mesh::WorldMesh;
-use crate::world_sphere::WorldSphere;
+use crate::world_quadric::WorldQuadric;
 
 /// Lights of one mesh or sphere with an alpha mask, of which the radiance is multiplied with the
 /// opacity: the mean over the rays that hit and those that pass.
@@ -59,14 +59,14 @@ impl<'a> Textures<'a> {
         Some((desc, is_masked))
     }
 
-    /// The light of a sphere, if its material is emissive; the front of the light is the outside.
-    pub(crate) fn sphere_light(
+    /// The light of a quadric, if its material is emissive; the front of the light is the outside.
+    pub(crate) fn quadric_light(
         &mut self,
-        sphere: &WorldSphere,
+        quadric: &WorldQuadric,
         material: &Material,
     ) -> Option<EmissiveSurface> {
         let (mut emission, is_masked) = self.emission(material)?;
-        if sphere.described.front == SphereFront::Inside {
+        if quadric.described.front == QuadricFront::Inside {
             if emission.sides == Sides::Front {
                 emission.sides = Sides::Back;
             }
@@ -76,7 +76,7 @@ impl<'a> Textures<'a> {
                 outside: inside,
             };
         }
-        let shape = sphere.shape.into();
+        let shape = quadric.described.shape();
         Some((
             LightDesc::Area(AreaLightDesc { shape, emission }),
             is_masked,

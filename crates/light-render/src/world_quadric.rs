@@ -1,48 +1,47 @@
-use light_scene::SphereFront;
+use light_scene::{Quadric, QuadricFront};
 use lights::glam::{Vec2, Vec3};
-use lights::math::octahedral;
 use lights::sources::SurfacePoint;
-use lights::sources::shape::{AnyShape, Sphere};
 
-use crate::WorldError;
+use crate::{QuadricShape, WorldError};
 
-/// A sphere of one material.
+/// A sphere, disk or cylinder of one material.
 #[derive(Debug, serde::Serialize)]
-pub(crate) struct WorldSphere {
-    pub(crate) described: light_scene::Sphere,
+pub(crate) struct WorldQuadric {
+    pub(crate) described: Quadric,
     /// It follows from the description.
     #[serde(skip)]
-    pub(crate) shape: Sphere,
+    pub(crate) shape: QuadricShape,
 }
 
-impl WorldSphere {
+impl WorldQuadric {
     pub(crate) fn material(&self) -> usize {
         self.described.material.0 as usize
     }
 
-    /// The point whose outward normal has the octahedral coordinates `coords`, with that normal.
+    /// The point with the coordinates of a [`Hit`](crate::Hit), with its outward normal.
     #[inline]
     pub(super) fn at(&self, coords: Vec2) -> SurfacePoint {
-        self.shape.at(octahedral::from_square(coords))
+        self.shape.at(coords)
     }
 
     /// The normal of the front, where that of the outside is `n`.
     #[inline]
     pub(super) fn front_normal(&self, n: Vec3) -> Vec3 {
         match self.described.front {
-            SphereFront::Outside => n,
-            SphereFront::Inside => -n,
+            QuadricFront::Outside => n,
+            QuadricFront::Inside => -n,
         }
     }
 }
 
-impl TryFrom<light_scene::Sphere> for WorldSphere {
+impl TryFrom<Quadric> for WorldQuadric {
     type Error = WorldError;
 
-    fn try_from(described: light_scene::Sphere) -> Result<Self, WorldError> {
-        match described.shape().build() {
-            Ok(AnyShape::Sphere(shape)) => Ok(Self { described, shape }),
-            _ => Err(WorldError::Sphere {
+    fn try_from(described: Quadric) -> Result<Self, WorldError> {
+        let shape = described.shape().build().ok();
+        match shape.and_then(QuadricShape::new) {
+            Some(shape) => Ok(Self { described, shape }),
+            None => Err(WorldError::Quadric {
                 name: described.name,
             }),
         }

@@ -8,8 +8,8 @@ use core::f64::consts::PI;
 use light_render::integrator::Estimator;
 use light_scene::glam::{Affine2, Affine3A, DVec3, Vec2, Vec3};
 use light_scene::{
-    Alpha, Color, ColorImage, Emission, EmissionSides, Image, Material, Mesh, Scene, Sphere,
-    SphereFront,
+    Alpha, Color, ColorImage, Emission, EmissionSides, Image, Material, Mesh, Quadric,
+    QuadricFront, Scene,
 };
 use lights::sources::{TextureMapping, Wrap};
 use support::{Shot, plane, room};
@@ -234,9 +234,9 @@ fn a_lamp_is_seen_as_a_share() {
 #[test]
 fn spheres_with_holes() {
     let inside_too = [
-        (EmissionSides::Front, SphereFront::Outside, [1.0, 0.0]),
-        (EmissionSides::Front, SphereFront::Inside, [0.0, 1.0]),
-        (EmissionSides::Both, SphereFront::Outside, [1.0, 1.0]),
+        (EmissionSides::Front, QuadricFront::Outside, [1.0, 0.0]),
+        (EmissionSides::Front, QuadricFront::Inside, [0.0, 1.0]),
+        (EmissionSides::Both, QuadricFront::Outside, [1.0, 1.0]),
     ];
     for (sides, front, [outside, inside]) in inside_too {
         for share in [0.5, 0.9] {
@@ -260,7 +260,7 @@ fn spheres_with_holes() {
                     alpha: Some(alpha),
                     ..Material::diffuse("lamp", Vec3::ZERO)
                 });
-                scene.spheres.push(Sphere {
+                scene.quadrics.push(Quadric {
                     front,
                     ..sphere(lamp)
                 });
@@ -277,13 +277,8 @@ fn spheres_with_holes() {
 }
 
 /// Of radius 1/2, with its centre at the [`HEIGHT`].
-fn sphere(material: light_scene::MaterialId) -> Sphere {
+fn sphere(material: light_scene::MaterialId) -> Quadric {
     let transform =
         Affine3A::from_translation(Vec3::Y * HEIGHT) * Affine3A::from_scale(Vec3::splat(0.5));
-    Sphere {
-        name: "lamp".into(),
-        material,
-        front: SphereFront::Outside,
-        transform,
-    }
+    Quadric::sphere("lamp", material, transform)
 }

@@ -5,7 +5,7 @@ mod support;
 
 use light_render::World;
 use light_scene::glam::{Affine3A, Quat, Vec3};
-use light_scene::{Emission, Material, Mesh, Scene, Sphere};
+use light_scene::{Emission, Material, Mesh, Quadric, Scene};
 use lights::math::Aabb;
 use lights::sources::shape::ShapeDesc;
 use lights::sources::*;
@@ -165,7 +165,7 @@ fn invisible_surfaces_stay_unseen() {
     let (positions, indices) = sheet();
     let mesh = MeshLightDesc::new(positions, indices, invisible.clone());
     let transform = Affine3A::from_translation(Vec3::new(0.7, 0.5, 0.5));
-    let ball = Sphere::new("ball", light_scene::MaterialId(0), transform);
+    let ball = Quadric::sphere("ball", light_scene::MaterialId(0), transform);
     let mut scene = Scene::default();
     scene.lights.push(LightDesc::Mesh(mesh));
     scene

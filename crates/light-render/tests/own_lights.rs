@@ -5,7 +5,7 @@ mod support;
 use light_render::integrator::Integrator;
 use light_render::{SceneDigest, SceneDigestError, World, inventory};
 use light_scene::glam::{Affine3A, Quat, Vec3};
-use light_scene::{Emission, Material, Scene, Sphere};
+use light_scene::{Emission, Material, Quadric, Scene};
 use light_testkit::own_twin;
 use lights::bounds::LightId;
 use lights::math::Aabb;
@@ -57,11 +57,11 @@ fn balls() -> [Scene; 2] {
         emission: Some(Emission::one_sided(radiance)),
         ..Material::diffuse("glow", Vec3::ZERO)
     });
-    let ball = Sphere::new("ball", glow, transform);
+    let ball = Quadric::sphere("ball", glow, transform);
     let color = SurfaceColor::Uniform(radiance);
     let emission = DiffuseEmissionDesc::new(color, RadianceAmount::default());
     let desc = AreaLightDesc::new(ball.shape(), emission);
-    plain.spheres.push(ball);
+    plain.quadrics.push(ball);
     let mut own = cornell();
     own.lights.push(twin(desc.into(), &plain));
     [plain, own]

@@ -1,4 +1,4 @@
-/// The most emissive triangles and spheres in all instances of a scene: each is a light of its own,
+/// The most emissive triangles and quadrics in all instances of a scene: each is a light of its own,
 /// so that instances of them are copied. This many triangles take about 8 GB.
 pub const MAX_EMISSIVE_COPIES: usize = 1 << 25;
 
@@ -7,7 +7,7 @@ pub const MAX_EMISSIVE_COPIES: usize = 1 << 25;
 pub(crate) struct EmissiveCopies(usize);
 
 impl EmissiveCopies {
-    /// Counts `instances` instances with `emissive` triangles and spheres each.
+    /// Counts `instances` instances with `emissive` triangles and quadrics each.
     ///
     /// # Errors
     /// A message with the limit, once it is exceeded.
@@ -17,7 +17,7 @@ impl EmissiveCopies {
             return Ok(());
         }
         Err(format!(
-            "expected at most {MAX_EMISSIVE_COPIES} emissive triangles and spheres in all \
+            "expected at most {MAX_EMISSIVE_COPIES} emissive triangles and quadrics in all \
              instances, found {} so far",
             self.0
         ))

@@ -1,9 +1,9 @@
 use lights::math::Aabb;
 
 use crate::glam::{Affine3A, Vec3};
-use crate::{Mesh, PrototypeId, Sphere};
+use crate::{Mesh, PrototypeId, Quadric};
 
-/// Meshes and spheres in object space, stored once for any number of [`Instance`]s: a tree of a
+/// Meshes and quadrics in object space, stored once for any number of [`Instance`]s: a tree of a
 /// forest. A prototype without instances is not part of the picture.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Prototype {
@@ -11,8 +11,8 @@ pub struct Prototype {
     pub name: String,
     /// The meshes in it.
     pub meshes: Vec<Mesh>,
-    /// The spheres in it; the transform of an instance may make ellipsoids of them.
-    pub spheres: Vec<Sphere>,
+    /// The quadrics in it; the transform of an instance may make ellipsoids of them.
+    pub quadrics: Vec<Quadric>,
 }
 
 /// A prototype with the transform that puts it into the scene.
@@ -32,7 +32,7 @@ impl Prototype {
         Self {
             name: name.into(),
             meshes,
-            spheres: Vec::new(),
+            quadrics: Vec::new(),
         }
     }
 
@@ -42,11 +42,11 @@ impl Prototype {
         self.meshes.iter().map(|mesh| mesh.indices.len()).sum()
     }
 
-    /// The boxes around its meshes and spheres.
+    /// The boxes around its meshes and quadrics.
     pub(crate) fn boxes(&self) -> Vec<Aabb> {
         let meshes = self.meshes.iter().map(Mesh::bounds);
         meshes
-            .chain(self.spheres.iter().map(Sphere::bounds))
+            .chain(self.quadrics.iter().map(Quadric::bounds))
             .collect()
     }
 }

@@ -9,7 +9,7 @@ use lights::sources::{
 use crate::glam::{Affine3A, Vec3};
 use crate::{
     Camera, Color, Diagnostic, Image, ImageId, Instance, Material, MaterialId, Mesh, Prototype,
-    PrototypeId, Sphere,
+    PrototypeId, Quadric,
 };
 
 /// A medium of a scene: fog, smoke, a flame. Its constructors have checked it.
@@ -30,7 +30,7 @@ pub struct Scene {
     /// Meshes in world space, one per group and material of the file.
     pub meshes: Vec<Mesh>,
     /// Spheres in world space.
-    pub spheres: Vec<Sphere>,
+    pub quadrics: Vec<Quadric>,
     /// Objects stored once; an instance names its prototype by position.
     pub prototypes: Vec<Prototype>,
     /// The instances of the prototypes.
@@ -60,12 +60,12 @@ pub struct Scene {
 
 impl Scene {
     /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
-    /// spheres; an instance counts by the transformed corners of the boxes of its prototype, an own
+    /// quadrics; an instance counts by the transformed corners of the boxes of its prototype, an own
     /// light that rays hit by its bounds; an invisible area or mesh light counts not at all.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);
-        let own = meshes.chain(self.spheres.iter().map(Sphere::bounds));
+        let own = meshes.chain(self.quadrics.iter().map(Quadric::bounds));
         let own = own.chain(self.lights.iter().filter_map(light_box));
         let own = own.fold(Aabb::EMPTY, Aabb::union);
         let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
@@ -134,14 +134,14 @@ impl Scene {
         self.material(material).emission.is_some()
     }
 
-    /// The number of emissive triangles and spheres of a prototype.
+    /// The number of emissive triangles and quadrics of a prototype.
     pub(crate) fn emissive_count(&self, prototype: &Prototype) -> usize {
         let Prototype {
-            meshes, spheres, ..
+            meshes, quadrics, ..
         } = prototype;
         let meshes = meshes.iter().filter(|mesh| self.is_emissive(mesh.material));
-        let spheres = spheres.iter().filter(|s| self.is_emissive(s.material));
-        meshes.map(|mesh| mesh.indices.len()).sum::<usize>() + spheres.count()
+        let quadrics = quadrics.iter().filter(|s| self.is_emissive(s.material));
+        meshes.map(|mesh| mesh.indices.len()).sum::<usize>() + quadrics.count()
     }
 
     /// The number of triangles of the meshes that `counts` accepts, instances included.

@@ -12,10 +12,10 @@ impl Scene {
     pub fn is_lit(&self) -> bool {
         let meshes = self.prototypes.iter().map(|prototype| &prototype.meshes);
         let meshes = meshes.chain([&self.meshes]).flatten();
-        let spheres = self.prototypes.iter().map(|prototype| &prototype.spheres);
-        let spheres = spheres.chain([&self.spheres]).flatten();
+        let quadrics = self.prototypes.iter().map(|prototype| &prototype.quadrics);
+        let quadrics = quadrics.chain([&self.quadrics]).flatten();
         let materials = meshes.map(|mesh| mesh.material);
-        let mut used = materials.chain(spheres.map(|sphere| sphere.material));
+        let mut used = materials.chain(quadrics.map(|sphere| sphere.material));
         !self.lights.is_empty() || !self.media.is_empty() || used.any(|id| self.is_emissive(id))
     }
 

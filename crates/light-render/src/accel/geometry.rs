@@ -1,56 +1,60 @@
 use core::ops::Range;
 
 use lights::glam::{Vec2, Vec3};
-use lights::sources::shape::Sphere;
 
 use super::bvh_hit::BvhHit;
-use super::sphere_bvh::SphereBvh;
+use super::quadric_bvh::QuadricBvh;
+use super::quadric_shape::QuadricShape;
 use super::triangle_bvh::TriangleBvh;
 use crate::Ray;
 
-/// The triangles and the spheres of one coordinate system, with consecutive primitive numbers.
+/// The triangles and the quadrics of one coordinate system, with consecutive primitive numbers.
 #[derive(Default)]
 pub(super) struct Geometry {
     triangles: TriangleBvh,
-    spheres: SphereBvh,
+    quadrics: QuadricBvh,
     first: Numbers,
     count: Numbers,
 }
 
-/// A number of a triangle and a number of a sphere.
+/// A number of a triangle and a number of a quadric.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Numbers {
     pub(super) triangle: u32,
-    pub(super) sphere: u32,
+    pub(super) quadric: u32,
 }
 
 impl Geometry {
-    /// Hierarchies over the corners of `triangles` and over `spheres`, numbered from `next` on,
+    /// Hierarchies over the corners of `triangles` and over `quadrics`, numbered from `next` on,
     /// which counts them.
     ///
     /// # Panics
     /// Panics at 2^32 primitives.
-    pub(super) fn new(triangles: &[[Vec3; 3]], spheres: &[Sphere], next: &mut Numbers) -> Self {
+    pub(super) fn new(
+        triangles: &[[Vec3; 3]],
+        quadrics: &[QuadricShape],
+        next: &mut Numbers,
+    ) -> Self {
         let count = |n| u32::try_from(n).expect("fewer than 2^32 primitives");
         let count = Numbers {
             triangle: count(triangles.len()),
-            sphere: count(spheres.len()),
+            quadric: count(quadrics.len()),
         };
         let first = *next;
         next.triangle += count.triangle;
-        next.sphere = next
-            .sphere
-            .checked_add(count.sphere)
+        next.quadric = next
+            .quadric
+            .checked_add(count.quadric)
             .expect("fewer than 2^32 primitives");
         Self {
             triangles: TriangleBvh::new(triangles),
-            spheres: SphereBvh::new(spheres),
+            quadrics: QuadricBvh::new(quadrics),
             first,
             count,
         }
     }
 
-    /// How many triangles and spheres there are.
+    /// How many triangles and quadrics there are.
     pub(super) const fn count(&self) -> Numbers {
         self.count
     }
@@ -60,12 +64,12 @@ impl Geometry {
         let Self { first, count, .. } = self;
         [
             first.triangle..first.triangle + count.triangle,
-            first.sphere..first.sphere + count.sphere,
+            first.quadric..first.quadric + count.quadric,
         ]
     }
 
     /// The first hit of `ray` nearer than `t_max` that `any_hit` accepts, by number and
-    /// coordinates. The triangle `from` is skipped, and so is the near side of the sphere `from`.
+    /// coordinates. The triangle `from` is skipped, and so is the near side of the quadric `from`.
     #[inline]
     pub(super) fn closest(
         &self,
@@ -74,7 +78,7 @@ impl Geometry {
         from: Option<u32>,
         any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> Option<BvhHit> {
-        let Numbers { triangle, sphere } = self.first;
+        let Numbers { triangle, quadric } = self.first;
         let start = from.map(|from| from.wrapping_sub(triangle));
         let filter = |number, coords| any_hit(triangle + number, coords);
         let hit = self.triangles.closest(ray, t_max, start, filter);
@@ -82,15 +86,15 @@ impl Geometry {
             number: triangle + hit.number,
             ..hit
         });
-        if self.spheres.is_empty() {
+        if self.quadrics.is_empty() {
             return hit;
         }
         let t_max = hit.map_or(t_max, |hit| hit.t);
-        let start = from.map(|from| from.wrapping_sub(sphere));
-        let filter = |number, coords| any_hit(sphere + number, coords);
-        let nearer = self.spheres.closest(ray, t_max, start, filter);
+        let start = from.map(|from| from.wrapping_sub(quadric));
+        let filter = |number, coords| any_hit(quadric + number, coords);
+        let nearer = self.quadrics.closest(ray, t_max, start, filter);
         let nearer = nearer.map(|hit| BvhHit {
-            number: sphere + hit.number,
+            number: quadric + hit.number,
             ..hit
         });
         nearer.or(hit)
@@ -105,17 +109,17 @@ impl Geometry {
         from: Option<u32>,
         any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> bool {
-        let Numbers { triangle, sphere } = self.first;
+        let Numbers { triangle, quadric } = self.first;
         let start = from.map(|from| from.wrapping_sub(triangle));
         let filter = |number, coords| any_hit(triangle + number, coords);
         if self.triangles.occluded(ray, t_max, start, filter) {
             return true;
         }
-        if self.spheres.is_empty() {
+        if self.quadrics.is_empty() {
             return false;
         }
-        let start = from.map(|from| from.wrapping_sub(sphere));
-        let filter = |number, coords| any_hit(sphere + number, coords);
-        self.spheres.occluded(ray, t_max, start, filter)
+        let start = from.map(|from| from.wrapping_sub(quadric));
+        let filter = |number, coords| any_hit(quadric + number, coords);
+        self.quadrics.occluded(ray, t_max, start, filter)
     }
 }

@@ -10,7 +10,6 @@ pub struct Hit {
     /// Distance along the ray, in scene units.
     pub t: f32,
     /// Coordinates on the primitive. Triangle: barycentric weights of the second and the third
-    /// corner. Sphere: outward normal in object space, as a point of the
-    /// [octahedral square](lights::math::octahedral::to_square).
+    /// corner. Quadric: as [`QuadricShape`](crate::QuadricShape) says, in object space.
     pub coords: Vec2,
 }

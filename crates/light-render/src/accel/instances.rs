@@ -1,6 +1,5 @@
 use lights::glam::{Vec2, Vec3};
 use lights::math::Aabb;
-use lights::sources::shape::{Shape, Sphere};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray as ObvhsRay, RayHit};
@@ -9,15 +8,16 @@ use super::Hit;
 use super::build::{boxed, over_boxes};
 use super::geometry::{Geometry, Numbers};
 use super::instance_transform::InstanceTransform;
+use super::quadric_shape::QuadricShape;
 use crate::{PrimitiveId, Ray};
 
-/// Triangles and spheres in object space, stored once for any number of instances.
+/// Triangles and quadrics in object space, stored once for any number of instances.
 #[derive(Clone, Debug)]
 pub struct Prototype {
     /// The corners of its triangles.
     pub triangles: Vec<[Vec3; 3]>,
-    /// Its spheres.
-    pub spheres: Vec<Sphere>,
+    /// Its quadrics.
+    pub quadrics: Vec<QuadricShape>,
     /// The transforms of its instances.
     pub transforms: Vec<InstanceTransform>,
 }
@@ -57,14 +57,14 @@ impl Instances {
         for (prototype, stored) in (0u32..).zip(prototypes) {
             let Prototype {
                 triangles,
-                spheres,
+                quadrics,
                 transforms,
             } = stored;
-            let geometry = Geometry::new(&triangles, &spheres, &mut next);
+            let geometry = Geometry::new(&triangles, &quadrics, &mut next);
             this.prototypes.push(geometry);
             let bounds = Aabb::from_points(triangles.as_flattened().iter().copied());
-            let spheres = spheres.iter().map(Shape::bounds);
-            let bounds = spheres.fold(bounds, Aabb::union);
+            let quadrics = quadrics.iter().map(QuadricShape::bounds);
+            let bounds = quadrics.fold(bounds, Aabb::union);
             if !bounds.is_empty() {
                 boxes.extend(
                     transforms

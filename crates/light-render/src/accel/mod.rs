@@ -5,7 +5,9 @@ mod geometry;
 mod hit;
 mod instance_transform;
 mod instances;
-mod sphere_bvh;
+mod quadric_bvh;
+mod quadric_leaf;
+mod quadric_shape;
 #[cfg(test)]
 mod tests;
 mod triangle_bvh;
@@ -14,7 +16,6 @@ use core::fmt;
 use core::ops::Range;
 
 use lights::glam::{Vec2, Vec3};
-use lights::sources::shape::Sphere;
 
 use crate::{PrimitiveId, Ray};
 use geometry::{Geometry, Numbers};
@@ -22,11 +23,12 @@ pub use hit::Hit;
 pub use instance_transform::InstanceTransform;
 use instances::Instances;
 pub use instances::Prototype;
+pub use quadric_shape::QuadricShape;
 
-/// Intersects rays with triangles and spheres: geometry in world space, and instances of
+/// Intersects rays with triangles and quadrics: geometry in world space, and instances of
 /// prototypes.
 ///
-/// All triangles have smaller numbers than all spheres. Among each, primitives in world space come
+/// All triangles have smaller numbers than all quadrics. Among each, primitives in world space come
 /// before those of prototypes.
 #[derive(Default)]
 pub struct Accel {
@@ -41,26 +43,26 @@ impl Accel {
     /// Panics at 2^32 triangles.
     #[must_use]
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
-        Self::with_spheres_and_prototypes(triangles, &[], Vec::new())
+        Self::with_quadrics_and_prototypes(triangles, &[], Vec::new())
     }
 
-    /// As [`new`](Self::new), with spheres, and with instances of prototypes.
+    /// As [`new`](Self::new), with quadrics, and with instances of prototypes.
     ///
     /// # Panics
     /// Panics at 2^32 primitives.
     #[must_use]
-    pub(crate) fn with_spheres_and_prototypes(
+    pub(crate) fn with_quadrics_and_prototypes(
         triangles: &[[Vec3; 3]],
-        spheres: &[Sphere],
+        quadrics: &[QuadricShape],
         prototypes: Vec<Prototype>,
     ) -> Self {
         let instanced = prototypes.iter().map(|prototype| prototype.triangles.len());
         let count = triangles.len() + instanced.sum::<usize>();
         let mut next = Numbers {
             triangle: 0,
-            sphere: u32::try_from(count).expect("fewer than 2^32 triangles"),
+            quadric: u32::try_from(count).expect("fewer than 2^32 triangles"),
         };
-        let world = Geometry::new(triangles, spheres, &mut next);
+        let world = Geometry::new(triangles, quadrics, &mut next);
         let instances = Instances::new(prototypes, next);
         Self { world, instances }
     }
@@ -133,13 +135,13 @@ impl Accel {
         self.instances.transform(instance)
     }
 
-    /// The numbers of the triangles and of the spheres in world space.
+    /// The numbers of the triangles and of the quadrics in world space.
     #[must_use]
     pub(crate) fn world(&self) -> [Range<u32>; 2] {
         self.world.numbers()
     }
 
-    /// The numbers of the triangles and of the spheres in every instance.
+    /// The numbers of the triangles and of the quadrics in every instance.
     #[must_use]
     pub(crate) fn instances(&self) -> impl ExactSizeIterator<Item = [Range<u32>; 2]> {
         self.instances.geometry().map(Geometry::numbers)

@@ -1,3 +1,5 @@
+use core::f64::consts::PI;
+
 use lights::glam::Vec2;
 use lights::math::fraction::to_f32;
 use lights::math::warp::{uniform_sphere, uniform_triangle};
@@ -6,7 +8,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use super::scene_receiver::SceneReceiver;
-use crate::{PrimitiveId, Surface, World};
+use crate::{PrimitiveId, QuadricShape, Surface, World};
 
 /// Primitives whose areas are held at most; of more, only some are looked at.
 const MOST_PRIMITIVES: usize = 1 << 20;
@@ -18,7 +20,7 @@ const TRIES: usize = 8;
 /// random order, each seen from a direction of its own on the front, cosine-distributed. None if no
 /// surface scatters light into more than single directions. A function of `seed`.
 pub(super) fn on_surfaces(world: &World, count: usize, seed: u64) -> Vec<SceneReceiver> {
-    let all = world.triangle_count() + world.sphere_count();
+    let all = world.triangle_count() + world.quadric_count();
     let step = all.div_ceil(MOST_PRIMITIVES).max(1);
     let mut sum = 0.0;
     let ends: Vec<(PrimitiveId, f64)> = world
@@ -55,24 +57,38 @@ pub(super) fn on_surfaces(world: &World, count: usize, seed: u64) -> Vec<SceneRe
 /// The area of a primitive in the scene.
 fn area(world: &World, primitive: PrimitiveId) -> f64 {
     let p = |x, y| world.surface(primitive, Vec2::new(x, y)).p.as_dvec3();
-    let area = if world.is_sphere(primitive) {
-        // The middle and a corner of the square are opposite points, and transforms of spheres
-        // keep their form.
-        core::f64::consts::PI * p(0.5, 0.5).distance_squared(p(0.0, 0.0))
-    } else {
-        let origin = p(0.0, 0.0);
-        0.5 * (p(1.0, 0.0) - origin).cross(p(0.0, 1.0) - origin).length()
+    // Transforms of quadrics keep their form.
+    let diameter = |v| p(0.5, v).distance(p(0.0, v));
+    let area = match world.quadric(primitive) {
+        // The middle and a corner of the square are opposite points.
+        Some(QuadricShape::Sphere(_)) => PI * p(0.5, 0.5).distance_squared(p(0.0, 0.0)),
+        Some(QuadricShape::Disk(_)) => {
+            let [outer, inner] = [diameter(0.0), diameter(1.0)];
+            0.25 * PI * (outer * outer - inner * inner)
+        }
+        Some(QuadricShape::Cylinder(_)) => PI * diameter(0.0) * p(0.0, 1.0).distance(p(0.0, 0.0)),
+        None => {
+            let origin = p(0.0, 0.0);
+            0.5 * (p(1.0, 0.0) - origin).cross(p(0.0, 1.0) - origin).length()
+        }
     };
     if area.is_finite() { area } else { 0.0 }
 }
 
 /// A point of a primitive, uniform in area.
 fn point(world: &World, primitive: PrimitiveId, u: Vec2) -> Surface {
-    let coords = if world.is_sphere(primitive) {
-        octahedral::to_square(uniform_sphere::sample(u))
-    } else {
-        let weights = uniform_triangle::sample(u);
-        Vec2::new(weights.y, weights.z)
+    let coords = match world.quadric(primitive) {
+        Some(QuadricShape::Sphere(_)) => octahedral::to_square(uniform_sphere::sample(u)),
+        Some(QuadricShape::Disk(disk)) => {
+            let inner = disk.inner_radius() / disk.radius();
+            let r = (inner * inner + (1.0 - inner * inner) * u.y).sqrt();
+            Vec2::new(u.x, (1.0 - r) / (1.0 - inner))
+        }
+        Some(QuadricShape::Cylinder(_)) => u,
+        None => {
+            let weights = uniform_triangle::sample(u);
+            Vec2::new(weights.y, weights.z)
+        }
     };
     world.surface(primitive, coords)
 }

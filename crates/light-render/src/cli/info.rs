@@ -105,8 +105,8 @@ impl InfoArgs {
             "scene": self.input.scene.display().to_string(),
             "triangles": world.triangle_count(),
             "stored_triangles": world.stored_triangle_count(),
-            "spheres": world.sphere_count(),
-            "stored_spheres": world.stored_sphere_count(),
+            "quadrics": world.quadric_count(),
+            "stored_quadrics": world.stored_quadric_count(),
             "prototypes": world.prototype_count(),
             "placements": world.instance_count(),
             "bounds": [bounds.min.to_array(), bounds.max.to_array()],
@@ -141,16 +141,16 @@ impl InfoArgs {
         let bounds = world.bounds();
         say!("{}", self.input.scene.display())?;
         say!("  triangles  {}", world.triangle_count())?;
-        if world.sphere_count() > 0 {
-            say!("  spheres    {}", world.sphere_count())?;
+        if world.quadric_count() > 0 {
+            say!("  quadrics   {}", world.quadric_count())?;
         }
         if world.instance_count() > 0 {
             say!(
-                "  objects    {} stored once, in {} places: {} triangles, {} spheres stored",
+                "  objects    {} stored once, in {} places: {} triangles, {} quadrics stored",
                 world.prototype_count(),
                 world.instance_count(),
                 world.stored_triangle_count(),
-                world.stored_sphere_count()
+                world.stored_quadric_count()
             )?;
         }
         say!("  bounds     {} to {}", bounds.min, bounds.max)?;

@@ -17,7 +17,7 @@ impl SceneReport {
             "seed": self.options.seed,
             "threads": self.threads,
             "triangles": self.triangles,
-            "spheres": self.spheres,
+            "quadrics": self.quadrics,
             "lights": self.lights,
             "light_bytes": self.light_bytes,
             "reference": self.reference_json(),

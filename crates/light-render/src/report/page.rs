@@ -68,11 +68,11 @@ impl SceneReport {
         html.words(
             "p",
             &format!(
-                "{} lights, {} triangles, {} spheres; {width} x {height} pixels, {} s for each \
+                "{} lights, {} triangles, {} quadrics; {width} x {height} pixels, {} s for each \
                  picture on {} threads, paths of at most {} segments, seed {}.",
                 self.lights,
                 self.triangles,
-                self.spheres,
+                self.quadrics,
                 figure(self.options.time.as_secs_f64()),
                 self.threads,
                 self.options.path.max_depth,

@@ -38,7 +38,7 @@ pub(crate) struct SceneReport {
     pub(super) corner: [u32; 2],
     pub(super) threads: usize,
     pub(super) triangles: usize,
-    pub(super) spheres: usize,
+    pub(super) quadrics: usize,
     pub(super) lights: usize,
     /// What the lights take beside a sampler, in bytes.
     pub(super) light_bytes: usize,
@@ -84,7 +84,7 @@ impl SceneReport {
             corner: view.crop().min,
             threads: rayon::current_num_threads(),
             triangles: world.triangle_count(),
-            spheres: world.sphere_count(),
+            quadrics: world.quadric_count(),
             lights: world.lights().len(),
             light_bytes: bytes.lights + bytes.images + bytes.vertices,
             inventory: inventory(world.lights()),

@@ -13,8 +13,8 @@ impl World {
     /// or a back face that is culled.
     ///
     /// A surface of fractional opacity is hit by that share of the rays, chosen by a hash of ray
-    /// and primitive, so that the same ray always gets the same answer. A ray may cross a sphere
-    /// twice, so that the hash of a sphere includes the coordinates.
+    /// and primitive, so that the same ray always gets the same answer. A ray may cross a quadric
+    /// twice, so that the hash of a quadric includes the coordinates.
     pub(super) fn any_hit(&self, ray: &Ray, primitive: PrimitiveId, coords: Vec2) -> bool {
         let (_, material) = self.material(primitive);
         let is_culled = material.back_faces == BackFaces::Culled;
@@ -25,7 +25,7 @@ impl World {
             return true;
         }
         let opacity = self.opacity(material, self.uvs(primitive, coords));
-        let coords = if self.is_sphere(primitive) {
+        let coords = if self.quadric(primitive).is_some() {
             coords
         } else {
             Vec2::ZERO

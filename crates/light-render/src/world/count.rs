@@ -10,10 +10,10 @@ impl World {
         self.count(|[triangles, _]| triangles.len())
     }
 
-    /// The number of spheres, those of prototypes counted once per instance.
+    /// The number of quadrics, those of prototypes counted once per instance.
     #[must_use]
-    pub(crate) fn sphere_count(&self) -> usize {
-        self.count(|[_, spheres]| spheres.len())
+    pub(crate) fn quadric_count(&self) -> usize {
+        self.count(|[_, quadrics]| quadrics.len())
     }
 
     /// The number of stored triangles, those of prototypes counted once.
@@ -22,10 +22,10 @@ impl World {
         self.triangles.len()
     }
 
-    /// The number of stored spheres, those of prototypes counted once.
+    /// The number of stored quadrics, those of prototypes counted once.
     #[must_use]
-    pub fn stored_sphere_count(&self) -> usize {
-        self.spheres.len()
+    pub fn stored_quadric_count(&self) -> usize {
+        self.quadrics.len()
     }
 
     /// The number of prototypes.
@@ -40,7 +40,7 @@ impl World {
         self.accel.instances().len()
     }
 
-    /// The `n`th of all triangles and spheres, those of prototypes counted once per instance;
+    /// The `n`th of all triangles and quadrics, those of prototypes counted once per instance;
     /// `None` beyond the last.
     #[must_use]
     pub fn primitive(&self, mut n: usize) -> Option<PrimitiveId> {
@@ -59,7 +59,7 @@ impl World {
             .find_map(|(instance, ranges)| Some(PrimitiveId::in_instance(among(ranges)?, instance)))
     }
 
-    /// All triangles and spheres, those of prototypes once per instance, in the order of
+    /// All triangles and quadrics, those of prototypes once per instance, in the order of
     /// [`primitive`](Self::primitive).
     pub(crate) fn primitives(&self) -> impl Iterator<Item = PrimitiveId> {
         let world = self.accel.world().into_iter().flatten();

@@ -8,14 +8,14 @@ impl World {
         // By content, because the order in the hierarchy is a matter of how that is built.
         let instances = (0u32..).zip(self.accel.instances());
         let mut instances: Vec<_> = instances
-            .map(|(instance, [triangles, spheres])| {
+            .map(|(instance, [triangles, quadrics])| {
                 let transform = self.accel.instance_transform(instance).to_world();
                 let bits = transform.to_cols_array().map(f32::to_bits);
-                ([triangles.start, spheres.start], bits)
+                ([triangles.start, quadrics.start], bits)
             })
             .collect();
         instances.sort_unstable();
-        let geometry = (&self.meshes, &self.spheres, self.accel.world(), instances);
+        let geometry = (&self.meshes, &self.quadrics, self.accel.world(), instances);
         [
             ("geometry", content_digest(&geometry)),
             ("materials", content_digest(&self.materials)),

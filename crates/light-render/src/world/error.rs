@@ -9,8 +9,8 @@ use crate::SceneLightsError;
 pub enum WorldError {
     /// A light is invalid.
     Lights(SceneLightsError),
-    /// A sphere has no radius, or its transform is not a similarity.
-    Sphere {
+    /// A quadric has no radius or length, or its transform is not a similarity.
+    Quadric {
         /// Its name.
         name: String,
     },
@@ -38,9 +38,9 @@ impl fmt::Display for WorldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Lights(error) => error.fmt(f),
-            Self::Sphere { name } => write!(
+            Self::Quadric { name } => write!(
                 f,
-                "sphere {name}: expected a transform of rotation, translation and uniform scale"
+                "{name}: expected a size above 0 and a transform of rotation, translation and uniform scale"
             ),
             Self::Instance { name } => {
                 write!(
@@ -50,7 +50,7 @@ impl fmt::Display for WorldError {
             }
             Self::Copies { name, most } => write!(
                 f,
-                "object {name}: expected at most {most} emissive triangles and spheres in all \
+                "object {name}: expected at most {most} emissive triangles and quadrics in all \
                  instances"
             ),
         }

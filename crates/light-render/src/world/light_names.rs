@@ -17,10 +17,10 @@ impl World {
                 let mesh = &self.meshes[index];
                 [&self.materials[mesh.material].name, &mesh.name].map(Cow::from)
             }
-            SceneSource::Sphere(index) => {
-                let sphere = &self.spheres[index];
-                let name = &sphere.described.name;
-                [&self.materials[sphere.material()].name, name].map(Cow::from)
+            SceneSource::Quadric(index) => {
+                let quadric = &self.quadrics[index];
+                let name = &quadric.described.name;
+                [&self.materials[quadric.material()].name, name].map(Cow::from)
             }
             SceneSource::Light(index) => {
                 let kind = Cow::from(kind(&self.lights.get(light)?));

@@ -10,7 +10,7 @@ impl World {
     #[inline(never)]
     pub(super) fn closest_listed(&self, ray: &Ray, mut t_max: f32) -> Option<Surface> {
         let mut closest = None;
-        let first = u32::try_from(self.triangles.len() + self.spheres.len()).ok()?;
+        let first = u32::try_from(self.triangles.len() + self.quadrics.len()).ok()?;
         for (number, &id) in (first..).zip(&self.listed_lights) {
             let light = self.lights.get(id)?;
             let Some(at) = light.hit(ray.origin, ray.direction) else {
@@ -25,7 +25,7 @@ impl World {
         closest
     }
 
-    /// The light of the surface with this number behind those of triangles and spheres.
+    /// The light of the surface with this number behind those of triangles and quadrics.
     pub(super) fn listed_light(&self, number: usize) -> Option<LightId> {
         self.listed_lights.get(number).copied()
     }

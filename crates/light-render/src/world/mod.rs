@@ -15,7 +15,6 @@ use light_scene::{BackFaces, Material, Scene, Surface as Finish};
 use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
-use lights::sources::shape::Sphere;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
 use crate::emitter_ids::EmitterIds;
@@ -23,8 +22,8 @@ use crate::scene_lights::{SceneLights, SceneSource, checked_images};
 use crate::surface_emission::AlphaMaskedLights;
 use crate::world_media::WorldMedia;
 use crate::world_mesh::WorldMesh;
-use crate::world_sphere::WorldSphere;
-use crate::{Accel, Prototype, Ray, Surface};
+use crate::world_quadric::WorldQuadric;
+use crate::{Accel, Prototype, QuadricShape, Ray, Surface};
 pub use error::WorldError;
 use objects::Objects;
 
@@ -40,7 +39,7 @@ pub struct World {
     /// For each stored triangle its mesh and its index there.
     triangles: Vec<MeshTriangle>,
     /// Those in world space, then those of prototypes.
-    spheres: Vec<WorldSphere>,
+    quadrics: Vec<WorldQuadric>,
     accel: Accel,
     /// Those of the scene, and behind them that of listed lights, if rays hit any.
     materials: Vec<Material>,
@@ -53,7 +52,7 @@ pub struct World {
     light_names: Vec<String>,
     infinite: Vec<LightId>,
     /// The area lights and own lights of the scene's list that rays hit. Their surfaces have the
-    /// numbers behind those of spheres.
+    /// numbers behind those of quadrics.
     listed_lights: Vec<LightId>,
     media: WorldMedia,
     /// Whether rays pass through any material: alpha masks, back faces that are culled.
@@ -87,7 +86,7 @@ impl World {
         let Objects { instanced } = Objects::take(&mut scene)?;
         let Scene {
             meshes,
-            spheres,
+            quadrics,
             mut materials,
             images,
             lights,
@@ -99,7 +98,7 @@ impl World {
         let images = checked_images(images)?;
         let media = WorldMedia::new(media, camera_medium, &materials);
         let mut meshes: Vec<WorldMesh> = meshes.into_iter().map(WorldMesh::from).collect();
-        let mut spheres = world_spheres(spheres)?;
+        let mut quadrics = world_quadrics(quadrics)?;
         let SceneLights {
             lights,
             infinite,
@@ -108,26 +107,26 @@ impl World {
             masked: masked_lights,
             listed: listed_lights,
             listed_meshes,
-        } = SceneLights::new(&meshes, &spheres, &materials, &images, lights, &bounds)?;
+        } = SceneLights::new(&meshes, &quadrics, &materials, &images, lights, &bounds)?;
         if !(listed_lights.is_empty() && listed_meshes.is_empty()) {
             materials.push(Material::diffuse("listed light", Vec3::ZERO));
         }
         meshes.extend(listed_meshes);
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
-        let own_spheres = shapes(&spheres);
+        let own_quadrics = shapes(&quadrics);
         let mut prototypes = Vec::with_capacity(instanced.len());
         for object in instanced {
-            let (first_mesh, first_sphere) = (meshes.len(), spheres.len());
+            let (first_mesh, first_quadric) = (meshes.len(), quadrics.len());
             meshes.extend(object.meshes.into_iter().map(WorldMesh::from));
-            spheres.extend(world_spheres(object.spheres)?);
+            quadrics.extend(world_quadrics(object.quadrics)?);
             let triangles = meshes[first_mesh..].iter().flat_map(WorldMesh::triangles);
             prototypes.push(Prototype {
                 triangles: triangles.collect(),
-                spheres: shapes(&spheres[first_sphere..]),
+                quadrics: shapes(&quadrics[first_quadric..]),
                 transforms: object.transforms,
             });
         }
-        let accel = Accel::with_spheres_and_prototypes(&corners, &own_spheres, prototypes);
+        let accel = Accel::with_quadrics_and_prototypes(&corners, &own_quadrics, prototypes);
         let triangles = (0u32..).zip(&meshes).flat_map(|(mesh, m)| {
             let indices = (0u32..).zip(m.indices.iter());
             indices.map(move |(index, _)| MeshTriangle { mesh, index })
@@ -143,7 +142,7 @@ impl World {
             triangles: triangles.collect(),
             accel,
             meshes,
-            spheres,
+            quadrics,
             materials,
             images,
             bounds,
@@ -221,10 +220,10 @@ impl World {
     }
 }
 
-fn world_spheres(spheres: Vec<light_scene::Sphere>) -> Result<Vec<WorldSphere>, WorldError> {
-    spheres.into_iter().map(WorldSphere::try_from).collect()
+fn world_quadrics(quadrics: Vec<light_scene::Quadric>) -> Result<Vec<WorldQuadric>, WorldError> {
+    quadrics.into_iter().map(WorldQuadric::try_from).collect()
 }
 
-fn shapes(spheres: &[WorldSphere]) -> Vec<Sphere> {
-    spheres.iter().map(|sphere| sphere.shape).collect()
+fn shapes(quadrics: &[WorldQuadric]) -> Vec<QuadricShape> {
+    quadrics.iter().map(|quadric| quadric.shape).collect()
 }

@@ -1,12 +1,12 @@
 use std::collections::HashSet;
 
 use light_scene::glam::Affine3A;
-use light_scene::{Instance, MAX_EMISSIVE_COPIES, Mesh, Prototype, Scene, Sphere};
+use light_scene::{Instance, MAX_EMISSIVE_COPIES, Mesh, Prototype, Quadric, Scene};
 
 use super::WorldError;
 use crate::InstanceTransform;
 
-/// Objects of at most this many triangles and spheres are copied: copies take no more memory than
+/// Objects of at most this many triangles and quadrics are copied: copies take no more memory than
 /// instances, and rays find them faster.
 const FEW: usize = 2;
 
@@ -23,15 +23,15 @@ pub(super) struct Objects {
 #[derive(Debug)]
 pub(super) struct InstancedObject {
     pub(super) meshes: Vec<Mesh>,
-    pub(super) spheres: Vec<Sphere>,
+    pub(super) quadrics: Vec<Quadric>,
     pub(super) transforms: Vec<InstanceTransform>,
 }
 
-/// Meshes and spheres of an object.
+/// Meshes and quadrics of an object.
 #[derive(Debug, Default)]
 struct Part {
     meshes: Vec<Mesh>,
-    spheres: Vec<Sphere>,
+    quadrics: Vec<Quadric>,
 }
 
 impl Objects {
@@ -69,11 +69,11 @@ impl Objects {
                 distinct(&transforms)
             };
             let is_small = shared_transforms.len() < 2 || instanced.count() <= FEW;
-            if is_small && instanced.spheres_stay_spheres(&shared_transforms) {
+            if is_small && instanced.quadrics_stay(&shared_transforms) {
                 let small = core::mem::take(&mut instanced);
                 if shared_transforms.len() == transforms.len() {
                     copied.meshes.extend(small.meshes);
-                    copied.spheres.extend(small.spheres);
+                    copied.quadrics.extend(small.quadrics);
                 } else {
                     for transform in &shared_transforms {
                         small.copy_to(scene, transform);
@@ -91,7 +91,7 @@ impl Objects {
                 let transforms = transforms.ok_or(WorldError::Instance { name })?;
                 objects.instanced.push(InstancedObject {
                     meshes: instanced.meshes,
-                    spheres: instanced.spheres,
+                    quadrics: instanced.quadrics,
                     transforms,
                 });
             }
@@ -112,44 +112,44 @@ impl Part {
     /// one copy.
     fn has_fractional_opacity(&self, scene: &Scene) -> bool {
         let meshes = self.meshes.iter().map(|mesh| mesh.material);
-        let spheres = self.spheres.iter().map(|sphere| sphere.material);
-        let mut alphas = meshes.chain(spheres).map(|id| scene.material(id).alpha);
+        let quadrics = self.quadrics.iter().map(|sphere| sphere.material);
+        let mut alphas = meshes.chain(quadrics).map(|id| scene.material(id).alpha);
         alphas.any(|alpha| alpha.is_some_and(|alpha| alpha.cutoff.is_none()))
     }
 
     fn split_emissive(prototype: Prototype, scene: &Scene) -> (Self, Self) {
         let Prototype {
-            meshes, spheres, ..
+            meshes, quadrics, ..
         } = prototype;
         let meshes = meshes
             .into_iter()
             .partition(|mesh| scene.is_emissive(mesh.material));
-        let spheres = spheres
+        let quadrics = quadrics
             .into_iter()
             .partition(|sphere| scene.is_emissive(sphere.material));
-        let part = |meshes, spheres| Self { meshes, spheres };
-        (part(meshes.0, spheres.0), part(meshes.1, spheres.1))
+        let part = |meshes, quadrics| Self { meshes, quadrics };
+        (part(meshes.0, quadrics.0), part(meshes.1, quadrics.1))
     }
 
-    /// The number of triangles and spheres.
+    /// The number of triangles and quadrics.
     fn count(&self) -> usize {
         let triangles = self.meshes.iter().map(|mesh| mesh.indices.len());
-        triangles.sum::<usize>() + self.spheres.len()
+        triangles.sum::<usize>() + self.quadrics.len()
     }
 
-    /// The number of triangles and spheres of a copy; a stretched sphere counts as its mesh.
+    /// The number of triangles and quadrics of a copy; one that is stretched counts as its mesh.
     fn count_under(&self, transform: &Affine3A) -> usize {
         let stretched = self
-            .spheres
+            .quadrics
             .iter()
             .filter(|s| s.transformed(transform).is_none());
         self.count() + stretched.count() * usize::from(COLUMNS).pow(2)
     }
 
-    /// Whether all spheres stay spheres under all transforms.
-    fn spheres_stay_spheres(&self, transforms: &[Affine3A]) -> bool {
-        let mut spheres = self.spheres.iter();
-        spheres.all(|s| {
+    /// Whether all quadrics stay quadrics under all transforms.
+    fn quadrics_stay(&self, transforms: &[Affine3A]) -> bool {
+        let mut quadrics = self.quadrics.iter();
+        quadrics.all(|s| {
             transforms
                 .iter()
                 .all(|transform| s.transformed(transform).is_some())
@@ -160,9 +160,9 @@ impl Part {
     fn copy_to(&self, scene: &mut Scene, transform: &Affine3A) {
         let meshes = self.meshes.iter().map(|mesh| mesh.transformed(transform));
         scene.meshes.extend(meshes);
-        for sphere in &self.spheres {
+        for sphere in &self.quadrics {
             match sphere.transformed(transform) {
-                Some(moved) => scene.spheres.push(moved),
+                Some(moved) => scene.quadrics.push(moved),
                 None => scene
                     .meshes
                     .push(sphere.mesh(COLUMNS).transformed(transform)),

@@ -5,16 +5,16 @@ use lights::sources::SurfacePoint;
 
 use super::{MeshTriangle, World};
 use crate::world_mesh::WorldMesh;
-use crate::world_sphere::WorldSphere;
-use crate::{InstanceTransform, PrimitiveId, Ray, Surface};
+use crate::world_quadric::WorldQuadric;
+use crate::{InstanceTransform, PrimitiveId, QuadricShape, Ray, Surface};
 
-/// The triangle, sphere or listed light with a primitive's number.
+/// The triangle, quadric or listed light with a primitive's number.
 #[derive(Clone, Copy, Debug)]
 enum Stored<'a> {
     /// A triangle of a mesh.
     Triangle { mesh: &'a WorldMesh, index: u32 },
-    /// A sphere.
-    Sphere(&'a WorldSphere),
+    /// A sphere, disk or cylinder.
+    Quadric(&'a WorldQuadric),
     /// The surface of a light of the scene's list.
     Listed,
 }
@@ -30,7 +30,7 @@ impl World {
     pub fn surface(&self, primitive: PrimitiveId, coords: Vec2) -> Surface {
         match self.stored(primitive) {
             Stored::Triangle { mesh, index } => self.on_triangle(primitive, mesh, index, coords),
-            Stored::Sphere(sphere) => self.on_sphere(primitive, sphere, coords),
+            Stored::Quadric(quadric) => self.on_quadric(primitive, quadric, coords),
             Stored::Listed => panic!("listed lights have no coordinates"),
         }
     }
@@ -61,12 +61,12 @@ impl World {
         }
     }
 
-    // Not inlined: most scenes have no spheres.
+    // Not inlined: most scenes have no quadrics.
     #[inline(never)]
-    fn on_sphere(&self, id: PrimitiveId, sphere: &WorldSphere, coords: Vec2) -> Surface {
-        let at = sphere.at(coords);
-        let n = sphere.front_normal(at.n);
-        let surface = Surface::on_sphere(id, &sphere.shape, &SurfacePoint { n, ..at });
+    fn on_quadric(&self, id: PrimitiveId, quadric: &WorldQuadric, coords: Vec2) -> Surface {
+        let at = quadric.at(coords);
+        let n = quadric.front_normal(at.n);
+        let surface = Surface::on_quadric(id, &quadric.shape, &SurfacePoint { n, ..at });
         match self.transform(id) {
             Some(transform) => transform.surface(&surface),
             None => surface,
@@ -78,7 +78,7 @@ impl World {
     pub(super) fn material(&self, primitive: PrimitiveId) -> (usize, &Material) {
         let id = match self.stored(primitive) {
             Stored::Triangle { mesh, .. } => mesh.material,
-            Stored::Sphere(sphere) => sphere.material(),
+            Stored::Quadric(quadric) => quadric.material(),
             Stored::Listed => self.materials.len() - 1,
         };
         (id, &self.materials[id])
@@ -91,7 +91,7 @@ impl World {
                 let (indices, weights) = self.oriented(primitive, mesh.vertices(index), coords);
                 [mesh.uv(indices, weights), mesh.second_uv(indices, weights)]
             }
-            Stored::Sphere(sphere) => [sphere.at(coords).uv, Vec2::ZERO],
+            Stored::Quadric(quadric) => [quadric.at(coords).uv, Vec2::ZERO],
             Stored::Listed => [coords, Vec2::ZERO],
         }
     }
@@ -157,9 +157,12 @@ impl World {
         Some([t, bitangent * side])
     }
 
-    /// Whether the primitive is a sphere.
-    pub(crate) fn is_sphere(&self, primitive: PrimitiveId) -> bool {
-        matches!(self.stored(primitive), Stored::Sphere(_))
+    /// The shape of the primitive in object space, if it is a quadric.
+    pub(crate) fn quadric(&self, primitive: PrimitiveId) -> Option<&QuadricShape> {
+        match self.stored(primitive) {
+            Stored::Quadric(quadric) => Some(&quadric.shape),
+            _ => None,
+        }
     }
 
     /// The light that `surface` is part of and the radiance that it sends toward `wo`; `None` where
@@ -174,14 +177,14 @@ impl World {
             }
             None => {
                 let number = number - self.triangles.len();
-                match self.spheres.get(number) {
-                    // The light of a sphere has its front outside, whatever the front of the
+                match self.quadrics.get(number) {
+                    // The light of a quadric has its front outside, whatever the front of the
                     // surface.
-                    Some(sphere) => {
-                        let id = self.emitters.sphere(number)?;
-                        (id, sphere.front_normal(surface.n))
+                    Some(quadric) => {
+                        let id = self.emitters.quadric(number)?;
+                        (id, quadric.front_normal(surface.n))
                     }
-                    None => (self.listed_light(number - self.spheres.len())?, surface.n),
+                    None => (self.listed_light(number - self.quadrics.len())?, surface.n),
                 }
             }
         };
@@ -209,8 +212,8 @@ impl World {
                 mesh: &self.meshes[mesh as usize],
                 index,
             },
-            None => match self.spheres.get(number - self.triangles.len()) {
-                Some(sphere) => Stored::Sphere(sphere),
+            None => match self.quadrics.get(number - self.triangles.len()) {
+                Some(quadric) => Stored::Quadric(quadric),
                 None => Stored::Listed,
             },
         }

@@ -108,13 +108,13 @@ fn flattened(scene: &Scene) -> Scene {
     } in core::mem::take(&mut flat.instances)
     {
         let Prototype {
-            meshes, spheres, ..
+            meshes, quadrics, ..
         } = scene.prototype(prototype);
         flat.meshes
             .extend(meshes.iter().map(|mesh| mesh.transformed(&transform)));
-        for sphere in spheres {
+        for sphere in quadrics {
             match sphere.transformed(&transform) {
-                Some(sphere) => flat.spheres.push(sphere),
+                Some(sphere) => flat.quadrics.push(sphere),
                 None => flat.meshes.push(sphere.mesh(512).transformed(&transform)),
             }
         }

@@ -2,7 +2,7 @@
 
 use light_render::{PrimitiveId, Ray};
 use light_scene::glam::{Vec2, Vec3};
-use light_scene::{Material, Scene, SphereFront};
+use light_scene::{Material, QuadricFront, Scene};
 
 use super::{add, similarity, tessellated, world};
 
@@ -19,7 +19,7 @@ fn rays_meet_what_they_meet_of_triangles() {
         Material::diffuse("b", Vec3::ONE),
         similarity(Vec3::new(0.8, 0.2, 0.3), 0.2),
     );
-    scene.spheres[1].front = SphereFront::Inside;
+    scene.quadrics[1].front = QuadricFront::Inside;
     let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 512))];
     let lattice = |i: u32, g: Vec3| (g * i as f32).fract();
     let mut met = 0;

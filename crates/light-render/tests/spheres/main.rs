@@ -1,6 +1,7 @@
-//! Spheres are round: they are met, lit, and emit light as closed forms say, and as very many
+//! Spheres, disks and cylinders are round: they are met, lit, and emit light as closed forms say, and as very many
 //! triangles do.
 
+mod disks_and_cylinders;
 mod hits;
 mod pictures;
 mod radiance;
@@ -11,7 +12,7 @@ use std::path::Path;
 
 use light_render::{World, WorldError};
 use light_scene::glam::{Affine3A, Vec2, Vec3};
-use light_scene::{Emission, Files, Material, Scene, Sphere, Surface as Finish, parse_scene};
+use light_scene::{Emission, Files, Material, Quadric, Scene, Surface as Finish, parse_scene};
 
 fn similarity(center: Vec3, radius: f32) -> Affine3A {
     let turn = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, -2.0) / 3.0, 0.9);
@@ -20,7 +21,9 @@ fn similarity(center: Vec3, radius: f32) -> Affine3A {
 
 fn add(scene: &mut Scene, material: Material, transform: Affine3A) {
     let material = scene.add_material(material);
-    scene.spheres.push(Sphere::new("ball", material, transform));
+    scene
+        .quadrics
+        .push(Quadric::sphere("ball", material, transform));
 }
 
 fn lamp(emission: Emission) -> Material {
@@ -40,7 +43,7 @@ fn glass() -> Finish {
 /// The scene with meshes of many triangles instead of spheres.
 fn tessellated(scene: &Scene, columns: u16) -> Scene {
     let mut scene = scene.clone();
-    let meshes = scene.spheres.drain(..).map(|sphere| sphere.mesh(columns));
+    let meshes = scene.quadrics.drain(..).map(|sphere| sphere.mesh(columns));
     scene.meshes.extend(meshes);
     scene
 }
@@ -55,7 +58,7 @@ fn spheres_of_pbrt_files_are_round_where_they_can_be() {
         let text = format!("WorldBegin {text}");
         let scene = parse_scene(Path::new("a.pbrt"), text.as_bytes(), Files::NONE);
         let scene = scene.expect("a scene");
-        (scene.spheres.len(), scene.meshes.len())
+        (scene.quadrics.len(), scene.meshes.len())
     };
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]";
     let both = format!("{light} \"bool twosided\" true");
@@ -91,7 +94,7 @@ fn impossible_spheres_are_refused() {
     let error = World::new(scene).err();
     assert_eq!(
         error,
-        Some(WorldError::Sphere {
+        Some(WorldError::Quadric {
             name: "ball".into()
         }),
         "stretched"

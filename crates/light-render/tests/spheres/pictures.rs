@@ -2,7 +2,7 @@
 
 use light_scene::glam::{Affine3A, Vec2, Vec3};
 use light_scene::{
-    Alpha, Color, Emission, Image, Instance, Material, Prototype, Scene, Sphere, SphereFront,
+    Alpha, Color, Emission, Image, Instance, Material, Prototype, Quadric, QuadricFront, Scene,
     Surface as Finish,
 };
 use lights::media::phase::Isotropic;
@@ -64,7 +64,7 @@ fn pictures_are_those_of_fine_triangles() {
 }
 
 #[test]
-fn textures_lie_on_spheres_as_on_triangles() {
+fn textures_lie_on_quadrics_as_on_triangles() {
     let texels = (0..64).map(|i| Vec3::splat(if i % 3 == 0 { 0.1 } else { 0.9 }));
     let image = Image::new(8, 8, texels.collect()).expect("an image");
     let mut scene = ball_in_room(Material::diffuse("ball", Vec3::ONE));
@@ -82,13 +82,13 @@ fn textures_lie_on_spheres_as_on_triangles() {
 
 #[test]
 fn estimators_agree_on_lamps_inside_and_outside() {
-    for front in [SphereFront::Outside, SphereFront::Inside] {
+    for front in [QuadricFront::Outside, QuadricFront::Inside] {
         for emission in [Emission::one_sided, Emission::two_sided] {
             let mut scene = ball_in_room(lamp(emission(Vec3::new(3.0, 2.0, 1.0))));
-            scene.spheres[0].front = front;
+            scene.quadrics[0].front = front;
             assert_estimators_agree(&scene);
             // From inside of it.
-            scene.spheres[0].transform = similarity(Vec3::new(0.5, 0.5, 0.9), 0.3);
+            scene.quadrics[0].transform = similarity(Vec3::new(0.5, 0.5, 0.9), 0.3);
             assert_estimators_agree(&scene);
         }
     }
@@ -122,7 +122,7 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
     ] {
         let mut scene = cornell();
         let id = scene.add_material(material);
-        let ball = Sphere::new("ball", id, Affine3A::IDENTITY);
+        let ball = Quadric::sphere("ball", id, Affine3A::IDENTITY);
         let mut flat = scene.clone();
         let fine = ball.mesh(128);
         flat.meshes.extend(
@@ -131,7 +131,7 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
                 .map(|transform| fine.transformed(transform)),
         );
         let mut prototype = Prototype::new("ball", Vec::new());
-        prototype.spheres.push(ball);
+        prototype.quadrics.push(ball);
         let prototype = scene.add_prototype(prototype);
         scene.instances.extend(transforms.map(|transform| Instance {
             prototype,
@@ -139,7 +139,7 @@ fn prototypes_hold_spheres_which_places_may_stretch() {
         }));
 
         let world = world(scene.clone());
-        let count = (world.instance_count(), world.stored_sphere_count());
+        let count = (world.instance_count(), world.stored_quadric_count());
         assert_eq!(
             count,
             if is_emissive { (0, 1) } else { (2, 1) },

@@ -2,7 +2,7 @@
 
 use light_render::SamplerKind;
 use light_scene::glam::{DVec3, Vec3};
-use light_scene::{Camera, Emission, Material, Scene, SphereFront};
+use light_scene::{Camera, Emission, Material, QuadricFront, Scene};
 use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
 
 use super::{add, glass, lamp, similarity};
@@ -62,7 +62,7 @@ fn a_furnace_inside_of_a_sphere_is_the_geometric_series() {
         wall,
         similarity(Vec3::new(10.0, 0.0, -3.0), 2.0),
     );
-    scene.spheres[0].front = SphereFront::Inside;
+    scene.quadrics[0].front = QuadricFront::Inside;
     let eye = Vec3::new(10.5, 0.3, -2.0);
     scene.camera = Camera::look_at(eye, eye + Vec3::X, Vec3::Y, 1.5).ok();
     let albedo = f64::from(ALBEDO);

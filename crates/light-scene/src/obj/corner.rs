@@ -123,7 +123,16 @@ mod tests {
             let number = whole_number(text.as_bytes());
             assert_eq!(number, text.parse().ok(), "{text}");
         }
-        for text in ["", "-", "+", "--1", "1.0", " 1", "1e3", "9223372036854775808"] {
+        for text in [
+            "",
+            "-",
+            "+",
+            "--1",
+            "1.0",
+            " 1",
+            "1e3",
+            "9223372036854775808",
+        ] {
             assert_eq!(whole_number(text.as_bytes()), None, "{text}");
         }
     }

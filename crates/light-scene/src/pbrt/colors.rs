@@ -10,8 +10,9 @@ use ParameterType::{Blackbody, Rgb, Spectrum};
 impl Parameters {
     /// A colour that may exceed 1: a coefficient per unit length. `None` for a spectrum by name.
     pub(super) fn unbounded(&self, name: &str) -> Option<Vec3> {
-        self.value(name, &[Rgb, Spectrum], |p| match p.kind {
+        self.value(name, &[Rgb, Blackbody, Spectrum], |p| match p.kind {
             Rgb => p.rgb().map(Some),
+            Blackbody => of_temperature(p, spectrum::blackbody_share).map(Some),
             _ => sampled(p, spectrum::unbounded),
         })
         .flatten()
@@ -20,7 +21,11 @@ impl Parameters {
     /// A colour that light is multiplied with, as RGB at most `most`. `None` for a spectrum by
     /// name.
     pub(super) fn reflectance(&self, name: &str, most: f32) -> Option<Vec3> {
-        self.value(name, &[Rgb, Spectrum], |p| match p.kind {
+        self.value(name, &[Rgb, Blackbody, Spectrum], |p| match p.kind {
+            Blackbody => {
+                let share = of_temperature(p, spectrum::blackbody_share)?;
+                Ok(Some(share.min(Vec3::ONE)))
+            }
             Rgb => {
                 let rgb = p.rgb()?;
                 if rgb.max_element() > most {
@@ -39,14 +44,7 @@ impl Parameters {
     pub(super) fn emission(&self, name: &str) -> Option<Vec3> {
         self.value(name, &[Rgb, Blackbody, Spectrum], |p| match p.kind {
             Rgb => p.rgb().map(Some),
-            Blackbody => {
-                let [kelvin] = p.exactly()?;
-                let color = spectrum::blackbody(kelvin).map(Some);
-                color.ok_or_else(|| {
-                    let name = p.shown();
-                    format!("expected a temperature in kelvin for `{name}`, found {kelvin}")
-                })
-            }
+            Blackbody => of_temperature(p, spectrum::blackbody).map(Some),
             _ => match p.words.first() {
                 Some(_) => p.word().map(spectrum::named_emission),
                 None => sampled(p, spectrum::emission),
@@ -54,6 +52,18 @@ impl Parameters {
         })
         .flatten()
     }
+}
+
+/// What `color` makes of a temperature in kelvin.
+fn of_temperature(
+    parameter: &Parameter,
+    color: impl Fn(f32) -> Option<Vec3>,
+) -> Result<Vec3, String> {
+    let [kelvin] = parameter.exactly()?;
+    color(kelvin).ok_or_else(|| {
+        let name = parameter.shown();
+        format!("expected a temperature in kelvin for `{name}`, found {kelvin}")
+    })
 }
 
 /// What `color` makes of a table of wavelengths and values; nothing of a name.

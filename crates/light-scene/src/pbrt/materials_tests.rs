@@ -11,7 +11,7 @@ fn alpha_is_the_opacity() {
     let opacity = |alpha: &str| {
         let text = format!("WorldBegin Shape \"disk\" {alpha}");
         let scene = read("pbrt_alpha", &text).expect("a scene");
-        let alpha = scene.material(scene.meshes[0].material).alpha;
+        let alpha = scene.material(scene.quadrics[0].material).alpha;
         alpha.map(|alpha| (alpha.opacity, alpha.cutoff))
     };
     let half = Color::Constant(Vec3::splat(0.5));
@@ -53,7 +53,8 @@ fn spectra_come_from_files_and_by_name() {
         "white: {}",
         light.emission
     );
-    let Surface::Conductor { eta, k, .. } = scene.material(scene.meshes[0].material).surface else {
+    let Surface::Conductor { eta, k, .. } = scene.material(scene.quadrics[0].material).surface
+    else {
         panic!("a metal");
     };
     assert!(
@@ -81,13 +82,8 @@ fn mixtures_hold_their_parts() {
              Material \"mix\" {materials} {amount} Shape \"disk\""
         );
         let scene = read("pbrt_mix", &text)?;
-        assert_eq!(
-            scene.warnings.len(),
-            1,
-            "of the disk alone: {:?}",
-            scene.warnings
-        );
-        Ok::<_, String>(scene.material(scene.meshes[0].material).surface.clone())
+        assert_eq!(scene.warnings, [], "none");
+        Ok::<_, String>(scene.material(scene.quadrics[0].material).surface.clone())
     };
     let both = "\"string materials\" [\"a\" \"b\"]";
     for (amount, expected) in [("\"float amount\" 0.2", 0.2), ("", 0.5)] {

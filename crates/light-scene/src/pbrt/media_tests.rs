@@ -100,7 +100,7 @@ fn media_are_read_with_their_coefficients_and_their_places() {
 
     let air_id = scene.camera_medium.expect("a medium");
     assert_eq!(air_id.index(), 0, "the camera is in air");
-    let media = |i: usize| scene.material(scene.spheres[i].material).media;
+    let media = |i: usize| scene.material(scene.quadrics[i].material).media;
     assert_eq!(
         media(0).inside.map(|id| id.index()),
         Some(2),
@@ -108,7 +108,7 @@ fn media_are_read_with_their_coefficients_and_their_places() {
     );
     assert_eq!(media(0).outside, Some(air_id), "air outside");
     assert_eq!(
-        scene.spheres[0].material, scene.spheres[1].material,
+        scene.quadrics[0].material, scene.quadrics[1].material,
         "one twin"
     );
     assert_eq!(
@@ -117,7 +117,7 @@ fn media_are_read_with_their_coefficients_and_their_places() {
         "no boundary"
     );
     assert_ne!(
-        scene.spheres[0].material, scene.spheres[2].material,
+        scene.quadrics[0].material, scene.quadrics[2].material,
         "another"
     );
 }

@@ -45,6 +45,8 @@ mod parameters_tests;
 mod ply;
 mod quadrics;
 #[cfg(test)]
+mod quadrics_tests;
+#[cfg(test)]
 mod refusals_tests;
 mod shapes;
 mod spectrum;

@@ -21,7 +21,7 @@ pub(super) struct ObjectSlot {
     /// The error if it is never defined.
     pub(super) unknown: Diagnostic,
     pub(super) prototype: Option<Prototype>,
-    /// The number of its emissive triangles and spheres, once it is defined.
+    /// The number of its emissive triangles and quadrics, once it is defined.
     pub(super) emissive: usize,
     /// The number of its instances so far.
     pub(super) instances: usize,

@@ -3,7 +3,7 @@ use super::object_slots::{ObjectSlot, Objects, OpenObject};
 use super::state::{FLATTENED, Reader, State};
 use crate::glam::Affine3A;
 use crate::text::shown;
-use crate::{Diagnostic, Instance, Mesh, Prototype, Sphere};
+use crate::{Diagnostic, Instance, Mesh, Prototype, Quadric};
 
 /// The most triangles that a scene may store, also if it includes the same files many times.
 const MOST_TRIANGLES: usize = 1 << 27;
@@ -95,11 +95,11 @@ impl Reader {
         Ok(())
     }
 
-    /// Adds a sphere to the object that is being defined, or to the world.
-    pub(super) fn add_sphere(&mut self, sphere: Sphere) {
+    /// Adds a quadric to the object that is being defined, or to the world.
+    pub(super) fn add_quadric(&mut self, quadric: Quadric) {
         match &mut self.objects.open {
-            Some(open) => open.prototype.spheres.push(sphere),
-            None => self.scene.spheres.push(sphere),
+            Some(open) => open.prototype.quadrics.push(quadric),
+            None => self.scene.quadrics.push(quadric),
         }
     }
 

@@ -19,12 +19,10 @@ impl Reader {
             self.warn(at, &format!("Shape \"{kind}\""), FLATTENED);
             return Ok(());
         }
-        if kind == "sphere" {
-            if let Some(mut sphere) = self.whole_sphere(typed)? {
-                sphere.material = self.shape_material(typed, || sphere.area());
-                self.add_sphere(sphere);
-                return Ok(());
-            }
+        if let Some(mut quadric) = self.whole_quadric(typed)? {
+            quadric.material = self.shape_material(typed, || quadric.area());
+            self.add_quadric(quadric);
+            return Ok(());
         }
         let mut mesh = match kind.as_str() {
             "trianglemesh" => triangle_mesh(typed)?,

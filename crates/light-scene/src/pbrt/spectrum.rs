@@ -13,13 +13,23 @@ pub(super) fn reflectance(pairs: &[f32]) -> Option<Vec3> {
 
 /// The colour of this spectrum seen by daylight, without a bound above.
 pub(super) fn unbounded(pairs: &[f32]) -> Option<Vec3> {
+    by_daylight(piecewise(pairs)?)
+}
+
+/// The colour, seen by daylight, of a surface that reflects as a black body of this temperature in
+/// kelvin emits: all of the light at its brightest wavelength.
+pub(super) fn blackbody_share(kelvin: f32) -> Option<Vec3> {
+    by_daylight(Blackbody::new(kelvin).ok()?)
+}
+
+fn by_daylight(reflectance: impl Spectrum) -> Option<Vec3> {
     let lit = Lit {
-        reflectance: piecewise(pairs)?,
+        reflectance,
         light: RgbColorSpace::srgb().illuminant(),
     };
     let white = cie::xyz(&lit.light).y;
     let rgb = RgbColorSpace::srgb().rgb_from_xyz() * cie::xyz(&lit) / white;
-    Some(rgb.max(Vec3::ZERO))
+    rgb.is_finite().then(|| rgb.max(Vec3::ZERO))
 }
 
 /// The colour of a light of this spectrum, of luminance 1.
@@ -98,6 +108,15 @@ mod tests {
             "luminance 1, not {luminance}"
         );
         assert_eq!(blackbody(-1.0), None, "no temperature");
+        // As a surface it is as warm, but reflects at most all light: a red wavelength and more.
+        let share = blackbody_share(2700.0).expect("a temperature");
+        assert!(share.max_element() < 1.0, "{share}");
+        assert!(
+            share.x > share.y && share.y > share.z,
+            "orange, not {share}"
+        );
+        let white = blackbody_share(6500.0).expect("a temperature");
+        assert!(white.min_element() > 0.7, "{white}");
         assert_eq!(reflectance(&[1.0]), None, "no pair");
     }
 }

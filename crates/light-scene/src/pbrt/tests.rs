@@ -61,11 +61,11 @@ fn reads_camera_materials_shapes_instances_and_lights() {
     let radiance = Color::Constant(Vec3::new(2.0, 4.0, 6.0));
     assert_eq!(emission.radiance, radiance, "scaled");
     assert_eq!(emission.sides, crate::EmissionSides::Both, "two-sided");
-    let [Prototype { name, spheres, .. }] = &scene.prototypes[..] else {
+    let [Prototype { name, quadrics, .. }] = &scene.prototypes[..] else {
         panic!("one object, not {}", scene.prototypes.len());
     };
-    assert_eq!((name.as_str(), spheres.len()), ("ball", 1), "a sphere");
-    let ball = &spheres[0];
+    assert_eq!((name.as_str(), quadrics.len()), ("ball", 1), "a sphere");
+    let ball = &quadrics[0];
     let transforms: Vec<_> = scene.instances.iter().map(|i| i.transform).collect();
     let moved = [Vec3::X * 3.0, Vec3::ZERO].map(Affine3A::from_translation);
     assert_eq!(transforms, moved, "two instances");

@@ -4,6 +4,9 @@ use core::fmt;
 
 use super::azimuth::azimuth;
 use super::cylinder_view::CylinderView;
+use super::rounding::HIT_ERROR;
+use super::solid_angle::area_to_solid_angle;
+use super::sphere::{OWN_ERROR, SPHERE_ERROR};
 use super::{DirectionSample, Shape, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
@@ -14,7 +17,8 @@ use light_math::{Aabb, DirectionCone};
 
 /// An open cylinder, the wall of a tube without its ends; its front is outside.
 ///
-/// Directions toward it are sampled nearly uniformly in solid angle, from inside too.
+/// Directions toward it are sampled nearly uniformly in solid angle, from inside too; those from its
+/// own wall by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     transform: RigidTransform,
@@ -54,8 +58,27 @@ impl Cylinder {
         Ok(cylinder)
     }
 
-    /// The point with the given parameters.
-    fn at(&self, uv: Vec2) -> SurfacePoint {
+    /// From the cylinder's space to the scene.
+    #[must_use]
+    pub const fn transform(&self) -> &RigidTransform {
+        &self.transform
+    }
+
+    /// The radius, in scene units.
+    #[must_use]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// The length, in scene units.
+    #[must_use]
+    pub const fn length(&self) -> f32 {
+        self.length
+    }
+
+    /// The point with the surface parameters `uv`, each in `[0, 1]`.
+    #[must_use]
+    pub fn at_uv(&self, uv: Vec2) -> SurfacePoint {
         let (sin_phi, cos_phi) = sin_cos(TAU * uv.x);
         let n = Vec3::new(cos_phi, sin_phi, 0.0);
         let z = (uv.y - 0.5) * self.length;
@@ -64,6 +87,57 @@ impl Cylinder {
             n: self.transform.vector(n),
             uv,
         }
+    }
+
+    /// Whether the receiver may be a point of the cylinder, wherever rounding has put it: by its
+    /// place and its normal. Another surface that close is on the side where it is.
+    fn is_own(&self, ctx: &LightSampleContext) -> bool {
+        let across = self.transform.inverse_point(ctx.p).truncate();
+        let size = self.transform.origin().abs().max_element() + self.radius + self.length;
+        let error = 2.0 * ctx.p_error.length() + OWN_ERROR * size;
+        ctx.n().is_some_and(|n| {
+            let own = self.transform.inverse_vector(n).truncate() * self.radius;
+            [own, -own]
+                .into_iter()
+                .any(|own| (own - across).abs().max_element() <= error)
+        })
+    }
+
+    /// The point, moved inward by more than its rounding error, so that the cylinder does not
+    /// occlude its own light.
+    fn before(&self, at: SurfacePoint) -> SurfacePoint {
+        let size = self.transform.origin().abs().max_element() + self.radius + self.length;
+        let p = at.p - at.n * (SPHERE_ERROR * size);
+        SurfacePoint { p, ..at }
+    }
+
+    /// Density per solid angle of directions from a point of the cylinder toward points chosen by
+    /// area, where the way out of the tube counts.
+    fn pdf_of_own(&self, p: Vec3, wi: Vec3) -> Option<f32> {
+        let o = self.transform.inverse_point(p);
+        let d = self.transform.inverse_vector(wi);
+        let [_, t] = self.chord(o, d)?;
+        let slack = HIT_ERROR * (o.length() + t);
+        let is_on_wall = t > 0.0 && (o.z + d.z * t).abs() <= 0.5 * self.length + slack;
+        let n = (o + d * t).with_z(0.0).try_normalize()?;
+        let (_, pdf) = area_to_solid_angle(1.0 / self.area(), d * t, n)?;
+        is_on_wall.then_some(pdf)
+    }
+
+    /// Distances along a ray of object space to where it enters the endless tube and where it
+    /// leaves it.
+    fn chord(&self, o: Vec3, d: Vec3) -> Option<[f32; 2]> {
+        let (o_xy, d_xy) = (o.truncate(), d.truncate());
+        // Seen from above, the ray passes the axis at a distance; half a chord before and behind is
+        // the wall.
+        let speed_sq = d_xy.length_squared();
+        let offset = o_xy.perp_dot(d_xy);
+        let half_sq = self.radius * self.radius * speed_sq - offset * offset;
+        if !(half_sq >= 0.0 && speed_sq > 0.0) {
+            return None;
+        }
+        let (nearest, half) = (-o_xy.dot(d_xy) / speed_sq, sqrt(half_sq) / speed_sq);
+        Some([nearest - half, nearest + half])
     }
 
     fn view(&self, p: Vec3) -> CylinderView {
@@ -94,7 +168,7 @@ impl Shape for Cylinder {
 
     fn sample(&self, u: Vec2) -> Option<ShapeSample> {
         Some(ShapeSample {
-            at: self.at(Vec2::new(u.y, u.x)),
+            at: self.at_uv(Vec2::new(u.y, u.x)),
             pdf: 1.0 / self.area(),
         })
     }
@@ -104,6 +178,16 @@ impl Shape for Cylinder {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+        if self.is_own(ctx) {
+            let ShapeSample { at, pdf } = self.sample(u)?;
+            let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
+            // From outside, where rounding has put an own point, a line first enters.
+            return (at.n.dot(wi) > 0.0).then(|| DirectionSample {
+                at: self.before(at),
+                wi,
+                pdf,
+            });
+        }
         let sample = self.view(ctx.p).sample(u)?;
         let n = sample.normal.extend(0.0);
         let z = sample.height - 0.5 * self.length;
@@ -119,30 +203,24 @@ impl Shape for Cylinder {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        if self.is_own(ctx) {
+            return self.pdf_of_own(ctx.p, wi).unwrap_or(0.0);
+        }
         self.view(ctx.p).pdf(self.transform.inverse_vector(wi))
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
         let o = self.transform.inverse_point(origin);
         let d = self.transform.inverse_vector(direction);
-        let (o_xy, d_xy) = (o.truncate(), d.truncate());
-        // Seen from above, the ray passes the axis at a distance; half a chord before and behind is
-        // the wall.
-        let speed_sq = d_xy.length_squared();
-        let offset = o_xy.perp_dot(d_xy);
-        let half_sq = self.radius * self.radius * speed_sq - offset * offset;
-        if !(half_sq >= 0.0 && speed_sq > 0.0) {
-            return None;
-        }
-        let (nearest, half) = (-o_xy.dot(d_xy) / speed_sq, sqrt(half_sq) / speed_sq);
+        let [enters, leaves] = self.chord(o, d)?;
         let on_wall = |t: f32| {
             let p = o + d * t;
             let slack = 4.0 * f32::EPSILON * (o.length() + t);
             let is_hit = t > 0.0 && p.z.abs() <= 0.5 * self.length + slack;
             let v = (p.z / self.length + 0.5).clamp(0.0, 1.0);
-            is_hit.then(|| self.at(Vec2::new(azimuth(p), v)))
+            is_hit.then(|| self.at_uv(Vec2::new(azimuth(p), v)))
         };
-        on_wall(nearest - half).or_else(|| on_wall(nearest + half))
+        on_wall(enters).or_else(|| on_wall(leaves))
     }
 }
 
@@ -156,3 +234,47 @@ impl fmt::Display for CylinderError {
 }
 
 impl Error for CylinderError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::glam::Affine3A;
+    use core::f32::consts::PI;
+
+    /// The share of the light that leaves a point of the wall and arrives at the wall again, against
+    /// one less the closed form for the two open ends; wherever rounding has put the point.
+    #[test]
+    fn the_wall_is_lit_by_itself() {
+        let transform = RigidTransform::new(Affine3A::from_axis_angle(Vec3::X, 0.7));
+        let tube = Cylinder::new(transform.expect("rigid"), 1.0, 4.0).expect("a tube");
+        // H^2 + 1/2 over sqrt(H^2 + 1), less H, of an end at the height 2 = 2 H.
+        let expected = 1.0 - 2.0 * (1.5 / sqrt(2.0) - 1.0);
+        for moved in [1.0, 1.0 - 2e-7, 1.0 + 2e-7] {
+            for turn in [0.0, 0.3, 0.77] {
+                let at = tube.at_uv(Vec2::new(turn, 0.5));
+                let ctx = LightSampleContext::surface(at.p * moved, -at.n, -at.n);
+                let n = 512u16;
+                let mut sum = 0.0;
+                for i in 0..n * 8 {
+                    for j in 0..n / 8 {
+                        let u = Vec2::new(f32::from(i) + 0.5, f32::from(j) + 0.5);
+                        let u = u / Vec2::new(f32::from(n * 8), f32::from(n / 8));
+                        let Some(s) = tube.sample_toward(&ctx, u) else {
+                            continue;
+                        };
+                        // Along the wall rounding decides.
+                        if at.n.dot(s.wi).abs() < 1e-3 {
+                            continue;
+                        }
+                        let pdf = tube.pdf_toward(&ctx, s.wi);
+                        assert!((pdf / s.pdf - 1.0).abs() < 2e-3, "{pdf} and {}", s.pdf);
+                        sum += f64::from((-at.n).dot(s.wi).max(0.0) / (PI * s.pdf));
+                    }
+                }
+                let share = sum / f64::from(u32::from(n) * u32::from(n));
+                let off = share - f64::from(expected);
+                assert!(off.abs() < 5e-3, "{moved}, {turn}: {share}, not {expected}");
+            }
+        }
+    }
+}

@@ -1,5 +1,5 @@
 use core::error::Error;
-use core::f32::consts::PI;
+use core::f32::consts::{PI, TAU};
 use core::fmt;
 
 use super::azimuth::azimuth;
@@ -10,7 +10,7 @@ use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
-use light_math::float::sqrt;
+use light_math::float::{sin_cos, sqrt};
 use light_math::warp::concentric_disk;
 use light_math::{Aabb, DirectionCone};
 
@@ -56,6 +56,36 @@ impl Disk {
             return Err(DiskError::InnerRadius);
         }
         Ok(disk)
+    }
+
+    /// From the disk's space to the scene.
+    #[must_use]
+    pub const fn transform(&self) -> &RigidTransform {
+        &self.transform
+    }
+
+    /// The radius, in scene units.
+    #[must_use]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// The radius of the hole, in scene units; 0 for none.
+    #[must_use]
+    pub const fn inner_radius(&self) -> f32 {
+        self.inner_radius
+    }
+
+    /// The point with the surface parameters `uv`, each in `[0, 1]`.
+    #[must_use]
+    pub fn at_uv(&self, uv: Vec2) -> SurfacePoint {
+        let (sin_phi, cos_phi) = sin_cos(TAU * uv.x);
+        let r = self.radius + (self.inner_radius - self.radius) * uv.y;
+        SurfacePoint {
+            p: self.transform.point(Vec3::new(cos_phi, sin_phi, 0.0) * r),
+            n: self.transform.axis(),
+            uv,
+        }
     }
 
     /// The point at `local` of the disk's own plane.

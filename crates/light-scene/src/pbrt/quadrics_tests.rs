@@ -1,0 +1,167 @@
+//! Spheres, disks and cylinders of pbrt files, whole and in part.
+
+use core::f32::consts::PI;
+use std::path::Path;
+
+use super::parse_pbrt;
+use crate::glam::Vec3;
+use crate::{Color, Files, Mesh, Quadric, QuadricFront, QuadricKind, Scene};
+
+fn scene(text: &str) -> Scene {
+    let text = format!("WorldBegin {text}");
+    parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene")
+}
+
+fn mesh(shape: &str) -> Mesh {
+    let scene = scene(&format!("Shape {shape}"));
+    assert_eq!(
+        scene.warnings.len(),
+        1,
+        "made of triangles: {:?}",
+        scene.warnings
+    );
+    scene.meshes[0].clone()
+}
+
+/// The shape that is not made of triangles.
+fn quadric(text: &str) -> Quadric {
+    let scene = scene(text);
+    assert!(
+        scene.warnings.is_empty() && scene.meshes.is_empty(),
+        "{text}: {:?}",
+        scene.warnings
+    );
+    scene.quadrics[0].clone()
+}
+
+/// Whether the area is `expected` but for what triangles cut off: of a circle of 64 corners a part
+/// of 0.0016, of a sphere a quarter more.
+fn has_area(shape: &str, expected: f32) {
+    let area = mesh(shape).area();
+    assert!(
+        (area / expected - 1.0).abs() < 2.1e-3,
+        "{shape}: {area}, not {expected}"
+    );
+}
+
+#[test]
+fn parts_of_quadrics_have_their_areas() {
+    has_area(
+        "\"sphere\" \"float radius\" 2 \"float phimax\" 90",
+        4.0 * PI,
+    );
+    // A zone has the area of the cylinder around it.
+    has_area(
+        "\"sphere\" \"float radius\" 2 \"float zmin\" -1 \"float zmax\" 1.5",
+        10.0 * PI,
+    );
+    has_area(
+        "\"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float phimax\" 180",
+        1.5 * PI,
+    );
+    has_area(
+        "\"cylinder\" \"float zmin\" 0 \"float phimax\" 90",
+        0.5 * PI,
+    );
+    let zone = mesh("\"sphere\" \"float zmin\" .5").bounds();
+    assert!(
+        (zone.min.z - 0.5).abs() < 1e-6 && zone.max.z == 1.0,
+        "{zone:?}"
+    );
+}
+
+#[test]
+fn whole_disks_and_cylinders_are_no_triangles() {
+    let disk = quadric(
+        "Translate 1 0 0 Scale 2 2 5 Shape \"disk\" \"float radius\" 2 \"float height\" .5 \
+         \"float innerradius\" 1",
+    );
+    assert_eq!(disk.kind, QuadricKind::Disk { inner_radius: 0.5 });
+    assert_eq!(disk.front, QuadricFront::Outside);
+    assert!((disk.area() / (12.0 * PI) - 1.0).abs() < 1e-6, "{disk:?}");
+    assert_eq!(disk.center(), Vec3::new(1.0, 0.0, 2.5), "its height");
+    let tube = quadric(
+        "ReverseOrientation Scale 1 1 3 Shape \"cylinder\" \"float radius\" .5 \
+         \"float zmin\" 2 \"float zmax\" 0",
+    );
+    assert_eq!(tube.front, QuadricFront::Inside, "reversed");
+    assert!((tube.area() / (6.0 * PI) - 1.0).abs() < 1e-6, "{tube:?}");
+    let bounds = tube.bounds();
+    assert!(
+        (bounds.min - Vec3::new(-0.5, -0.5, 0.0)).length() < 1e-5
+            && (bounds.max - Vec3::new(0.5, 0.5, 6.0)).length() < 1e-5,
+        "{bounds:?}"
+    );
+    let mirrored = quadric("Scale -1 1 1 Shape \"disk\"");
+    assert_eq!(mirrored.front, QuadricFront::Inside, "as pbrt has it");
+    // Ellipses are triangles still.
+    let ellipse = scene("Scale 1 2 1 Shape \"disk\"");
+    assert_eq!((ellipse.meshes.len(), ellipse.warnings.len()), (1, 1));
+}
+
+#[test]
+fn shapes_with_uneven_light_or_light_from_behind_are_triangles() {
+    let count = |light: &str, shape: &str| {
+        let text = format!("AreaLightSource \"diffuse\" {light} Shape {shape}");
+        scene(&text).quadrics.len()
+    };
+    let two_sided = "\"bool twosided\" true";
+    assert_eq!(count("", "\"cylinder\" \"float alpha\" .5"), 1, "outside");
+    assert_eq!(
+        count(two_sided, "\"cylinder\""),
+        1,
+        "nothing shines through"
+    );
+    assert_eq!(
+        count(two_sided, "\"cylinder\" \"float alpha\" .5"),
+        0,
+        "the far side shines through the near one"
+    );
+    assert_eq!(
+        count(two_sided, "\"disk\" \"float alpha\" .5"),
+        1,
+        "a disk has no far side"
+    );
+}
+
+#[test]
+fn quadrics_shine_with_the_power_that_is_asked_for_or_that_of_their_area() {
+    let shapes = [
+        ("\"disk\" \"float radius\" 2", 4.0 * PI),
+        (
+            "\"disk\" \"float radius\" 2 \"float innerradius\" 1",
+            3.0 * PI,
+        ),
+        ("\"cylinder\" \"float zmin\" 0", 2.0 * PI),
+        (
+            "\"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float phimax\" 180",
+            1.5 * PI,
+        ),
+        (
+            "\"cylinder\" \"float zmin\" 0 \"float phimax\" 90",
+            0.5 * PI,
+        ),
+    ];
+    for (shape, area) in shapes {
+        for (amount, expected) in [
+            ("\"float power\" 10", 10.0),
+            ("\"rgb L\" [ 3 3 3 ]", 3.0 * PI * area),
+        ] {
+            let scene = scene(&format!(
+                "AreaLightSource \"diffuse\" {amount} Shape {shape}"
+            ));
+            let meshes = scene.meshes.iter().map(|mesh| (mesh.area(), mesh.material));
+            let quadrics = scene.quadrics.iter().map(|q| (q.area(), q.material));
+            let (area, material) = meshes.chain(quadrics).next().expect("a shape");
+            let emission = scene.material(material).emission.as_ref();
+            let Color::Constant(radiance) = emission.expect("a lamp").radiance else {
+                unreachable!("no image")
+            };
+            let power = PI * area * radiance.y;
+            assert!(
+                (power / expected - 1.0).abs() < 5e-3,
+                "{shape}, {amount}: {power} W, not {expected}"
+            );
+        }
+    }
+}
