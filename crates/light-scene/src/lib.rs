@@ -20,6 +20,7 @@ mod emissive_copies;
 mod files;
 #[cfg(test)]
 mod format_agreement;
+mod generated_tangents;
 mod gltf;
 mod gunzip;
 mod ids;

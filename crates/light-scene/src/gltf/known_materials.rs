@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 
 use super::uv_sets::UvSets;
-use crate::MaterialId;
+use crate::{MaterialId, UvSet};
 
 /// The materials so far, by their positions in the document.
 #[derive(Debug, Default)]
@@ -15,8 +15,8 @@ pub(super) struct Materials {
 pub(super) struct KnownMaterial {
     pub(super) id: MaterialId,
     pub(super) uv_sets: UvSets,
-    /// Whether it has a normal map.
-    pub(super) uses_tangents: bool,
+    /// The texture coordinates of its normal map, if it has one.
+    pub(super) normal_map_uvs: Option<UvSet>,
     /// Whether it may let rays pass by its alpha.
     pub(super) uses_alpha: bool,
 }

@@ -27,7 +27,7 @@ impl<'a> Reader<'a> {
             return Ok(KnownMaterial {
                 id: *self.materials.default.get_or_insert_with(make),
                 uv_sets: UvSets::default(),
-                uses_tangents: false,
+                normal_map_uvs: None,
                 uses_alpha: false,
             });
         };
@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
         let mode = mode.map(|mode| mode.text()).transpose()?;
         let made = KnownMaterial {
             uses_alpha: mode.is_some_and(|mode| mode != "OPAQUE"),
-            uses_tangents: material.normal_map.is_some(),
+            normal_map_uvs: material.normal_map.as_ref().map(|map| map.uv_set),
             id: self.scene.add_material(material),
             uv_sets,
         };

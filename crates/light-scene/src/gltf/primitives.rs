@@ -80,7 +80,7 @@ impl<'a> Reader<'a> {
                 *uvs = Some(all.into_iter().map(lower_left).collect());
             }
         }
-        if material.uses_tangents {
+        if material.normal_map_uvs.is_some() {
             if let Some(tangents) = attributes.get("TANGENT")? {
                 let all = self.accessor(&tangents)?.floats::<4>()?;
                 fits(&tangents, all.len())?;
@@ -111,6 +111,9 @@ impl<'a> Reader<'a> {
             5 => strip(&corners),
             _ => fan(&corners),
         };
+        if let (Some(set), None) = (material.normal_map_uvs, &mesh.tangents) {
+            mesh.generate_tangents(set);
+        }
         Ok(Some(mesh))
     }
 
