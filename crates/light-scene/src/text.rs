@@ -14,13 +14,13 @@ use crate::{Diagnostic, Location};
 /// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
     let text = String::from_utf8(read_bytes(path)?);
-    // Most files are valid, which is checked much faster than the rest is found.
     Ok(text.unwrap_or_else(|error| text_of(error.as_bytes()).into_owned()))
 }
 
 /// Bytes as text; those that are not UTF-8 become replacement characters.
 pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
-    String::from_utf8_lossy(bytes)
+    // Most files are valid, which is checked much faster than what is not is found.
+    core::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed)
 }
 
 /// The bytes of a file.
@@ -128,7 +128,14 @@ impl<'a> Line<'a> {
 
     /// The next word, if there is one.
     pub(crate) fn word(&mut self) -> Option<&'a str> {
-        let text = self.rest.trim_start();
+        let mut text = self.rest.trim_ascii_start();
+        if text
+            .bytes()
+            .next()
+            .is_some_and(|byte| byte == 0x0b || !byte.is_ascii())
+        {
+            text = text.trim_start();
+        }
         // The end of most words is found by their bytes.
         let is_end = |byte: u8| matches!(byte, b' ' | b'\t'..=b'\r') || !byte.is_ascii();
         let end = match text.bytes().position(is_end) {

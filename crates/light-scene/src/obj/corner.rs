@@ -87,18 +87,27 @@ impl Corner {
     }
 }
 
-/// The number that `digits` are, with or without a sign; `None` if they are no number of 64 bits.
+/// So many digits fit into 64 bits.
+const MOST_DIGITS: usize = 18;
+
+/// The number that `digits` are, with or without a sign; `None` if they are none, or too many.
 fn whole_number(digits: &[u8]) -> Option<i64> {
     let (is_negative, digits) = match digits {
         [b'-', digits @ ..] => (true, digits),
         [b'+', digits @ ..] | digits => (false, digits),
     };
-    let append = |number: i64, digit: &u8| {
-        let digit = digit.is_ascii_digit().then(|| i64::from(digit - b'0'))?;
-        number.checked_mul(10)?.checked_add(digit)
-    };
-    let number = digits.iter().try_fold(0, append)?;
-    (!digits.is_empty()).then_some(if is_negative { -number } else { number })
+    if digits.is_empty() || digits.len() > MOST_DIGITS {
+        return None;
+    }
+    let mut number = 0;
+    for digit in digits {
+        let digit = digit.wrapping_sub(b'0');
+        if digit > 9 {
+            return None;
+        }
+        number = number * 10 + i64::from(digit);
+    }
+    Some(if is_negative { -number } else { number })
 }
 
 /// The index from 0 that `number` means: 1 is the first of `count`, -1 the last.
@@ -117,7 +126,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_have_digits_and_a_sign() {
-        let most = i64::MAX.to_string();
+        let most = "9".repeat(MOST_DIGITS);
         let good = ["0", "-0", "+7", "-12", "0031", &most];
         for text in good {
             let number = whole_number(text.as_bytes());
