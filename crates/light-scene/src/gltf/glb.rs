@@ -15,6 +15,9 @@ const MAGIC: &[u8] = b"glTF";
 const JSON: &[u8] = b"JSON";
 const BINARY: &[u8] = b"BIN\0";
 
+/// What makes a file of version 2 of one of version 1.
+pub(super) const UPGRADE: &str = "; `gltf-pipeline -i OLD -o NEW` makes 2.0 of it";
+
 /// Splits a binary file into chunks; any other file is a JSON document.
 ///
 /// # Source
@@ -27,7 +30,10 @@ pub(super) fn chunks<'a>(path: &'a Path, bytes: &'a [u8]) -> Result<Chunks<'a>, 
     let mut rest = Rest { path, bytes, at: 4 };
     let version = rest.word("a version")?;
     if version != 2 {
-        let message = format!("expected version 2, found {version}");
+        let mut message = format!("expected version 2, found {version}");
+        if version == 1 {
+            message += UPGRADE;
+        }
         return Err(rest.error(message));
     }
     let length = rest.word("a length")? as usize;
@@ -135,8 +141,11 @@ pub(super) mod tests {
         };
         let cut = "a: byte 4: expected a version, found the end of the file";
         assert_eq!(error(&good[..6]), cut, "cut in the header");
-        let version = "a: byte 8: expected version 2, found 1";
+        let version = "a: byte 8: expected version 2, found 1; \
+                       `gltf-pipeline -i OLD -o NEW` makes 2.0 of it";
         assert_eq!(error(&with(4, 1)), version, "version");
+        let version = "a: byte 8: expected version 2, found 3";
+        assert_eq!(error(&with(4, 3)), version, "of the future");
         let length = "a: byte 12: expected 200 bytes, found 36";
         assert_eq!(error(&with(8, 200)), length, "length");
         let short = "a: byte 12: expected 3 bytes, found 36";

@@ -1,6 +1,7 @@
 use super::accessor::Budget;
 use super::buffers::Buffers;
 use super::document::Document;
+use super::glb::UPGRADE;
 use super::item::Item;
 use super::known_materials::Materials;
 use super::mesh_uses::MeshUses;
@@ -32,8 +33,13 @@ impl<'a> Reader<'a> {
     ) -> Result<Self, Diagnostic> {
         let root = document.root();
         let version = root.require("asset")?.require("version")?;
-        if !version.text()?.starts_with("2.") {
-            return Err(version.expected("version 2.0"));
+        let number = version.text()?;
+        if !number.starts_with("2.") {
+            let mut error = version.expected("version 2.0");
+            if number.starts_with("1.") {
+                error.message += UPGRADE;
+            }
+            return Err(error);
         }
         let mut warnings = Warnings::default();
         for extension in root.list("extensionsRequired")? {

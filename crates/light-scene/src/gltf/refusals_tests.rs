@@ -134,3 +134,19 @@ fn broken_accessors_are_named_and_ask_for_no_memory() {
         assert_eq!(error, expected, "{bad}");
     }
 }
+
+/// Of files of the version before, what makes new ones of them is named.
+#[test]
+fn other_versions_are_refused() {
+    let expected = r#"a.gltf: asset.version: expected version 2.0, found "#;
+    for (version, more) in [
+        ("1.0", "; `gltf-pipeline -i OLD -o NEW` makes 2.0 of it"),
+        ("1.0.1", "; `gltf-pipeline -i OLD -o NEW` makes 2.0 of it"),
+        ("3.0", ""),
+    ] {
+        let json = format!(r#"{{"asset": {{"version": "{version}"}}}}"#);
+        let error = parse_gltf(Path::new("a.gltf"), json.as_bytes(), Files::NONE);
+        let error = error.map(|_| ()).expect_err(version).to_string();
+        assert_eq!(error, format!("{expected}\"{version}\"{more}"));
+    }
+}

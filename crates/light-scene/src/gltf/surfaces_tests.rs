@@ -205,6 +205,18 @@ fn normal_maps_bring_tangents_and_colors_come_with_vertices() {
         messages(&scene)
     );
 
+    // Those of MikkTSpace instead, which follow u.
+    let up = [0.0, 0.0, 1.0].repeat(4);
+    let smooth = [("TEXCOORD_0", 2, &UVS[..]), ("NORMAL", 3, &up[..])];
+    let generated = square(&smooth, &rest);
+    let tangents = generated.meshes[0].tangents.as_ref();
+    let tangent = tangents.expect("made of the coordinates")[0];
+    assert!(tangent.is_finite() && tangent.z == 0.0, "{tangent}");
+    assert!(
+        (tangent.truncate().length() - 1.0).abs() < 1e-6,
+        "{tangent}"
+    );
+
     let plain = square(&attributes, r#""materials": [{}]"#);
     assert_eq!(plain.meshes[0].tangents, None, "nothing needs them");
     let warned = messages(&plain);

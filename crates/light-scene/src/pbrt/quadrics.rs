@@ -60,11 +60,15 @@ impl Reader {
         let surface = &self.scene.material(material).surface;
         let lets_light_pass = matches!(surface, Surface::Interface | Surface::Mix { .. })
             || self.materials.awaits(material);
-        // Nothing of a disk is behind another part of it.
+        // Nothing of a disk is behind another part of it. Of a sphere that no ray meets pbrt takes
+        // the near side alone, of other shapes all.
         let is_flat = matches!(kind, QuadricKind::Disk { .. });
+        let is_invisible = self.share(typed, "alpha", 1.0) == Color::Constant(Vec3::ZERO);
+        let has_near_side_alone = kind == QuadricKind::Sphere && is_invisible;
         let is_outside = !light.two_sided && front == QuadricFront::Outside;
         let is_even = matches!(light.radiance, Color::Constant(_));
-        is_even && (is_flat || is_outside || !(lets_light_pass || typed.parameters.has("alpha")))
+        let is_found = is_flat || is_outside || has_near_side_alone;
+        is_even && (is_found || !(lets_light_pass || typed.parameters.has("alpha")))
     }
 
     /// In pbrt a mirroring transform swaps front and back of quadrics, but not of meshes.

@@ -122,6 +122,18 @@ fn shapes_with_uneven_light_or_light_from_behind_are_triangles() {
         1,
         "a disk has no far side"
     );
+    let alpha = |alpha: &str| count(two_sided, &format!("\"sphere\" \"float alpha\" {alpha}"));
+    assert_eq!(alpha(".5"), 0, "the far side shines through");
+    assert_eq!(
+        alpha("0"),
+        1,
+        "pbrt samples the near side of a lamp that no ray meets"
+    );
+    assert_eq!(
+        count(two_sided, "\"cylinder\" \"float alpha\" 0"),
+        0,
+        "and all of a cylinder"
+    );
 }
 
 #[test]
