@@ -1,53 +1,88 @@
-//! Families of places: both hierarchies, at two sizes, on seeds that nothing was tuned on.
+//! Families of places, and four plain sets: both hierarchies, on seeds that nothing was tuned on.
 
 use light_render::SamplerKind;
+use light_render::bench::Variance;
 use light_sets::{BenchSet, Family, SetKind};
 
 use super::measure::{figure, measure, options};
 
-/// Seeds of the table. Constants were chosen on seeds below 10.
+/// Constants were chosen on seeds below 10.
 const SEEDS: [u64; 2] = [11, 12];
 
 /// Lights, and the points that the variance is taken over.
 const SIZES: [(usize, usize); 2] = [(100, 1024), (10_000, 128)];
 
+/// Samples of one call of the last column.
+const K: u32 = 16;
+
 const HEADER: &str = "\
-| family | lights | reference: V mean | 99 % | by light | default: V mean | median | 99 % | by light |
-| --- | --- | --- | --- | --- | --- | --- | --- | --- |
+| family | lights | reference: V mean | 99 % | by light | default: V mean | median | 99 % | by light | k = 16: V mean |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
+
+/// The figures of a line.
+type Figures = [f64; 8];
 
 /// A line a family and size: means over the seeds.
 pub(super) fn table() -> Result<String, String> {
     let mut table = HEADER.to_owned();
-    for family in Family::ALL {
+    for kind in kinds() {
         for (lights, points) in SIZES {
-            let mut options = options(&[SamplerKind::BvhReference, SamplerKind::Bvh], points);
-            options.measurement.threads = 2;
-            let mut sums = [0.0; 7];
+            let mut sums = Figures::default();
             for seed in SEEDS {
-                let kind = SetKind::Place(family);
-                let set = BenchSet::generate(kind, lights, seed);
-                let rows = measure(kind, &set, &options)?;
-                let [reference, default] = [0, 1].map(|i| rows[i].variance);
-                let found = [
-                    reference.mean,
-                    reference.p99,
-                    reference.flux_weighted,
-                    default.mean,
-                    default.median,
-                    default.p99,
-                    default.flux_weighted,
-                ];
+                let found = figures(kind, lights, seed, points)?;
                 for (sum, figure) in sums.iter_mut().zip(found) {
                     *sum += figure / SEEDS.len() as f64;
                 }
             }
-            let figures = sums.map(figure).join(" | ");
-            let line = format!("| {} | {lights} | {figures} |", family.name());
-            println!("{line}");
-            table += &line;
-            table.push('\n');
+            table += &line(kind, lights, sums);
         }
     }
     Ok(table)
+}
+
+fn kinds() -> impl Iterator<Item = SetKind> {
+    let plain = [
+        SetKind::Uniform,
+        SetKind::Clusters,
+        SetKind::Spots,
+        SetKind::Mixed,
+    ];
+    let families = Family::ALL.into_iter().map(SetKind::Place);
+    plain.into_iter().chain(families)
+}
+
+/// Both hierarchies on one set.
+fn figures(kind: SetKind, lights: usize, seed: u64, points: usize) -> Result<Figures, String> {
+    let mut set = BenchSet::generate(kind, lights, seed);
+    // Times, which the table does not show, are measured over all points of the set.
+    set.points.truncate(points);
+    let variances = |samplers: &[SamplerKind], k: u32| -> Result<Vec<Variance>, String> {
+        let mut options = options(samplers, points);
+        options.measurement.threads = 2;
+        options.measurement.k = k;
+        let rows = measure(kind, &set, &options)?;
+        Ok(rows.iter().map(|row| row.variance).collect())
+    };
+    let single = variances(&[SamplerKind::BvhReference, SamplerKind::Bvh], 1)?;
+    let of_16 = variances(&[SamplerKind::Bvh], K)?;
+    let [reference, default] = [single[0], single[1]];
+    Ok([
+        reference.mean,
+        reference.p99,
+        reference.flux_weighted,
+        default.mean,
+        default.median,
+        default.p99,
+        default.flux_weighted,
+        of_16[0].mean,
+    ])
+}
+
+/// The line, printed as well: tables of many lights take minutes.
+fn line(kind: SetKind, lights: usize, figures: Figures) -> String {
+    let figures = figures.map(figure).join(" | ");
+    let line = format!("| {} | {lights} | {figures} |", kind.name());
+    println!("{line}");
+    line + "\n"
 }
