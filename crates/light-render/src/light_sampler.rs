@@ -281,7 +281,10 @@ impl FromStr for SamplerKind {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let found = Self::ALL.into_iter().find(|kind| kind.name() == name);
-        found.ok_or_else(|| format!("expected one of {}", Self::ALL.map(Self::name).join(", ")))
+        found.ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(", ");
+            format!("expected one of {names}, found `{name}`")
+        })
     }
 }
 
@@ -294,6 +297,10 @@ mod tests {
         for kind in SamplerKind::ALL {
             assert_eq!(kind.name().parse(), Ok(kind), "{kind}");
         }
-        assert!("best".parse::<SamplerKind>().is_err(), "no such sampler");
+        let wrong = "best".parse::<SamplerKind>();
+        assert!(
+            wrong.is_err_and(|words| words.ends_with("found `best`")),
+            "no such sampler"
+        );
     }
 }

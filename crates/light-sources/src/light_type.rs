@@ -18,4 +18,28 @@ impl LightType {
     pub const fn is_delta(self) -> bool {
         matches!(self, Self::DeltaPosition | Self::DeltaDirection)
     }
+
+    /// Whether rays that leave the scene find the light.
+    #[must_use]
+    pub const fn is_infinite(self) -> bool {
+        matches!(self, Self::Infinite)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LightType::{Area, DeltaDirection, DeltaPosition, Infinite};
+
+    #[test]
+    fn each_type_is_dirac_or_infinite_or_a_surface() {
+        for (light_type, expected) in [
+            (DeltaPosition, [true, false]),
+            (DeltaDirection, [true, false]),
+            (Area, [false, false]),
+            (Infinite, [false, true]),
+        ] {
+            let found = [light_type.is_delta(), light_type.is_infinite()];
+            assert_eq!(found, expected, "{light_type:?}");
+        }
+    }
 }

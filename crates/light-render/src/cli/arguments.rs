@@ -119,6 +119,13 @@ pub(crate) fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
+/// A number that is neither infinite nor NaN.
+pub(crate) fn finite(text: &str) -> Result<f32, String> {
+    let number: Option<f32> = text.parse().ok();
+    let number = number.filter(|number| number.is_finite());
+    number.ok_or_else(|| "expected a finite number".into())
+}
+
 /// A time in seconds, above zero and at most [`MOST_SECONDS`].
 pub(crate) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().unwrap_or(f64::NAN);
@@ -272,6 +279,14 @@ mod tests {
         assert_eq!(threads("1024"), Ok(1024), "many");
         for bad in ["1025", "100000", "-1", "1.5", "nan", "18446744073709551616"] {
             assert!(threads(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn finite_numbers_are_finite() {
+        assert_eq!(finite("-90"), Ok(-90.0), "a number");
+        for bad in ["inf", "nan", "1e400", "x", ""] {
+            assert!(finite(bad).is_err(), "{bad}");
         }
     }
 

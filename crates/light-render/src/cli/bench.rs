@@ -23,7 +23,15 @@ use super::stdout::say;
 const BYTES_PER_LIGHT: u64 = 400;
 
 /// What is said of a scene, and not of a set.
-const OF_A_SCENE: [&str; 6] = ["scene", "env", "sky", "env_scale", "light_scale", "emit"];
+const OF_A_SCENE: [&str; 7] = [
+    "scene",
+    "env",
+    "env_rotate",
+    "sky",
+    "env_scale",
+    "light_scale",
+    "emit",
+];
 
 /// Measure light samplers side by side on the lights of a scene, or on a set of lights.
 #[derive(Args, Debug)]

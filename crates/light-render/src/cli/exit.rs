@@ -33,7 +33,9 @@ pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
         .split("\nFor more information")
         .next()
         .unwrap_or_default();
-    Failure::input(wrong.trim_start_matches("error: ")).report()
+    // What clap suggests stands in paragraphs of its own.
+    let paragraphs = wrong.trim_start_matches("error: ").trim_end().split("\n\n");
+    Failure::input(paragraphs.collect::<Vec<_>>().join("; ")).report()
 }
 
 /// The words of `message` on a single line.

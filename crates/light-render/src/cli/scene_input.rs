@@ -3,11 +3,11 @@ use std::path::{Path, PathBuf};
 use crate::World;
 use clap::Args;
 use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_environment};
-use lights::glam::Affine3A;
+use lights::glam::{Affine3A, Quat, Vec3};
 
-use super::arguments::Emit;
+use super::arguments::{Emit, finite};
 use super::failure::Failure;
-use super::light_args::LightArgs;
+use super::light_args::{LightArgs, up};
 use super::output_file::refuse;
 use super::stdout::complain;
 
@@ -26,6 +26,15 @@ pub(crate) struct SceneChanges {
     /// A lat-long environment around the scene: .exr or .hdr.
     #[arg(long, value_name = "IMAGE", requires = "scene")]
     pub(crate) env: Option<PathBuf>,
+    /// Turn the environment so far about the upward axis, counter-clockwise as seen from above.
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        value_parser = finite,
+        allow_negative_numbers = true,
+        requires = "env"
+    )]
+    env_rotate: Option<f32>,
     #[command(flatten)]
     light: LightArgs,
     /// Let the front of a material emit light with this radiance; may be repeated.
@@ -39,14 +48,20 @@ impl SceneInput {
     /// # Errors
     /// When a file cannot be read or is invalid.
     pub(crate) fn read(&self) -> Result<Scene, Failure> {
-        let SceneChanges { env, light, emit } = &self.changes;
+        let SceneChanges {
+            env,
+            env_rotate,
+            light,
+            emit,
+        } = &self.changes;
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = env {
             let file = read_environment(path).map_err(Failure::input)?;
             scene.warnings.extend(file.warning);
-            scene
-                .add_sky(&file.image, Affine3A::IDENTITY)
-                .map_err(Failure::input)?;
+            let up = up(&self.scene, &scene);
+            let turn = Quat::from_axis_angle(up, env_rotate.unwrap_or(0.0).to_radians());
+            let turned = Affine3A::from_quat(turn * Quat::from_rotation_arc(Vec3::Y, up));
+            scene.add_sky(&file.image, turned).map_err(Failure::input)?;
         }
         for Emit { material, radiance } in emit {
             let mut named = scene

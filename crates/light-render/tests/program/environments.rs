@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use light_scene::glam::Vec3;
-use light_scene::{ChannelFile, Image, write_image};
+use light_scene::{ChannelFile, Image, read_image, write_image};
 
 use crate::folder::{Folder, SMALL, UNLIT, assert_refused, lights, stdout};
 
@@ -46,6 +46,42 @@ fn environments_are_clamped_or_refused() {
     );
     let quiet = lights(&[&args[..], &SMALL, &["--quiet"]].concat());
     assert!(quiet.stderr.is_empty(), "unless nobody wants to know");
+}
+
+/// Texel 6 looks to (-1, -1, 1) where up is y: a quarter turn to the left of that, seen from above,
+/// is (1, -1, 1).
+#[test]
+fn environments_are_turned_about_what_is_up() {
+    let folder = Folder::new("turned");
+    let env = environment(&folder, 8.0);
+    let out = folder.path("out.exr");
+    let camera = "Camera \"perspective\" WorldBegin";
+    let y_up = folder.file("y.pbrt", camera);
+    let z_up = format!("LookAt 0 0 0 1 0 0 0 0 1 {camera}");
+    let z_up = folder.file("z.pbrt", &z_up);
+    for (scene, degrees, look_at, expected) in [
+        (&y_up, "0", "0,0,0,-1,-1,1,0,1,0", 8.0),
+        (&y_up, "90", "0,0,0,-1,-1,1,0,1,0", 1.0),
+        (&y_up, "90", "0,0,0,1,-1,1,0,1,0", 8.0),
+        (&y_up, "-90", "0,0,0,-1,-1,-1,0,1,0", 8.0),
+        (&z_up, "0", "0,0,0,-1,-1,-1,0,0,1", 8.0),
+        (&z_up, "90", "0,0,0,1,-1,-1,0,0,1", 8.0),
+    ] {
+        let args = ["render", scene, "-o", &out, "--env", &env, "--fov", "5"];
+        let turned = ["--look-at", look_at, "--env-rotate", degrees];
+        stdout(&[&args[..], &turned, &SMALL].concat());
+        let found = read_image(Path::new(&out)).expect("a picture").image.mean();
+        let off = found.distance(Vec3::splat(expected));
+        assert!(off < 1e-3, "{scene} {degrees} {look_at}: {found}");
+    }
+    let alone = ["render", &y_up, "-o", &out, "--env-rotate", "90"];
+    assert_refused(&alone, &["--env <IMAGE>"]);
+}
+
+#[test]
+fn suggestions_stand_apart() {
+    let wrong = ["render", "night", "-o", "a.png", "--env-turn", "90"];
+    assert_refused(&wrong, &["'--env-turn' found; tip: "]);
 }
 
 #[test]

@@ -260,6 +260,11 @@ impl Reader {
             }
             "MakeNamedMedium" => self.make_medium(typed)?,
             "ColorSpace" if typed.kind == "srgb" => {}
+            "Sampler" => {
+                let done = "was ignored: --spp sets the samples a pixel";
+                self.warn(typed.at, "`Sampler`", done);
+                return Ok(());
+            }
             _ => {
                 self.warn(typed.at, &format!("`{directive}`"), "was ignored");
                 return Ok(());

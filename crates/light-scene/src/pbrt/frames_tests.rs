@@ -55,6 +55,16 @@ fn number(light: f32) -> f32 {
     encoded * 65535.0 / 4095.0
 }
 
+#[test]
+fn maps_that_are_not_square_are_refused_with_what_makes_one() {
+    let text = "WorldBegin LightSource \"infinite\" \"string filename\" \"wide.png\"";
+    let refused = parse_pbrt(Path::new("a"), text, Files::new(&read_sibling));
+    let message = refused.expect_err("a wide image").to_string();
+    for word in ["a:1: expected a square", "lights env convert"] {
+        assert!(message.contains(word), "{word} in {message}");
+    }
+}
+
 fn scene(text: &str) -> Scene {
     let scene = parse_pbrt(Path::new("a"), text, Files::new(&read_sibling)).expect("a scene");
     assert_eq!(scene.warnings, [], "{text}");

@@ -125,7 +125,11 @@ impl Reader {
                 .map_err(|error| typed.at.diagnostic(error.to_string()))?
         };
         if image.size()[0] != image.size()[1] {
-            let message = "expected a square, equal-area image for an infinite light";
+            let [width, height] = image.size();
+            let message = format!(
+                "expected a square, equal-area image for an infinite light, found {width} x \
+                 {height}: `lights env convert IN OUT --to equal-area` makes one of a lat-long map"
+            );
             return Err(typed.at.diagnostic(message));
         }
         let asked = parameters.positive("illuminance");

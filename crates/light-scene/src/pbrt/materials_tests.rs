@@ -101,7 +101,7 @@ fn mixtures_hold_their_parts() {
         ),
         (
             "\"string materials\" [\"a\" \"c\"]",
-            "a.pbrt:1: expected a named material, found \"c\"",
+            "a.pbrt:1: expected a named material, found \"c\"; the file names \"a\", \"b\"",
         ),
     ] {
         assert_eq!(of(materials, ""), Err(expected.to_owned()), "{materials}");

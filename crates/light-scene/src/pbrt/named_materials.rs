@@ -6,6 +6,9 @@ use crate::glam::Vec3;
 use crate::text::shown;
 use crate::{Diagnostic, Material, MaterialId, Surface};
 
+/// A message lists at most so many names.
+const MOST_NAMES: usize = 8;
+
 impl Reader {
     /// The material with this name, which may still be empty.
     pub(super) fn named_material(&mut self, at: FileLoc<'_>, name: &str) -> MaterialId {
@@ -73,11 +76,25 @@ impl Reader {
         twin
     }
 
+    /// The names of materials that there are, for a message about one that there is not.
+    fn known_names(&self) -> String {
+        let mut names: Vec<&str> = self.materials.by_name.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        let more = if names.len() > MOST_NAMES { ", .." } else { "" };
+        names.truncate(MOST_NAMES);
+        let names: Vec<String> = names.iter().map(|n| format!("\"{}\"", shown(n))).collect();
+        if names.is_empty() {
+            return String::new();
+        }
+        format!("; the file names {}{more}", names.join(", "))
+    }
+
     /// Sets the surfaces of materials that were used before their definition, after the last
     /// directive.
     pub(super) fn finish_materials(&mut self) -> Result<(), Diagnostic> {
         let awaited = core::mem::take(&mut self.materials.awaited).into_values();
-        if let Some((_, unknown)) = awaited.min_by_key(|(id, _)| *id) {
+        if let Some((_, mut unknown)) = awaited.min_by_key(|(id, _)| *id) {
+            unknown.message += &self.known_names();
             return Err(unknown);
         }
         let twins = core::mem::take(&mut self.materials.twins);

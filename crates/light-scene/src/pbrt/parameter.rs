@@ -38,6 +38,10 @@ pub(super) enum ParameterType {
 }
 
 impl ParameterType {
+    /// The types of pbrt-v4, as an error lists them.
+    const NAMES: &str = "bool, integer, float, point2, vector2, point3, vector3, normal, rgb, \
+                         blackbody, spectrum, string and texture";
+
     fn of_name(name: &str) -> Option<Self> {
         Some(match name {
             "bool" => Self::Bool,
@@ -91,7 +95,7 @@ impl Parameter {
             tokens.diagnostic(if is_old {
                 format!("{message}; {UPGRADE}")
             } else {
-                message
+                format!("{message}; types are {}", ParameterType::NAMES)
             })
         })?;
         let mut parameter = Self {

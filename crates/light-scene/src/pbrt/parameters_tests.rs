@@ -99,7 +99,8 @@ fn values_are_of_their_type_and_as_many_as_belong_together() {
         ),
         (
             "LightSource \"point\" \"colour I\" [1 1 1]",
-            "a type for `I`, found `colour`",
+            "a type for `I`, found `colour`; types are bool, integer, float, point2, vector2, \
+             point3, vector3, normal, rgb, blackbody, spectrum, string and texture",
         ),
         (
             "LightSource \"point\" \"blackbody I\" -1",

@@ -132,6 +132,17 @@ fn broken_files_give_one_clear_line() {
             "a.pbrt:1: expected a named material, found \"a\"",
         ),
         (
+            "WorldBegin MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \
+             NamedMaterial \"a\"",
+            "a.pbrt:1: expected a named material, found \"a\"; the file names \"b\"",
+        ),
+        (
+            "Integrator \"path\" \"int maxdepth\" 5",
+            "a.pbrt:1: expected a type for `maxdepth`, found `int`; types are bool, integer, \
+             float, point2, vector2, point3, vector3, normal, rgb, blackbody, spectrum, string \
+             and texture",
+        ),
+        (
             "Attribute \"world\" \"float alpha\" 1",
             "a.pbrt:1: expected \"shape\", \"light\", \"material\", \"medium\" or \"texture\", \
              found \"world\"",

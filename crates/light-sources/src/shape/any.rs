@@ -95,6 +95,22 @@ pub enum ShapeError {
 }
 
 impl ShapeDesc {
+    /// A sphere around `center`, which is not turned.
+    ///
+    /// ```
+    /// use light_sources::glam::{Affine3A, Vec3};
+    /// use light_sources::shape::ShapeDesc;
+    ///
+    /// let transform = Affine3A::from_translation(Vec3::X);
+    /// let radius = 0.5;
+    /// assert_eq!(ShapeDesc::sphere(Vec3::X, radius), ShapeDesc::Sphere { transform, radius });
+    /// ```
+    #[must_use]
+    pub fn sphere(center: Vec3, radius: f32) -> Self {
+        let transform = Affine3A::from_translation(center);
+        Self::Sphere { transform, radius }
+    }
+
     /// Builds the shape. A quadrilateral with right angles becomes a [`Rectangle`].
     ///
     /// # Errors
