@@ -26,7 +26,7 @@ pub(super) fn rotunda() -> Scene {
         Surface::Conductor {
             eta: Vec3::splat(1.33),
             k: Vec3::ZERO,
-            alpha: Vec2::splat(0.02),
+            alpha: Vec2::splat(0.05),
         },
     ));
     let sea = [Vec2::ZERO, Vec2::new(600.0, 0.0)];
@@ -151,7 +151,8 @@ fn entablature(modeller: &mut Modeller, marble: MaterialId) {
     modeller.turned_with_edges(marble, &transform, &profile.map(Vec2::from), 96);
 }
 
-/// A mirror on a pedestal, and gold, glass and clay around it.
+/// Steel on a pedestal, and gold, glazed clay and clay around it. Nothing is so smooth that it throws
+/// the sun where only a lucky ray finds it.
 fn spheres(modeller: &mut Modeller, marble: MaterialId) {
     let transform = Affine3A::from_translation(Vec3::Y * FLOOR);
     let pedestal = [
@@ -164,26 +165,34 @@ fn spheres(modeller: &mut Modeller, marble: MaterialId) {
     modeller.turned_with_edges(marble, &transform, &pedestal.map(Vec2::from), 64);
     let top = [Vec2::new(0.0, 0.5), Vec2::new(0.95, 0.5)];
     modeller.turned_with_edges(marble, &transform, &top, 64);
-    let reflectance = Vec3::splat(0.92);
-    let mirror = Material::new("mirror", Surface::Mirror { reflectance });
+    let steel = Surface::conductor_of_reflectance(Vec3::splat(0.75), Vec2::splat(0.2));
     let gold = Vec3::new(0.94, 0.72, 0.33);
-    let gold = Surface::conductor_of_reflectance(gold, Vec2::splat(0.15));
-    let glass = Surface::Dielectric {
+    let gold = Surface::conductor_of_reflectance(gold, Vec2::splat(0.25));
+    let glaze = Surface::CoatedDiffuse {
+        reflectance: Color::Constant(Vec3::new(0.05, 0.16, 0.35)),
         eta: 1.5,
-        alpha: Vec2::ZERO,
+        alpha: Vec2::splat(0.2),
     };
     let clay = Surface::Diffuse {
         reflectance: Color::Constant(Vec3::new(0.55, 0.12, 0.06)),
     };
     let standing = |x: f32, z: f32, radius: f32| Vec3::new(x, FLOOR + radius, z);
     let spheres = [
-        (mirror, Vec3::Y * (FLOOR + 0.5 + 1.15), 1.15),
+        (
+            Material::new("steel", steel),
+            Vec3::Y * (FLOOR + 0.5 + 1.15),
+            1.15,
+        ),
         (
             Material::new("gold", gold),
             standing(-1.75, 1.35, 0.62),
             0.62,
         ),
-        (Material::new("glass", glass), standing(1.35, 1.9, 0.5), 0.5),
+        (
+            Material::new("glazed clay", glaze),
+            standing(1.35, 1.9, 0.5),
+            0.5,
+        ),
         (
             Material::new("clay", clay),
             standing(-0.35, 2.35, 0.36),
