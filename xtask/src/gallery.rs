@@ -1,6 +1,45 @@
-//! `cargo xtask gallery`: remakes the pictures of the README and the references of the demo.
+//! `cargo xtask gallery [--references]`: remakes the pictures of `docs/gallery.md`, or the picture of
+//! the README and the references of the demo.
+
+use std::fs;
 
 use crate::steps::{Outcome, StepResult, cargo, root, run};
+
+/// Examples of `lights` that write a picture of their name.
+const EXAMPLES: [&str; 4] = ["fog", "light_groups", "median_cut", "spectral"];
+
+/// Pictures of the demo.
+const DEMO: [&str; 6] = [
+    "cornell-box",
+    "rotunda",
+    "night-uniform",
+    "night-power",
+    "night-bvh-reference",
+    "night-bvh",
+];
+
+/// Runs the demo and the examples, and copies what they write into `out` to the gallery.
+///
+/// # Errors
+/// The command that failed, a file that cannot be copied, or an argument that is not known.
+pub fn gallery(arguments: &[String]) -> StepResult {
+    match arguments {
+        [] => {}
+        [flag] if flag == "--references" => return references(),
+        _ => return Err("usage: cargo xtask gallery [--references]".into()),
+    }
+    run(&mut cargo(["run", "--release"]))?;
+    for example in EXAMPLES {
+        let package = ["run", "--release", "--package", "lights", "--example"];
+        run(cargo(package).arg(example))?;
+    }
+    for name in DEMO.iter().chain(&EXAMPLES) {
+        let from = root().join(format!("out/{name}.png"));
+        let to = root().join(format!("docs/images/gallery/{name}.png"));
+        fs::copy(&from, to).map_err(|e| format!("{}: {e}", from.display()))?;
+    }
+    Ok(Outcome::Passed)
+}
 
 /// A scene that ships: name, width of its picture, samples a pixel.
 const PICTURES: [(&str, u32, u32); 3] = [
@@ -13,7 +52,7 @@ const PICTURES: [(&str, u32, u32); 3] = [
 ///
 /// # Errors
 /// The command that failed.
-pub fn gallery() -> StepResult {
+fn references() -> StepResult {
     for (scene, width, spp) in PICTURES {
         let [exr, png] = [
             root().join(format!("crates/light-render/assets/{scene}.exr")),

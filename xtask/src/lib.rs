@@ -64,7 +64,8 @@ usage: cargo xtask [COMMAND]
   families                    write the table of families of places into docs/light-bvh.md
   foreign DIR                 render every scene file below a folder, tiny and within limits, and
                               print what became of it
-  gallery                     remake the pictures of the README and the references of the demo
+  gallery [--references]      remake the pictures of docs/gallery.md (the picture of the README and
+                              the references of the demo: hours)
   march-convergence           redraw how marches through media converge, for docs/light-media.md
   median-cut-table [IMAGE...] remeasure median-cut lights for docs/light-sources.md
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
@@ -118,7 +119,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("circles", []) => one("circles of imports", circles::check),
         ("packages", []) => all(packages::add_steps),
         ("foreign", rest) => one("foreign scenes", || foreign::foreign(rest)),
-        ("gallery", []) => one("gallery", gallery::gallery),
+        ("gallery", rest) => one("gallery", || gallery::gallery(rest)),
         ("march-convergence", []) => one("march-convergence", programs::march_convergence),
         ("median-cut-table", images) => {
             one("median-cut-table", || programs::median_cut_table(images))

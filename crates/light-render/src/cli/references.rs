@@ -4,7 +4,7 @@ use light_scene::{BuiltinScene, Image, parse_exr};
 
 use super::failure::Failure;
 
-/// What a scene that ships looks like without noise, at the demo's size: `cargo xtask gallery`
+/// What a scene that ships looks like without noise, at the demo's size: `cargo xtask gallery --references`
 /// remakes the files.
 ///
 /// # Errors
