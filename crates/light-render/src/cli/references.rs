@@ -4,8 +4,8 @@ use light_scene::{BuiltinScene, Image, parse_exr};
 
 use super::failure::Failure;
 
-/// What a scene that ships looks like without noise, at the demo's size: `cargo xtask gallery --references`
-/// remakes the files.
+/// What a scene that ships looks like without noise, at the demo's size:
+/// `cargo xtask gallery --references` remakes the files.
 ///
 /// # Errors
 /// When the file that is part of the program is no image.
