@@ -13,7 +13,7 @@ pub(crate) const SAMPLES: u32 = 1000;
 pub(crate) fn measure<I, O, const N: usize>(
     name: &str,
     inputs: impl Fn(u32) -> I,
-    query: impl Fn(I) -> O,
+    mut query: impl FnMut(I) -> O,
     words: impl Fn(O) -> [u32; N],
 ) {
     machine::paint_stack();

@@ -5,7 +5,7 @@ use light_math::distribution::AliasTable;
 use light_math::glam::Vec3;
 use light_math::{OctahedralVector, fraction};
 use light_photometry::PhotometricWebRef;
-use light_samplers::{BvhLightSamplerRef, LightSampler};
+use light_samplers::{BvhLightSamplerRef, LightChoices, LightSampler};
 use light_sources::LightLiSample;
 
 use crate::apart::{apart1, apart2, apart3};
@@ -100,22 +100,20 @@ pub fn choices() {
     let Ok(sampler) = BvhLightSamplerRef::new(stored.view(), stored.power(), &[]) else {
         panic!("no sampler");
     };
+    // Of two kilobytes: all queries share them.
+    let mut here = LightChoices::default();
     measure(
         "four-choices",
         |i| (receiver(i), random(i)),
         |(ctx, u)| {
-            let here = sampler.at(&ctx, 4);
-            let mut lights = [None; 4];
+            sampler.set_at(&ctx, 4, &mut here);
+            let mut lights = [choice(None); 4];
             for (place, light) in lights.iter_mut().zip(here.samples(u)) {
-                *place = Some(light);
+                *place = choice(Some(light));
             }
             lights
         },
-        |lights| {
-            let [a, b, c, d] = lights.map(choice);
-            let all = [a, b, c, d];
-            core::array::from_fn::<u32, 16, _>(|i| all[i / 4][i % 4])
-        },
+        |lights| core::array::from_fn::<u32, 16, _>(|i| lights[i / 4][i % 4]),
     );
     machine::end();
 }

@@ -2,6 +2,7 @@ use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
 use light_math::float::positive_product;
+use light_math::glam::Vec3;
 
 use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
@@ -31,22 +32,32 @@ pub(crate) trait InTree {
     fn pmf(&self, light: LightId) -> f32;
 }
 
-impl<'a> BvhChoices<'a, LightCut<'a>> {
-    /// For several choices at `ctx` among the lights at infinity, until
-    /// [`add_tree`](Self::add_tree) adds those of a tree.
+/// No light.
+impl Default for BvhChoices<'_, LightCut<'_>> {
     #[inline]
-    pub(crate) fn without_tree(infinite: InfiniteLights<'a>, ctx: &LightSampleContext) -> Self {
+    fn default() -> Self {
         Self {
-            infinite,
-            ctx: *ctx,
+            infinite: InfiniteLights::default(),
+            ctx: LightSampleContext::medium(Vec3::ZERO),
             in_tree: 0.0,
             tree: LightCut::default(),
         }
     }
+}
 
-    /// Adds the lights of a tree of this power, by a cut that is made in place.
+impl<'a> BvhChoices<'a, LightCut<'a>> {
+    /// Makes these several choices at `ctx` among the lights of a tree of this power and those at
+    /// infinity, by a cut that is made in place: its 2 KB are not moved.
     #[inline]
-    pub(crate) fn add_tree(&mut self, tree: &LightBvhRef<'a>, power: f32) {
+    pub(crate) fn set(
+        &mut self,
+        tree: &LightBvhRef<'a>,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        ctx: &LightSampleContext,
+    ) {
+        self.infinite = infinite;
+        self.ctx = *ctx;
         self.tree.set(tree, &self.ctx, CutDetail::default());
         self.in_tree = positive_product(self.tree.irradiance(), power).min(f32::MAX);
     }

@@ -57,6 +57,13 @@ impl<'a> BvhLightSamplerRef<'a> {
         self.infinite.lights()
     }
 
+    /// Whether a query is one of the tree alone. Without an operating system memory for code is
+    /// short: there all take the way of those with lights at infinity, which gives the same bits.
+    #[inline(always)]
+    const fn is_tree_alone(&self) -> bool {
+        cfg!(not(target_os = "none")) && self.infinite.is_empty()
+    }
+
     /// A single choice.
     #[inline]
     fn choice_at(&self, ctx: &LightSampleContext) -> BvhChoices<'a, LightBvhAt<'a>> {
@@ -70,7 +77,43 @@ impl<'a> BvhLightSamplerRef<'a> {
         if count < FEWEST_OF_CUT {
             LightChoices::from_root(self.choice_at(ctx), count)
         } else {
-            LightChoices::by_cut(&self.tree, self.power, self.infinite, ctx, count)
+            let mut choices = LightChoices::default();
+            choices.set_cut(&self.tree, self.power, self.infinite, ctx, count);
+            choices
+        }
+    }
+
+    /// [`LightSampler::at`] in a place of the caller, which several choices by a cut do not leave:
+    /// no 2 KB are moved, where memory is short or slow.
+    ///
+    /// ```
+    /// # use light_samplers::{BvhLightSampler, LightChoices, LightSampler, light_bounds, light_math};
+    /// # use light_bounds::{LightBounds, LightExtent, LightSampleContext, glam::Vec3};
+    /// # let bounds = LightBounds {
+    /// #     bounds: light_math::Aabb::from_point(Vec3::Y),
+    /// #     w: Vec3::Z,
+    /// #     phi: 1.0,
+    /// #     cos_theta_o: -1.0,
+    /// #     cos_theta_e: 0.0,
+    /// #     two_sided: false,
+    /// # };
+    /// # let lights = vec![LightExtent::Bounded(bounds); 100];
+    /// let sampler = BvhLightSampler::new(&lights)?;
+    /// let (sampler, mut here) = (sampler.view(), LightChoices::default());
+    /// for p in [Vec3::ZERO, Vec3::X] {
+    ///     let ctx = LightSampleContext::medium(p);
+    ///     sampler.set_at(&ctx, 4, &mut here);
+    ///     assert_eq!(here.samples(1 << 63).count(), 4);
+    ///     assert!(here.samples(1 << 63).eq(sampler.at(&ctx, 4).samples(1 << 63)));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn set_at(&self, ctx: &LightSampleContext, count: u32, choices: &mut LightChoices<'a>) {
+        if count < FEWEST_OF_CUT {
+            *choices = self.choices_at(ctx, count);
+        } else {
+            choices.set_cut(&self.tree, self.power, self.infinite, ctx, count);
         }
     }
 
@@ -105,7 +148,7 @@ impl<'a> BvhLightSamplerRef<'a> {
 impl LightSampler for BvhLightSamplerRef<'_> {
     #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
-        if self.infinite.is_empty() {
+        if self.is_tree_alone() {
             self.tree.sample(ctx, u)
         } else {
             self.choice_at(ctx).sample(u)
@@ -114,7 +157,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
 
     #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        if self.infinite.is_empty() {
+        if self.is_tree_alone() {
             self.tree.pmf(ctx, light)
         } else {
             self.choice_at(ctx).pmf(light)

@@ -96,7 +96,9 @@ impl<'a> InfiniteLights<'a> {
         in_tree: f32,
         weight: impl Fn(&InfiniteLight) -> f32,
     ) -> Option<FirstChoice> {
-        let chosen = discrete::sample_by(self.count(), self.weights(in_tree, weight), u)?;
+        let weights = self.weights(in_tree, weight);
+        // By reference as in `first_pmf`, so that both share one instance of the code.
+        let chosen = discrete::sample_by(self.count(), &weights, u)?;
         let (pmf, u) = (chosen.pmf, chosen.u);
         Some(match chosen.index.checked_sub(TREE + 1) {
             None => FirstChoice::Others { pmf, u },

@@ -116,6 +116,17 @@ impl fmt::Debug for Kind<'_> {
     }
 }
 
+/// No choice.
+impl Default for LightChoices<'_> {
+    #[inline]
+    fn default() -> Self {
+        Self {
+            count: 0,
+            kind: Kind::Cut(BvhChoices::default()),
+        }
+    }
+}
+
 impl<'a> LightChoices<'a> {
     /// `count` choices at `ctx`, each as [`LightSampler::sample`] makes it.
     #[inline]
@@ -142,25 +153,24 @@ impl<'a> LightChoices<'a> {
         Self { count, kind }
     }
 
-    /// `count` choices at `ctx` among the lights of a tree of this power and those at infinity, by
-    /// a cut.
+    /// Makes these `count` choices at `ctx` among the lights of a tree of this power and those at
+    /// infinity, by a cut, in place.
     #[inline]
-    pub(crate) fn by_cut(
+    pub(crate) fn set_cut(
+        &mut self,
         tree: &LightBvhRef<'a>,
         power: f32,
         infinite: InfiniteLights<'a>,
         ctx: &LightSampleContext,
         count: u32,
-    ) -> Self {
-        let mut all = Self {
-            count,
-            kind: Kind::Cut(BvhChoices::without_tree(infinite, ctx)),
-        };
-        // Last of all, so that what is known of the tree, 2 KB, is not moved.
-        if let Kind::Cut(choices) = &mut all.kind {
-            choices.add_tree(tree, power);
+    ) {
+        self.count = count;
+        if !matches!(self.kind, Kind::Cut(_)) {
+            self.kind = Kind::Cut(BvhChoices::default());
         }
-        all
+        if let Kind::Cut(choices) = &mut self.kind {
+            choices.set(tree, power, infinite, ctx);
+        }
     }
 
     /// How many choices there are. An estimate is the sum over the choices of what each gives over

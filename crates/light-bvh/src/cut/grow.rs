@@ -127,16 +127,17 @@ impl CutNodes {
     #[inline(always)]
     pub(crate) fn share_parts(&mut self) {
         let scale = parts_scale(self.sum, MAX_NODES);
-        let mut parts = [0; MAX_NODES];
-        for (parts, &total) in parts.iter_mut().zip(&self.totals[..self.count]) {
+        let ends = &mut self.ends[..self.count];
+        // The parts of each, before they become ends.
+        for (parts, &total) in ends.iter_mut().zip(&self.totals) {
             *parts = parts_of(total, scale);
         }
         // What is left over goes to the first with any weight.
-        let mut left_over = PARTS.saturating_sub(parts.iter().sum());
+        let mut left_over = PARTS.saturating_sub(ends.iter().sum());
         let mut end = 0;
-        for (place, parts) in self.ends[..self.count].iter_mut().zip(parts) {
-            if parts > 0 {
-                end += parts + core::mem::take(&mut left_over);
+        for place in ends {
+            if *place > 0 {
+                end += *place + core::mem::take(&mut left_over);
             }
             *place = end;
         }
@@ -197,10 +198,10 @@ fn append_set_bits(
 const _: () = assert!(WIDTH % 8 == 0, "bits are appended by bytes");
 
 /// For every byte the places of its bits, four bits each, the first one lowest.
-static PLACES: [u32; 256] = places();
+const PLACES: [u32; 256] = places();
 
 /// For every byte how many bits it has.
-static COUNTS: [u8; 256] = counts();
+const COUNTS: [u8; 256] = counts();
 
 const fn places() -> [u32; 256] {
     let mut all = [0; 256];

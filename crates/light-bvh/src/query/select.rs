@@ -27,7 +27,9 @@ pub(crate) struct Choice {
 /// Choices by [`discrete`](light_math::discrete)'s rule, for all children of a node together.
 impl Weights {
     /// The child that `u` falls on; `None` if no child can contribute.
-    #[inline(always)]
+    // Without an operating system memory for code is short: all queries call one function.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn choose(&self, u: u64) -> Option<Choice> {
         if !(self.total > 0.0) {
             return None;
@@ -65,7 +67,8 @@ impl Weights {
     }
 
     /// Probability of [`choose`](Self::choose)-ing `child`.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn probability(&self, child: usize) -> f32 {
         if !(self.total > 0.0) {
             return 0.0;

@@ -36,10 +36,12 @@ impl Weights {
     };
 
     /// The weights of the children of `node` for `receiver`.
-    #[inline(always)]
+    // Without an operating system memory for code is short: all queries call one function.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let weights = Self::in_frame(node, receiver, &frame, |_, _| ());
+        let weights = Self::in_frame(node, receiver, &frame, note_nothing);
         if is_trusted(weights.total, &frame, receiver) {
             weights
         } else {
@@ -93,13 +95,14 @@ impl Weights {
             node,
             receiver,
             &NodeFrame::from_afar(node, receiver.position(), receiver.reach()),
-            |_, _| (),
+            note_nothing,
         )
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that
     /// depends on another child.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn in_frame<R: Receiver>(
         node: &WideNode,
         receiver: &R,
@@ -123,6 +126,9 @@ impl Weights {
         }
     }
 }
+
+#[inline(always)]
+const fn note_nothing(_: usize, _: &ChildView) {}
 
 /// The irradiance that a sum of weights means, in whose unit of length `inv_unit` is one, times
 /// `gain`: a normal number, or 0 where the sum is.
