@@ -135,6 +135,7 @@ fn source_of_linker(rust: &Toolchain) -> Result<PathBuf, String> {
     let from = release.into_iter().find(|path| path.is_dir());
     let from = from.ok_or("Debian's sources have no llvm-bitcode-linker")?;
     let to = root().join("target/ptx-tools/source");
+    fs::create_dir_all(&to).map_err(|e| format!("{}: {e}", to.display()))?;
     output(Command::new("cp").arg("-rT").args([&from, &to]))?;
     let manifest = to.join("Cargo.toml");
     let text = fs::read_to_string(&manifest).map_err(|e| e.to_string())?;
