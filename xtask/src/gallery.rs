@@ -1,5 +1,5 @@
-//! `cargo xtask gallery [--references]`: remakes the pictures of `docs/gallery.md`, or the picture of
-//! the README and the references of the demo.
+//! `cargo xtask gallery [--references]`: remakes the pictures of `docs/gallery.md`, or the picture
+//! of the README and the references of the demo.
 
 use std::fs;
 

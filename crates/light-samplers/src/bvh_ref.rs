@@ -87,7 +87,8 @@ impl<'a> BvhLightSamplerRef<'a> {
     /// no 2 KB are moved, where memory is short or slow.
     ///
     /// ```
-    /// # use light_samplers::{BvhLightSampler, LightChoices, LightSampler, light_bounds, light_math};
+    /// # use light_samplers::{BvhLightSampler, LightChoices, LightSampler};
+    /// # use light_samplers::{light_bounds, light_math};
     /// # use light_bounds::{LightBounds, LightExtent, LightSampleContext, glam::Vec3};
     /// # let bounds = LightBounds {
     /// #     bounds: light_math::Aabb::from_point(Vec3::Y),

@@ -60,8 +60,8 @@ pub struct Scene {
 
 impl Scene {
     /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
-    /// quadrics; an instance counts by the transformed corners of the boxes of its prototype, an own
-    /// light that rays hit by its bounds; an invisible area or mesh light counts not at all.
+    /// quadrics; an instance counts by the transformed corners of the boxes of its prototype, an
+    /// own light that rays hit by its bounds; an invisible area or mesh light counts not at all.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         let meshes = self.meshes.iter().map(Mesh::bounds);

@@ -80,7 +80,8 @@ impl SceneInput {
     }
 
     /// Reads the scene as [`read`](Self::read) does, and gives it a sky if nothing in it gives
-    /// light. What the readers repaired and which sky it is go to standard error, unless `is_quiet`.
+    /// light. What the readers repaired and which sky it is go to standard error, unless
+    /// `is_quiet`.
     ///
     /// # Errors
     /// When a file cannot be read or is invalid.

@@ -1,5 +1,5 @@
-//! Spheres, disks and cylinders are round: they are met, lit, and emit light as closed forms say, and as very many
-//! triangles do.
+//! Spheres, disks and cylinders are round: they are met, lit, and emit light as closed forms say, and
+//! as very many triangles do.
 
 mod disks_and_cylinders;
 mod hits;

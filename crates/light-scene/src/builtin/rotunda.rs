@@ -151,8 +151,8 @@ fn entablature(modeller: &mut Modeller, marble: MaterialId) {
     modeller.turned_with_edges(marble, &transform, &profile.map(Vec2::from), 96);
 }
 
-/// Steel on a pedestal, and gold, glazed clay and clay around it. Nothing is so smooth that it throws
-/// the sun where only a lucky ray finds it.
+/// Steel on a pedestal, and gold, glazed clay and clay around it. Nothing is so smooth that it
+/// throws the sun where only a lucky ray finds it.
 fn spheres(modeller: &mut Modeller, marble: MaterialId) {
     let transform = Affine3A::from_translation(Vec3::Y * FLOOR);
     let pedestal = [

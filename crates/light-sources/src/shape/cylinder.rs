@@ -17,8 +17,8 @@ use light_math::{Aabb, DirectionCone};
 
 /// An open cylinder, the wall of a tube without its ends; its front is outside.
 ///
-/// Directions toward it are sampled nearly uniformly in solid angle, from inside too; those from its
-/// own wall by area.
+/// Directions toward it are sampled nearly uniformly in solid angle, from inside too; those from
+/// its own wall by area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     transform: RigidTransform,
@@ -241,8 +241,8 @@ mod tests {
     use crate::glam::Affine3A;
     use core::f32::consts::PI;
 
-    /// The share of the light that leaves a point of the wall and arrives at the wall again, against
-    /// one less the closed form for the two open ends; wherever rounding has put the point.
+    /// The share of the light that leaves a point of the wall and arrives at the wall again,
+    /// against one less the closed form for the two open ends; wherever rounding has put the point.
     #[test]
     fn the_wall_is_lit_by_itself() {
         let transform = RigidTransform::new(Affine3A::from_axis_angle(Vec3::X, 0.7));
