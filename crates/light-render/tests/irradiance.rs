@@ -5,7 +5,6 @@ mod support;
 use core::f32::consts::PI;
 use core::f64::consts::FRAC_1_PI;
 
-use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 use light_scene::{Camera, Emission, Material, Mesh, Scene};
@@ -31,14 +30,7 @@ fn ground() -> Scene {
 /// The picture of a plane under this irradiance has one radiance.
 fn assert_irradiance(scene: &Scene, irradiance: DVec3, estimators: &[Estimator]) {
     for &estimator in estimators {
-        let shot = Shot {
-            size: 8,
-            spp: 64,
-            max_depth: 2,
-            estimator,
-            sampler: SamplerKind::Bvh,
-            ..Shot::default()
-        };
+        let shot = Shot::of_direct_light(estimator);
         let radiance = irradiance * f64::from(ALBEDO) * FRAC_1_PI;
         shot.assert_mean(scene, radiance, &format!("{estimator:?}"));
     }

@@ -1,6 +1,6 @@
 //! Disks and cylinders are met, seen, and give light as very many triangles do.
 
-use light_render::{PrimitiveId, Ray, SamplerKind, World};
+use light_render::{PrimitiveId, Ray, World};
 use light_scene::glam::{Affine3A, DVec3, Vec2, Vec3};
 use light_scene::{
     Alpha, Camera, Color, Emission, Instance, Material, Prototype, Quadric, QuadricFront,
@@ -194,19 +194,9 @@ fn a_disk_gives_the_irradiance_of_its_cone() {
         let [outer, inner] = [1.0, f64::from(inner_radius)].map(|r| share(r * f64::from(radius)));
         let expected = f64::from(ALBEDO) * (outer - inner);
         for estimator in ALL {
-            let shot = Shot {
-                size: 8,
-                spp: 64,
-                max_depth: 2,
-                estimator,
-                sampler: SamplerKind::Bvh,
-                ..Shot::default()
-            };
-            let mean = shot.mean(&scene);
-            assert!(
-                agree(mean, (DVec3::splat(expected), DVec3::ZERO)),
-                "{estimator:?}, {height}, {radius}, {inner_radius}: {mean:?}, not {expected}"
-            );
+            let shot = Shot::of_direct_light(estimator);
+            let what = format!("{estimator:?}, {height}, {radius}, {inner_radius}");
+            shot.assert_mean(&scene, DVec3::splat(expected), &what);
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Light from spheres and within them, in closed form.
 
-use light_render::SamplerKind;
 use light_scene::glam::{DVec3, Vec3};
 use light_scene::{Camera, Emission, Material, QuadricFront, Scene};
 use lights::sources::{LightDesc, RadianceAmount, UniformInfiniteLightDesc};
@@ -30,20 +29,9 @@ fn a_sphere_gives_the_irradiance_of_its_solid_angle() {
         let expected = f64::from(ALBEDO) * sine * sine * f64::from(center.y) / distance;
         // Rays that scatter find a small lamp too seldom.
         for estimator in ALL.into_iter().filter(|e| sine > 0.1 || e.samples_lights()) {
-            let shot = Shot {
-                size: 8,
-                spp: 64,
-                max_depth: 2,
-                estimator,
-                sampler: SamplerKind::Bvh,
-                ..Shot::default()
-            };
-            let mean = shot.mean(&scene);
-            let exact = (DVec3::splat(expected), DVec3::ZERO);
-            assert!(
-                agree(mean, exact),
-                "{estimator:?} under {center}: {mean:?}, expected {expected}"
-            );
+            let shot = Shot::of_direct_light(estimator);
+            let what = format!("{estimator:?} under {center}");
+            shot.assert_mean(&scene, DVec3::splat(expected), &what);
         }
     }
 }

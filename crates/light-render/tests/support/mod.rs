@@ -119,6 +119,18 @@ impl Default for Shot {
 }
 
 impl Shot {
+    /// A small picture of direct light, its lights chosen by the default tree.
+    pub(crate) fn of_direct_light(estimator: Estimator) -> Self {
+        Self {
+            size: 8,
+            spp: 64,
+            max_depth: 2,
+            estimator,
+            sampler: SamplerKind::Bvh,
+            ..Self::default()
+        }
+    }
+
     /// Renders `scene` with this seed.
     pub(crate) fn render(&self, scene: &Scene, seed: u32) -> Rendering {
         let camera = scene.camera_or_default();
