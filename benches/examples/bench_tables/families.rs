@@ -16,7 +16,8 @@ const SIZES: [(usize, usize); 2] = [(100, 1024), (10_000, 128)];
 const K: u32 = 16;
 
 const HEADER: &str = "\
-| family | lights | reference: V mean | 99 % | by light | default: V mean | median | 99 % | by light | k = 16: V mean |
+| family | lights | reference: V mean | 99 % | by light | default: V mean | median | 99 % | \
+by light | k = 16: V mean |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 
