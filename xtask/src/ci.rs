@@ -3,7 +3,7 @@
 use crate::check::WorkspaceTests;
 use crate::steps::{Outcome, Steps, cargo, run};
 use crate::tools::Install;
-use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, packages};
+use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, packages, tint};
 
 /// Seconds that each fuzz target gets.
 const FUZZ_SECONDS: u32 = 5;
@@ -23,6 +23,7 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     steps.run("fuzz targets, a few seconds each", || {
         fuzz::smoke(FUZZ_SECONDS)
     });
+    steps.run("shaders by tint", tint::tint);
     steps.run("public items", || api::api(&[]));
     steps.run("instruction counts", || counts::counts(&[]));
 }

@@ -29,6 +29,7 @@ mod ptx;
 mod references;
 mod rust_gpu;
 mod steps;
+mod tint;
 mod tools;
 
 use check::WorkspaceTests;
@@ -87,6 +88,7 @@ usage: cargo xtask [COMMAND]
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
                               take very many samples and compare each with its query
                               (default: 10^9, 10^8, seed 1)
+  tint                        compile the project's WGSL by `tint`, where it is in the path
   uplift-table                remake the spectra of sRGB colours that light-math ships
 ";
 
@@ -127,9 +129,11 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("coverage", rest) => one("coverage", || coverage::coverage(rest)),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
         ("gpu", rest) => all(|steps| {
+            steps.run("shaders by tint", tint::tint);
             steps.run("shaders", || gpu::gpu(rest));
             ptx::add_steps(steps);
         }),
+        ("tint", []) => one("shaders by tint", tint::tint),
         ("ptx", []) => one("kernels", ptx::remake),
         ("rust-gpu", rest) => one("places that rust-gpu does not take", || {
             rust_gpu::rust_gpu(rest)
