@@ -1,7 +1,7 @@
 //! `cargo xtask coverage [CRATE...]`: which lines and regions of the core crates their tests reach,
 //! by `cargo-llvm-cov`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::debian;
@@ -17,6 +17,9 @@ mod report;
 /// `mod tests` is cut off later.
 const OTHERS: &str =
     "light-testkit|light-scene|light-sets|light-render|crates/lights/|/tests?/|tests\\.rs";
+
+/// Where `cargo-llvm-cov` builds and counts.
+const FOLDER: &str = "target/llvm-cov-target";
 
 /// Features that are not on by default and change what the tests run.
 const FEATURES: [&str; 4] = [
@@ -73,25 +76,113 @@ pub fn coverage(names: &[String]) -> StepResult {
         }
     }
     run(&mut tests)?;
-    let json = root().join("target/coverage.json");
-    let mut export = command(&["report", "--json", "--skip-functions"])?;
-    export.args(["--ignore-filename-regex", OTHERS, "--output-path"]);
-    output(export.arg(&json))?;
-    let text = std::fs::read_to_string(&json).map_err(|e| format!("{}: {e}", json.display()))?;
-    let report = Report::from_json(&text, is_chosen)?;
+    let tools = Llvm::new(llvm)?;
+    let counts = tools.merged_counts()?;
+    let mut exports = Vec::new();
+    for program in programs()? {
+        exports.extend(tools.export(&counts, &program)?);
+    }
+    let report = Report::from_exports(&exports, is_chosen)?;
     print!("{report}");
     Ok(Outcome::Passed)
 }
 
-/// Debian's LLVM of the compiler's version, where rustup's component `llvm-tools` is not installed.
-fn llvm_tools() -> Result<Option<PathBuf>, String> {
+/// LLVM's programs, by rustup or from Debian.
+struct Llvm {
+    folder: PathBuf,
+    /// What Debian writes behind their names.
+    suffix: String,
+    /// Where Debian's programs find their libraries.
+    libraries: Option<String>,
+}
+
+impl Llvm {
+    /// Debian's programs below `folder`, or rustup's.
+    fn new(folder: Option<PathBuf>) -> Result<Self, String> {
+        Ok(match folder {
+            Some(folder) => Self {
+                suffix: format!("-{}", major()?),
+                libraries: Some(debian::libraries(&folder)),
+                folder: folder.join("usr/bin"),
+            },
+            None => Self {
+                folder: component()?.ok_or("no llvm-cov")?,
+                suffix: String::new(),
+                libraries: None,
+            },
+        })
+    }
+
+    fn command(&self, name: &str) -> Command {
+        let mut command = Command::new(self.folder.join(format!("{name}{}", self.suffix)));
+        if let Some(libraries) = &self.libraries {
+            command.env("LD_LIBRARY_PATH", libraries);
+        }
+        command
+    }
+
+    /// The counts of all runs, in one file.
+    fn merged_counts(&self) -> Result<PathBuf, String> {
+        let folder = root().join(FOLDER);
+        let merged = folder.join("all.profdata");
+        let mut merge = self.command("llvm-profdata");
+        merge.args(["merge", "--output"]).arg(&merged);
+        output(merge.args(files(&folder, |path| ends_with(path, "profraw"))?))?;
+        Ok(merged)
+    }
+
+    /// What one program has run, as JSON with warnings behind it; nothing
+    /// of a program whose tests need other features.
+    ///
+    /// Of a function that is in several programs, `llvm-cov` takes the one that it reads first, and
+    /// in that program it may be unused; therefore each program has an export of its own.
+    fn export(&self, counts: &Path, program: &Path) -> Result<Option<String>, String> {
+        let mut export = self.command("llvm-cov");
+        export
+            .args(["export", "--skip-functions"])
+            .args(["--ignore-filename-regex", OTHERS, "--instr-profile"])
+            .arg(counts);
+        match output(export.arg(program)) {
+            Ok(text) => Ok(Some(text)),
+            Err(why) if why.contains("no coverage data found") => Ok(None),
+            Err(why) => Err(why),
+        }
+    }
+}
+
+/// The programs that ran: tests of the crates.
+fn programs() -> Result<Vec<PathBuf>, String> {
+    let folder = root().join(FOLDER).join("debug/deps");
+    files(&folder, |path| path.extension().is_none() && path.is_file())
+}
+
+/// The files of a folder that are chosen, in their order.
+fn files(folder: &Path, is_chosen: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let paths = entries.filter_map(|entry| entry.ok().map(|e| e.path()));
+    let mut paths: Vec<PathBuf> = paths.filter(|path| is_chosen(path)).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+fn ends_with(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e == extension)
+}
+
+/// The folder of rustup's component `llvm-tools`, where it is installed.
+fn component() -> Result<Option<PathBuf>, String> {
     let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
     let libraries = PathBuf::from(sysroot.trim()).join("lib/rustlib");
     let hosts = std::fs::read_dir(&libraries).map_err(|e| e.to_string())?;
-    let has_component = hosts
+    Ok(hosts
         .filter_map(Result::ok)
-        .any(|host| host.path().join("bin/llvm-cov").is_file());
-    if has_component {
+        .map(|host| host.path().join("bin"))
+        .find(|programs| programs.join("llvm-cov").is_file()))
+}
+
+/// Debian's LLVM of the compiler's version, where rustup's component `llvm-tools` is not installed.
+fn llvm_tools() -> Result<Option<PathBuf>, String> {
+    if component()?.is_some() {
         return Ok(None);
     }
     let package = format!("llvm-{}", major()?);

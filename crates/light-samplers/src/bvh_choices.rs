@@ -22,9 +22,6 @@ pub(crate) struct BvhChoices<'a, T> {
 
 /// The tree at the context.
 pub(crate) trait InTree {
-    /// As [`LightBvhAt::irradiance`].
-    fn irradiance(&self) -> f32;
-
     /// As [`LightBvhAt::sample`].
     fn sample(&self, u: u64) -> Option<SampledLight>;
 
@@ -73,7 +70,8 @@ impl<'a> BvhChoices<'a, LightBvhInCellAt<'a>> {
         cell: CellFactors<'a>,
         ctx: &LightSampleContext,
     ) -> Self {
-        Self::of(tree.in_cell(cell).at(ctx), power, infinite, ctx)
+        let tree = tree.in_cell(cell).at(ctx);
+        Self::of(tree, tree.irradiance(), power, infinite, ctx)
     }
 }
 
@@ -87,17 +85,24 @@ impl<'a> BvhChoices<'a, LightBvhAt<'a>> {
         infinite: InfiniteLights<'a>,
         ctx: &LightSampleContext,
     ) -> Self {
-        Self::of(tree.at(ctx), power, infinite, ctx)
+        let tree = tree.at(ctx);
+        Self::of(tree, tree.irradiance(), power, infinite, ctx)
     }
 }
 
 impl<'a, T: InTree> BvhChoices<'a, T> {
     #[inline]
-    fn of(tree: T, power: f32, infinite: InfiniteLights<'a>, ctx: &LightSampleContext) -> Self {
+    fn of(
+        tree: T,
+        irradiance: f32,
+        power: f32,
+        infinite: InfiniteLights<'a>,
+        ctx: &LightSampleContext,
+    ) -> Self {
         Self {
             infinite,
             ctx: *ctx,
-            in_tree: positive_product(tree.irradiance(), power).min(f32::MAX),
+            in_tree: positive_product(irradiance, power).min(f32::MAX),
             tree,
         }
     }
@@ -132,11 +137,6 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
 
 impl InTree for LightBvhAt<'_> {
     #[inline]
-    fn irradiance(&self) -> f32 {
-        self.irradiance()
-    }
-
-    #[inline]
     fn sample(&self, u: u64) -> Option<SampledLight> {
         self.sample(u)
     }
@@ -149,11 +149,6 @@ impl InTree for LightBvhAt<'_> {
 
 impl InTree for LightBvhInCellAt<'_> {
     #[inline]
-    fn irradiance(&self) -> f32 {
-        self.irradiance()
-    }
-
-    #[inline]
     fn sample(&self, u: u64) -> Option<SampledLight> {
         self.sample(u)
     }
@@ -165,11 +160,6 @@ impl InTree for LightBvhInCellAt<'_> {
 }
 
 impl InTree for LightCut<'_> {
-    #[inline]
-    fn irradiance(&self) -> f32 {
-        self.irradiance()
-    }
-
     #[inline]
     fn sample(&self, u: u64) -> Option<SampledLight> {
         self.sample(u)

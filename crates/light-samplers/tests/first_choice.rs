@@ -9,7 +9,9 @@ use lamp_over_floor::{floor, lamp};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId};
-use light_samplers::{BvhLightSampler, BvhLightSamplerRef, LightSampler, SampledLight};
+use light_samplers::{
+    BvhLightSampler, BvhLightSamplerRef, LightChoices, LightSampler, SampledLight,
+};
 
 fn lights(phi: f32, radiance: f32) -> [LightExtent; 2] {
     let sky = LightExtent::Infinite(InfiniteBounds::uniform(radiance));
@@ -140,5 +142,39 @@ fn many_lamps_have_the_pmf_of_their_choices() {
         for sample in here.samples(1 << 62) {
             assert_eq!(sample.pmf, here.pmf(sample.light), "{sample:?} of {count}");
         }
+    }
+}
+
+#[test]
+fn choices_made_in_place_do_not_depend_on_what_was_there() {
+    let row: Vec<LightExtent> = (0..300).map(|k| lamp_at(k as f32 - 20.0)).collect();
+    let sampler = BvhLightSampler::new(&row).expect("valid lights");
+    let sampler = sampler.view();
+    let mut here = LightChoices::default();
+    assert_eq!((here.count(), here.samples(0).count()), (0, 0), "none");
+    assert_eq!(here.pmf(LightId(0)), 0.0, "of no choice");
+    // By a cut, from the root, and by a cut again.
+    for count in [5, 1, 4, 1, 2] {
+        sampler.set_at(&floor(), count, &mut here);
+        let made = sampler.at(&floor(), count);
+        assert_eq!(here.count(), count);
+        assert!(
+            here.samples(1 << 61).eq(made.samples(1 << 61)),
+            "{count} choices"
+        );
+        for id in (0..300).map(LightId) {
+            assert_eq!(here.pmf(id), made.pmf(id), "{id:?} of {count}");
+        }
+    }
+}
+
+/// A lamp beside the one of the pair.
+fn lamp_at(x: f32) -> LightExtent {
+    match lamp(1.0) {
+        LightExtent::Bounded(mut lamp) => {
+            lamp.bounds = Aabb::from_point(Vec3::new(x, 0.0, 2.0));
+            LightExtent::Bounded(lamp)
+        }
+        infinite => infinite,
     }
 }

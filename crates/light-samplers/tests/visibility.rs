@@ -139,6 +139,22 @@ fn known_and_unknown_places_have_their_own_counts() {
 }
 
 #[test]
+fn a_copy_makes_the_same_choices_with_one_count_for_all_places() {
+    let cells = InCells::new(&row(), 1, |child| encode_factor(UNLIKE[child % 5]));
+    let sampler = cells.sampler();
+    let copy = Clone::clone(&sampler);
+    for x in [1.0, -1.0] {
+        let ctx = LightSampleContext::medium(Vec3::X * x);
+        for count in [1, 3] {
+            let (here, same) = (copy.at(&ctx, count), sampler.choices(&ctx, count, count));
+            assert_eq!(here.count(), count, "at {x}");
+            assert!(here.samples(1 << 62).eq(same.samples(1 << 62)), "at {x}");
+            assert!((0..40).map(LightId).all(|id| here.pmf(id) == same.pmf(id)));
+        }
+    }
+}
+
+#[test]
 fn a_factor_of_a_child_makes_its_lights_rarer() {
     let lamps = row();
     let plain = BvhLightSampler::new(&lamps).expect("valid bounds");

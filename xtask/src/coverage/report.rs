@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
 
-use serde_json::Value;
+use serde_json::{Deserializer, Value};
 
 use super::explained::reason;
 use crate::mutants::CRATES;
@@ -34,6 +34,7 @@ struct Share {
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     line: usize,
+    column: usize,
     count: u64,
     has_count: bool,
     /// Whether a region of the code starts here, not only ends.
@@ -41,29 +42,39 @@ struct Segment {
 }
 
 impl Report {
-    /// From what `llvm-cov export` writes, the files of the chosen crates.
+    /// From what `llvm-cov export` writes of each program, the files of the chosen crates: what one
+    /// program reaches is reached.
     ///
     /// # Errors
     /// What is not as expected, or a file that cannot be read.
-    pub(super) fn from_json(text: &str, is_chosen: impl Fn(&str) -> bool) -> Result<Self, String> {
-        let json: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
-        let files = json["data"][0]["files"].as_array();
-        let mut report = Self {
-            files: BTreeMap::new(),
-        };
-        for file in files.ok_or("the report has no files")? {
-            let path = file["filename"].as_str().ok_or("a file without a name")?;
-            let name = path.split_once("/crates/").map_or(path, |(_, name)| name);
-            if !is_chosen(crate_of(name)) {
-                continue;
+    pub(super) fn from_exports(
+        exports: &[String],
+        is_chosen: impl Fn(&str) -> bool,
+    ) -> Result<Self, String> {
+        let mut programs: BTreeMap<String, Vec<Vec<Segment>>> = BTreeMap::new();
+        for text in exports {
+            let mut values = Deserializer::from_str(text).into_iter::<Value>();
+            let json = values.next().ok_or("an empty report")?;
+            let json = json.map_err(|e| e.to_string())?;
+            let files = json["data"][0]["files"].as_array();
+            for file in files.ok_or("the report has no files")? {
+                let path = file["filename"].as_str().ok_or("a file without a name")?;
+                let segments = file["segments"].as_array().ok_or("no segments")?;
+                let segments: Option<Vec<_>> = segments.iter().map(Segment::from_json).collect();
+                let of_file = programs.entry(path.to_owned()).or_default();
+                of_file.push(segments.ok_or("a bad segment")?);
             }
-            let source = fs::read_to_string(path).map_err(|e| format!("{path}: {e}"))?;
-            let segments = file["segments"].as_array().ok_or("no segments")?;
-            let segments: Option<Vec<_>> = segments.iter().map(Segment::from_json).collect();
-            let coverage = FileCoverage::new(name, &source, &segments.ok_or("a bad segment")?);
-            report.files.insert(name.to_owned(), coverage);
         }
-        Ok(report)
+        let mut files = BTreeMap::new();
+        for (path, programs) in programs {
+            let name = path.split_once("/crates/").map_or(&*path, |(_, name)| name);
+            if is_chosen(crate_of(name)) {
+                let source = fs::read_to_string(&path).map_err(|e| format!("{path}: {e}"))?;
+                let coverage = FileCoverage::new(name, &source, &programs);
+                files.insert(name.to_owned(), coverage);
+            }
+        }
+        Ok(Self { files })
     }
 }
 
@@ -71,8 +82,10 @@ impl Segment {
     /// From `[line, column, count, has_count, is_region_entry, is_gap_region]`.
     fn from_json(json: &Value) -> Option<Self> {
         let is = |i: usize| json[i].as_bool();
+        let place = |i: usize| usize::try_from(json[i].as_u64()?).ok();
         Some(Self {
-            line: usize::try_from(json[0].as_u64()?).ok()?,
+            line: place(0)?,
+            column: place(1)?,
             count: json[2].as_u64()?,
             has_count: is(3)?,
             starts: is(3)? && is(4)? && !is(5)?,
@@ -81,20 +94,27 @@ impl Segment {
 }
 
 impl FileCoverage {
-    fn new(name: &str, source: &str, segments: &[Segment]) -> Self {
+    /// From the segments of each program that has the file.
+    fn new(name: &str, source: &str, programs: &[Vec<Segment>]) -> Self {
         let lines: Vec<&str> = source.lines().collect();
         let tests = lines
             .iter()
             .position(|line| line.starts_with("mod tests {"));
         let mut coverage = Self::default();
-        for segment in segments {
+        let mut regions = BTreeMap::new();
+        for segment in programs.iter().flatten() {
             if segment.starts && tests.is_none_or(|tests| segment.line <= tests) {
-                coverage.regions.add(segment.count > 0);
+                let place = (segment.line, segment.column);
+                *regions.entry(place).or_insert(false) |= segment.count > 0;
             }
+        }
+        for is_reached in regions.into_values() {
+            coverage.regions.add(is_reached);
         }
         for (index, text) in lines[..tests.unwrap_or(lines.len())].iter().enumerate() {
             let line = index + 1;
-            let Some(count) = runs(segments, line) else {
+            let counts = programs.iter().filter_map(|segments| runs(segments, line));
+            let Some(count) = counts.max() else {
                 continue;
             };
             // A bracket alone says nothing more than what it closes.
@@ -207,6 +227,8 @@ impl fmt::Display for Report {
 
 #[cfg(test)]
 mod tests {
+    use std::slice;
+
     use super::*;
 
     const SOURCE: &str = "fn one() {\n    two();\n    if three {\n        four();\n    }\n}\n";
@@ -214,6 +236,7 @@ mod tests {
     fn segment(line: usize, count: u64, starts: bool) -> Segment {
         Segment {
             line,
+            column: 1,
             count,
             has_count: starts || count > 0,
             starts,
@@ -222,32 +245,34 @@ mod tests {
 
     #[test]
     fn a_line_counts_by_what_starts_in_it_or_reaches_into_it() {
-        let mut segments = vec![
+        let segments = vec![
             segment(1, 3, true),
             segment(3, 0, true),
             segment(5, 3, true),
             segment(6, 0, false),
         ];
-        let coverage = FileCoverage::new("one.rs", SOURCE, &segments);
+        let coverage = FileCoverage::new("one.rs", SOURCE, slice::from_ref(&segments));
         let lines = |reached, all| Share { reached, all };
         assert_eq!(coverage.lines, lines(2, 4), "of four lines with words");
         assert_eq!(coverage.regions, lines(2, 3), "regions");
         let missed: Vec<_> = coverage.missed.iter().map(|(line, _)| *line).collect();
         assert_eq!(missed, [3, 4], "the branch");
-        segments[1].count = 1;
-        let coverage = FileCoverage::new("one.rs", SOURCE, &segments);
-        assert_eq!(coverage.lines, lines(4, 4), "all");
+        let mut another = segments.clone();
+        (another[0].count, another[1].count) = (0, 1);
+        let coverage = FileCoverage::new("one.rs", SOURCE, &[segments, another]);
+        assert_eq!(coverage.lines, lines(4, 4), "all, by two programs");
+        assert_eq!(coverage.regions, lines(3, 3), "regions of two programs");
     }
 
     #[test]
     fn tests_do_not_count() {
         let source = "fn one() {\n}\n#[cfg(test)]\nmod tests {\n    fn two() {}\n}\n";
-        let segments = [
+        let segments = vec![
             segment(1, 1, true),
             segment(2, 0, false),
             segment(5, 0, true),
         ];
-        let coverage = FileCoverage::new("one.rs", source, &segments);
+        let coverage = FileCoverage::new("one.rs", source, &[segments]);
         assert_eq!(
             (coverage.lines.all, coverage.regions.all),
             (1, 1),

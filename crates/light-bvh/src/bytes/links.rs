@@ -67,3 +67,25 @@ fn is_near_root(nodes: &[WideNode], index: usize) -> bool {
     }
     false
 }
+
+#[cfg(test)]
+mod tests {
+    use core::array;
+
+    use super::*;
+
+    #[test]
+    fn a_chain_of_more_nodes_than_a_tree_has_levels_does_not_end_at_the_root() {
+        let node = |index: usize| WideNode {
+            parent: index.checked_sub(1).map_or(NOWHERE, place_of_first_child),
+            ..WideNode::EMPTY
+        };
+        let chain: [WideNode; MAX_DEPTH + 1] = array::from_fn(node);
+        assert!(is_near_root(&chain, MAX_DEPTH - 1), "the deepest level");
+        assert!(!is_near_root(&chain, MAX_DEPTH), "one level more");
+    }
+
+    fn place_of_first_child(node: usize) -> u32 {
+        u32::try_from(node * WIDTH).expect("few nodes")
+    }
+}
