@@ -6,11 +6,13 @@ use light_sets::{BenchSet, Family, SetKind};
 
 use super::measure::{figure, measure, options};
 
-/// Constants were chosen on seeds below 10.
-const SEEDS: [u64; 2] = [11, 12];
-
-/// Lights, and the points that the variance is taken over.
-const SIZES: [(usize, usize); 2] = [(100, 1024), (10_000, 128)];
+/// Lights, the points that the variance is taken over, and the seeds; constants were chosen on
+/// seeds below 10.
+const SIZES: [(usize, usize, &[u64]); 3] = [
+    (100, 1024, &[11, 12]),
+    (10_000, 128, &[11, 12]),
+    (1_000_000, 32, &[11]),
+];
 
 /// Samples of one call of the last column.
 const K: u32 = 16;
@@ -28,12 +30,12 @@ type Figures = [f64; 8];
 pub(super) fn table() -> Result<String, String> {
     let mut table = HEADER.to_owned();
     for kind in kinds() {
-        for (lights, points) in SIZES {
+        for (lights, points, seeds) in SIZES {
             let mut sums = Figures::default();
-            for seed in SEEDS {
+            for &seed in seeds {
                 let found = figures(kind, lights, seed, points)?;
                 for (sum, figure) in sums.iter_mut().zip(found) {
-                    *sum += figure / SEEDS.len() as f64;
+                    *sum += figure / seeds.len() as f64;
                 }
             }
             table += &line(kind, lights, sums);
@@ -56,11 +58,11 @@ fn kinds() -> impl Iterator<Item = SetKind> {
 /// Both hierarchies on one set.
 fn figures(kind: SetKind, lights: usize, seed: u64, points: usize) -> Result<Figures, String> {
     let mut set = BenchSet::generate(kind, lights, seed);
-    // Times, which the table does not show, are measured over all points of the set.
     set.points.truncate(points);
     let variances = |samplers: &[SamplerKind], k: u32| -> Result<Vec<Variance>, String> {
         let mut options = options(samplers, points);
         options.measurement.threads = 2;
+        options.measurement.is_timed = false;
         options.measurement.k = k;
         let rows = measure(kind, &set, &options)?;
         Ok(rows.iter().map(|row| row.variance).collect())

@@ -155,3 +155,31 @@ fn a_glossy_surface_without_a_viewer_is_diffuse() {
         }
     }
 }
+
+/// One pass over the nodes finds what a query of each light finds, and each light once.
+#[test]
+fn one_pass_has_the_probability_of_every_light() {
+    let (mut tree, groups) = (tree(), groups());
+    tree.set_groups(&groups).expect("as many");
+    let p = Vec3::splat(0.3);
+    let all = [
+        LightSampleContext::surface(p, Vec3::NEG_Z, Vec3::NEG_Z),
+        LightSampleContext::medium(p),
+        LightSampleContext::medium(p * 1e30),
+        LightSampleContext::medium(p).with_groups(LightGroups::of(2)),
+        LightSampleContext::medium(p).with_groups(LightGroups::of(5)),
+    ];
+    for ctx in &all {
+        let mut found = vec![0.0; COUNT as usize];
+        tree.view().for_each_pmf(ctx, |id, pmf| {
+            assert!(found[id.index()] == 0.0 && pmf > 0.0, "{id:?} once");
+            found[id.index()] = pmf;
+        });
+        for (id, pmf) in (0..).map(LightId).zip(&found) {
+            assert_eq!(*pmf, tree.view().pmf(ctx, id), "{id:?} at {ctx:?}");
+        }
+    }
+    let empty = LightBvh::build(&[]).expect("no lights");
+    let nothing = |id, _| panic!("{id:?} in an empty tree");
+    empty.view().for_each_pmf(&all[0], nothing);
+}

@@ -126,6 +126,11 @@ proptest! {
         }
         let sum: f64 = ids().map(|id| f64::from(tree.pmf(&ctx, id))).sum();
         prop_assert!(sum <= 1.0 + 1e-5, "{}", sum);
+        let mut of_one_pass = vec![0.0; lights.len()];
+        tree.view().for_each_pmf(&ctx, |id, pmf| of_one_pass[id.index()] += pmf);
+        for (id, pmf) in ids().zip(of_one_pass) {
+            prop_assert_eq!(pmf, tree.pmf(&ctx, id), "{:?} in one pass", id);
+        }
         let sum: f64 = ids().map(|id| f64::from(tree.pmf_emitter(id))).sum();
         let expected = f64::from(u8::from(!tree.is_empty()));
         prop_assert!((sum - expected).abs() < 1e-5, "without a context: {}", sum);

@@ -1,5 +1,7 @@
 //! How a light is chosen, and how its probability is found.
 
+#[cfg(feature = "alloc")]
+mod all_pmfs;
 pub(crate) mod ascent;
 pub(crate) mod bvh_at;
 pub(crate) mod bvh_ref;

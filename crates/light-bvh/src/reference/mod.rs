@@ -3,6 +3,8 @@
 //! Binary, 32 bytes a node, one importance per child and level. It keeps the published importance
 //! and cost where they are merely weak. For rendering use the default tree.
 
+#[cfg(feature = "alloc")]
+mod all_pmfs;
 mod bit_trail;
 #[cfg(feature = "alloc")]
 mod builder;

@@ -1,4 +1,4 @@
-use lights::bounds::LightExtent;
+use lights::bounds::{LightExtent, LightId, LightSampleContext};
 use lights::samplers::LightSampler;
 use lights::sources::{LightSet, Rgb};
 
@@ -9,7 +9,13 @@ use crate::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
 pub(super) struct Candidate {
     kind: SamplerKind,
     n_lights: usize,
+    /// Whether any light is at infinity.
+    has_infinite: bool,
     sampler: AnyLightSampler,
+}
+
+fn has_infinite(lights: &[LightExtent]) -> bool {
+    lights.iter().any(|light| light.infinite().is_some())
 }
 
 impl Candidate {
@@ -24,6 +30,7 @@ impl Candidate {
         Ok(Self {
             kind,
             n_lights: extents.len(),
+            has_infinite: has_infinite(extents),
             sampler: AnyLightSampler::over(kind, extents)?,
         })
     }
@@ -39,6 +46,7 @@ impl Candidate {
         Ok(Self {
             kind,
             n_lights: lights.len(),
+            has_infinite: has_infinite(&lights.extents()),
             sampler: AnyLightSampler::new(kind, lights)?,
         })
     }
@@ -84,6 +92,31 @@ impl Candidate {
             AnyLightSampler::Bvh(sampler) => sampler,
             AnyLightSampler::BvhInCells(sampler) => sampler,
         }
+    }
+
+    /// The probabilities of all lights, in the order of ids: of a tree alone in one pass over its
+    /// nodes, otherwise by a query of each light that `is_asked`; 0 for the others.
+    pub(super) fn pmfs(
+        &self,
+        ctx: &LightSampleContext,
+        is_asked: impl Fn(LightId) -> bool,
+    ) -> Vec<f32> {
+        let mut pmfs = vec![0.0; self.n_lights];
+        let mut set = |id: LightId, pmf| pmfs[id.index()] = pmf;
+        match &self.sampler {
+            AnyLightSampler::Bvh(sampler) if !self.has_infinite => {
+                sampler.tree().view().for_each_pmf(ctx, set);
+            }
+            AnyLightSampler::BvhReference(sampler) if !self.has_infinite => {
+                sampler.tree().view().for_each_pmf(ctx, set);
+            }
+            _ => {
+                let ids = (0..).map(LightId).take(self.n_lights);
+                ids.filter(|&id| is_asked(id))
+                    .for_each(|id| set(id, self.sampler().pmf(ctx, id)));
+            }
+        }
+        pmfs
     }
 
     /// Bytes that queries may touch.

@@ -5,6 +5,7 @@ use super::candidate::Candidate;
 use super::contributions::Contributions;
 use super::measurement::Measurement;
 use super::row::BenchRow;
+use super::timing::QueryTime;
 use super::{laws, timing, variance};
 use crate::{AnyLightSamplerError, SamplerKind};
 
@@ -38,6 +39,7 @@ impl Plan<'_> {
             ref samplers,
             k,
             threads,
+            is_timed,
             ..
         } = self.measurement;
         let pool = rayon::ThreadPoolBuilder::new()
@@ -47,13 +49,20 @@ impl Plan<'_> {
         let built: Vec<(f64, Candidate)> = samplers
             .iter()
             .map(|&kind| {
+                if !is_timed {
+                    return Ok((0.0, pool.install(|| make(kind))?));
+                }
                 let (ms, candidate) = pool.install(|| build_time(|| make(kind)));
                 Ok((ms, candidate?))
             })
             .collect::<Result<_, AnyLightSamplerError>>()?;
         let candidates: Vec<&Candidate> = built.iter().map(|(_, candidate)| candidate).collect();
         let contexts = contributions.contexts();
-        let times = timing::queries(&candidates, contexts, k);
+        let times = if is_timed {
+            timing::queries(&candidates, contexts, k)
+        } else {
+            vec![QueryTime::default(); candidates.len()]
+        };
         let rows = built
             .iter()
             .zip(times)
@@ -62,7 +71,7 @@ impl Plan<'_> {
                     1 => variance::exact(candidate, contributions, self.points),
                     k => variance::repeated(candidate, contributions, self.points, k),
                 });
-                let refit_ms = pool.install(|| candidate.refit_ms(self.extents));
+                let refit_ms = || pool.install(|| candidate.refit_ms(self.extents));
                 let laws = pool.install(|| laws::check(candidate, contexts));
                 BenchRow {
                     set: self.set.to_owned(),
@@ -71,7 +80,7 @@ impl Plan<'_> {
                     k,
                     points: self.points,
                     build_ms: *build_ms,
-                    refit_ms,
+                    refit_ms: is_timed.then(refit_ms).flatten(),
                     bytes: candidate.bytes(),
                     depth: candidate.depth(),
                     time,

@@ -10,6 +10,8 @@ pub struct Measurement {
     /// How many receivers the variance is taken over; `None` for as many as the options of the
     /// bench say.
     pub var_points: Option<usize>,
+    /// Whether builds, queries and refits are timed; otherwise these times are 0, or `None`.
+    pub is_timed: bool,
     /// Threads that build a tree and sum the variance. Queries are timed on one.
     pub threads: usize,
 }
@@ -21,6 +23,7 @@ impl Default for Measurement {
             samplers: SamplerKind::SUBLINEAR.to_vec(),
             k: 1,
             var_points: None,
+            is_timed: true,
             threads: 1,
         }
     }

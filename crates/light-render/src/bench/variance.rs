@@ -1,3 +1,4 @@
+use lights::bounds::LightId;
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
@@ -61,13 +62,21 @@ pub(super) fn exact(
         .par_iter()
         .enumerate()
         .map(|(receiver, ctx)| {
-            let lights: Vec<(LightMoments, f64)> = contributors(contributions, receiver)
-                .map(|(id, light)| {
-                    let seen = light.mean > 0.0;
-                    let pmf = || candidate.sampler().pmf(ctx, id);
-                    (light, if seen { f64::from(pmf()) } else { 0.0 })
-                })
-                .collect();
+            let contributors: Vec<_> = contributors(contributions, receiver).collect();
+            let mut is_seen = vec![false; contributions.lights()];
+            for (id, light) in &contributors {
+                is_seen[id.index()] = light.mean > 0.0;
+            }
+            let pmfs = candidate.pmfs(ctx, |id| is_seen[id.index()]);
+            let pmf = |id: LightId| {
+                if is_seen[id.index()] {
+                    pmfs[id.index()]
+                } else {
+                    0.0
+                }
+            };
+            let lights = contributors.into_iter();
+            let lights: Vec<_> = lights.map(|(id, light)| (light, pmf(id).into())).collect();
             at_point(&lights)
         })
         .collect();

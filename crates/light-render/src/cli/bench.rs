@@ -170,6 +170,7 @@ impl BenchArgs {
             samplers,
             k: self.k,
             var_points: self.var_points,
+            is_timed: true,
             threads: self.threads.max(1),
         }
     }
