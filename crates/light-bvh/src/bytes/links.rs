@@ -83,6 +83,8 @@ mod tests {
         let chain: [WideNode; MAX_DEPTH + 1] = array::from_fn(node);
         assert!(is_near_root(&chain, MAX_DEPTH - 1), "the deepest level");
         assert!(!is_near_root(&chain, MAX_DEPTH), "one level more");
+        let own_parent = [node(0), node(2)];
+        assert!(!is_near_root(&own_parent, 1), "no parent before it");
     }
 
     fn place_of_first_child(node: usize) -> u32 {
