@@ -73,11 +73,16 @@ impl<'a> Buffers<'a> {
 
     /// The bytes of a URI.
     pub(super) fn load(&self, uri: &Item<'_>) -> Result<Vec<u8>, Diagnostic> {
+        self.find(uri)?
+            .map_err(|error| uri.error(&error.to_string()))
+    }
+
+    /// The bytes of a URI, or why its file cannot be read.
+    pub(super) fn find(&self, uri: &Item<'_>) -> Result<Result<Vec<u8>, Diagnostic>, Diagnostic> {
         match resource(uri.text()?) {
-            Some(Resource::Bytes(bytes)) => Ok(bytes),
+            Some(Resource::Bytes(bytes)) => Ok(Ok(bytes)),
             Some(Resource::File(name)) => {
-                let bytes = self.files.read(&self.document.path().with_file_name(name));
-                bytes.map_err(|error| uri.error(&error.to_string()))
+                Ok(self.files.read(&self.document.path().with_file_name(name)))
             }
             None => Err(uri.expected(EXPECTED)),
         }

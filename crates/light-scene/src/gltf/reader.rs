@@ -5,7 +5,7 @@ use super::glb::UPGRADE;
 use super::item::Item;
 use super::known_materials::Materials;
 use super::mesh_uses::MeshUses;
-use super::required_extensions::{Required, required};
+use super::required_extensions::{Required, UNPACK, required};
 use super::texture_images::Textures;
 use super::warnings::Warnings;
 use crate::{Diagnostic, Files, Scene};
@@ -49,6 +49,11 @@ impl<'a> Reader<'a> {
                     &extension,
                     "names an extension that is not read: the picture may look different",
                 ),
+                Required::Compressed => {
+                    let mut error = extension.expected("meshes that are not compressed");
+                    error.message += UNPACK;
+                    return Err(error);
+                }
                 Required::Unknown => return Err(extension.expected("an extension that is read")),
             }
         }

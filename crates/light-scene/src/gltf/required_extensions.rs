@@ -6,6 +6,8 @@ pub(super) enum Required {
     /// It leaves it out: materials, images, lights and animations change how a scene looks, not
     /// what is there.
     Looks,
+    /// It cannot unpack its meshes; a tool can.
+    Compressed,
     /// It cannot say what is there.
     Unknown,
 }
@@ -35,10 +37,23 @@ const LOOKS: [&str; 8] = [
     "xmp",
 ];
 
+/// Extensions that compress meshes.
+const COMPRESSED: [&str; 3] = [
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "KHR_meshopt_compression",
+];
+
+/// What unpacks compressed meshes.
+pub(super) const UNPACK: &str = "; `gltf-transform copy compressed.glb plain.glb` unpacks meshes";
+
 /// What becomes of the required extension `name`.
 pub(super) fn required(name: &str) -> Required {
     if READ.contains(&name) {
         return Required::Read;
+    }
+    if COMPRESSED.contains(&name) {
+        return Required::Compressed;
     }
     let mut words = name.split('_').skip(1);
     match words.next() {
@@ -60,8 +75,8 @@ mod tests {
             ("EXT_texture_webp", Required::Looks),
             ("KHR_texture_basisu", Required::Looks),
             ("KHR_animation_pointer", Required::Looks),
-            ("KHR_draco_mesh_compression", Required::Unknown),
-            ("EXT_meshopt_compression", Required::Unknown),
+            ("KHR_draco_mesh_compression", Required::Compressed),
+            ("EXT_meshopt_compression", Required::Compressed),
             ("EXT_mesh_gpu_instancing", Required::Unknown),
             ("materials", Required::Unknown),
         ] {

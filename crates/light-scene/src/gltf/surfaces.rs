@@ -73,6 +73,10 @@ impl<'a> Reader<'a> {
         let texture = self.texture(&pbr, "metallicRoughnessTexture", uv_sets)?;
         Ok(match texture {
             Some(texture) => Color::Image(self.data_image(texture, factors)),
+            // Factors alone make a textured surface a metal, as 1 is what they are by default.
+            None if pbr.get("metallicRoughnessTexture")?.is_some() => {
+                Color::Constant(factors.with_z(0.0))
+            }
             None => Color::Constant(factors),
         })
     }

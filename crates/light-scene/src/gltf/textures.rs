@@ -44,7 +44,13 @@ impl<'a> Reader<'a> {
         let image = self.textures.first_alike(image, &item)?;
         if !self.textures.decoded.contains_key(&image) {
             let bytes = match item.get("uri")? {
-                Some(uri) => self.buffers.load(&uri)?,
+                Some(uri) => match self.buffers.find(&uri)? {
+                    Ok(bytes) => bytes,
+                    Err(error) => {
+                        self.warn(&uri, &format!("was left out: {error}"));
+                        return Ok(None);
+                    }
+                },
                 None => {
                     let view = self.buffers.view(&item.require("bufferView")?)?;
                     view.bytes().to_vec()

@@ -89,6 +89,40 @@ fn what_is_no_image_that_is_read_is_named() {
     assert_eq!(error, Err(expected.to_owned()), "a mode");
 }
 
+/// Files often travel without their images.
+#[test]
+fn a_texture_whose_file_is_missing_is_left_out_and_named() {
+    let scene = read(
+        r#""scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [
+            {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1],
+            "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}],
+        "textures": [{"source": 0}, {"source": 1}],
+        "images": [{"uri": "color.png"}, {"uri": "metal.png"}]"#,
+    )
+    .expect("a scene");
+    let messages: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "images[0].uri: was left out: color.png: cannot be read: not allowed",
+        "images[1].uri: was left out: metal.png: cannot be read: not allowed",
+    ];
+    for message in &expected {
+        assert!(messages.contains(message), "{message} in {messages:?}");
+    }
+    assert_eq!(messages.len(), expected.len(), "{messages:?}");
+    let Surface::MetallicRoughness(surface) = &scene.material(scene.meshes[0].material).surface
+    else {
+        panic!("a base colour");
+    };
+    let color = Color::Constant(Vec3::new(0.25, 0.5, 0.75));
+    assert_eq!(surface.base_color, color, "the factor");
+    let rough = Color::Constant(Vec3::new(1.0, 1.0, 0.0));
+    assert_eq!(
+        surface.roughness_metallic, rough,
+        "no metal without its texture"
+    );
+}
+
 #[test]
 fn textures_are_decoded_once_and_their_alpha_masks() {
     let folder = crate::test_folder::TestFolder::new("gltf_textures");

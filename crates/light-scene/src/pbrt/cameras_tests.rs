@@ -55,6 +55,23 @@ fn orthographic_cameras_scale_with_their_transform() {
     assert_eq!(found.forward, Vec3::Z, "its axis");
 }
 
+/// Of this camera, that of a public scene, the inverse has a last row that is not quite 0 0 0 1.
+#[test]
+fn a_view_from_far_away_is_no_projection() {
+    let found = camera(
+        "Scale -1 1 1 LookAt 328 40.282 245  328 10 0  -0.00212272 0.998201 -0.0599264 \
+         Camera \"perspective\"",
+    );
+    let eye = Vec3::new(328.0, 40.282, 245.0);
+    assert!(found.position.abs_diff_eq(eye, 1e-3), "{}", found.position);
+    let forward = (Vec3::new(328.0, 10.0, 0.0) - eye).normalize();
+    assert!(
+        found.forward.abs_diff_eq(forward, 1e-5),
+        "{}",
+        found.forward
+    );
+}
+
 #[test]
 fn spherical_cameras_have_one_of_two_maps() {
     for (mapping, expected) in [

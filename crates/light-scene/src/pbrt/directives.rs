@@ -293,5 +293,9 @@ fn look_at(eye: Vec3, target: Vec3, up: Vec3) -> Option<Mat4> {
         forward.extend(0.0),
         eye.extend(1.0),
     );
-    Some(to_world.inverse())
+    let inverse = to_world.inverse();
+    // Rounding must not make a projection of it.
+    let column = |index, w| inverse.col(index).truncate().extend(w);
+    let [x, y, z] = [0, 1, 2].map(|index| column(index, 0.0));
+    Some(Mat4::from_cols(x, y, z, column(3, 1.0)))
 }
