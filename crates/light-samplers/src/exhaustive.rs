@@ -6,6 +6,7 @@ use light_math::discrete;
 use light_math::float::positive_product;
 
 use crate::first_choice::{FirstChoice, FirstPmf};
+use crate::id_count::id_count;
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 use crate::{LightChoices, LightSampler};
 
@@ -32,9 +33,7 @@ impl ExhaustiveLightSampler {
     /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than
     /// 2^32 - 1 lights.
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
-        if u32::try_from(lights.len()).is_err() {
-            return Err(LightBvhError::TooManyLights);
-        }
+        id_count(lights.len()).ok_or(LightBvhError::TooManyLights)?;
         light_bvh::validate(lights)?;
         let bounds: Vec<_> = lights
             .iter()

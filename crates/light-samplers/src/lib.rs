@@ -28,6 +28,8 @@ mod bvh_ref;
 mod exhaustive;
 mod first_choice;
 mod grouped;
+#[cfg(feature = "alloc")]
+mod id_count;
 mod infinite_lights;
 #[cfg(feature = "alloc")]
 mod infinite_shares;

@@ -4,6 +4,7 @@ use core::fmt;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_math::distribution::{AliasBin, AliasTable, TableError};
 
+use crate::id_count::id_count;
 use crate::{LightChoices, LightSampler, UniformLightSampler};
 
 /// Chooses each light in proportion to its power.
@@ -30,8 +31,7 @@ impl PowerLightSampler {
     /// # Errors
     /// A power is negative or not finite, or there are more than 2^32 - 1 lights.
     pub fn new(powers: &[f32]) -> Result<Self, PowerLightSamplerError> {
-        let count =
-            u32::try_from(powers.len()).map_err(|_| PowerLightSamplerError::TooManyLights)?;
+        let count = id_count(powers.len()).ok_or(PowerLightSamplerError::TooManyLights)?;
         for (light, &power) in (0..).map(LightId).zip(powers) {
             if !(power >= 0.0 && power.is_finite()) {
                 return Err(PowerLightSamplerError::BadPower { light });

@@ -109,3 +109,28 @@ impl SourceTable {
         places + size_of_val(&*self.source_of) + size_of_val(&*self.groups)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sources_take_no_more_ids_than_32_bits_count() {
+        let place = SourcePlace {
+            kind: LightKind::Triangle,
+            index: 0,
+        };
+        let mut sources = SourceTable::EMPTY;
+        assert_eq!(sources.add(place, 70), Some(SourceId(0)), "few");
+        for lights in [u32::MAX as usize - 69, usize::MAX] {
+            assert_eq!(sources.add(place, lights), None, "{lights} more");
+            assert_eq!(sources.lights(), 70, "{lights} more changed the set");
+        }
+        assert_eq!(sources.add(place, 3), Some(SourceId(1)), "few more");
+        assert_eq!(
+            sources.find(LightId(72)),
+            Some((SourceId(1), 2)),
+            "the last"
+        );
+    }
+}

@@ -12,6 +12,11 @@ use crate::{LightBvhError, validate};
 /// More lights would need more nodes than the links of a node can number.
 const MAX_LIGHTS: usize = ReferenceNode::INDEX_LIMIT as usize / 2;
 
+/// Whether the links of nodes can number so many lights and the nodes above them.
+const fn is_addressable(lights: usize) -> bool {
+    lights <= MAX_LIGHTS
+}
+
 /// A light on its way into the tree.
 #[derive(Clone, Copy)]
 struct Leaf {
@@ -43,7 +48,7 @@ pub(super) fn build(lights: &[LightExtent]) -> Result<(Vec<ReferenceNode>, Aabb)
 
 /// The lights that the tree holds: somewhere, with power.
 fn leaves(lights: &[LightExtent]) -> Result<Vec<Leaf>, LightBvhError> {
-    if lights.len() > MAX_LIGHTS {
+    if !is_addressable(lights.len()) {
         return Err(LightBvhError::TooManyLights);
     }
     validate(lights)?;
@@ -166,4 +171,19 @@ fn balance(lights: &mut [Leaf], centroids: &Aabb) -> usize {
         order.then(a.light.cmp(&b.light))
     });
     middle
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_of_the_largest_tree_fit() {
+        let most = 1 << 30;
+        // One leaf a light, and one node fewer above them.
+        let last_node = 2 * most - 2;
+        assert!(is_addressable(most), "so many");
+        assert!(last_node < ReferenceNode::INDEX_LIMIT as usize, "a link");
+        assert!(!is_addressable(most + 1), "one more");
+    }
 }
