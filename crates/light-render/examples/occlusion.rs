@@ -9,21 +9,28 @@
 //! with filling the cells of visibility.
 
 use core::error::Error;
+use core::fmt;
 use core::num::NonZeroU32;
+use core::str::FromStr;
 use std::time::Instant;
 
 use clap::Parser;
 use light_render::bench::{ChoiceKind, CpuTimer, PictureBench, TimedPicture, scene_variance};
 use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{AnyLightSampler, SamplerKind, View, Visibility, World};
-use light_scene::BuiltinScene;
+use light_scene::{BuiltinScene, OcclusionKind, OcclusionScene};
 
 /// Measures choices of lights where most lights are hidden.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// The scenes, with commas between; all kinds of occlusion, small and large, by default.
+    /// The scenes, with commas between: names, or KIND:LAMPS:SEED; all kinds of occlusion, small
+    /// and large, by default.
     #[arg(long, value_delimiter = ',', default_values_t = occluded())]
-    scenes: Vec<BuiltinScene>,
+    scenes: Vec<Place>,
+    /// Choices by their place in the list of all, from 0 on, with commas between; the first is what
+    /// the others are set against.
+    #[arg(long, value_delimiter = ',', value_parser = method)]
+    methods: Vec<&'static Method>,
     /// Samples a pixel, with commas between.
     #[arg(long, value_delimiter = ',', default_values_t = [16, 64, 256])]
     samples: Vec<u32>,
@@ -50,7 +57,15 @@ struct Arguments {
     strata: u16,
 }
 
+/// A built-in scene, or one generated with another seed or number of lamps.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Builtin(BuiltinScene),
+    Generated(OcclusionScene),
+}
+
 /// A way to choose lights at the first vertex.
+#[derive(Debug)]
 struct Method {
     name: &'static str,
     sampler: SamplerKind,
@@ -60,7 +75,7 @@ struct Method {
 }
 
 /// What is compared; the others are set against the first.
-const METHODS: [Method; 5] = [
+static METHODS: [Method; 6] = [
     Method {
         name: "one choice",
         sampler: SamplerKind::Bvh,
@@ -78,6 +93,12 @@ const METHODS: [Method; 5] = [
         sampler: SamplerKind::BvhReference,
         choices: NonZeroU32::MIN,
         visibility: Visibility::Off,
+    },
+    Method {
+        name: "default",
+        sampler: SamplerKind::Bvh,
+        choices: PathSettings::DEFAULT_LIGHT_SAMPLES,
+        visibility: Visibility::Share,
     },
     Method {
         name: "cells",
@@ -103,10 +124,48 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// The scenes that are measured by default.
-fn occluded() -> Vec<BuiltinScene> {
+fn occluded() -> Vec<Place> {
     let is_occluded = |scene: &BuiltinScene| matches!(scene, BuiltinScene::Occlusion(..));
     let scenes = BuiltinScene::ALL.into_iter();
-    scenes.filter(is_occluded).collect()
+    scenes.filter(is_occluded).map(Place::Builtin).collect()
+}
+
+impl FromStr for Place {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if let Ok(scene) = text.parse() {
+            return Ok(Self::Builtin(scene));
+        }
+        let mut words = text.split(':');
+        let mut next = || words.next().unwrap_or_default();
+        let (kind, lamps, seed) = (next(), next(), next());
+        let kind = OcclusionKind::ALL
+            .into_iter()
+            .find(|k| k.to_string() == kind);
+        let scene = match (kind, lamps.parse(), seed.parse()) {
+            (Some(kind), Ok(lamps), Ok(seed)) => OcclusionScene { kind, lamps, seed },
+            _ => return Err("expected a built-in scene or KIND:LAMPS:SEED"),
+        };
+        Ok(Self::Generated(scene))
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Builtin(scene) => scene.fmt(f),
+            Self::Generated(OcclusionScene { kind, lamps, seed }) => {
+                write!(f, "{kind}:{lamps}:{seed}")
+            }
+        }
+    }
+}
+
+/// One of [`METHODS`].
+fn method(text: &str) -> Result<&'static Method, &'static str> {
+    let method = text.parse().ok().and_then(|i: usize| METHODS.get(i));
+    method.ok_or("expected a number from 0 to 5")
 }
 
 /// `WIDTHxHEIGHT`.
@@ -119,8 +178,11 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 }
 
 /// A scene, seen by its camera.
-fn load(scene: BuiltinScene, (width, height): (u32, u32)) -> Result<(World, View), Box<dyn Error>> {
-    let scene = scene.load();
+fn load(scene: Place, (width, height): (u32, u32)) -> Result<(World, View), Box<dyn Error>> {
+    let scene = match scene {
+        Place::Builtin(scene) => scene.load(),
+        Place::Generated(scene) => scene.load(),
+    };
     let view = View::new(&scene.camera_or_default(), width, height)?;
     Ok((World::new(scene)?, view))
 }
@@ -138,14 +200,18 @@ const fn paths(max_depth: u32, choices: NonZeroU32) -> PathSettings {
 /// A table of relMSE, seconds and their product.
 fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let half = arguments.reference;
+    let mut methods = arguments.methods.clone();
+    if methods.is_empty() {
+        methods = METHODS.iter().collect();
+    }
     println!("Reference: two halves of {half} samples a pixel.");
     let mut title = "| scene | samples | reference".to_owned();
     let mut line = "| --- | --- | ---".to_owned();
-    for (i, method) in METHODS.iter().enumerate() {
+    for (i, method) in methods.iter().enumerate() {
         title += &format!(" | {}: relMSE | s | relMSE x s", method.name);
         line += " | --- | --- | ---";
         if i > 0 {
-            title += &format!(" | {} / {}", method.name, METHODS[0].name);
+            title += &format!(" | {} / {}", method.name, methods[0].name);
             line += " | ---";
         }
     }
@@ -155,13 +221,12 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let (world, view) = load(scene, arguments.size)?;
         let bench = PictureBench::new(world, view)?;
         let lights = bench.world().lights();
-        let samplers: Vec<AnyLightSampler> = METHODS
+        let samplers: Vec<AnyLightSampler> = methods
             .iter()
             .map(|method| AnyLightSampler::new(method.sampler, lights))
             .collect::<Result<_, _>>()?;
         eprintln!("{scene}: {} lights, reference", lights.len());
-        // The first method is the quietest in most scenes.
-        let path = paths(arguments.max_depth, METHODS[0].choices);
+        let path = paths(arguments.max_depth, NonZeroU32::MIN);
         let [a, b] = [1001, 1002].map(|seed| bench.picture(&samplers[0], path, half, seed).pixels);
         let reference: Vec<_> = a.iter().zip(&b).map(|(a, b)| 0.5 * (*a + *b)).collect();
         let relative = bench.error(&reference, bench.tenth_of_mean(&reference));
@@ -170,7 +235,7 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             eprintln!("{scene}: {samples} samples, {:.0?}", start.elapsed());
             print!("| {scene} | {samples} | {}", figure(own));
             let mut first = None;
-            for (method, sampler) in METHODS.iter().zip(&samplers) {
+            for (method, sampler) in methods.iter().zip(&samplers) {
                 let (mut error, mut seconds) = (0.0, 0.0);
                 for seed in 1..=arguments.seeds {
                     let picture = picture(arguments, &bench, (method, sampler), samples, seed)?;
@@ -192,7 +257,7 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One picture by one method, with the time that it takes to fill its cells.
+/// One picture by one method, with the time that its visibility takes.
 fn picture(
     arguments: &Arguments,
     bench: &PictureBench,
@@ -206,7 +271,10 @@ fn picture(
     }
     let sampler = sampler.clone();
     let timer = CpuTimer::start();
-    let guided = sampler.in_cells(bench.world(), bench.view())?;
+    let guided = match method.visibility {
+        Visibility::Cells => sampler.in_cells(bench.world(), bench.view())?,
+        _ => sampler.by_visible_share(bench.world(), bench.view()),
+    };
     let filling = timer.seconds();
     let mut picture = bench.picture(&guided, path, samples, seed);
     picture.seconds += filling;

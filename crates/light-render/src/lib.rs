@@ -81,5 +81,7 @@ pub use scene_lights_error::SceneLightsError;
 pub use surface::Surface;
 pub use tone_map::{ToneCurve, ToneMap};
 pub use view::{View, ViewError};
-pub use visibility::{CellLightSampler, Visibility, VisibilityCells};
+pub use visibility::{
+    CellLightSampler, SingleChoiceLightSampler, Visibility, VisibilityCells, visible_share,
+};
 pub use world::{World, WorldError};

@@ -11,7 +11,7 @@ use lights::samplers::{
 };
 use lights::sources::{LightSet, Rgb};
 
-use crate::{CellLightSampler, View, World};
+use crate::{CellLightSampler, SingleChoiceLightSampler, View, World, visible_share};
 
 /// A way to choose one light of many, by its name on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +44,8 @@ pub enum AnyLightSampler {
     BvhReference(ReferenceBvhLightSampler),
     /// The default light hierarchy.
     Bvh(BvhLightSampler),
+    /// The default light hierarchy where much light is hidden.
+    BvhSingleChoice(SingleChoiceLightSampler),
     /// The default light hierarchy with cells of visibility.
     BvhInCells(CellLightSampler),
 }
@@ -61,6 +63,10 @@ pub enum AnyLightSamplerError {
     /// Lights are not chosen by the default hierarchy: only that one has cells of visibility.
     NoCells,
 }
+
+/// If a larger share of the light in a picture arrives, several candidates for one shadow ray gain
+/// more than they cost: see `docs/occlusion.md`.
+const LEAST_VISIBLE_SHARE: f32 = 0.75;
 
 impl SamplerKind {
     /// The default kind of the program.
@@ -147,10 +153,26 @@ impl AnyLightSampler {
         }
     }
 
+    /// The same hierarchy, with single choices if less than 0.75 of the light in what `view` shows
+    /// of `world` arrives, by its [`visible_share`]; other samplers as they are.
+    #[must_use]
+    pub fn by_visible_share(self, world: &World, view: &View) -> Self {
+        match self {
+            Self::Bvh(lights) => match visible_share(world, view, &lights) {
+                Some(share) if share < LEAST_VISIBLE_SHARE => {
+                    Self::BvhSingleChoice(SingleChoiceLightSampler::new(lights))
+                }
+                _ => Self::Bvh(lights),
+            },
+            other => other,
+        }
+    }
+
     /// The default hierarchy, with cells or without.
     pub(crate) const fn hierarchy(&self) -> Option<&BvhLightSampler> {
         match self {
             Self::Bvh(sampler) => Some(sampler),
+            Self::BvhSingleChoice(sampler) => Some(sampler.lights()),
             Self::BvhInCells(sampler) => Some(sampler.lights()),
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
         }
@@ -166,6 +188,7 @@ impl AnyLightSampler {
             Self::Exhaustive(_) => size_of::<LightBounds>() * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
             Self::Bvh(sampler) => sampler.tree().bytes(),
+            Self::BvhSingleChoice(sampler) => sampler.lights().tree().bytes(),
             Self::BvhInCells(sampler) => sampler.lights().tree().bytes() + sampler.cells().bytes(),
         }
     }
@@ -185,6 +208,7 @@ impl AnyLightSampler {
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) => 0,
             Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
             Self::Bvh(sampler) => sampler.tree().depth(),
+            Self::BvhSingleChoice(sampler) => sampler.lights().tree().depth(),
             Self::BvhInCells(sampler) => sampler.lights().tree().depth(),
         }
     }
@@ -207,6 +231,7 @@ macro_rules! for_each_kind {
             AnyLightSampler::Exhaustive($it) => $answer,
             AnyLightSampler::BvhReference($it) => $answer,
             AnyLightSampler::Bvh($it) => $answer,
+            AnyLightSampler::BvhSingleChoice($it) => $answer,
             AnyLightSampler::BvhInCells($it) => $answer,
         }
     };

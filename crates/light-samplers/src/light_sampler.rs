@@ -173,6 +173,23 @@ impl<'a> LightChoices<'a> {
         }
     }
 
+    /// Another number of choices with the same probabilities: a single one of those that a sampler
+    /// has refined for several, for example.
+    ///
+    /// ```
+    /// # use light_samplers::{LightSampler, UniformLightSampler, light_bounds};
+    /// # use light_bounds::{LightSampleContext, glam::Vec3};
+    /// let sampler = UniformLightSampler::new(100);
+    /// let here = sampler.at(&LightSampleContext::medium(Vec3::ZERO), 2).with_count(1);
+    /// assert_eq!(here.samples(1 << 63).count(), 1);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub const fn with_count(mut self, count: u32) -> Self {
+        self.count = count;
+        self
+    }
+
     /// How many choices there are. An estimate is the sum over the choices of what each gives over
     /// its pmf, divided by this number: also where fewer come back, since a choice that is left out
     /// contributes nothing.

@@ -3,7 +3,7 @@ use std::time::Instant;
 use crate::choice_variance::choice_variance;
 use crate::{
     AnyLightSampler, LightInventory, SamplerKind, View, Visibility, VisibilityCells, World,
-    inventory,
+    inventory, visible_share,
 };
 use clap::Args;
 use light_scene::Diagnostic;
@@ -14,7 +14,7 @@ use super::memory_check::check_cells_memory;
 use super::scene_input::SceneInput;
 use super::stdout::say;
 use super::view_args::ViewArgs;
-use super::visibility::{CellCosts, VisibilityName, cells, with_cells};
+use super::visibility::{VisibilityCosts, VisibilityName, cells, with_visibility};
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
 #[derive(Args, Debug)]
@@ -24,8 +24,8 @@ use super::visibility::{CellCosts, VisibilityName, cells, with_cells};
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     input: SceneInput,
-    /// Fill the cells of visibility for what the scene's camera sees, as `lights render
-    /// --visibility cells` does, and show what they hold.
+    /// Measure the share of light that arrives at what the scene's camera sees, or fill the cells
+    /// of visibility for it, as `lights render --visibility` does, and show what was found.
     #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
     visibility: VisibilityName,
     /// Print one line of JSON.
@@ -45,12 +45,19 @@ struct Tree {
     degradation: Option<f64>,
 }
 
+/// What is known of visibility in a picture by the scene's camera.
+enum Visible {
+    /// The share of light that arrives; `None` where nothing is lit.
+    Share(Option<f32>),
+    Cells(Cells),
+}
+
 /// The cells of visibility for a picture by the scene's camera.
 struct Cells {
     counts: [usize; 2],
     /// Pixels that show a surface in a cell, and all.
     pixels: [usize; 2],
-    costs: CellCosts,
+    costs: VisibilityCosts,
 }
 
 impl InfoArgs {
@@ -63,19 +70,20 @@ impl InfoArgs {
         let warnings = core::mem::take(&mut scene.warnings);
         let view = match self.visibility {
             VisibilityName::Off => None,
-            VisibilityName::Cells => Some(ViewArgs::default().view(&scene)?),
+            _ => Some(ViewArgs::default().view(&scene)?),
         };
         let world = self.input.build(scene)?;
         let tree = Tree::over(&world)?;
-        let cells = view.map(|view| Cells::over(&world, &view)).transpose()?;
+        let visible = |view| Visible::over(self.visibility, &world, &view);
+        let visible = view.map(visible).transpose()?;
         let kinds = inventory(world.lights());
         if self.json {
             let mut report = self.report(&world, &kinds, &tree, &warnings);
-            report["visibility"] = cells.map_or(Value::Null, |cells| cells.report());
+            report["visibility"] = visible.map_or(Value::Null, |visible| visible.report());
             say!("{report}")?;
         } else {
             self.print(&world, &kinds, &tree, &warnings)?;
-            cells.map_or(Ok(()), |cells| cells.print())?;
+            visible.map_or(Ok(()), |visible| visible.print())?;
         }
         Ok(())
     }
@@ -199,13 +207,42 @@ impl InfoArgs {
     }
 }
 
-impl Cells {
-    fn over(world: &World, view: &View) -> Result<Self, Failure> {
-        let (width, height) = view.resolution();
-        check_cells_memory(width, height)?;
+impl Visible {
+    fn over(name: VisibilityName, world: &World, view: &View) -> Result<Self, Failure> {
         let sampler =
             AnyLightSampler::new(SamplerKind::DEFAULT, world.lights()).map_err(Failure::input)?;
-        let (sampler, costs) = with_cells(sampler, Visibility::Cells, world, view)?;
+        Ok(match name {
+            VisibilityName::Cells => Self::Cells(Cells::over(sampler, world, view)?),
+            VisibilityName::Off | VisibilityName::Share => {
+                let lights = sampler.hierarchy();
+                Self::Share(lights.and_then(|lights| visible_share(world, view, lights)))
+            }
+        })
+    }
+
+    fn report(&self) -> Value {
+        match self {
+            Self::Share(share) => json!({ "visible_share": share }),
+            Self::Cells(cells) => cells.report(),
+        }
+    }
+
+    fn print(&self) -> Result<(), Failure> {
+        match self {
+            Self::Share(Some(share)) => {
+                say!("  visibility {share:.2} of the light that nothing would hide arrives")
+            }
+            Self::Share(None) => say!("  visibility no light"),
+            Self::Cells(cells) => cells.print(),
+        }
+    }
+}
+
+impl Cells {
+    fn over(sampler: AnyLightSampler, world: &World, view: &View) -> Result<Self, Failure> {
+        let (width, height) = view.resolution();
+        check_cells_memory(width, height)?;
+        let (sampler, costs) = with_visibility(sampler, Visibility::Cells, world, view)?;
         let cells = cells(&sampler);
         Ok(Self {
             counts: cells.map_or([0; 2], VisibilityCells::counts),

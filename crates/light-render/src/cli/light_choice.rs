@@ -4,15 +4,15 @@ use crate::AnyLightSampler;
 
 use super::failure::Failure;
 use super::prepared_picture::PreparedPicture;
-use super::visibility::{CellCosts, with_cells};
+use super::visibility::{VisibilityCosts, with_visibility};
 
 /// What chooses the lights of a picture, and what it took to build.
 #[derive(Debug)]
 pub(super) struct LightChoice {
     pub(super) sampler: AnyLightSampler,
-    /// Milliseconds, without the cells of visibility.
+    /// Milliseconds, without what visibility takes.
     pub(super) build_ms: f64,
-    pub(super) cells: CellCosts,
+    pub(super) visibility: VisibilityCosts,
 }
 
 impl LightChoice {
@@ -26,11 +26,11 @@ impl LightChoice {
         let sampler = AnyLightSampler::new(picture.sampler, world.lights());
         let sampler = sampler.map_err(Failure::input)?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
-        let (sampler, cells) = with_cells(sampler, picture.visibility, world, view)?;
+        let (sampler, visibility) = with_visibility(sampler, picture.visibility, world, view)?;
         Ok(Self {
             sampler,
             build_ms,
-            cells,
+            visibility,
         })
     }
 }

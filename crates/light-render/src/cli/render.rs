@@ -183,7 +183,7 @@ impl RenderArgs {
             rendering: &made.rendering,
             build_ms: choice.build_ms,
             sample_time: light_sample_time(&picture.world, &picture.view, &choice.sampler),
-            cells: &choice.cells,
+            visibility: &choice.visibility,
         }
         .json()
     }
@@ -248,7 +248,7 @@ impl RenderArgs {
         let pixels = u64::from(width) * u64::from(height);
         let what = format!("a picture of {width} x {height} pixels (--width, --height)");
         check_memory(&what, pixels * PICTURE.max(sums))?;
-        if visibility == Visibility::Off {
+        if visibility != Visibility::Cells {
             return Ok(());
         }
         let (width, height) = view.resolution();

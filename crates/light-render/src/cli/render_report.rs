@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::{Film, Rendering, SamplerKind, World};
 
-use super::visibility::CellCosts;
+use super::visibility::VisibilityCosts;
 
 /// What `lights render --json` says about a picture.
 pub(super) struct RenderReport<'a> {
@@ -18,7 +18,7 @@ pub(super) struct RenderReport<'a> {
     pub(super) build_ms: f64,
     /// Mean time of choosing and sampling a light; `None` where the camera sees nothing.
     pub(super) sample_time: Option<Duration>,
-    pub(super) cells: &'a CellCosts,
+    pub(super) visibility: &'a VisibilityCosts,
 }
 
 impl RenderReport<'_> {
@@ -36,8 +36,8 @@ impl RenderReport<'_> {
             "ns_per_light_sample": self.sample_time.map(|time| time.as_secs_f64() * 1e9),
             "rays": rendering.rays,
             "mean": mean(&rendering.film).to_array(),
-            "visibility_seconds": self.cells.seconds,
-            "visibility_bytes": self.cells.bytes,
+            "visibility_seconds": self.visibility.seconds,
+            "visibility_bytes": self.visibility.bytes,
         })
     }
 }

@@ -55,13 +55,16 @@ pub(crate) struct SettingsArgs {
     )]
     pub(crate) light_sampler: SamplerKind,
     /// How many lights are chosen at the first diffuse point of a path, at most as many as there
-    /// are.
-    #[arg(long, value_name = "N", default_value_t = PathSettings::DEFAULT_LIGHT_SAMPLES)]
-    light_samples: NonZeroU32,
-    /// What choices of lights know of their visibility: nothing (off), or what cells of space know
-    /// that are filled before the picture, for what the camera sees of surfaces (cells).
-    #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
-    visibility: VisibilityName,
+    /// are; without it 2, or as --visibility says.
+    #[arg(long, value_name = "N")]
+    light_samples: Option<NonZeroU32>,
+    /// What choices of lights know of their visibility: nothing (off); which share of the light in
+    /// the picture arrives, so that one light is chosen instead of several where much is hidden
+    /// (share); or what cells of space know that are filled before the picture, for what the camera
+    /// sees of surfaces (cells). Without it share, but off with --light-samples, with samplers that
+    /// are not bvh or bvh-morton, and for single scattering.
+    #[arg(long, value_enum)]
+    visibility: Option<VisibilityName>,
     /// How light is found: by light samples, by material samples, or by both, weighted.
     #[arg(long, value_enum, default_value_t = Estimator::Mis)]
     estimator: Estimator,
@@ -88,17 +91,37 @@ impl SettingsArgs {
     /// What choices of lights know of their visibility.
     ///
     /// # Errors
-    /// When the light sampler does not know cells.
+    /// When the light sampler does not use visibility.
     pub(crate) fn visibility(&self) -> Result<Visibility, Failure> {
-        match (self.visibility, self.light_sampler) {
-            (VisibilityName::Off, _) => Ok(Visibility::Off),
-            (VisibilityName::Cells, SamplerKind::Bvh | SamplerKind::BvhMorton) => {
-                Ok(Visibility::Cells)
+        let is_usable = matches!(
+            self.light_sampler,
+            SamplerKind::Bvh | SamplerKind::BvhMorton
+        );
+        let visibility = match self.visibility {
+            Some(VisibilityName::Off) => Visibility::Off,
+            Some(VisibilityName::Share) => Visibility::Share,
+            Some(VisibilityName::Cells) => Visibility::Cells,
+            None if is_usable && self.light_samples.is_none() && !self.is_single_scattering() => {
+                Visibility::Share
             }
-            (VisibilityName::Cells, other) => Err(Failure::Input(format!(
-                "--visibility cells: expected --light-sampler bvh or bvh-morton, found {other}"
-            ))),
+            None => Visibility::Off,
+        };
+        if visibility == Visibility::Off || is_usable {
+            return Ok(visibility);
         }
+        Err(Failure::Input(format!(
+            "--visibility {}: expected --light-sampler bvh or bvh-morton, found {}",
+            visibility.name(),
+            self.light_sampler
+        )))
+    }
+
+    /// Whether lights are chosen for rays as a whole: all of them count.
+    const fn is_single_scattering(&self) -> bool {
+        matches!(
+            self.integrator,
+            Some(IntegratorName::SingleScattering | IntegratorName::SingleScatteringClassic)
+        )
     }
 
     /// How many samples a pixel a whole picture has that `command` cuts into parts.
@@ -151,7 +174,9 @@ impl SettingsArgs {
                     Estimator::Light => integrator::Estimator::Light,
                     Estimator::Bsdf => integrator::Estimator::Bsdf,
                 },
-                light_samples: self.light_samples,
+                light_samples: self
+                    .light_samples
+                    .unwrap_or(PathSettings::DEFAULT_LIGHT_SAMPLES),
                 integrator: self.integrator(world)?,
             },
         })

@@ -10,33 +10,35 @@ use super::failure::Failure;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum VisibilityName {
     Off,
+    Share,
     Cells,
 }
 
-/// What filling took.
+/// What measuring or filling took.
 #[derive(Debug, Default)]
-pub(super) struct CellCosts {
+pub(super) struct VisibilityCosts {
     pub(super) seconds: f64,
     pub(super) bytes: usize,
 }
 
-/// The sampler with what is to be known of `visibility`, filled on the threads of the current
-/// `rayon` pool.
+/// The sampler with what is to be known of `visibility`, measured or filled on the threads of the
+/// current `rayon` pool.
 ///
 /// # Errors
 /// When there are more cells than 32 bits count.
-pub(super) fn with_cells(
+pub(super) fn with_visibility(
     sampler: AnyLightSampler,
     visibility: Visibility,
     world: &World,
     view: &View,
-) -> Result<(AnyLightSampler, CellCosts), Failure> {
-    if visibility == Visibility::Off {
-        return Ok((sampler, CellCosts::default()));
-    }
+) -> Result<(AnyLightSampler, VisibilityCosts), Failure> {
     let start = Instant::now();
-    let sampler = sampler.in_cells(world, view).map_err(Failure::input)?;
-    let costs = CellCosts {
+    let sampler = match visibility {
+        Visibility::Off => return Ok((sampler, VisibilityCosts::default())),
+        Visibility::Share => sampler.by_visible_share(world, view),
+        Visibility::Cells => sampler.in_cells(world, view).map_err(Failure::input)?,
+    };
+    let costs = VisibilityCosts {
         seconds: start.elapsed().as_secs_f64(),
         bytes: cells(&sampler).map_or(0, VisibilityCells::bytes),
     };

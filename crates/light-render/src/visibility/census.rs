@@ -1,8 +1,9 @@
 use core::borrow::Borrow;
 
-use lights::bounds::LightSampleContext;
+use lights::bounds::{LightId, LightSampleContext};
 use lights::bvh::visibility::CellKey;
-use lights::glam::Vec2;
+use lights::glam::{Vec2, Vec3};
+use lights::sources::PdfCoverage;
 use rayon::prelude::*;
 
 use super::cell_size::CellSize;
@@ -21,6 +22,17 @@ pub(super) struct Sighting {
 pub(super) struct Place {
     pub(super) surface: Surface,
     pub(super) ctx: LightSampleContext,
+}
+
+impl Place {
+    /// Whether the point of `light` that `u` chooses is visible from here; `None` if it emits
+    /// nothing toward this place.
+    pub(super) fn sees(&self, world: &World, light: LightId, u: Vec2) -> Option<bool> {
+        let Self { surface, ctx } = self;
+        let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete)?;
+        let is_lit = sample.l != Vec3::ZERO;
+        is_lit.then(|| !world.occluded(surface, sample.wi, sample.p_light))
+    }
 }
 
 impl Borrow<LightSampleContext> for Place {

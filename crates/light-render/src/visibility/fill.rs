@@ -1,8 +1,7 @@
 use lights::bounds::LightId;
 use lights::bvh::visibility::{CoarseCell, FillOptions, FineCell};
-use lights::glam::{Vec2, Vec3};
+use lights::glam::Vec2;
 use lights::samplers::BvhLightSampler;
-use lights::sources::PdfCoverage;
 use rayon::prelude::*;
 
 use super::census::{Place, Sighting, place};
@@ -56,7 +55,8 @@ pub(super) fn fill(
         let pixels = sightings.iter().step_by(stride);
         pixels.filter_map(|s| place(world, view, s.pixel)).collect()
     };
-    let visible = |place: &Place, light: LightId, u: Vec2| sees(world, place, light, u);
+    let visible =
+        |place: &Place, light: LightId, u: Vec2| place.sees(world, light, u) == Some(true);
     let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
     let filled = cells.into_par_iter().filter_map(|cell| {
         if cell.len() < FEWEST_OF_COARSE {
@@ -102,13 +102,4 @@ fn rays_of(pixels: usize) -> FillOptions {
         fine_rays: at_most(all.fine_rays, FINE_RAYS_PER_PIXEL),
         ..all
     }
-}
-
-/// Whether the point of `light` that `u` chooses is visible from `place`, and emits toward it.
-fn sees(world: &World, place: &Place, light: LightId, u: Vec2) -> bool {
-    let Place { surface, ctx } = place;
-    let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete);
-    sample.is_some_and(|sample| {
-        sample.l != Vec3::ZERO && !world.occluded(surface, sample.wi, sample.p_light)
-    })
 }

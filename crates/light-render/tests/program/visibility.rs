@@ -1,8 +1,11 @@
-//! Cells of visibility on the command line.
+//! What choices of lights know of their visibility, on the command line.
 
 use std::fs;
 
 use crate::folder::{Folder, assert_refused, stdout};
+
+/// A small picture.
+const SMALL: [&str; 6] = ["--width", "72", "--height", "48", "--max-depth", "3"];
 
 /// Rooms of which most lamps are hidden, as small as cells still pay.
 const ROOMS: [&str; 8] = [
@@ -43,16 +46,7 @@ fn cells_make_the_same_picture_for_any_threads_and_parts() {
     assert_eq!(bytes(&merged), bytes(&whole), "three parts");
 
     let plain = folder.path("plain.exr");
-    let off = [
-        "--width",
-        "72",
-        "--height",
-        "48",
-        "--max-depth",
-        "3",
-        "--samples",
-        "1..4",
-    ];
+    let off = [&SMALL[..], &["--samples", "1..4"]].concat();
     stdout(&[&["render", "rooms", "-o", &plain][..], &off].concat());
     assert_refused(
         &["merge", a, &plain, "-o", &merged],
@@ -60,17 +54,63 @@ fn cells_make_the_same_picture_for_any_threads_and_parts() {
     );
 }
 
+/// By default a picture of rooms has one choice where one without visibility has two, and an open
+/// field has two.
 #[test]
-fn cells_belong_to_the_default_hierarchy() {
+fn the_share_of_light_that_arrives_decides_the_number_of_choices() {
+    let folder = Folder::new("share");
+    let render = |scene: &str, name: &str, how: &[&str]| {
+        let out = folder.path(name);
+        stdout(&[&["render", scene, "-o", &out], &SMALL[..], how].concat());
+        out
+    };
+    let bytes = |path: &str| fs::read(path).expect("a picture");
+    let picture = |scene, how: &[&str]| {
+        let how = [&["--spp", "6"], how].concat();
+        bytes(&render(scene, "picture.exr", &how))
+    };
+    let whole = picture("rooms", &[]);
+    assert_eq!(whole, picture("rooms", &["--visibility", "share"]), "named");
+    for threads in ["1", "2", "7"] {
+        let of = picture("rooms", &["--threads", threads]);
+        assert_eq!(of, whole, "{threads} threads");
+    }
+    let off = picture("rooms", &["--visibility", "off"]);
+    assert_ne!(off, whole, "two choices among hidden lights");
+    let two = picture("rooms", &["--light-samples", "2"]);
+    assert_eq!(off, two, "so many were asked for");
+    let [open, off] = ["share", "off"].map(|how| picture("open", &["--visibility", how]));
+    assert_eq!(open, off, "nothing is hidden");
+
+    let parts = ["0..1", "1..4", "4..6"].map(|part| {
+        let name = format!("{}.exr", &part[..1]);
+        render("rooms", &name, &["--samples", part])
+    });
+    let merged = folder.path("merged.exr");
+    let [a, b, c] = &parts;
+    stdout(&["merge", b, a, c, "-o", &merged]);
+    assert_eq!(bytes(&merged), whole, "three parts");
+    let off = ["--samples", "1..4", "--visibility", "off"];
+    let off = render("rooms", "off.exr", &off);
+    assert_refused(
+        &["merge", a, &off, "-o", &merged],
+        &["off.exr", "visibility"],
+    );
+}
+
+#[test]
+fn visibility_belongs_to_the_default_hierarchy() {
     let folder = Folder::new("no-cells");
     let out = folder.path("out.exr");
-    let render = ["render", "rooms", "-o", &out, "--visibility", "cells"];
     for sampler in ["uniform", "power", "exhaustive", "bvh-reference"] {
-        let words = ["--visibility cells", "--light-sampler bvh", sampler];
-        assert_refused(
-            &[&render[..], &["--light-sampler", sampler]].concat(),
-            &words,
-        );
+        for visibility in ["share", "cells"] {
+            let render = ["render", "rooms", "-o", &out, "--visibility", visibility];
+            let named = format!("--visibility {visibility}");
+            assert_refused(
+                &[&render[..], &["--light-sampler", sampler]].concat(),
+                &[&named, "--light-sampler bvh", sampler],
+            );
+        }
     }
     assert!(folder.names().is_empty(), "nothing is written");
     let line = stdout(&[
@@ -91,7 +131,7 @@ fn cells_belong_to_the_default_hierarchy() {
 }
 
 #[test]
-fn info_says_what_cells_hold() {
+fn info_says_what_is_known_of_visibility() {
     let of = |scene: &str| -> serde_json::Value {
         let line = stdout(&["info", scene, "--visibility", "cells", "--json"]);
         serde_json::from_str(&line).expect("one line of JSON")
@@ -103,6 +143,12 @@ fn info_says_what_cells_hold() {
     assert!(count("bytes") > 32 * (coarse + fine), "{rooms}");
     let (known, all) = (count("known_pixels"), count("pixels"));
     assert!(known > all / 10 && known <= all, "{rooms}");
+    let shares = ["rooms", "open"].map(|scene| {
+        let line = stdout(&["info", scene, "--visibility", "share", "--json"]);
+        let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+        report["visibility"]["visible_share"].as_f64().expect(scene)
+    });
+    assert!(shares[0] < 0.3 && shares[1] > 0.95, "{shares:?}");
     let text = stdout(&["info", "cornell-box", "--visibility", "cells"]);
     assert!(text.contains("visibility "), "{text}");
     let text = stdout(&["info", "cornell-box"]);
