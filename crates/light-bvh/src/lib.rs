@@ -30,6 +30,8 @@ mod bytes;
 mod cut;
 mod error;
 mod importance;
+#[cfg(feature = "alloc")]
+mod instances;
 mod lane_math;
 #[cfg(feature = "alloc")]
 mod light_bvh;
@@ -57,6 +59,18 @@ pub use importance::receiver::Receiver;
 pub use importance::segment::SegmentReceiver;
 pub use importance::surface::SurfaceReceiver;
 pub use importance::two_sided::TwoSidedReceiver;
+#[cfg(feature = "alloc")]
+pub use instances::error::InstancedLightBvhError;
+#[cfg(feature = "alloc")]
+pub use instances::instanced_at::InstancedLightBvhAt;
+#[cfg(feature = "alloc")]
+pub use instances::instanced_bvh::InstancedLightBvh;
+#[cfg(feature = "alloc")]
+pub use instances::placed_light::{PlacedLight, SampledPlacedLight};
+#[cfg(feature = "alloc")]
+pub use instances::placement::{Placement, PlacementError};
+#[cfg(feature = "alloc")]
+pub use instances::prototype::LightPrototype;
 #[cfg(feature = "alloc")]
 pub use light_bvh::LightBvh;
 pub use node::wide_node::{MAX_DEPTH, WideNode};

@@ -5,9 +5,11 @@ use light_bounds::{LightExtent, LightGroups, LightId, SampledLight};
 
 use crate::LightBvhError;
 use crate::build::builder::build;
+use crate::build::lights::{LeafMoments, Lights};
 use crate::build::options::LightBvhOptions;
 use crate::build::scan::{Scan, is_addressable};
 use crate::build::{quality, refit};
+use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::parallel::join;
 use crate::query::bvh_ref::{LightBvhRef, groups_of_all};
@@ -48,24 +50,45 @@ impl LightBvh {
         lights: &[LightExtent],
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
+        Self::build_with_moments(lights, options).map(|(tree, _)| tree)
+    }
+
+    /// The same, and the moments of all its lights together, whose power is a share of the tree's.
+    pub(crate) fn build_with_moments(
+        lights: &[LightExtent],
+        options: &LightBvhOptions,
+    ) -> Result<(Self, Moments), LightBvhError> {
         if !is_addressable(lights.len()) {
             return Err(LightBvhError::TooManyLights);
         }
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
-        let (topology, order) = build(lights, &scan, options);
+        let leaves = Lights::new(lights, scan.power);
+        Ok(Self::build_of_leaves(lights, &scan, options, &leaves))
+    }
+
+    /// A tree whose topology is that of `lights`, which are valid, and whose leaves have the
+    /// moments of `leaves`.
+    pub(crate) fn build_of_leaves(
+        lights: &[LightExtent],
+        scan: &Scan,
+        options: &LightBvhOptions,
+        leaves: &impl LeafMoments,
+    ) -> (Self, Moments) {
+        let (topology, order) = build(lights, scan, options);
         let mut nodes = topology.nodes();
-        let ((), slots) = join(
+        let (moments, slots) = join(
             lights.len(),
-            || refit::fill(&mut nodes, &order, lights, scan.power),
+            || refit::fill(&mut nodes, &order, leaves),
             || topology.slots(&order, lights.len()),
         );
-        Ok(Self {
+        let tree = Self {
             nodes,
             order,
             slots,
             power: rounded(scan.power),
             groups: Vec::new(),
-        })
+        };
+        (tree, moments)
     }
 
     /// Refits the tree to lights that moved, turned, or changed their power: same topology, new
@@ -80,15 +103,32 @@ impl LightBvh {
     /// lights as the tree was built for, and [`LightBvhError::NoPlace`] for the first one that
     /// emits, or is bounded, and was not when the tree was built. The tree does not change then.
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        self.refit_with_moments(lights).map(|_| ())
+    }
+
+    /// The same, and the moments of all its lights together.
+    pub(crate) fn refit_with_moments(
+        &mut self,
+        lights: &[LightExtent],
+    ) -> Result<Moments, LightBvhError> {
+        let power = self.scan_refit(lights)?.power;
+        Ok(self.refit_to_leaves(power, &Lights::new(lights, power)))
+    }
+
+    /// Validates the lights of a refit.
+    pub(crate) fn scan_refit(&self, lights: &[LightExtent]) -> Result<Scan, LightBvhError> {
         if lights.len() != self.slots.len() {
             return Err(LightBvhError::OtherLights {
                 expected: self.slots.len(),
             });
         }
-        let scan = refit::scan(lights, &self.slots)?;
-        self.power = rounded(scan.power);
-        refit::fill(&mut self.nodes, &self.order, lights, scan.power);
-        Ok(())
+        refit::scan(lights, &self.slots)
+    }
+
+    /// Refits the tree to leaves that are valid, of so much power together.
+    pub(crate) fn refit_to_leaves(&mut self, power: f64, leaves: &impl LeafMoments) -> Moments {
+        self.power = rounded(power);
+        refit::fill(&mut self.nodes, &self.order, leaves)
     }
 
     /// What queries need, borrowed.

@@ -92,7 +92,7 @@ impl<'a> BvhChoices<'a, LightBvhAt<'a>> {
 
 impl<'a, T: InTree> BvhChoices<'a, T> {
     #[inline]
-    fn of(
+    pub(crate) fn of(
         tree: T,
         irradiance: f32,
         power: f32,

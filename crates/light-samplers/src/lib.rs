@@ -33,7 +33,11 @@ mod id_count;
 mod infinite_lights;
 #[cfg(feature = "alloc")]
 mod infinite_shares;
+#[cfg(feature = "alloc")]
+mod instanced;
 mod light_sampler;
+#[cfg(feature = "alloc")]
+mod placed_lights_at;
 #[cfg(feature = "alloc")]
 mod power;
 #[cfg(feature = "alloc")]
@@ -49,6 +53,8 @@ pub use bvh_ref::BvhLightSamplerRef;
 pub use exhaustive::ExhaustiveLightSampler;
 pub use grouped::GroupedLightSampler;
 pub use infinite_lights::{HORIZON_SLACK, InfiniteLight, InfiniteLightsError};
+#[cfg(feature = "alloc")]
+pub use instanced::{InstancedBvhLightSampler, InstancedBvhLightSamplerError};
 pub use light_sampler::{LightChoices, LightSampler};
 #[cfg(feature = "alloc")]
 pub use power::{PowerLightSampler, PowerLightSamplerError};

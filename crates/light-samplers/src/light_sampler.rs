@@ -7,6 +7,8 @@ use light_bvh::{LightBvhAt, LightBvhRef, LightCut};
 
 use crate::bvh_choices::BvhChoices;
 use crate::infinite_lights::InfiniteLights;
+#[cfg(feature = "alloc")]
+use crate::placed_lights_at::PlacedLightsAt;
 
 /// Chooses lights of a set at random, with probabilities that can be queried.
 ///
@@ -103,6 +105,9 @@ enum Kind<'a> {
     Cut(BvhChoices<'a, LightCut<'a>>),
     /// Each from the root, with the factors of a cell.
     InCell(BvhChoices<'a, LightBvhInCellAt<'a>>),
+    /// Each from the root of a tree of trees.
+    #[cfg(feature = "alloc")]
+    InPlacements(BvhChoices<'a, PlacedLightsAt<'a>>),
 }
 
 impl fmt::Debug for Kind<'_> {
@@ -112,6 +117,8 @@ impl fmt::Debug for Kind<'_> {
             Self::FromRoot(choices) => choices.fmt(f),
             Self::Cut(choices) => choices.fmt(f),
             Self::InCell(choices) => choices.fmt(f),
+            #[cfg(feature = "alloc")]
+            Self::InPlacements(choices) => choices.fmt(f),
         }
     }
 }
@@ -150,6 +157,16 @@ impl<'a> LightChoices<'a> {
     #[inline]
     pub(crate) const fn in_cell(choices: BvhChoices<'a, LightBvhInCellAt<'a>>, count: u32) -> Self {
         let kind = Kind::InCell(choices);
+        Self { count, kind }
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline]
+    pub(crate) const fn in_placements(
+        choices: BvhChoices<'a, PlacedLightsAt<'a>>,
+        count: u32,
+    ) -> Self {
+        let kind = Kind::InPlacements(choices);
         Self { count, kind }
     }
 
@@ -215,6 +232,8 @@ impl<'a> LightChoices<'a> {
             Kind::FromRoot(choices) => choices.sample(u),
             Kind::Cut(choices) => choices.sample(u),
             Kind::InCell(choices) => choices.sample(u),
+            #[cfg(feature = "alloc")]
+            Kind::InPlacements(choices) => choices.sample(u),
         }
     }
 
@@ -229,6 +248,8 @@ impl<'a> LightChoices<'a> {
             Kind::FromRoot(choices) => choices.pmf(light),
             Kind::Cut(choices) => choices.pmf(light),
             Kind::InCell(choices) => choices.pmf(light),
+            #[cfg(feature = "alloc")]
+            Kind::InPlacements(choices) => choices.pmf(light),
         }
     }
 }

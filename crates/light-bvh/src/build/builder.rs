@@ -6,7 +6,7 @@ use light_bounds::LightExtent;
 use crate::build::binned_split::BinnedSplit;
 use crate::build::clustering::{clusters, ends};
 use crate::build::light_primitive::LightPrimitive;
-use crate::build::lights::Lights;
+use crate::build::lights::{LeafMoments, Lights};
 use crate::build::morton;
 use crate::build::morton_range::MortonRange;
 use crate::build::options::{BuildMode, LightBvhOptions};

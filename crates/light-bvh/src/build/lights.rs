@@ -5,6 +5,15 @@ use light_bounds::{LightBounds, LightExtent};
 use crate::node::moments::Moments;
 use crate::simd::prefetch;
 
+/// What the leaves of a tree are described by: lights, or groups of lights.
+pub(crate) trait LeafMoments: Sync {
+    /// The moments of the leaf with this id.
+    fn moments(&self, id: u32) -> Moments;
+
+    /// Prefetches a leaf that is read soon.
+    fn prefetch(&self, id: u32);
+}
+
 /// The lights of a tree in the making.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lights<'a> {
@@ -34,17 +43,6 @@ impl<'a> Lights<'a> {
         &self.extents[light as usize]
     }
 
-    /// Prefetches a light that is read soon.
-    #[inline]
-    pub(crate) fn prefetch(&self, light: u32) {
-        prefetch::<1, _>(self.extents, light);
-    }
-
-    #[inline(always)]
-    pub(crate) fn moments(&self, light: u32) -> Moments {
-        self.moments_of(self.extent(light))
-    }
-
     #[inline(always)]
     pub(crate) fn moments_of(&self, extent: &LightExtent) -> Moments {
         Moments::of_light(extent, self.inv_power)
@@ -56,6 +54,18 @@ impl<'a> Lights<'a> {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn share(&self, extent: &LightExtent) -> f32 {
         ((f64::from(phi(extent)) * self.inv_power) as f32).max(f32::MIN_POSITIVE)
+    }
+}
+
+impl LeafMoments for Lights<'_> {
+    #[inline(always)]
+    fn moments(&self, light: u32) -> Moments {
+        self.moments_of(self.extent(light))
+    }
+
+    #[inline]
+    fn prefetch(&self, light: u32) {
+        prefetch::<1, _>(self.extents, light);
     }
 }
 

@@ -1,7 +1,7 @@
 use light_bounds::LightExtent;
 
 use crate::LightBvhError;
-use crate::build::lights::{Lights, phi};
+use crate::build::lights::{LeafMoments, phi};
 use crate::build::options::DarkLights;
 use crate::build::scan::Scan;
 use crate::node::moments::Moments;
@@ -32,28 +32,27 @@ pub(crate) fn scan(lights: &[LightExtent], slots: &[u32]) -> Result<Scan, LightB
     })
 }
 
-/// Encodes the moments of all nodes, whose places are set; `lights` are valid and have the total
-/// power `power`.
-pub(crate) fn fill(nodes: &mut [WideNode], order: &[u32], lights: &[LightExtent], power: f64) {
-    let filling = Filling {
-        lights: Lights::new(lights, power),
-        order,
-    };
-    if let Some((root, below)) = nodes.split_first_mut() {
-        filling.subtree(root, below, 1, order.len(), &mut [Moments::NOTHING; BATCH]);
+/// Encodes the moments of all nodes, whose places are set; returns those of all `lights` together.
+pub(crate) fn fill<L: LeafMoments>(nodes: &mut [WideNode], order: &[u32], lights: &L) -> Moments {
+    let filling = Filling { lights, order };
+    match nodes.split_first_mut() {
+        Some((root, below)) => {
+            filling.subtree(root, below, 1, order.len(), &mut [Moments::NOTHING; BATCH])
+        }
+        None => Moments::NOTHING,
     }
 }
 
 /// The lights and their order.
-struct Filling<'a> {
-    lights: Lights<'a>,
+struct Filling<'a, L> {
+    lights: &'a L,
     order: &'a [u32],
 }
 
 /// Room for the moments of a batch, used again and again.
 type Room = [Moments; BATCH];
 
-impl Filling<'_> {
+impl<L: LeafMoments> Filling<'_, L> {
     /// Fills a subtree, whose lights end at place `end` of the order. `below` are the nodes below
     /// `node`, and perhaps more; `base` is the place of the first of them in the tree.
     fn subtree(

@@ -2,6 +2,8 @@ use light_bounds::{LightSampleContext, ReceiverKind, ReceiverSides};
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
+#[cfg(feature = "alloc")]
+use crate::importance::frame::Frame;
 use crate::importance::glossy::GlossyReceiver;
 use crate::importance::medium::MediumReceiver;
 use crate::importance::position::is_far;
@@ -61,6 +63,30 @@ macro_rules! with_kind {
 }
 pub(crate) use with_kind;
 
+impl ContextReceiver {
+    /// The point that groups are seen from.
+    #[inline(always)]
+    pub(crate) fn position(&self) -> Vec3 {
+        with_kind!(self, receiver => receiver.position())
+    }
+
+    /// The same receiver in another frame.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, frame: &Frame) -> Self {
+        let p = frame.point(self.position());
+        match self {
+            Self::Segment(segment) => Self::Segment(segment.in_frame(frame)),
+            // Where coordinates are clamped, directions to lights mean nothing.
+            _ if is_far(p) => Self::Medium(MediumReceiver::new(p)),
+            Self::Surface(surface) => Self::Surface(surface.in_frame(frame)),
+            Self::Glossy(glossy) => Self::Glossy(glossy.in_frame(frame)),
+            Self::TwoSided(two_sided) => Self::TwoSided(two_sided.in_frame(frame)),
+            Self::Medium(medium) => Self::Medium(medium.in_frame(frame)),
+        }
+    }
+}
+
 /// The receiver that a [`ContextReceiver`] holds, as one type that looks at each child which kind
 /// it is: a third of the code of a query that is compiled for each kind, and slower.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +95,7 @@ pub(crate) struct AnyKind<'a>(pub(crate) &'a ContextReceiver);
 impl Receiver for AnyKind<'_> {
     #[inline(always)]
     fn position(&self) -> Vec3 {
-        with_kind!(self.0, receiver => receiver.position())
+        self.0.position()
     }
 
     #[inline(always)]

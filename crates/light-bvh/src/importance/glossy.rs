@@ -3,6 +3,8 @@ use light_math::glam::Vec3;
 use light_math::{direction, float};
 
 use crate::importance::child_view::{ChildView, dist_sq};
+#[cfg(feature = "alloc")]
+use crate::importance::frame::Frame;
 use crate::importance::receiver::Receiver;
 use crate::importance::surface::SurfaceReceiver;
 use crate::lane_math::{larger, smaller};
@@ -67,6 +69,17 @@ impl GlossyReceiver {
             cos_o: within(n.dot(wo), MIN_COS),
             alpha: within(gloss.alpha, MIN_ALPHA),
             diffuse: within(diffuse, MIN_DIFFUSE),
+        }
+    }
+
+    /// The same point in another frame.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, frame: &Frame) -> Self {
+        Self {
+            surface: self.surface.in_frame(frame),
+            wo: frame.direction(self.wo),
+            ..*self
         }
     }
 

@@ -41,6 +41,13 @@ impl Horizon {
         }
     }
 
+    /// The normal.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) const fn normal(&self) -> Vec3 {
+        self.n
+    }
+
     /// The height of the child over the plane.
     #[inline(always)]
     pub(crate) fn half_height(&self, child: &ChildView) -> HalfHeight {

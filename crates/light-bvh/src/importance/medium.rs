@@ -1,6 +1,8 @@
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
+#[cfg(feature = "alloc")]
+use crate::importance::frame::Frame;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
 
@@ -16,6 +18,13 @@ impl MediumReceiver {
     #[must_use]
     pub fn new(p: Vec3) -> Self {
         Self { p: near(p) }
+    }
+
+    /// The same point in another frame.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, frame: &Frame) -> Self {
+        Self::new(frame.point(self.p))
     }
 }
 

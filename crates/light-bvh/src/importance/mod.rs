@@ -3,6 +3,8 @@
 pub(crate) mod child_importance;
 pub(crate) mod child_view;
 pub(crate) mod context_receiver;
+#[cfg(feature = "alloc")]
+pub(crate) mod frame;
 pub(crate) mod glossy;
 pub(crate) mod horizon;
 pub(crate) mod medium;

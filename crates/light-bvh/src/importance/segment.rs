@@ -4,6 +4,8 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE};
+#[cfg(feature = "alloc")]
+use crate::importance::frame::Frame;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
 use crate::lane_math::{larger, smaller};
@@ -48,6 +50,14 @@ impl SegmentReceiver {
             length,
             reach: extent.abs().element_sum(),
         }
+    }
+
+    /// The same segment in another frame.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, frame: &Frame) -> Self {
+        let extent = frame.vector(self.direction * self.length);
+        Self::new(frame.point(self.p), extent)
     }
 }
 

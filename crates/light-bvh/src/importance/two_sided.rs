@@ -2,6 +2,8 @@ use light_math::direction;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
+#[cfg(feature = "alloc")]
+use crate::importance::frame::Frame;
 use crate::importance::horizon::Horizon;
 use crate::importance::position::near;
 use crate::importance::receiver::Receiver;
@@ -28,6 +30,14 @@ impl TwoSidedReceiver {
             p: near(p),
             horizon: Horizon::new(n),
         }
+    }
+
+    /// The same point in another frame.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, frame: &Frame) -> Self {
+        let n = frame.direction(self.horizon.normal());
+        Self::facing(frame.point(self.p), n)
     }
 }
 

@@ -1,0 +1,303 @@
+use alloc::vec::Vec;
+
+use light_bounds::{LightExtent, LightGroups, LightId};
+use light_math::float::positive_product;
+
+use crate::build::options::{DarkLights, LightBvhOptions};
+use crate::build::scan::{Scan, is_addressable};
+use crate::importance::position::FAR;
+use crate::instances::error::InstancedLightBvhError;
+use crate::instances::light_ranges::LightRanges;
+use crate::instances::placed_frame::PlacedFrame;
+use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
+use crate::instances::placed_moments::{PlacedGroup, PlacedGroups};
+use crate::instances::placement::Placement;
+use crate::instances::prototype::LightPrototype;
+use crate::light_bvh::LightBvh;
+use crate::node::wide_node::NOWHERE;
+use crate::parallel::table;
+
+/// A tree of trees: lights that are placed many times are stored once.
+///
+/// The leaves of the upper tree are placements of prototypes, each with a rotation, one scale and a
+/// translation. A node of it knows the moments of the placed groups as a node of [`LightBvh`] knows
+/// those of lights, and a choice goes on from a leaf to the root of a prototype, with the receiver
+/// in the frame of that. 26 to 28 bytes a light of a prototype, and about 76 a placement.
+///
+/// The laws are those of [`LightBvh`]: a sampled pmf has the bits of the queried one, a light that
+/// can contribute has a pmf above 0, and the pmfs and the probability of `None` add up to 1.
+///
+/// ```
+/// use light_bvh::{InstancedLightBvh, LightPrototype, Placement};
+/// # use light_bvh::light_bounds::light_math::{Aabb, glam::{Quat, Vec3}};
+/// # use light_bvh::light_bounds::{LightBounds, LightExtent, LightSampleContext};
+/// # let point = |x: f32| {
+/// #     LightExtent::Bounded(LightBounds {
+/// #         bounds: Aabb::from_point(Vec3::new(x, 0.0, 3.0)),
+/// #         w: Vec3::Z,
+/// #         phi: 60.0,
+/// #         cos_theta_o: -1.0,
+/// #         cos_theta_e: 0.0,
+/// #         two_sided: false,
+/// #     })
+/// # };
+/// # let windows: Vec<LightExtent> = (0..100u8).map(|i| point(f32::from(i))).collect();
+/// let house = LightPrototype::new(&windows)?;
+/// let mut placements = Vec::new();
+/// for i in 0..1000u16 {
+///     let turn = Quat::from_rotation_z(f32::from(i));
+///     let at = Vec3::new(f32::from(i % 40) * 200.0, f32::from(i / 40) * 200.0, 0.0);
+///     placements.push(Placement::new(0, turn, 1.0, at)?);
+/// }
+/// let tree = InstancedLightBvh::build(vec![house], &placements)?;
+/// assert_eq!(tree.light_count(), 100_000);
+///
+/// let street = LightSampleContext::surface(Vec3::splat(1.0), Vec3::Z, Vec3::Z);
+/// let choice = tree.sample(&street, 1 << 63).ok_or("no light")?;
+/// assert_eq!(choice.pmf, tree.pmf(&street, choice.light)); // to the bit
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct InstancedLightBvh {
+    top: LightBvh,
+    frames: Vec<PlacedFrame>,
+    prototypes: Vec<LightPrototype>,
+    ranges: LightRanges,
+}
+
+impl InstancedLightBvh {
+    /// The tree of `prototypes` where `placements` place them.
+    ///
+    /// # Errors
+    /// More than 2^28 placements; the first one of a prototype that is not there, or with a light
+    /// beyond ±1e36.
+    pub fn build(
+        prototypes: Vec<LightPrototype>,
+        placements: &[Placement],
+    ) -> Result<Self, InstancedLightBvhError> {
+        Self::build_with(prototypes, placements, &LightBvhOptions::default())
+    }
+
+    /// The same, with an upper tree built as `options` say; [`DarkLights::Kept`] gives a place to
+    /// dark placements.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build).
+    pub fn build_with(
+        prototypes: Vec<LightPrototype>,
+        placements: &[Placement],
+        options: &LightBvhOptions,
+    ) -> Result<Self, InstancedLightBvhError> {
+        if !is_addressable(placements.len()) {
+            return Err(InstancedLightBvhError::TooManyPlacements);
+        }
+        for (placement, placed) in (0..).zip(placements) {
+            if placed.prototype as usize >= prototypes.len() {
+                return Err(InstancedLightBvhError::Prototype { placement });
+            }
+        }
+        let placed = Placed::new(&prototypes, placements)?;
+        let scan = placed.scan(options.dark)?;
+        let leaves = placed.groups.leaves(scan.power);
+        let (top, _) = LightBvh::build_of_leaves(&placed.extents, &scan, options, &leaves);
+        let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
+        Ok(Self {
+            top,
+            frames: placed.frames,
+            ranges: LightRanges::new(placements.iter().map(count)),
+            prototypes,
+        })
+    }
+
+    /// Refits the upper tree to placements that moved, in time linear in the placements: the
+    /// prototypes stay, and so do all ids. See [`LightBvh::refit`].
+    ///
+    /// # Errors
+    /// Another number of placements, or another prototype of one; a light beyond ±1e36; a placement
+    /// that was dark and has no place. The tree does not change then.
+    pub fn refit(&mut self, placements: &[Placement]) -> Result<(), InstancedLightBvhError> {
+        if placements.len() != self.frames.len() {
+            let expected = self.frames.len();
+            return Err(InstancedLightBvhError::OtherPlacements { expected });
+        }
+        for (placement, (placed, frame)) in (0..).zip(placements.iter().zip(&self.frames)) {
+            if placed.prototype != frame.prototype {
+                return Err(InstancedLightBvhError::Prototype { placement });
+            }
+        }
+        let placed = Placed::new(&self.prototypes, placements)?;
+        let unplaced = |group: &PlacedGroup, slot: &u32| *slot == NOWHERE && group.power() > 0.0;
+        let slots = (0..).zip(placed.groups.0.iter().zip(&self.top.slots));
+        for (placement, (group, slot)) in slots {
+            if unplaced(group, slot) {
+                return Err(InstancedLightBvhError::NoPlace { placement });
+            }
+        }
+        let power = placed.scan(DarkLights::Kept)?.power;
+        self.top
+            .refit_to_leaves(power, &placed.groups.leaves(power));
+        self.frames = placed.frames;
+        Ok(())
+    }
+
+    /// Refits a prototype to lights that moved or changed their power, wherever it is placed, and
+    /// then the upper tree, for `placements` as for [`refit`](Self::refit).
+    ///
+    /// # Errors
+    /// Those of [`LightBvh::refit`] as [`InstancedLightBvhError::Lights`], and of
+    /// [`refit`](Self::refit): after one of these the prototype is refitted, and the upper tree is
+    /// as it was.
+    ///
+    /// # Panics
+    /// If there is no prototype of that index.
+    pub fn refit_prototype(
+        &mut self,
+        prototype: usize,
+        lights: &[LightExtent],
+        placements: &[Placement],
+    ) -> Result<(), InstancedLightBvhError> {
+        self.prototypes[prototype]
+            .refit(lights)
+            .map_err(InstancedLightBvhError::Lights)?;
+        self.refit(placements)
+    }
+
+    /// Sets the groups of all lights of each placement: a context that asks for some groups then
+    /// chooses among the placements of these. They stay through refits.
+    ///
+    /// # Errors
+    /// [`InstancedLightBvhError::OtherPlacements`] if these are not as many as the placements.
+    pub fn set_groups(&mut self, groups: &[LightGroups]) -> Result<(), InstancedLightBvhError> {
+        let expected = self.frames.len();
+        let refused = |_| InstancedLightBvhError::OtherPlacements { expected };
+        self.top.set_groups(groups).map_err(refused)
+    }
+
+    /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is
+    /// empty.
+    #[must_use]
+    pub fn sample_emitter(&self, u: u64) -> Option<SampledPlacedLight> {
+        let placed = self.top.view().sample_emitter(u)?;
+        let (_, prototype) = self.placed(placed.light.0)?;
+        let chosen = prototype.tree().view().sample_emitter(placed.u)?;
+        Some(SampledPlacedLight {
+            light: PlacedLight {
+                placement: placed.light.0,
+                light: chosen.light,
+            },
+            pmf: positive_product(placed.pmf, chosen.pmf),
+            u: chosen.u,
+        })
+    }
+
+    /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
+    #[must_use]
+    pub fn pmf_emitter(&self, light: PlacedLight) -> f32 {
+        let Some((_, prototype)) = self.placed(light.placement) else {
+            return 0.0;
+        };
+        let placed = self.top.view().pmf_emitter(LightId(light.placement));
+        positive_product(placed, prototype.tree().view().pmf_emitter(light.light))
+    }
+
+    /// How many lights there are, those of each placement counted.
+    #[must_use]
+    pub fn light_count(&self) -> u64 {
+        self.ranges.count()
+    }
+
+    /// The number of a light among all: those of the first placement come first, in the order of
+    /// the prototype, then those of the second. `None` if there is no such light.
+    #[inline]
+    #[must_use]
+    pub fn light_index(&self, light: PlacedLight) -> Option<u64> {
+        self.ranges.index(light)
+    }
+
+    /// The light of a number, as [`light_index`](Self::light_index) counts; a binary search among
+    /// the placements.
+    #[inline]
+    #[must_use]
+    pub fn light_of_index(&self, index: u64) -> Option<PlacedLight> {
+        self.ranges.light(index)
+    }
+
+    /// The upper tree, whose lights are placements.
+    #[must_use]
+    pub const fn top(&self) -> &LightBvh {
+        &self.top
+    }
+
+    /// The prototypes.
+    #[must_use]
+    pub fn prototypes(&self) -> &[LightPrototype] {
+        &self.prototypes
+    }
+
+    /// The power of all placed lights; the largest float where it is above that.
+    #[must_use]
+    pub const fn power(&self) -> f32 {
+        self.top.power()
+    }
+
+    /// Bytes that queries may touch.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let prototypes = self.prototypes.iter();
+        let prototypes: usize = prototypes.map(|p| p.tree().bytes()).sum();
+        let placements = size_of_val(&*self.frames) + self.ranges.bytes();
+        self.top.bytes() + placements + prototypes
+    }
+
+    /// A placement and its prototype.
+    #[inline(always)]
+    pub(crate) fn placed(&self, placement: u32) -> Option<(&PlacedFrame, &LightPrototype)> {
+        let frame = self.frames.get(placement as usize)?;
+        Some((frame, self.prototypes.get(frame.prototype as usize)?))
+    }
+}
+
+/// All placements, on their way into a tree.
+struct Placed {
+    frames: Vec<PlacedFrame>,
+    groups: PlacedGroups,
+    /// As if each group were one light.
+    extents: Vec<LightExtent>,
+}
+
+impl Placed {
+    /// The placements, whose prototypes are there.
+    fn new(
+        prototypes: &[LightPrototype],
+        placements: &[Placement],
+    ) -> Result<Self, InstancedLightBvhError> {
+        let prototype = |p: &Placement| &prototypes[p.prototype as usize];
+        let frames = table(placements.len(), |i| {
+            PlacedFrame::new(&placements[i], prototype(&placements[i]))
+        });
+        let groups = table(placements.len(), |i| {
+            let placement = &placements[i];
+            PlacedGroup::new(prototype(placement), &frames[i], placement.power)
+        });
+        for (placement, group) in (0..).zip(&groups) {
+            let bounds = group.bounds();
+            // Written so that NaN fails.
+            let is_near = bounds.min.min_element() >= -FAR && bounds.max.max_element() <= FAR;
+            if group.power() > 0.0 && !is_near {
+                return Err(InstancedLightBvhError::TooFar { placement });
+            }
+        }
+        let extents = table(groups.len(), |i| groups[i].extent());
+        Ok(Self {
+            frames,
+            groups: PlacedGroups(groups),
+            extents,
+        })
+    }
+
+    fn scan(&self, dark: DarkLights) -> Result<Scan, InstancedLightBvhError> {
+        // Groups that are near have valid extents.
+        Scan::new(&self.extents, 0, dark, &|_, _| Ok(()))
+            .map_err(|_| InstancedLightBvhError::TooManyPlacements)
+    }
+}

@@ -1,0 +1,12 @@
+//! A tree of trees: lights that are placed many times are stored once.
+
+pub(crate) mod error;
+pub(crate) mod instanced_at;
+pub(crate) mod instanced_bvh;
+pub(crate) mod light_ranges;
+pub(crate) mod placed_frame;
+pub(crate) mod placed_light;
+pub(crate) mod placed_moments;
+pub(crate) mod placed_receiver;
+pub(crate) mod placement;
+pub(crate) mod prototype;

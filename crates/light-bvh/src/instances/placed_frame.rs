@@ -1,0 +1,90 @@
+use light_math::glam::{Mat3, Quat, Vec3};
+
+use crate::importance::context_receiver::ContextReceiver;
+use crate::importance::frame::Frame;
+use crate::instances::placed_receiver::PlacedReceiver;
+use crate::instances::placement::{Placement, RIGID_TOLERANCE};
+use crate::instances::prototype::LightPrototype;
+
+/// Round-off of coordinates: of a light that is placed, and of a receiver that is moved into the
+/// frame of a prototype, as a share of the coordinates.
+const ROUND_OFF: f32 = 1e-6;
+
+/// Where a prototype is placed, as queries need it: 40 bytes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedFrame {
+    rotation: Quat,
+    /// Where the middle of the prototype's lights is placed.
+    pub(crate) center: Vec3,
+    /// One over the scale; negative if the prototype is mirrored.
+    inv_scale: f32,
+    pub(crate) prototype: u32,
+    /// How far placed lights may be from where they are computed to be, in lengths of the
+    /// prototype.
+    error: f32,
+}
+
+impl PlacedFrame {
+    pub(crate) fn new(placement: &Placement, prototype: &LightPrototype) -> Self {
+        let &Placement {
+            rotation,
+            scale,
+            translation,
+            ..
+        } = placement;
+        let inside = prototype.center();
+        let center = translation + rotation * (inside * scale);
+        let inv_scale = 1.0 / scale;
+        let coordinates = (norm(center) + norm(translation)) * inv_scale.abs();
+        let size = norm(inside) + half_width(prototype);
+        Self {
+            rotation,
+            center,
+            inv_scale,
+            prototype: placement.prototype,
+            error: ROUND_OFF * coordinates + (RIGID_TOLERANCE + ROUND_OFF) * size,
+        }
+    }
+
+    /// The axes of the prototype, as they are placed: unit vectors.
+    pub(crate) fn axes(&self) -> Mat3 {
+        Mat3::from_quat(self.rotation)
+    }
+
+    /// The factor of lengths; negative if the prototype is mirrored.
+    pub(crate) fn scale(&self) -> f32 {
+        1.0 / self.inv_scale
+    }
+
+    /// How far placed lights may be from where they are computed to be.
+    pub(crate) fn error(&self) -> f32 {
+        self.error / self.inv_scale.abs()
+    }
+
+    /// A receiver in the frame of the prototype.
+    #[inline(always)]
+    pub(crate) fn receiver(
+        &self,
+        receiver: &ContextReceiver,
+        prototype: &LightPrototype,
+    ) -> PlacedReceiver {
+        let inside = prototype.center();
+        let frame = Frame::new(self.rotation, self.inv_scale, self.center, inside);
+        let receiver = receiver.in_frame(&frame);
+        let away = norm(receiver.position() - inside);
+        let error = self.error + (RIGID_TOLERANCE + ROUND_OFF) * away;
+        PlacedReceiver::new(receiver, error, away + half_width(prototype))
+    }
+}
+
+/// Half of the sum of the sides of the box of all lights.
+#[inline(always)]
+fn half_width(prototype: &LightPrototype) -> f32 {
+    (0.5 * norm(prototype.moments.bounds.diagonal())).max(0.0)
+}
+
+/// The sum of the coordinates' magnitudes, not below the length.
+#[inline(always)]
+fn norm(v: Vec3) -> f32 {
+    v.abs().element_sum()
+}

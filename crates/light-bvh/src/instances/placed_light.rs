@@ -1,0 +1,23 @@
+use light_bounds::LightId;
+
+/// Identifies a light of an [`InstancedLightBvh`](crate::InstancedLightBvh): the position of its
+/// placement, and its own position in the prototype.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PlacedLight {
+    /// The position of the placement.
+    pub placement: u32,
+    /// The light of the prototype.
+    pub light: LightId,
+}
+
+/// A light chosen at random, the probability of that choice, and the unused part of the random
+/// number: a [`SampledLight`](light_bounds::SampledLight) of a tree of trees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledPlacedLight {
+    /// The light.
+    pub light: PlacedLight,
+    /// Probability of this light, above 0 and at most 1: the bits that a query of its pmf returns.
+    pub pmf: f32,
+    /// Unused part of `u`: given the light, a uniform [fraction](light_math::fraction) of 2^64.
+    pub u: u64,
+}

@@ -1,0 +1,97 @@
+use light_bounds::LightGroups;
+use light_math::glam::Vec3;
+
+use crate::importance::child_view::ChildView;
+use crate::importance::context_receiver::{AnyKind, ContextReceiver, with_kind};
+use crate::importance::receiver::{NoReceiver, Receiver};
+use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query};
+
+/// A receiver in the frame of a prototype, into which it was moved with round-off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedReceiver {
+    receiver: ContextReceiver,
+    /// How far lights may be from where they seem to be; infinite if nothing is known of where
+    /// they are.
+    error: f32,
+}
+
+impl PlacedReceiver {
+    /// A receiver whose lights are known to within `error`, and no farther than `reach`.
+    #[inline(always)]
+    pub(crate) fn new(receiver: ContextReceiver, error: f32, reach: f32) -> Self {
+        // Written so that NaN fails.
+        let is_known = error <= reach;
+        Self {
+            receiver,
+            error: if is_known { error } else { f32::INFINITY },
+        }
+    }
+}
+
+impl KeptReceiver for PlacedReceiver {
+    #[inline(always)]
+    fn run<Q: Query>(&self, query: Q) -> Q::Output {
+        let error = self.error;
+        // Where a whole prototype is within its round-off only powers tell its lights apart.
+        if error == f32::INFINITY {
+            return query.run(&NoReceiver);
+        }
+        if cfg!(target_os = "none") {
+            let receiver = AnyKind(&self.receiver);
+            query.run(&Widened { receiver, error })
+        } else {
+            with_kind!(self.receiver, receiver => query.run(&Widened { receiver, error }))
+        }
+    }
+}
+
+/// The same for the lights of some groups.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedContext {
+    pub(crate) receiver: PlacedReceiver,
+    pub(crate) groups: LightGroups,
+}
+
+impl IntoReceiver for PlacedContext {
+    type Kept = PlacedReceiver;
+
+    #[inline(always)]
+    fn keep(self) -> PlacedReceiver {
+        self.receiver
+    }
+
+    #[inline(always)]
+    fn groups(self) -> LightGroups {
+        self.groups
+    }
+}
+
+/// A receiver that sees every box larger by an error of positions, so that what it proves of a box
+/// it proves of the lights.
+#[derive(Clone, Copy, Debug)]
+struct Widened<R> {
+    receiver: R,
+    error: f32,
+}
+
+impl<R: Receiver> Receiver for Widened<R> {
+    #[inline(always)]
+    fn position(&self) -> Vec3 {
+        self.receiver.position()
+    }
+
+    #[inline(always)]
+    fn reach(&self) -> f32 {
+        self.receiver.reach()
+    }
+
+    #[inline(always)]
+    fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
+        let error = self.error * inv_unit;
+        let child = ChildView {
+            extent: child.extent.map(|half| half + error),
+            ..*child
+        };
+        self.receiver.weigh(&child, inv_unit)
+    }
+}

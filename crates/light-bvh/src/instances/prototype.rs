@@ -1,0 +1,88 @@
+use light_bounds::LightExtent;
+use light_math::Aabb;
+use light_math::glam::Vec3;
+
+use crate::LightBvhError;
+use crate::build::options::LightBvhOptions;
+use crate::light_bvh::LightBvh;
+use crate::node::moments::Moments;
+use crate::node::wide_node::WIDTH;
+
+/// Lights that are placed any number of times and stored once: a tree in coordinates of its own.
+#[derive(Clone, Debug)]
+pub struct LightPrototype {
+    tree: LightBvh,
+    /// Of all lights together; their power is a share of the tree's.
+    pub(crate) moments: Moments,
+}
+
+impl LightPrototype {
+    /// The bounded lights of `lights`, in which the index of an entry is its
+    /// [`LightId`](light_bounds::LightId). Lights at infinity have no place in a prototype, and
+    /// pmf 0.
+    ///
+    /// # Errors
+    /// As for [`LightBvh::build`].
+    pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
+        Self::with(lights, &LightBvhOptions::default())
+    }
+
+    /// The same, built as `options` say.
+    ///
+    /// # Errors
+    /// As for [`LightBvh::build`].
+    pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
+        let (tree, moments) = LightBvh::build_with_moments(lights, options)?;
+        Ok(Self { tree, moments })
+    }
+
+    /// Refits the tree: see [`LightBvh::refit`].
+    pub(crate) fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        self.moments = self.tree.refit_with_moments(lights)?;
+        Ok(())
+    }
+
+    /// The tree of the lights.
+    #[must_use]
+    pub const fn tree(&self) -> &LightBvh {
+        &self.tree
+    }
+
+    /// How many lights there are, with those that are off.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.tree.slots.len()
+    }
+
+    /// Whether there is no light.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.tree.slots.is_empty()
+    }
+
+    /// The middle of the box of all lights; the origin if none is on.
+    pub(crate) fn center(&self) -> Vec3 {
+        if self.moments.bounds.is_empty() {
+            Vec3::ZERO
+        } else {
+            self.moments.bounds.center()
+        }
+    }
+
+    /// The boxes of the children of the root, which hold all lights that are on.
+    pub(crate) fn child_boxes(&self) -> impl Iterator<Item = Aabb> {
+        let root = self.tree.nodes.first();
+        root.into_iter().flat_map(|root| {
+            let code = 1.0 / root.inv_scale;
+            let lit = (0..WIDTH).filter(|&k| root.power[k] > 0);
+            lit.map(move |k| {
+                let of = |codes: &[[u8; WIDTH]; 3]| {
+                    Vec3::from_array([0, 1, 2].map(|axis| f32::from(codes[axis][k]))) * code
+                };
+                let mean = Vec3::from(root.origin) + of(&root.mean);
+                let half = of(&root.extent);
+                Aabb::new(mean - half, mean + half)
+            })
+        })
+    }
+}

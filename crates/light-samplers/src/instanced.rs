@@ -1,0 +1,162 @@
+use alloc::vec::Vec;
+use core::fmt;
+
+use light_bounds::{
+    InfiniteBounds, InfiniteBoundsError, LightExtent, LightId, LightSampleContext, SampledLight,
+};
+use light_bvh::{InstancedLightBvh, InstancedLightBvhError, PlacedLight, Placement};
+use light_math::float::positive_product;
+
+use crate::bvh_choices::BvhChoices;
+use crate::first_choice::{FirstChoice, FirstPmf};
+use crate::infinite_lights::{InfiniteLight, InfiniteLights, emitting};
+use crate::placed_lights_at::{PlacedLightsAt, numbered};
+use crate::{LightChoices, LightSampler};
+
+/// A tree of trees as a sampler: lights that are placed many times are stored once.
+///
+/// The ids are those of the placed lights, in the order of [`InstancedLightBvh::light_index`], then
+/// those of the lights at infinity. An [`InstancedLightBvh`] alone has no limit of 2^32 lights.
+#[derive(Clone, Debug)]
+pub struct InstancedBvhLightSampler {
+    tree: InstancedLightBvh,
+    infinite: Vec<InfiniteLight>,
+}
+
+impl InstancedBvhLightSampler {
+    /// A sampler of the lights of `tree` and of lights at infinity.
+    ///
+    /// # Errors
+    /// More than 2^32 lights, for which ids are too short; the first light at infinity with invalid
+    /// bounds.
+    pub fn new(
+        tree: InstancedLightBvh,
+        infinite: &[InfiniteBounds],
+    ) -> Result<Self, InstancedBvhLightSamplerError> {
+        let placed = tree.light_count();
+        let first = u32::try_from(placed).ok();
+        let last = u32::try_from(placed + infinite.len() as u64).ok();
+        let (Some(first), Some(_)) = (first, last) else {
+            return Err(InstancedBvhLightSamplerError::TooManyLights);
+        };
+        for (light, bounds) in (first..).map(LightId).zip(infinite) {
+            let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
+            bounds.validate().map_err(bad)?;
+        }
+        let extents: Vec<_> = infinite
+            .iter()
+            .copied()
+            .map(LightExtent::Infinite)
+            .collect();
+        let infinite = emitting(&extents, &[]).map(|light| InfiniteLight {
+            light: LightId(light.light.0 + first),
+            ..light
+        });
+        Ok(Self {
+            tree,
+            infinite: infinite.collect(),
+        })
+    }
+
+    /// Refits the upper tree to placements that moved: see [`InstancedLightBvh::refit`].
+    ///
+    /// # Errors
+    /// As for [`InstancedLightBvh::refit`]; the sampler is then as it was.
+    pub fn refit(&mut self, placements: &[Placement]) -> Result<(), InstancedLightBvhError> {
+        self.tree.refit(placements)
+    }
+
+    /// The tree of the lights with a position.
+    #[must_use]
+    pub const fn tree(&self) -> &InstancedLightBvh {
+        &self.tree
+    }
+
+    #[inline]
+    fn infinite(&self) -> InfiniteLights<'_> {
+        InfiniteLights::of_valid(&self.infinite)
+    }
+
+    #[inline]
+    fn choice_at(&self, ctx: &LightSampleContext) -> BvhChoices<'_, PlacedLightsAt<'_>> {
+        let (tree, at) = (&self.tree, self.tree.at(ctx));
+        let irradiance = at.irradiance();
+        let tree = PlacedLightsAt { tree, at };
+        BvhChoices::of(tree, irradiance, self.tree.power(), self.infinite(), ctx)
+    }
+
+    /// The placed light of an id, unless that is of a light at infinity.
+    #[inline]
+    #[must_use]
+    pub fn placed_light(&self, light: LightId) -> Option<PlacedLight> {
+        self.tree.light_of_index(u64::from(light.0))
+    }
+}
+
+impl LightSampler for InstancedBvhLightSampler {
+    #[inline]
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.choice_at(ctx).sample(u)
+    }
+
+    #[inline]
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.choice_at(ctx).pmf(light)
+    }
+
+    #[inline]
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::in_placements(self.choice_at(ctx), count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        match self.infinite().first(u, self.tree.power(), fluence)? {
+            FirstChoice::Infinite(light) => Some(light),
+            FirstChoice::Others { pmf, u } => {
+                let light = numbered(&self.tree, self.tree.sample_emitter(u)?)?;
+                let pmf = positive_product(pmf, light.pmf);
+                Some(SampledLight { pmf, ..light })
+            }
+        }
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        match self.infinite().first_pmf(light, self.tree.power(), fluence) {
+            FirstPmf::Infinite(pmf) => pmf,
+            FirstPmf::Others(pmf) => match self.placed_light(light) {
+                Some(light) => positive_product(pmf, self.tree.pmf_emitter(light)),
+                None => 0.0,
+            },
+        }
+    }
+}
+
+const fn fluence(light: &InfiniteLight) -> f32 {
+    light.bounds.fluence
+}
+
+/// Why there is no sampler of a tree of trees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InstancedBvhLightSamplerError {
+    /// There are more lights than ids of 32 bits.
+    TooManyLights,
+    /// The bounds of a light at infinity are not valid.
+    Infinite {
+        /// Which light.
+        light: LightId,
+        /// Why.
+        reason: InfiniteBoundsError,
+    },
+}
+
+impl fmt::Display for InstancedBvhLightSamplerError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyLights => f.write_str("more lights than ids of 32 bits"),
+            Self::Infinite { light, reason } => write!(f, "light {}: {reason}", light.0),
+        }
+    }
+}
+
+impl core::error::Error for InstancedBvhLightSamplerError {}

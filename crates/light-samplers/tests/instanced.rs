@@ -1,0 +1,362 @@
+//! A tree of trees obeys the laws of light samplers.
+
+use light_samplers::light_bounds::glam::{Mat3, Quat, Vec3};
+use light_samplers::light_bounds::light_math::Aabb;
+use light_samplers::light_bounds::{
+    EmissionLobe, Gloss, InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
+    SampledLight,
+};
+use light_samplers::light_bvh::{
+    InstancedLightBvh, InstancedLightBvhError, LightBvhOptions, LightPrototype, PlacedLight,
+    Placement,
+};
+use light_samplers::{
+    InstancedBvhLightSampler, InstancedBvhLightSamplerError, LightChoices, LightSampler,
+};
+use light_testkit::{Emitter, SamplerCase};
+
+light_testkit::sampler_laws! {
+    /// Every few lights are a prototype, turned back from where it is placed.
+    mod instanced {
+        |set| taken_apart(set, 7)
+    }
+
+    /// Every light is a prototype of its own.
+    mod instanced_alone {
+        |set| taken_apart(set, 1)
+    }
+
+    /// The same at surfaces that transmit light.
+    mod instanced_two_sided {
+        |set| Asked(taken_apart(set, 7), |ctx| match (ctx.n(), ctx.ns()) {
+            (Some(n), Some(ns)) => LightSampleContext::two_sided(ctx.p, n, ns),
+            _ => *ctx,
+        })
+    }
+
+    /// The same at glossy surfaces.
+    mod instanced_glossy {
+        |set| Asked(taken_apart(set, 7), |ctx| {
+            let n = ctx.n().unwrap_or(Vec3::Z);
+            let wo = (n + 0.9 * n.any_orthonormal_vector()).normalize();
+            ctx.with_gloss(Gloss { wo, alpha: 0.1, diffuse: 0.0 })
+        })
+    }
+
+    /// The same for ray segments.
+    mod instanced_segment {
+        |set| Asked(
+            taken_apart(set, 7),
+            |ctx| LightSampleContext::segment(ctx.p, ctx.p * 0.5),
+        )
+    }
+}
+
+/// Turns, scales and translations; translations are shares of a light's position.
+fn motion(i: usize) -> (Quat, f32, f32) {
+    let quarter = Quat::from_mat3(&Mat3::from_cols(Vec3::Y, Vec3::NEG_X, Vec3::Z));
+    let oblique = Quat::from_axis_angle(Vec3::new(0.48, 0.6, 0.64).normalize(), i as f32);
+    [
+        (Quat::IDENTITY, 1.0, 0.0),
+        (quarter, 2.0, 1.0),
+        (oblique, 1.0, 0.5),
+        (oblique, -0.75, 1.0),
+        (oblique, 30.0, -1.0),
+    ][i % 5]
+}
+
+/// A sampler of the lights of the set as placed prototypes of at most `few` lights.
+fn taken_apart(set: &SamplerCase, few: usize) -> Renumbered {
+    let (mut prototypes, mut placements) = (Vec::new(), Vec::new());
+    let (mut bounded, mut infinite) = (Vec::new(), Vec::new());
+    for (id, extent) in set.ids().zip(set.extents()) {
+        match extent {
+            LightExtent::Infinite(bounds) => infinite.push((id, bounds)),
+            LightExtent::Bounded(_) | LightExtent::Lobe(..) => bounded.push((id, extent)),
+        }
+    }
+    for (prototype, (i, lights)) in (0..).zip(bounded.chunks(few).enumerate()) {
+        let (turn, scale, share) = motion(i);
+        let first = lights[0].1.bounded().expect("a light with a position");
+        let translation = first.bounds.center() * share;
+        let back = |(_, extent): &(LightId, LightExtent)| back(extent, turn, scale, translation);
+        let lights: Vec<_> = lights.iter().map(back).collect();
+        prototypes.push(LightPrototype::new(&lights).expect("valid bounds"));
+        let placement = Placement::new(prototype, turn, scale, translation).expect("rigid");
+        placements.push(placement.with_power(1.0).expect("a factor"));
+    }
+    let tree = InstancedLightBvh::build(prototypes, &placements).expect("within reach");
+    let skies: Vec<_> = infinite.iter().map(|(_, bounds)| *bounds).collect();
+    let all = bounded.iter().map(|(id, _)| *id);
+    Renumbered {
+        sampler: InstancedBvhLightSampler::new(tree, &skies).expect("valid bounds"),
+        ids: all.chain(infinite.iter().map(|(id, _)| *id)).collect(),
+    }
+}
+
+/// A light in the frame of its prototype.
+fn back(extent: &LightExtent, turn: Quat, scale: f32, translation: Vec3) -> LightExtent {
+    let around = turn.inverse();
+    let direction = |v: Vec3| around * (v * scale.signum());
+    let bounds = |light: &LightBounds| {
+        let Aabb { min, max } = light.bounds;
+        let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| {
+            let pick = |axis: usize| {
+                if i >> axis & 1 == 0 {
+                    min[axis]
+                } else {
+                    max[axis]
+                }
+            };
+            let corner = Vec3::new(pick(0), pick(1), pick(2));
+            around * ((corner - translation) * (1.0 / scale))
+        });
+        LightBounds {
+            bounds: Aabb::from_points(corners),
+            w: direction(light.w).normalize(),
+            ..*light
+        }
+    };
+    match extent {
+        LightExtent::Bounded(light) => LightExtent::Bounded(bounds(light)),
+        LightExtent::Lobe(light, lobe) => {
+            let mean = direction(lobe.mean);
+            LightExtent::Lobe(bounds(light), EmissionLobe { mean, ..*lobe })
+        }
+        LightExtent::Infinite(_) => *extent,
+    }
+}
+
+/// A sampler whose light `i` has the id `ids[i]`.
+struct Renumbered {
+    sampler: InstancedBvhLightSampler,
+    ids: Vec<LightId>,
+}
+
+impl Renumbered {
+    fn named(&self, chosen: SampledLight) -> SampledLight {
+        let light = self.ids[chosen.light.index()];
+        SampledLight { light, ..chosen }
+    }
+
+    fn own(&self, light: LightId) -> LightId {
+        let mut own = (0..).zip(&self.ids).filter(|(_, id)| **id == light);
+        LightId(own.next().map_or(u32::MAX, |(own, _)| own))
+    }
+}
+
+impl LightSampler for Renumbered {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.sampler.sample(ctx, u).map(|chosen| self.named(chosen))
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.sampler.pmf(ctx, self.own(light))
+    }
+
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        LightChoices::one_by_one(self, ctx, count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        self.sampler
+            .sample_emitter(u)
+            .map(|chosen| self.named(chosen))
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.sampler.pmf_emitter(self.own(light))
+    }
+}
+
+/// A sampler that changes every context before it uses it.
+struct Asked<S>(S, fn(&LightSampleContext) -> LightSampleContext);
+
+impl<S: LightSampler> LightSampler for Asked<S> {
+    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
+        self.0.sample(&self.1(ctx), u)
+    }
+
+    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
+        self.0.pmf(&self.1(ctx), light)
+    }
+
+    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
+        self.0.at(&self.1(ctx), count)
+    }
+
+    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        self.0.sample_emitter(u)
+    }
+
+    fn pmf_emitter(&self, light: LightId) -> f32 {
+        self.0.pmf_emitter(light)
+    }
+}
+
+mod placed {
+    //! Prototypes that are placed several times, against lights where they are placed.
+
+    use super::*;
+    use light_testkit::laws::{sampler as laws, several_choices_follow_their_pmf};
+    use light_testkit::{Rng, light_sets::SetKind, light_sets::SetLight};
+
+    const SKY: f32 = 0.01;
+
+    /// Two prototypes in many places, and all their lights there with a sky.
+    fn village(seed: u64) -> (SamplerCase, InstancedBvhLightSampler, Vec<Placement>) {
+        let mut rng = Rng::new(seed);
+        let kinds = [(SetKind::Mixed, 40), (SetKind::Spots, 5)];
+        let kinds = kinds.map(|(kind, n)| SamplerCase::generated(kind, n, seed).emitters);
+        let prototypes = kinds.each_ref().map(|emitters| {
+            let extents: Vec<_> = emitters.iter().map(Emitter::extent).collect();
+            LightPrototype::new(&extents).expect("valid bounds")
+        });
+        let (mut emitters, mut placements) = (Vec::new(), Vec::new());
+        for i in 0..20 {
+            let (turn, scale, _) = motion(i);
+            let translation = (rng.vec3() - 0.5) * 60.0;
+            let kind = i % 3 % 2;
+            let placement = Placement::new([0, 1][kind], turn, scale, translation);
+            placements.push(placement.expect("rigid"));
+            let out = |x: Vec3| translation + turn * (x * scale);
+            emitters.extend(kinds[kind].iter().map(|emitter| there(emitter, scale, out)));
+        }
+        emitters.push(Emitter::Sky { radiance: SKY });
+        let tree = InstancedLightBvh::build_with(
+            prototypes.into(),
+            &placements,
+            &LightBvhOptions::DYNAMIC,
+        );
+        let sky = [InfiniteBounds::uniform(SKY)];
+        let sampler = InstancedBvhLightSampler::new(tree.expect("a tree"), &sky);
+        let case = SamplerCase::new("village", emitters, 24, seed);
+        (case, sampler.expect("a sampler"), placements)
+    }
+
+    /// A light where it is placed.
+    fn there(emitter: &Emitter, scale: f32, out: impl Fn(Vec3) -> Vec3) -> Emitter {
+        let &Emitter::Set(light) = emitter else {
+            panic!("a light of a set");
+        };
+        Emitter::Set(match light {
+            SetLight::Triangle {
+                vertices,
+                radiance,
+                two_sided,
+            } => {
+                let mut vertices = vertices.map(&out);
+                if scale < 0.0 {
+                    // The mirror image of its front.
+                    vertices.swap(1, 2);
+                }
+                SetLight::Triangle {
+                    vertices,
+                    radiance,
+                    two_sided,
+                }
+            }
+            SetLight::Point { p, intensity } => SetLight::Point {
+                p: out(p),
+                intensity: intensity * scale * scale,
+            },
+            SetLight::Spot {
+                p,
+                target,
+                intensity,
+                cone_deg,
+                delta_deg,
+            } => SetLight::Spot {
+                p: out(p),
+                target: out(target),
+                intensity: intensity * scale * scale,
+                cone_deg,
+                delta_deg,
+            },
+        })
+    }
+
+    fn laws(set: &SamplerCase, sampler: &InstancedBvhLightSampler) {
+        laws::sampled_pmf_is_the_queried_pmf(set, sampler);
+        laws::pmfs_and_none_sum_to_one(set, sampler);
+        laws::contributing_lights_can_be_chosen(set, sampler);
+        laws::unknown_lights_have_no_pmf(set, sampler);
+        laws::frequencies_match_and_u_stays_uniform(set, sampler);
+        laws::invalid_queries_do_not_panic(set, sampler);
+        several_choices_follow_their_pmf(set, sampler);
+    }
+
+    #[test]
+    fn laws_hold_for_many_placements() {
+        for seed in 1..5 {
+            let (set, sampler, _) = village(seed);
+            laws(&set, &sampler);
+        }
+    }
+
+    #[test]
+    fn laws_hold_after_a_refit() {
+        let (set, sampler, placements) = village(5);
+        let far = |i: usize| {
+            let at = Vec3::new(i as f32 * 7.0 % 50.0, i as f32 * 11.0 % 50.0, 3.0);
+            let (turn, _, _) = motion(i + 1);
+            Placement::new(placements[i].prototype(), turn, 1.0, at).expect("rigid")
+        };
+        let before: Vec<_> = (0..placements.len()).map(far).collect();
+        let prototypes = sampler.tree().prototypes().to_vec();
+        let tree = InstancedLightBvh::build(prototypes, &before).expect("a tree");
+        let sky = [InfiniteBounds::uniform(SKY)];
+        let mut moved = InstancedBvhLightSampler::new(tree, &sky).expect("a sampler");
+        let error = moved.refit(&placements[1..]).err();
+        let expected = placements.len();
+        let missing = InstancedLightBvhError::OtherPlacements { expected };
+        assert_eq!(error, Some(missing), "one is missing");
+        let mut exchanged = placements.clone();
+        exchanged.swap(0, 1);
+        let error = moved.refit(&exchanged).err();
+        let other = InstancedLightBvhError::Prototype { placement: 0 };
+        assert_eq!(error, Some(other), "another prototype");
+        moved.refit(&placements).expect("the same prototypes");
+        laws(&set, &moved);
+    }
+
+    #[test]
+    fn ids_are_positions() {
+        let (set, sampler, _) = village(7);
+        let tree = sampler.tree();
+        assert_eq!(
+            tree.light_count() + 1,
+            u64::from(set.count()),
+            "and the sky"
+        );
+        for id in 0..set.count() - 1 {
+            let light = sampler.placed_light(LightId(id)).expect("a light");
+            assert_eq!(tree.light_index(light), Some(u64::from(id)), "{light:?}");
+        }
+        assert_eq!(sampler.placed_light(LightId(set.count() - 1)), None, "sky");
+        let none = PlacedLight {
+            placement: 1000,
+            light: LightId(0),
+        };
+        assert_eq!(tree.pmf(&set.contexts[0], none), 0.0, "no such placement");
+    }
+}
+
+#[test]
+fn too_many_lights_for_ids_are_refused() {
+    let point = LightBounds {
+        bounds: Aabb::from_point(Vec3::ZERO),
+        w: Vec3::Z,
+        phi: 1.0,
+        cos_theta_o: -1.0,
+        cos_theta_e: 0.0,
+        two_sided: false,
+    };
+    let prototype = LightPrototype::new(&[LightExtent::Bounded(point); 1 << 12]).expect("valid");
+    let placements = vec![Placement::at(0, Vec3::ZERO); 1 << 20];
+    let tree = InstancedLightBvh::build(vec![prototype], &placements).expect("a tree");
+    assert_eq!(tree.light_count(), 1 << 32, "one more than ids count");
+    let refused = InstancedBvhLightSampler::new(tree, &[]).err();
+    let many = InstancedBvhLightSamplerError::TooManyLights;
+    assert_eq!(refused, Some(many), "by name");
+}
