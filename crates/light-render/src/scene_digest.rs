@@ -55,6 +55,7 @@ impl SceneDigest {
             camera_medium,
             // The settings know it, with what the command line changes.
             max_depth: _,
+            samples_per_pixel: _,
             // They may name files by other paths on other machines, and say nothing about the
             // picture.
             warnings: _,

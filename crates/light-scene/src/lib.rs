@@ -72,4 +72,4 @@ pub use pbrt::{parse_ply, read_pbrt};
 pub use quadric::{Quadric, QuadricFront, QuadricKind};
 pub use read_files::{record_read_files, recorded_read_files};
 pub use scene::{NamedMedium, Scene};
-pub use scene_file::{parse_scene, read_scene};
+pub use scene_file::{is_scene_name, parse_scene, read_scene};

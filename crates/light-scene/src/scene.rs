@@ -54,6 +54,8 @@ pub struct Scene {
     /// The segments of the longest path that the file asks for: 1 shows emitters, 2 adds direct
     /// light.
     pub max_depth: Option<u32>,
+    /// The samples a pixel that the file asks for, at least 1.
+    pub samples_per_pixel: Option<u32>,
     /// What the reader ignored or repaired, each with file and line.
     pub warnings: Vec<Diagnostic>,
 }

@@ -34,7 +34,9 @@ pub fn parse_scene(path: &Path, bytes: &[u8], files: Files<'static>) -> Result<S
 
 const EXPECTED: &str = "expected a scene file: .obj, .pbrt, .gltf or .glb";
 
-fn is_scene_name(path: &Path) -> bool {
+/// Whether a file of this name is a scene by its ending.
+#[must_use]
+pub fn is_scene_name(path: &Path) -> bool {
     matches!(ending(path), Some("obj" | "pbrt" | "gltf" | "glb"))
 }
 

@@ -18,21 +18,17 @@ pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .pfm, .png, .tga or .jpg";
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or
 /// an infinity: with the pixel and the channel.
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
-    read_encoded_from(path, Files::DISK, Encoding::Srgb)
+    expect_image_name(path)?;
+    parse_image(path, &Files::DISK.read(path)?)
 }
 
-/// As [`read_image`], with the bytes from `files`; `encoding` says what the numbers of files mean
-/// that are made for screens.
-pub(crate) fn read_encoded_from(
-    path: &Path,
-    files: Files<'_>,
-    encoding: Encoding,
-) -> Result<ImageFile, Diagnostic> {
+/// Makes sure that the ending of a name is that of an image.
+pub(crate) fn expect_image_name(path: &Path) -> Result<(), Diagnostic> {
     if !is_image_name(path) {
         let message = format!("expected an image: {IMAGE_ENDINGS}");
         return Err(Diagnostic::file(path, message));
     }
-    parse_encoded(path, &files.read(path)?, encoding)
+    Ok(())
 }
 
 /// As [`read_image`], for an image that gives light from all around: where at most one of a hundred
@@ -50,10 +46,7 @@ pub(crate) fn read_environment_from(
     path: &Path,
     files: Files<'_>,
 ) -> Result<ImageFile, Diagnostic> {
-    if !is_image_name(path) {
-        let message = format!("expected an image: {IMAGE_ENDINGS}");
-        return Err(Diagnostic::file(path, message));
-    }
+    expect_image_name(path)?;
     parse_with(
         path,
         &files.read(path)?,
@@ -71,7 +64,12 @@ pub fn parse_image(path: &Path, bytes: &[u8]) -> Result<ImageFile, Diagnostic> {
     parse_encoded(path, bytes, Encoding::Srgb)
 }
 
-fn parse_encoded(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<ImageFile, Diagnostic> {
+/// As [`parse_image`]; `encoding` says what the numbers of files mean that are made for screens.
+pub(crate) fn parse_encoded(
+    path: &Path,
+    bytes: &[u8],
+    encoding: Encoding,
+) -> Result<ImageFile, Diagnostic> {
     parse_with(path, bytes, encoding, BrokenTexels::Refuse)
 }
 

@@ -19,7 +19,8 @@ pub(crate) use display::write_hdr;
 pub use display::{encode_png, write_png};
 pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
-    IMAGE_ENDINGS, is_image_name, parse_opacity, read_encoded_from, read_environment_from,
+    IMAGE_ENDINGS, expect_image_name, is_image_name, parse_encoded, parse_opacity,
+    read_environment_from,
 };
 pub use file::{parse_image, read_environment, read_image, write_image};
 pub use image_file::ImageFile;

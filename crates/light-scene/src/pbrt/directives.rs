@@ -241,7 +241,9 @@ impl Reader {
         match directive {
             "Camera" => self.set_camera(typed)?,
             "Film" => self.film(typed)?,
-            "PixelFilter" => self.pixel_filter(typed),
+            // Of all filters the program has the box of one pixel.
+            "PixelFilter" | "Accelerator" => typed.parameters.accept_all(),
+            "Sampler" => self.sampler(typed),
             "Integrator" => self.integrator(typed),
             "Shape" => self.shape(typed)?,
             "LightSource" => self.light(typed)?,
@@ -260,11 +262,6 @@ impl Reader {
             }
             "MakeNamedMedium" => self.make_medium(typed)?,
             "ColorSpace" if typed.kind == "srgb" => {}
-            "Sampler" => {
-                let done = "was ignored: --spp sets the samples a pixel";
-                self.warn(typed.at, "`Sampler`", done);
-                return Ok(());
-            }
             _ => {
                 self.warn(typed.at, &format!("`{directive}`"), "was ignored");
                 return Ok(());

@@ -7,7 +7,7 @@ use super::image_key::ImageKey;
 use super::state::Reader;
 use super::texture_kind::TextureKind;
 use crate::glam::{Affine2, Vec2, Vec3};
-use crate::image::{IMAGE_ENDINGS, is_image_name, read_encoded_from};
+use crate::image::{IMAGE_ENDINGS, expect_image_name, is_image_name, parse_encoded};
 use crate::text::shown;
 use crate::{Color, ColorImage, Diagnostic, ImageFile, ImageId};
 
@@ -38,17 +38,36 @@ impl Reader {
             inverted: inverted.then(|| scale.to_bits()),
             ..ImageKey::colors(path)
         };
+        let image = match self.image_if_there(typed.at, key)? {
+            Ok(image) => image,
+            Err(missing) => {
+                let what = format!("{missing};");
+                let message = "the texture was taken as grey";
+                self.warn_kind(typed.at, "missing image", &what, message);
+                return Ok(Color::Constant(Vec3::splat(0.5)));
+            }
+        };
         Ok(Color::Image(ColorImage {
             scale: Vec3::splat(if inverted { 1.0 } else { scale }),
             mapping,
-            ..ColorImage::new(self.image(typed.at, key)?)
+            ..ColorImage::new(image)
         }))
     }
 
     /// The image of a file relative to the scene.
     pub(super) fn image(&mut self, at: FileLoc<'_>, key: ImageKey) -> Result<ImageId, Diagnostic> {
+        let image = self.image_if_there(at, key)?;
+        image.map_err(|missing| at.diagnostic(missing.to_string()))
+    }
+
+    /// The image of a file relative to the scene, or why the file cannot be read.
+    fn image_if_there(
+        &mut self,
+        at: FileLoc<'_>,
+        key: ImageKey,
+    ) -> Result<Result<ImageId, Diagnostic>, Diagnostic> {
         if let Some(&known) = self.images.get(&key) {
-            return Ok(known);
+            return Ok(Ok(known));
         }
         let encoding = key.encoding().ok_or_else(|| {
             let found = shown(&key.encoding);
@@ -58,13 +77,19 @@ impl Reader {
             );
             at.diagnostic(message)
         })?;
-        let file = read_encoded_from(&key.path, self.files, encoding);
+        let refuse = |error: Diagnostic| at.diagnostic(error.to_string());
+        expect_image_name(&key.path).map_err(refuse)?;
+        let bytes = match self.files.read(&key.path) {
+            Ok(bytes) => bytes,
+            Err(missing) => return Ok(Err(missing)),
+        };
+        let file = parse_encoded(&key.path, &bytes, encoding);
         let file = file.and_then(|file| self.within_budget(&key.path, file));
-        let file = file.map_err(|error| at.diagnostic(error.to_string()))?;
+        let file = file.map_err(refuse)?;
         self.scene.warnings.extend(file.warning);
         let image = self.scene.add_image(key.change(file.image));
         self.images.insert(key, image);
-        Ok(image)
+        Ok(Ok(image))
     }
 
     /// The image of a file, if there is room for it.

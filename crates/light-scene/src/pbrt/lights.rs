@@ -35,6 +35,12 @@ impl Reader {
         let to = transform.transform_point3(parameters.vec3_or("to", Vec3::Z));
         let scale = parameters.amount_or("scale", 1.0);
         let media = self.light_media();
+        if is_dark(typed) {
+            let what = format!("LightSource \"{kind}\"");
+            self.warn(at, &what, DARK);
+            parameters.accept_all();
+            return Ok(());
+        }
         let light = match kind.as_str() {
             "point" => LightDesc::Point(PointLightDesc {
                 position: from,
@@ -166,6 +172,13 @@ impl Reader {
             let what = format!("AreaLightSource \"{kind}\"");
             self.warn(*at, &what, "was taken as diffuse");
         }
+        if is_dark(typed) {
+            let what = format!("AreaLightSource \"{kind}\"");
+            self.warn(*at, &what, DARK);
+            parameters.accept_all();
+            self.state.area_light = None;
+            return Ok(());
+        }
         let scale = Vec3::splat(parameters.amount_or("scale", 1.0));
         let radiance = match parameters.string("filename") {
             // An image without repetition.
@@ -210,6 +223,20 @@ impl Reader {
         self.light_images.insert(path, image.clone());
         Ok(image)
     }
+}
+
+/// What is said of a light whose colour is black.
+const DARK: &str = "gives no light and was left out";
+
+/// Whether the file gives a light no other colour than black.
+fn is_dark(typed: &Typed<'_>) -> bool {
+    let parameters = &typed.parameters;
+    let name = match typed.kind.as_str() {
+        "point" | "spot" | "goniometric" => "I",
+        "distant" | "infinite" | "diffuse" => "L",
+        _ => return false,
+    };
+    parameters.emission(name) == Some(Vec3::ZERO)
 }
 
 /// The angle of view in degrees.

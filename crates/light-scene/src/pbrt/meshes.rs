@@ -27,6 +27,8 @@ pub(super) fn triangle_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
 
 /// A patch lists its corners row by row: (0,0), (1,0), (0,1), (1,1).
 pub(super) fn bilinear_mesh(typed: &Typed<'_>) -> Result<Mesh, Diagnostic> {
+    // It guides how pbrt samples a patch; what emits is the image of the area light.
+    typed.parameters.accept("emissionfilename");
     let mut mesh = vertices(typed)?;
     let count = mesh.positions.len();
     let indices = match typed.parameters.indices("indices") {

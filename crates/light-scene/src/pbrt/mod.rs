@@ -21,6 +21,8 @@ mod included;
 mod includes;
 #[cfg(test)]
 mod leniency_tests;
+#[cfg(test)]
+mod lenient_files_tests;
 mod lights;
 #[cfg(test)]
 mod lights_tests;

@@ -11,6 +11,13 @@ use crate::{Camera, Crop, Diagnostic, Lens, Projection, ScreenWindow};
 /// A path scatters no more often than this.
 const MOST_SCATTERING: u32 = (1 << 31) - 1;
 
+/// A pixel has no more samples than this.
+const MOST_SAMPLES: u32 = (1 << 31) - 1;
+
+/// The strata of a pixel in x and in y, at most and by default.
+const MOST_STRATA: u32 = 1 << 15;
+const STRATA: u32 = 4;
+
 /// An image has no more pixels a side than this.
 const LONGEST: u32 = 65536;
 
@@ -90,8 +97,20 @@ impl Reader {
 
     pub(super) fn film(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
         let Typed { at, parameters, .. } = typed;
-        // The command line gives the output file.
-        parameters.accept("filename");
+        // The command line gives the output file; the others say how other films store, or are of
+        // cameras that are not read.
+        for name in [
+            "filename",
+            "savefp16",
+            "diagonal",
+            "maxcomponentvalue",
+            "coordinatesystem",
+            "nbuckets",
+            "lambdamin",
+            "lambdamax",
+        ] {
+            parameters.accept(name);
+        }
         let size = |name, default| parameters.count(name, LONGEST).unwrap_or(default);
         let resolution = [size("xresolution", 1280), size("yresolution", 720)];
         let [width, height] = resolution.map(|pixels| pixels as f32);
@@ -143,24 +162,21 @@ impl Reader {
         }
     }
 
-    /// Of all filters the program has the box of one pixel.
-    pub(super) fn pixel_filter(&mut self, typed: &Typed<'_>) {
-        let Typed {
-            at,
-            kind,
-            parameters,
-        } = typed;
-        let half = |name| parameters.number_or(name, 0.5) == 0.5;
-        let (x, y) = (half("xradius"), half("yradius"));
-        if kind == "box" && x && y {
-            return;
-        }
-        // What shapes another filter has no say in a box.
-        for name in ["sigma", "B", "C", "tau"] {
-            parameters.accept(name);
-        }
-        let what = format!("PixelFilter \"{kind}\"");
-        self.warn(*at, &what, "was taken as a box of one pixel");
+    /// Of a sampler the number of samples counts: the program has its own points.
+    pub(super) fn sampler(&mut self, typed: &Typed<'_>) {
+        let parameters = &typed.parameters;
+        let samples = if typed.kind == "stratified" {
+            let side = |name| parameters.count(name, MOST_STRATA);
+            let sides = (side("xsamples"), side("ysamples"));
+            match sides {
+                (None, None) => None,
+                (x, y) => Some(x.unwrap_or(STRATA) * y.unwrap_or(STRATA)),
+            }
+        } else {
+            parameters.count("pixelsamples", MOST_SAMPLES)
+        };
+        self.scene.samples_per_pixel = samples;
+        parameters.accept_all();
     }
 }
 
@@ -243,24 +259,5 @@ mod tests {
         let expected = "a:1: what Film crops to ends at the edges of the image";
         let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
         assert_eq!(warnings, [expected], "named");
-    }
-
-    #[test]
-    fn other_filters_are_named() {
-        let warnings = |filter: &str| {
-            let text = format!("PixelFilter {filter} WorldBegin");
-            let scene = parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene");
-            let warnings = scene.warnings.into_iter();
-            warnings.map(|w| w.message).collect::<Vec<_>>()
-        };
-        assert!(warnings("\"box\"").is_empty(), "what there is");
-        let taken = "was taken as a box of one pixel";
-        for (filter, name) in [
-            ("\"gaussian\" \"float sigma\" 1", "gaussian"),
-            ("\"box\" \"float xradius\" 2", "box"),
-        ] {
-            let expected = [format!("PixelFilter \"{name}\" {taken}")];
-            assert_eq!(warnings(filter), expected, "{filter}");
-        }
     }
 }
