@@ -85,6 +85,9 @@ usage: cargo xtask [COMMAND]
   ptx                         make the CUDA kernels, gpu/ptx/kernels.ptx, again
   rust-gpu [--write]          compare the places of the core that rust-gpu does not take with
                               docs/rust-gpu.md, or write them there
+  scaling [--quick | LIGHTS]  measure how the costs of light samplers grow with the lights, to so
+                              many (default: 10000000), for docs/light-bvh.md
+                              (--quick: to 10000, roughly, printed only)
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
                               take very many samples and compare each with its query
                               (default: 10^9, 10^8, seed 1)
@@ -140,6 +143,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }),
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
+        ("scaling", rest) => one("scaling", || programs::scaling(rest)),
         ("soak", rest) => one("soak", || programs::soak(rest)),
         ("conformance", rest) => programs::conformance(rest),
         ("exhaustive", rest) => programs::exhaustive(rest),

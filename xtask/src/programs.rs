@@ -70,6 +70,15 @@ pub fn bench_tables(names: &[String]) -> StepResult {
     step(bench_example("bench_tables", names))
 }
 
+/// `cargo xtask scaling [--quick | LIGHTS]`: measures how costs grow with the lights, for
+/// `docs/light-bvh.md`.
+///
+/// # Errors
+/// The command line, when the lights do not fit the memory or a file cannot be written.
+pub fn scaling(arguments: &[String]) -> StepResult {
+    step(bench_example("scaling", arguments))
+}
+
 fn bench_example(name: &str, arguments: &[String]) -> Command {
     let package = ["--release", "--package", "benches", "--example", name];
     program(&package, arguments)

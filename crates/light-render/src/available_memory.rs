@@ -2,12 +2,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Bytes that are assumed to be available if the system does not report them.
-pub(crate) const ASSUMED: u64 = 8 << 30;
+const ASSUMED: u64 = 8 << 30;
 
 /// Bytes of memory that this process can still take without swapping: the least of what the machine
-/// has, what is left to the process's control group and what is left of its address space.
-/// [`ASSUMED`] where the system, other than Linux, does not say.
-pub(crate) fn available_memory() -> u64 {
+/// has, what is left to the process's control group and what is left of its address space. 8 GiB
+/// where the system, other than Linux, does not say.
+#[must_use]
+pub fn available_memory() -> u64 {
     let read = |path: &str| fs::read_to_string(path).ok();
     let machine = read("/proc/meminfo").and_then(|text| of_machine(&text));
     let groups = read("/proc/self/cgroup").map(|text| group_folders(&text));

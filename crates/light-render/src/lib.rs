@@ -36,6 +36,7 @@ mod live;
 mod partial;
 mod partial_error;
 mod picture_identity;
+pub mod plot;
 mod primitive_id;
 mod raster;
 mod ray;
@@ -57,6 +58,7 @@ mod world_mesh;
 mod world_quadric;
 
 pub use accel::{Accel, Hit, InstanceTransform, Prototype, QuadricShape};
+pub use available_memory::available_memory;
 pub use compare::Comparison;
 pub use exact_sum::ExactSum;
 pub use false_color::difference;

@@ -2,7 +2,6 @@
 
 mod chosen_pixels;
 mod html;
-mod log_plot;
 mod numbers;
 mod page;
 mod picture;

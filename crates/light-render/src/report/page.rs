@@ -3,9 +3,9 @@ use std::path::Path;
 use light_scene::Diagnostic;
 
 use crate::ToneMap;
+use crate::plot::{PlotSeries, log_plot};
 
 use super::html::{Html, figure};
-use super::log_plot::{Series, log_plot};
 use super::picture::{data_uri, heat, shown, signed_error};
 use super::reference::ReferenceSource;
 use super::sampler_row::SamplerRow;
@@ -166,11 +166,11 @@ impl SceneReport {
     }
 
     fn convergence(&self, html: &mut Html) {
-        let line = |row: &SamplerRow| Series {
+        let line = |row: &SamplerRow| PlotSeries {
             name: row.kind.name().into(),
             points: row.convergence.iter().map(|&(s, _, e)| [s, e]).collect(),
         };
-        let series: Vec<Series> = self.rows.iter().map(line).collect();
+        let series: Vec<PlotSeries> = self.rows.iter().map(line).collect();
         let plot = log_plot(&series, "seconds", "relMSE", self.reference.rel_mse());
         html.element("figure", " class=\"plot\"", |html| {
             html.markup(plot);

@@ -2,13 +2,13 @@ use core::time::Duration;
 
 use crate::bench::{BenchRow, Measurement, PixelVariance, SceneBenchOptions, bench_scene};
 use crate::integrator::PathSettings;
+use crate::plot::slope;
 use crate::{
     AnyLightSampler, AnyLightSamplerError, Comparison, Flip, LightInventory, SamplerKind, View,
     World, inventory,
 };
 
 use super::chosen_pixels::chosen_pixels;
-use super::log_plot::slope;
 use super::reference::Reference;
 use super::sampler_row::SamplerRow;
 use super::timed::Timed;

@@ -2,16 +2,16 @@ use core::fmt::Write as _;
 use core::ops::RangeInclusive;
 
 /// A line of a plot.
-#[derive(Clone, Debug)]
-pub(super) struct Series {
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlotSeries {
     /// Its name in the legend.
-    pub(super) name: String,
+    pub name: String,
     /// Its points, x before y; those that are not above 0 are left out.
-    pub(super) points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
 }
 
-const WIDTH: f64 = 640.0;
-const HEIGHT: f64 = 400.0;
+pub(super) const WIDTH: f64 = 640.0;
+pub(super) const HEIGHT: f64 = 400.0;
 /// Left, top, right and bottom of the frame.
 const FRAME: [f64; 4] = [64.0, 14.0, 626.0, 352.0];
 
@@ -69,8 +69,22 @@ impl Axis {
 /// A plot of `series` with logarithmic axes, as an SVG element that takes its colours from the
 /// classes of the page: `axis`, `grid` and `s0`, `s1`, ... for lines. `floor` is a level below
 /// which no difference can be seen.
-pub(super) fn log_plot(
-    series: &[Series],
+pub(crate) fn log_plot(
+    series: &[PlotSeries],
+    x_title: &str,
+    y_title: &str,
+    floor: Option<f64>,
+) -> String {
+    let parts = log_plot_parts(series, x_title, y_title, floor);
+    format!(
+        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{y_title} over {x_title}, \
+         both logarithmic\">\n{parts}</svg>\n"
+    )
+}
+
+/// What lies in the SVG element of [`log_plot`].
+pub(super) fn log_plot_parts(
+    series: &[PlotSeries],
     x_title: &str,
     y_title: &str,
     floor: Option<f64>,
@@ -85,10 +99,7 @@ pub(super) fn log_plot(
     let x_axis = Axis::around(all().map(|p| p[0]), [left, right]);
     let floor = floor.filter(|floor| *floor > 0.0);
     let y_axis = Axis::around(all().map(|p| p[1]).chain(floor), [bottom, top]);
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{y_title} over {x_title}, \
-         both logarithmic\">\n"
-    );
+    let mut svg = String::new();
     // Writing to a string does not fail.
     for tick in x_axis.ticks() {
         let x = x_axis.place(tick);
@@ -140,7 +151,6 @@ pub(super) fn log_plot(
             let _ = writeln!(svg, "<g class=\"s{i}\"><path d=\"{path}\"/>{dots}</g>");
         }
     }
-    svg.push_str("</svg>\n");
     svg
 }
 
@@ -156,7 +166,7 @@ fn tick_name(tick: f64) -> String {
 
 /// The slope of a straight line through the logarithms of `points`, by least squares: the power of
 /// x that y goes with. `None` for fewer than three points above 0.
-pub(super) fn slope(points: &[[f64; 2]]) -> Option<f64> {
+pub(crate) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     let logs: Vec<[f64; 2]> = points
         .iter()
         .filter(|p| p.iter().all(|x| *x > 0.0 && x.is_finite()))
@@ -188,7 +198,7 @@ mod tests {
 
     #[test]
     fn points_lie_in_the_frame_and_odd_ones_are_left_out() {
-        let series = Series {
+        let series = PlotSeries {
             name: "a".into(),
             points: vec![[0.1, 1.0], [1.0, 0.01], [10.0, 0.0], [f64::NAN, 1.0]],
         };
