@@ -24,9 +24,9 @@ const LARGEST: usize = 10_000_000;
 /// Lights of the largest set of `--quick`.
 const QUICK: usize = 10_000;
 
-/// Bytes of memory that a light takes at most while its set is measured (480 at 10^7 lights, most
-/// of them as the set is generated), with a fifth of room.
-const BYTES_A_LIGHT: u64 = 576;
+/// Bytes of memory that a light takes at most while its set is measured (246 at 10^7 lights, with
+/// the reference tree), with a sixth of room.
+const BYTES_A_LIGHT: u64 = 288;
 
 /// What the command asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
