@@ -39,7 +39,24 @@ const OF_A_SCENE: [&str; 7] = [
   lights bench room.obj --shadows
   lights bench chair.glb --sky clear-noon
   lights bench --generate clusters --n 100000 --samplers bvh-reference,bvh
-  lights bench --lights a.lights --points a.points --json")]
+  lights bench --lights a.lights --points a.points --json
+
+Columns:
+  set, lights     name of the set or scene, and its number of lights
+  sampler, k      how lights are chosen, and how many a call chooses
+  build ms        milliseconds to build the sampler, with --threads threads
+  bytes, B/light  bytes that a choice may touch, in all and a light
+  depth           nodes on the longest path from the root of a tree
+  ns/sample       nanoseconds to choose a light
+  ns/pmf          nanoseconds to find the probability of a light
+  V mean, median  variance of the estimate of one choice, over the square of what all lights give
+                  at the point; mean and median over the points. With --k it is K times the
+                  variance of the mean of K choices
+  V 99 %          what 99 of 100 points stay below
+  V within        variance that is left within lights whichever is chosen, for lights with an area
+  V best          variance of the best choice there is; --shadows shows how much of it they cause
+  lost            share of the light that comes from lights that are never chosen: 0 if right
+  no light        share of choices that choose none, where bounds grow tighter on the way down")]
 pub(crate) struct BenchArgs {
     /// The scene, whose lights are seen from points on its surfaces: an .obj, .pbrt, .gltf or .glb
     /// file, or the name of a scene that ships.

@@ -37,6 +37,14 @@ enum ToneMapName {
 }
 
 impl DisplayArgs {
+    /// Whether the exposure is fitted to the picture, whose file asks for the factor `of_file`.
+    pub(crate) fn is_auto(&self, of_file: Option<f32>) -> bool {
+        match self.exposure {
+            Some(exposure) => exposure == Exposure::Auto,
+            None => of_file.is_none(),
+        }
+    }
+
     /// How `image` is shown, whose file asks for the factor `of_file`.
     pub(crate) fn tone_map(&self, image: &Image, of_file: Option<f32>) -> ToneMap {
         let fit = || ToneMap::fit(image.texels());

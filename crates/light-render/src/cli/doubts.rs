@@ -9,6 +9,9 @@ use crate::{LightInventory, ToneMap};
 /// Lamps that give less than this part of the light of the skies are said to be lost under them.
 const LOST: f64 = 1e-4;
 
+/// Of a picture with at least this share of white it is said: lamps in view are far less.
+const MUCH: f64 = 0.1;
+
 /// What to say of a picture without light.
 pub(crate) fn of_black(image: &Image) -> Option<String> {
     let is_black = image.texels().iter().all(|&texel| texel == Vec3::ZERO);
@@ -25,7 +28,6 @@ pub(crate) fn of_shown(image: &Image, tone_map: &ToneMap) -> Option<String> {
     let first = shown.next()?;
     // The eight bits of a screen, which show the square root of light, about.
     let is_black = |c: Vec3| c.max_element() < 1.5e-4;
-    let is_white = |c: Vec3| c.min_element() > 0.99;
     let words = match first {
         first if is_black(first) && shown.all(is_black) => "all black",
         first if is_white(first) && shown.all(is_white) => "all white",
@@ -34,6 +36,25 @@ pub(crate) fn of_shown(image: &Image, tone_map: &ToneMap) -> Option<String> {
     Some(format!(
         "the picture is {words} as it is shown: try --exposure auto; an .exr file keeps all of it"
     ))
+}
+
+/// What to say of a picture much of which a screen shows as white.
+pub(crate) fn of_clipped(image: &Image, tone_map: &ToneMap) -> Option<String> {
+    let shown = image.texels().iter().map(|&texel| tone_map.apply(texel));
+    let white = shown.filter(|&c| is_white(c)).count();
+    let share = white as f64 / image.texels().len() as f64;
+    (share >= MUCH).then(|| {
+        format!(
+            "{:.0} % of the picture is white as it is shown: try --exposure auto; an .exr file \
+             keeps all of it",
+            100.0 * share
+        )
+    })
+}
+
+/// Whether a screen shows this as white.
+fn is_white(shown: Vec3) -> bool {
+    shown.min_element() > 0.99
 }
 
 /// What to say of lamps that nobody sees under the sky.
@@ -86,6 +107,20 @@ mod tests {
         );
         assert_eq!(doubt([1e3, 1e4], 1e-4), None, "well exposed");
         assert_eq!(doubt([0.0, 1e4], 1.0), None, "both");
+    }
+
+    #[test]
+    fn pictures_with_much_white_are_doubted() {
+        let doubt = |white: u16| {
+            let texel = |i| Vec3::splat(if i < white { 1e3 } else { 0.1 });
+            let image = Image::new(100, 1, (0..100).map(texel).collect());
+            of_clipped(&image.expect("texels"), &ToneMap::new(1.0))
+        };
+        let words = doubt(37).expect("a doubt");
+        for word in ["37 % of the picture is white", "--exposure auto"] {
+            assert!(words.contains(word), "{word} in {words}");
+        }
+        assert_eq!(doubt(9), None, "lamps in view");
     }
 
     #[test]

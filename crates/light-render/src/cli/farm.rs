@@ -10,7 +10,7 @@ use crate::farm::{FarmEngine, FarmPlan};
 
 use super::failure::Failure;
 use super::output_file::refuse;
-use super::render_settings::SettingsArgs;
+use super::render_settings::{FileSettings, SettingsArgs};
 use super::scene_input::SceneInput;
 use super::stdout::say;
 use super::view_args::ViewArgs;
@@ -49,9 +49,10 @@ impl FarmArgs {
     /// # Errors
     /// A scene that cannot be read, a part without samples, or a folder that cannot be written to.
     pub(crate) fn run(&self, typed: &ArgMatches) -> Result<(), Failure> {
-        let samples = self.settings.samples_of_whole("farm")?;
         self.settings.visibility()?;
         let scene = self.input.read()?;
+        let file = FileSettings::of(&scene);
+        let samples = self.settings.samples_of_whole("farm", file)?;
         self.view.view(&scene)?;
         let folder = absolute(&self.output)?;
         let here = absolute(Path::new("."))?;

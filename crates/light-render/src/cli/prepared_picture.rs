@@ -2,6 +2,8 @@ use crate::{
     LightLayers, PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility, World,
 };
 
+use super::render_settings::FileSettings;
+
 /// All that a picture depends on.
 #[derive(Debug)]
 pub(super) struct PreparedPicture {
@@ -14,6 +16,8 @@ pub(super) struct PreparedPicture {
     pub(super) layers: Option<LightLayers>,
     /// How bright the file wants it shown.
     pub(super) exposure: Option<f32>,
+    /// What else the file asks for.
+    pub(super) file: FileSettings,
     pub(super) digest: SceneDigest,
 }
 

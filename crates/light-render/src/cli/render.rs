@@ -18,6 +18,7 @@ use super::prepared_picture::PreparedPicture;
 use super::progress::{ProgressLine, Volume};
 use super::render_args::RenderArgs;
 use super::render_report::RenderReport;
+use super::render_settings::FileSettings;
 use super::rendered_picture::RenderedPicture;
 use super::stdout::{complain, say};
 use super::unfinished::Unfinished;
@@ -86,7 +87,8 @@ impl RenderArgs {
         }
         let view = self.view.view(&scene)?;
         self.check_memory(&view, visibility)?;
-        let file_depth = scene.max_depth;
+        let file = FileSettings::of(&scene);
+        self.say_samples(file);
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = SceneDigest::new(&scene).map_err(Failure::input)?;
         let world = self.input.build(scene)?;
@@ -94,7 +96,7 @@ impl RenderArgs {
             self.input.expect_light(&world)?;
         }
         self.doubt(|| doubts::of_lamps(&inventory(world.lights())));
-        let settings = self.settings.settings(&world, file_depth)?;
+        let settings = self.settings.settings(&world, file)?;
         let layers = self.layers.layers(&self.input, &world, &view, &settings)?;
         Ok(PreparedPicture {
             world,
@@ -104,6 +106,7 @@ impl RenderArgs {
             visibility,
             layers,
             exposure,
+            file,
             digest,
         })
     }
@@ -201,7 +204,7 @@ impl RenderArgs {
         }
         let unfinished = Unfinished {
             output: &self.output[0],
-            wanted: self.settings.wanted_samples(),
+            wanted: self.settings.wanted_samples(picture.file),
             checkpoint: self.checkpoint.path(),
         };
         let kept = unfinished.keep(made.rendering.film, || picture.identity())?;
@@ -213,6 +216,17 @@ impl RenderArgs {
     /// layers are wanted, which nothing could go on from.
     fn stops_gently(&self) -> bool {
         self.settings.samples.is_none() && !self.layers.is_wanted()
+    }
+
+    /// Says how many samples a pixel has, if the file of the scene decides it.
+    fn say_samples(&self, file: FileSettings) {
+        let samples = self.settings.samples_of_file(file).filter(|_| !self.quiet);
+        if let Some(samples) = samples {
+            let scene = self.input.scene.display();
+            complain(format_args!(
+                "{samples} samples a pixel, as {scene} asks for (--spp sets another number)"
+            ));
+        }
     }
 
     /// Says what is strange about the picture, if something is.

@@ -63,7 +63,9 @@ impl RenderArgs {
         let is_shown = outputs.iter().any(|output| !output.has_layers());
         self.doubt(|| {
             let shown = || is_shown.then(|| doubts::of_shown(&image, &tone_map))?;
-            doubts::of_black(&image).or_else(shown)
+            let is_fixed = is_shown && !self.display.is_auto(picture.exposure);
+            let clipped = || is_fixed.then(|| doubts::of_clipped(&image, &tone_map))?;
+            doubts::of_black(&image).or_else(shown).or_else(clipped)
         });
         outputs.iter().try_for_each(|output| match &layers[..] {
             [] => output.write(&image, &tone_map),

@@ -3,6 +3,7 @@ use core::ops::Range;
 use core::time::Duration;
 
 use clap::{Args, ValueEnum};
+use light_scene::Scene;
 use lights::media::StepSize;
 
 use crate::integrator::{self, Integrator, PathSettings, SingleScattering};
@@ -18,10 +19,29 @@ const DEFAULT_DEPTH: u32 = 8;
 /// Samples a pixel when nothing is said.
 const DEFAULT_SAMPLES: u32 = 64;
 
+/// What the file of a scene asks for, where the command line says nothing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FileSettings {
+    /// Segments of the longest path.
+    max_depth: Option<u32>,
+    /// Samples a pixel.
+    samples: Option<u32>,
+}
+
+impl FileSettings {
+    pub(crate) const fn of(scene: &Scene) -> Self {
+        Self {
+            max_depth: scene.max_depth,
+            samples: scene.samples_per_pixel,
+        }
+    }
+}
+
 /// Which samples are taken, and how.
 #[derive(Args, Debug)]
 pub(crate) struct SettingsArgs {
-    /// Samples a pixel; without it 64, or as many as fit into --time.
+    /// Samples a pixel; without it as many as fit into --time, or as the scene's file asks for, or
+    /// 64.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
     /// Render these samples alone, into an .exr that `lights merge` adds to others.
@@ -128,9 +148,13 @@ impl SettingsArgs {
     ///
     /// # Errors
     /// When a part or a time was asked for instead.
-    pub(crate) fn samples_of_whole(&self, command: &str) -> Result<u32, Failure> {
+    pub(crate) fn samples_of_whole(
+        &self,
+        command: &str,
+        file: FileSettings,
+    ) -> Result<u32, Failure> {
         let flag = match (&self.samples, self.time) {
-            (None, None) => return Ok(self.spp.unwrap_or(DEFAULT_SAMPLES)),
+            (None, None) => return Ok(self.spp.unwrap_or_else(|| default_samples(file))),
             (Some(_), _) => "--samples",
             (None, Some(_)) => "--time",
         };
@@ -140,35 +164,41 @@ impl SettingsArgs {
     }
 
     /// Samples a pixel, unless they are as many as fit into a time.
-    pub(crate) const fn wanted_samples(&self) -> Option<u32> {
+    pub(crate) fn wanted_samples(&self, file: FileSettings) -> Option<u32> {
         match (self.spp, self.time) {
             (Some(spp), _) => Some(spp),
             (None, Some(_)) => None,
-            (None, None) => Some(DEFAULT_SAMPLES),
+            (None, None) => Some(default_samples(file)),
         }
     }
 
-    /// The settings for `world`, whose file asks for paths of at most `file_depth` segments.
+    /// The samples a pixel that the file decides, if it does.
+    pub(crate) fn samples_of_file(&self, file: FileSettings) -> Option<u32> {
+        let is_silent = self.spp.is_none() && self.time.is_none() && self.samples.is_none();
+        file.samples.filter(|_| is_silent)
+    }
+
+    /// The settings for `world`.
     ///
     /// # Errors
     /// When the steps of a march are so short that it would not reach through the scene.
     pub(crate) fn settings(
         &self,
         world: &World,
-        file_depth: Option<u32>,
+        file: FileSettings,
     ) -> Result<RenderSettings, Failure> {
         let samples = match (&self.samples, self.spp, self.time) {
             (Some(samples), _, _) => samples.clone(),
             (None, Some(spp), _) => 0..spp,
             (None, None, Some(_)) => 0..u32::MAX,
-            (None, None, None) => 0..DEFAULT_SAMPLES,
+            (None, None, None) => 0..default_samples(file),
         };
         Ok(RenderSettings {
             samples,
             time_limit: self.time,
             seed: self.seed,
             path: PathSettings {
-                max_depth: self.max_depth.or(file_depth).unwrap_or(DEFAULT_DEPTH),
+                max_depth: self.max_depth.or(file.max_depth).unwrap_or(DEFAULT_DEPTH),
                 estimator: match self.estimator {
                     Estimator::Mis => integrator::Estimator::Mis,
                     Estimator::Light => integrator::Estimator::Light,
@@ -197,6 +227,11 @@ impl SettingsArgs {
             None => Integrator::fitting(world),
         })
     }
+}
+
+/// Samples a pixel where the command line does not say how many.
+fn default_samples(file: FileSettings) -> u32 {
+    file.samples.unwrap_or(DEFAULT_SAMPLES)
 }
 
 /// Steps of this length, if the most that a march takes reach through the world.

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use crate::World;
 use clap::Args;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, read_environment};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, is_scene_name, read_environment};
 use lights::glam::{Affine3A, Quat, Vec3};
 
 use super::arguments::{Emit, finite};
@@ -118,10 +118,9 @@ impl SceneInput {
     }
 }
 
-/// The scene in a file, by the ending of its name, or the one that ships under a name without
-/// ending.
+/// The scene in a file, by the ending of its name, or the one that ships under this name.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {
-    if path.extension().is_some() {
+    if is_scene_name(path) {
         return light_scene::read_scene(path).map_err(Failure::input);
     }
     let shipped = path.to_string_lossy().parse::<BuiltinScene>();

@@ -28,7 +28,15 @@ fn help_has_examples_values_and_exit_codes() {
         assert!(render.contains(value), "{value} in {render}");
     }
     let bench = stdout(&["bench", "--help"]);
-    for value in ["clusters", "stadium", "one-point", "bvh-morton"] {
+    for value in [
+        "clusters",
+        "stadium",
+        "one-point",
+        "bvh-morton",
+        "Columns:",
+        "ns/pmf",
+        "V within",
+    ] {
         assert!(bench.contains(value), "{value} in {bench}");
     }
     let median = stdout(&["env", "median-cut", "--help"]);

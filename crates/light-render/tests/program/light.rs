@@ -234,3 +234,40 @@ fn lamps_that_a_sky_outshines_are_named() {
         "{said}"
     );
 }
+
+#[test]
+fn much_white_is_named_with_its_share() {
+    let folder = Folder::new("white");
+    let scene = folder.scene(LIT);
+    let png = folder.path("a.png");
+    let bright = words(&["render", &scene, "-o", &png, "--exposure", "9"]);
+    for word in [" % of the picture is white", "--exposure auto"] {
+        assert!(bright.contains(word), "{word} in {bright}");
+    }
+    let auto = words(&["render", &scene, "-o", &png]);
+    assert_eq!(auto, "", "fitted");
+}
+
+#[test]
+fn files_say_how_many_samples_a_pixel_has() {
+    let folder = Folder::new("pixelsamples");
+    let scene = folder.file(
+        "a.pbrt",
+        "Sampler \"zsobol\" \"integer pixelsamples\" 3 Camera \"perspective\" WorldBegin \
+         LightSource \"infinite\"",
+    );
+    let out = folder.path("a.exr");
+    let render = ["render", &scene, "-o", &out, "--json"];
+    let spp = |more: &[&str]| {
+        let report = stdout(&[&render, &SMALL[..2], more].concat());
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        report["spp"].as_u64()
+    };
+    assert_eq!(spp(&[]), Some(3), "of the file");
+    assert_eq!(spp(&["--spp", "5"]), Some(5), "of the command line");
+    let output = lights(&[&render[..4], &SMALL[..2]].concat());
+    let said = String::from_utf8(output.stderr).expect("text");
+    for word in ["3 samples a pixel", "a.pbrt", "--spp"] {
+        assert!(said.contains(word), "{word} in {said}");
+    }
+}

@@ -60,6 +60,14 @@ fn a_bad_light_of_a_set_is_named() {
 }
 
 #[test]
+fn scenes_of_unknown_endings_are_told_what_there_is() {
+    for name in ["x.pbt", "cornell.box", "nigth"] {
+        let words = [name, ".pbrt", ".gltf", "cornell-box", "night"];
+        assert_refused(&["render", name, "-o", "a.exr"], &words);
+    }
+}
+
+#[test]
 fn nonsense_on_the_command_line_is_refused() {
     let folder = Folder::new("nonsense");
     let scene = folder.scene(LIT);
