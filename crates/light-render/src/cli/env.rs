@@ -5,7 +5,9 @@ use super::env_median_cut::MedianCutArgs;
 use super::failure::Failure;
 
 /// Work on environment maps.
+// Without a command, one line that lists them is the answer, as everywhere, not the help.
 #[derive(Args, Debug)]
+#[command(arg_required_else_help = false)]
 pub(crate) struct EnvArgs {
     #[command(subcommand)]
     command: EnvCommand,
