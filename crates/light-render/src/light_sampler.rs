@@ -82,7 +82,7 @@ impl SamplerKind {
         Self::BvhMorton,
     ];
 
-    /// Those that do not prepared at every light for each choice.
+    /// Those that do not look at every light for each choice.
     pub(crate) const SUBLINEAR: [Self; 4] =
         [Self::Uniform, Self::Power, Self::BvhReference, Self::Bvh];
 

@@ -1,5 +1,6 @@
 //! A folder for one test.
 
+use core::sync::atomic::{AtomicUsize, Ordering};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -8,10 +9,11 @@ use std::path::{Path, PathBuf};
 pub(crate) struct TestFolder(PathBuf);
 
 impl TestFolder {
-    /// A new folder; `name` must be another one in each test.
+    /// A new folder of its own, also where tests of one name run at once.
     pub(crate) fn new(name: &str) -> Self {
-        let process = std::process::id();
-        let folder = std::env::temp_dir().join(format!("light-scene-{name}-{process}"));
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let folder = std::env::temp_dir().join(format!("light-scene-{name}-{process}-{count}"));
         fs::create_dir_all(&folder).expect("a folder for the test");
         Self(folder)
     }

@@ -240,7 +240,7 @@ fn much_white_is_named_with_its_share() {
     let folder = Folder::new("white");
     let scene = folder.scene(LIT);
     let png = folder.path("a.png");
-    let bright = words(&["render", &scene, "-o", &png, "--exposure", "9"]);
+    let bright = words(&["render", &scene, "-o", &png, "--exposure", "15"]);
     for word in [" % of the picture is white", "--exposure auto"] {
         assert!(bright.contains(word), "{word} in {bright}");
     }
