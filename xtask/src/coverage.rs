@@ -43,7 +43,7 @@ pub fn coverage(names: &[String]) -> StepResult {
     }
     let is_chosen = |name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
     let tool = cargo_tool("cargo-llvm-cov", Install::Allowed)?;
-    let llvm = match llvm_tools() {
+    let llvm = match Llvm::find() {
         Ok(llvm) => llvm,
         Err(reason) => return Ok(Outcome::Skipped(reason)),
     };
@@ -53,21 +53,15 @@ pub fn coverage(names: &[String]) -> StepResult {
             .arg("llvm-cov")
             .args(arguments)
             .current_dir(root())
-            .env_remove("CARGO");
-        if let Some(folder) = &llvm {
-            let programs = folder.join("usr/bin");
-            command.env("LD_LIBRARY_PATH", debian::libraries(folder));
-            for (variable, program) in
-                [("LLVM_COV", "llvm-cov"), ("LLVM_PROFDATA", "llvm-profdata")]
-            {
-                command.env(variable, programs.join(format!("{program}-{}", major()?)));
-            }
-        }
-        Ok::<_, String>(command)
+            .env_remove("CARGO")
+            .envs(llvm.environment())
+            .env("LLVM_COV", llvm.program("llvm-cov"))
+            .env("LLVM_PROFDATA", llvm.program("llvm-profdata"));
+        command
     };
     // Objects and counts of an earlier run may be of other lines.
-    run(&mut command(&["clean", "--workspace"])?)?;
-    let mut tests = command(&["--no-report", "--quiet"])?;
+    run(&mut command(&["clean", "--workspace"]))?;
+    let mut tests = command(&["--no-report", "--quiet"]);
     for name in CRATES.into_iter().filter(|name| is_chosen(name)) {
         tests.args(["--package", name]);
         let of_crate = |feature: &&str| feature.split('/').next() == Some(name);
@@ -76,11 +70,10 @@ pub fn coverage(names: &[String]) -> StepResult {
         }
     }
     run(&mut tests)?;
-    let tools = Llvm::new(llvm)?;
-    let counts = tools.merged_counts()?;
+    let counts = llvm.merged_counts()?;
     let mut exports = Vec::new();
     for program in programs()? {
-        exports.extend(tools.export(&counts, &program)?);
+        exports.extend(llvm.export(&counts, &program)?);
     }
     let report = Report::from_exports(&exports, is_chosen)?;
     print!("{report}");
@@ -97,27 +90,44 @@ struct Llvm {
 }
 
 impl Llvm {
-    /// Debian's programs below `folder`, or rustup's.
-    fn new(folder: Option<PathBuf>) -> Result<Self, String> {
-        Ok(match folder {
-            Some(folder) => Self {
-                suffix: format!("-{}", major()?),
-                libraries: Some(debian::libraries(&folder)),
-                folder: folder.join("usr/bin"),
-            },
-            None => Self {
-                folder: component()?.ok_or("no llvm-cov")?,
+    /// Those of rustup's component `llvm-tools`; where it is not installed, Debian's of the
+    /// compiler's version.
+    fn find() -> Result<Self, String> {
+        if let Some(folder) = component()? {
+            return Ok(Self {
+                folder,
                 suffix: String::new(),
                 libraries: None,
-            },
+            });
+        }
+        let major = major()?;
+        let package = format!("llvm-{major}");
+        let unpacked = debian::unpacked("debian-llvm", std::slice::from_ref(&package));
+        let folder = unpacked.map_err(|reason| {
+            format!(
+                "no llvm-cov (rustup component add llvm-tools), no {package} from Debian ({reason})"
+            )
+        })?;
+        Ok(Self {
+            suffix: format!("-{major}"),
+            libraries: Some(debian::libraries(&folder)),
+            folder: folder.join("usr/bin"),
         })
     }
 
+    fn program(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}{}", self.suffix))
+    }
+
+    /// What the programs need to be set.
+    fn environment(&self) -> impl Iterator<Item = (&str, &str)> {
+        let libraries = self.libraries.as_deref();
+        libraries.map(|path| ("LD_LIBRARY_PATH", path)).into_iter()
+    }
+
     fn command(&self, name: &str) -> Command {
-        let mut command = Command::new(self.folder.join(format!("{name}{}", self.suffix)));
-        if let Some(libraries) = &self.libraries {
-            command.env("LD_LIBRARY_PATH", libraries);
-        }
+        let mut command = Command::new(self.program(name));
+        command.envs(self.environment());
         command
     }
 
@@ -131,8 +141,8 @@ impl Llvm {
         Ok(merged)
     }
 
-    /// What one program has run, as JSON with warnings behind it; nothing
-    /// of a program whose tests need other features.
+    /// What one program has run, as JSON with warnings behind it; nothing of a program whose tests
+    /// need other features.
     ///
     /// Of a function that is in several programs, `llvm-cov` takes the one that it reads first, and
     /// in that program it may be unused; therefore each program has an export of its own.
@@ -178,21 +188,6 @@ fn component() -> Result<Option<PathBuf>, String> {
         .filter_map(Result::ok)
         .map(|host| host.path().join("bin"))
         .find(|programs| programs.join("llvm-cov").is_file()))
-}
-
-/// Debian's LLVM of the compiler's version, where rustup's component `llvm-tools` is not installed.
-fn llvm_tools() -> Result<Option<PathBuf>, String> {
-    if component()?.is_some() {
-        return Ok(None);
-    }
-    let package = format!("llvm-{}", major()?);
-    let folder =
-        debian::unpacked("debian-llvm", std::slice::from_ref(&package)).map_err(|reason| {
-            format!(
-                "no llvm-cov (rustup component add llvm-tools), no {package} from Debian ({reason})"
-            )
-        })?;
-    Ok(Some(folder))
 }
 
 /// The major version of the compiler's LLVM.

@@ -11,6 +11,10 @@ use light_samplers::{
 };
 use light_testkit::{SamplerCase, stored};
 
+#[path = "support/asked.rs"]
+mod asked;
+use asked::Asked;
+
 light_testkit::sampler_laws! {
     /// Every light alike.
     mod uniform {
@@ -187,31 +191,6 @@ impl LightSampler for OfCut {
 
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         LightChoices::one_by_one(self, ctx, count)
-    }
-
-    fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
-        self.0.sample_emitter(u)
-    }
-
-    fn pmf_emitter(&self, light: LightId) -> f32 {
-        self.0.pmf_emitter(light)
-    }
-}
-
-/// A sampler that changes every context before it uses it.
-struct Asked<S>(S, fn(&LightSampleContext) -> LightSampleContext);
-
-impl<S: LightSampler> LightSampler for Asked<S> {
-    fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
-        self.0.sample(&self.1(ctx), u)
-    }
-
-    fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.0.pmf(&self.1(ctx), light)
-    }
-
-    fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        self.0.at(&self.1(ctx), count)
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {

@@ -61,14 +61,7 @@ impl<'a> InstancedLightBvhAt<'a> {
         let placed = self.top.sample(u)?;
         let (tree, receiver) = self.in_prototype(placed.light.0)?;
         let chosen = tree.sample(receiver, placed.u)?;
-        Some(SampledPlacedLight {
-            light: PlacedLight {
-                placement: placed.light.0,
-                light: chosen.light,
-            },
-            pmf: positive_product(placed.pmf, chosen.pmf),
-            u: chosen.u,
-        })
+        Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.

@@ -180,14 +180,7 @@ impl InstancedLightBvh {
         let placed = self.top.view().sample_emitter(u)?;
         let (_, prototype) = self.placed(placed.light.0)?;
         let chosen = prototype.tree().view().sample_emitter(placed.u)?;
-        Some(SampledPlacedLight {
-            light: PlacedLight {
-                placement: placed.light.0,
-                light: chosen.light,
-            },
-            pmf: positive_product(placed.pmf, chosen.pmf),
-            u: chosen.u,
-        })
+        Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.

@@ -1,4 +1,5 @@
-use light_bounds::LightId;
+use light_bounds::{LightId, SampledLight};
+use light_math::float::positive_product;
 
 /// Identifies a light of an [`InstancedLightBvh`](crate::InstancedLightBvh): the position of its
 /// placement, and its own position in the prototype.
@@ -20,4 +21,19 @@ pub struct SampledPlacedLight {
     pub pmf: f32,
     /// Unused part of `u`: given the light, a uniform [fraction](light_math::fraction) of 2^64.
     pub u: u64,
+}
+
+impl SampledPlacedLight {
+    /// The choice of a light of a prototype after that of a placement.
+    #[inline]
+    pub(crate) fn of(placed: &SampledLight, chosen: &SampledLight) -> Self {
+        Self {
+            light: PlacedLight {
+                placement: placed.light.0,
+                light: chosen.light,
+            },
+            pmf: positive_product(placed.pmf, chosen.pmf),
+            u: chosen.u,
+        }
+    }
 }
