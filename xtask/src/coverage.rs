@@ -32,8 +32,8 @@ const FEATURES: [&str; 4] = [
 /// Runs the tests of the core crates, or of those named; prints a table of the crates, and what is
 /// not reached with the reasons.
 ///
-/// The longer tests of the test kit, which reach more, are left out: what counts is that each
-/// crate's own tests reach it.
+/// The longer tests of the test kit, which reach more, are left out. The tests of all these crates
+/// count together, so that a crate is also reached by those of another one.
 ///
 /// # Errors
 /// What could not run.
