@@ -49,7 +49,7 @@ impl BlockMeans {
             }
         }
         let (mut start, mut fine) = (0, size);
-        for level in 1..=blocks.log2_blocks[0].max(blocks.log2_blocks[1]) {
+        for level in 1..=blocks.levels() {
             let coarse = blocks.size(level);
             let step = [fine[0] / coarse[0], fine[1] / coarse[1]];
             for (y, x) in (0..coarse[1]).flat_map(|y| (0..coarse[0]).map(move |x| (y, x))) {
@@ -68,6 +68,11 @@ impl BlockMeans {
 
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(self.means.as_slice())
+    }
+
+    /// The level of the whole.
+    pub(crate) fn levels(&self) -> u32 {
+        self.log2_blocks[0].max(self.log2_blocks[1])
     }
 
     /// Blocks of a level along each axis of the unit square.
@@ -92,9 +97,7 @@ impl BlockMeans {
 
     /// The stored mean over a block, the same for every wrap rule.
     pub(crate) fn stored(&self, block: Block, wrap: [Wrap; 2]) -> DVec3 {
-        let level = block
-            .level
-            .min(self.log2_blocks[0].max(self.log2_blocks[1]));
+        let level = block.level.min(self.levels());
         let start: usize = (0..level).map(|l| self.size(l)).map(|[w, h]| w * h).sum();
         let [x, y] = [0, 1].map(|axis| self.folded(axis, block, wrap[axis]));
         self.means[start + y * self.size(level)[0] + x].as_dvec3()

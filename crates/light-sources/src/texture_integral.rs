@@ -25,8 +25,8 @@ use image_corners::{image_corners, is_single};
 ///
 /// Only a surface of more than [`FINEST`] blocks along an axis is cut more coarsely.
 ///
-/// `behind` is an image of which `shown` is the mask, where they have different mappings; it is
-/// exact up to [`FINEST_APART`] blocks.
+/// `behind` is an image of which `shown` is the mask, where they have different mappings. All of a
+/// mask is visited then; one that repeats itself on the surface, up to [`FINEST_REPEATED`] blocks.
 pub(crate) fn mean(
     shown: &Shown<'_>,
     blocks: &BlockMeans,
@@ -74,9 +74,10 @@ fn pieces(density: &UvDensity) -> impl Iterator<Item = [Vec2; 2]> {
 /// The most blocks of a surface along an axis, as a power of two.
 const FINEST: u32 = 12;
 
-/// As [`FINEST`], for a mask with a mapping of its own: in smaller blocks that are partly masked,
-/// it is replaced by its mean, independent of the image behind.
-const FINEST_APART: u32 = 5;
+/// As [`FINEST`], for a mask with a mapping of its own that a surface shows more than twice along an
+/// axis: in smaller blocks that are partly masked, it is replaced by its mean, independent of the
+/// image behind.
+const FINEST_REPEATED: u32 = 7;
 
 /// Weight of neighbouring texels that rounding may make visible: far below single precision.
 const NEARBY: f64 = 1.0 / (1u64 << 40) as f64;
@@ -163,7 +164,10 @@ impl<'a> Integral<'a> {
             return;
         }
         let (level, [low, high]) = self.grid.covering(inside.place_bounds());
-        let most = self.behind.map_or(FINEST, |_| FINEST_APART);
+        let most = match self.behind {
+            None => FINEST,
+            Some(_) => FINEST.min(FINEST_REPEATED.max(self.grid.blocks.levels() + 1)),
+        };
         let finest = level.saturating_sub(most);
         let mut rows = inside;
         for y in low[1]..=high[1] {

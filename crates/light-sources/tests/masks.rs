@@ -244,22 +244,61 @@ fn check(what: &str, emission: &DiffuseEmission<Rgb>, shape: &impl Shape, error:
     assert!(expected == 0.0 || found > 0.0, "{what}: {found}");
 }
 
-/// Of masks with more blocks than count one by one, the power is near.
+/// A fine mask that hides the dark half of its image: by the same mapping, and by one that differs
+/// only beyond the edges of the image.
 #[test]
 fn fine_masks_with_a_mapping_of_their_own() {
     let mut rng = Rng::new(92);
     let texels: Vec<f32> = (0..512 * 512).map(|_| rng.range(0.0, 1.0)).collect();
+    let texture = Texture::from(gray([512, 512], &texels));
+    let turned = Affine2::from_scale_angle_translation(Vec2::splat(0.6), 0.3, Vec2::new(0.3, 0.15));
+    let [mapping, own] = [Wrap::Clamp, Wrap::Mirror].map(|wrap| TextureMapping {
+        transform: turned,
+        wrap: [wrap; 2],
+    });
+    for cutoff in [None, Some(0.5)] {
+        let [together, apart] = [None, Some(own)].map(|own| {
+            let mask = AlphaMask {
+                mapping: own,
+                cutoff,
+                ..texture.clone().into()
+            };
+            let color = SurfaceColor::Image {
+                texture: texture.clone(),
+                tint: Vec3::ONE,
+            };
+            mean(&emission((color, mapping), mask), &square())
+        });
+        assert!(together > 0.26, "of noise the mean of squares: {together}");
+        assert_near(apart, together, &format!("cutoff {cutoff:?}"));
+    }
+}
+
+/// A mask that repeats itself so often that its smallest blocks count by their mean: over a ramp it
+/// has half of its mean, but for the periods at the edges.
+#[test]
+fn repeated_masks_with_a_mapping_of_their_own() {
+    let mut rng = Rng::new(93);
+    let texels: Vec<f32> = (0..32 * 32).map(|_| rng.range(0.0, 1.0)).collect();
     let (color, mapping) = ramp();
     for cutoff in [None, Some(0.5)] {
-        let mask = AlphaMask {
-            mapping: Some(TextureMapping {
-                transform: Affine2::from_angle(0.5),
-                wrap: [Wrap::Repeat; 2],
-            }),
-            cutoff,
-            ..gray([512, 512], &texels).into()
-        };
-        let emission = emission((color.clone(), mapping), mask);
-        check("fine", &emission, &square(), 1e-3);
+        let [over_ramp, over_period] = [100.0, 1.0].map(|repeats| {
+            let mask = AlphaMask {
+                mapping: Some(TextureMapping {
+                    transform: Affine2::from_scale(Vec2::splat(repeats)),
+                    wrap: [Wrap::Repeat; 2],
+                }),
+                cutoff,
+                ..gray([32, 32], &texels).into()
+            };
+            let color = if repeats > 1.0 {
+                (color.clone(), mapping)
+            } else {
+                white()
+            };
+            mean(&emission(color, mask), &square())
+        });
+        let found = over_ramp / (0.5 * over_period);
+        assert!((found - 1.0).abs() < 1e-3, "cutoff {cutoff:?}: {found}");
     }
 }
