@@ -2,7 +2,7 @@
 //! from it meets nothing.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
-use light_sources::shape::{Shape, ShapeDesc};
+use light_sources::shape::{AnyShape, Shape, ShapeDesc};
 use light_testkit::Rng;
 
 fn shapes() -> [ShapeDesc; 7] {
@@ -58,6 +58,31 @@ fn rays_meet_the_nearest_point_from_both_sides() {
             assert_eq!(away, None, "{desc:?}: away from the front");
         }
     }
+}
+
+/// A sphere that is not turned is one around its centre; a point of a disk or of a tube is that of
+/// its surface parameters.
+#[test]
+fn short_names_and_parameters() {
+    let mut rng = Rng::new(2);
+    for desc in shapes() {
+        let shape = desc.build().expect("a shape");
+        for _ in 0..50 {
+            let u = Vec2::new(rng.range(0.01, 0.99), rng.range(0.01, 0.99));
+            let at = shape.sample(u).expect("a point").at;
+            let found = match &shape {
+                AnyShape::Disk(disk) => disk.at_uv(at.uv),
+                AnyShape::Cylinder(tube) => tube.at_uv(at.uv),
+                _ => continue,
+            };
+            assert!(found.p.abs_diff_eq(at.p, 1e-5), "{found:?}, {at:?}");
+            assert!(found.n.abs_diff_eq(at.n, 1e-5), "{found:?}, {at:?}");
+            assert_eq!(found.uv, at.uv, "{found:?}");
+        }
+    }
+    let sphere = ShapeDesc::sphere(Vec3::X, 0.5).build().expect("a sphere");
+    let hit = sphere.hit(Vec3::ZERO, Vec3::X).expect("its near side");
+    assert!(hit.p.abs_diff_eq(Vec3::new(0.5, 0.0, 0.0), 1e-6), "{hit:?}");
 }
 
 /// From a point inside, and from beyond both walls.

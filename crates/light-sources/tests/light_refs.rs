@@ -4,7 +4,7 @@
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::light_bounds::{LightGroups, LightSampleContext};
 use light_sources::light_math::SphereMap;
-use light_sources::shape::ShapeDesc;
+use light_sources::shape::{AnyShape, ShapeDesc};
 use light_sources::*;
 
 fn image() -> Image {
@@ -19,7 +19,7 @@ fn media() -> MediumInterface {
 }
 
 /// One light of each kind.
-fn lights() -> LightSet<Rgb> {
+fn descs() -> [LightDesc<Rgb>; 11] {
     let transform = Affine3A::IDENTITY;
     let media = media();
     let amount = IntensityAmount::Radiometric(3.0);
@@ -29,7 +29,7 @@ fn lights() -> LightSet<Rgb> {
         ..DiffuseEmissionDesc::new(SurfaceColor::Uniform(Vec3::ONE), radiance)
     };
     let map = EnvironmentMap::EqualArea(image());
-    let descs: [LightDesc<Rgb>; 11] = [
+    [
         LightDesc::Point(PointLightDesc {
             position: Vec3::ZERO,
             emission: Vec3::ONE,
@@ -97,13 +97,20 @@ fn lights() -> LightSet<Rgb> {
             uvs: None,
             emission: emission(),
         }),
-    ];
+    ]
+}
+
+fn set(descs: impl IntoIterator<Item = LightDesc<Rgb>>) -> LightSet<Rgb> {
     let scene = SceneSphere::new(Vec3::ZERO, 4.0).expect("a sphere");
     let mut builder = LightSetBuilder::new(scene);
     for desc in descs {
         builder.add(desc).expect("a light");
     }
     builder.build()
+}
+
+fn lights() -> LightSet<Rgb> {
+    set(descs())
 }
 
 /// A place of the square and of the triangle, seen from the front.
@@ -154,6 +161,7 @@ fn invisible_surfaces_are_found_by_samples_alone() {
 fn surfaces_alone_have_a_radiance_that_leaves_them() {
     let set = lights();
     let mut surfaces = 0;
+    let above = Vec3::new(0.25, 0.25, 1.0);
     for (_, light) in set.iter() {
         let is_surface = matches!(light, LightRef::Area(_) | LightRef::Triangle(_));
         surfaces += u32::from(is_surface);
@@ -164,8 +172,55 @@ fn surfaces_alone_have_a_radiance_that_leaves_them() {
         };
         assert_eq!(light.l(&front(), Vec3::Z, &()), expected, "{light:?}");
         assert_eq!(light.l(&front(), Vec3::NEG_Z, &()), Vec3::ZERO, "{light:?}");
+        let met = light.hit(above, Vec3::NEG_Z).map(|at| at.p);
+        assert_eq!(met, is_surface.then_some(front().p), "{light:?}");
     }
     assert_eq!(surfaces, 2, "a square and a triangle");
+}
+
+/// Three times as bright is three times the power, for every kind.
+#[test]
+fn descriptions_become_brighter() {
+    let before = lights();
+    let after = set(descs().map(|mut desc| {
+        assert!(desc.scale(3.0), "{desc:?}");
+        desc
+    }));
+    for ((id, light), (_, bright)) in before.iter().zip(after.iter()) {
+        let [light, bright] = [light, bright].map(|light| light.phi(&()).x);
+        assert!(light > 0.0, "{id:?}: {light}");
+        let near = (bright / light - 3.0).abs() < 1e-5;
+        assert!(near, "{id:?}: {light}, {bright}");
+    }
+    let skies = descs().map(|desc| desc.is_sky());
+    let count = skies.iter().filter(|is_sky| **is_sky).count();
+    assert_eq!(count, 4, "suns and skies: {skies:?}");
+}
+
+/// An image or a mask varies the radiance of a surface, also if its texels are alike.
+#[test]
+fn uniform_surfaces_have_one_radiance() {
+    let texture = || Texture::from(image());
+    let white = SurfaceColor::<Rgb>::Uniform(Vec3::ONE);
+    let shown = SurfaceColor::Image {
+        texture: texture(),
+        tint: Vec3::ONE,
+    };
+    let mask = || EmissionMask::Alpha(texture().into());
+    for (color, mask, expected) in [
+        (&white, EmissionMask::Opaque, Some(Vec3::splat(2.0))),
+        (&white, EmissionMask::Invisible, Some(Vec3::splat(2.0))),
+        (&white, mask(), None),
+        (&shown, EmissionMask::Opaque, None),
+    ] {
+        let desc = DiffuseEmissionDesc {
+            mask,
+            ..DiffuseEmissionDesc::new(color.clone(), RadianceAmount::Radiometric(2.0))
+        };
+        let what = format!("{desc:?}");
+        let emission = DiffuseEmission::new(desc, [] as [AnyShape; 0]).expect("an emission");
+        assert_eq!(emission.uniform_radiance(&()), expected, "{what}");
+    }
 }
 
 #[test]
