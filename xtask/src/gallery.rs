@@ -6,7 +6,27 @@ use std::fs;
 use crate::steps::{Outcome, StepResult, cargo, root, run};
 
 /// Examples of `lights` that write a picture of their name.
-const EXAMPLES: [&str; 4] = ["fog", "light_groups", "median_cut", "spectral"];
+const EXAMPLES: [&str; 5] = [
+    "fog",
+    "light_groups",
+    "median_cut",
+    "spectral",
+    "spectral_and_rgb",
+];
+
+/// Examples of `light-render`, and the pictures that they write.
+const RENDERED: [(&str, &[&str]); 3] = [
+    ("portals", &["portals-sky", "portals-window"]),
+    (
+        "cornell_lesson",
+        &[
+            "cornell-lesson-hemisphere-10",
+            "cornell-lesson-hemisphere-1000",
+            "cornell-lesson-lamp-10",
+        ],
+    ),
+    ("side_by_side", &["side_by_side"]),
+];
 
 /// Pictures of the demo.
 const DEMO: [&str; 6] = [
@@ -33,7 +53,12 @@ pub fn gallery(arguments: &[String]) -> StepResult {
         let package = ["run", "--release", "--package", "lights", "--example"];
         run(cargo(package).arg(example))?;
     }
-    for name in DEMO.iter().chain(&EXAMPLES) {
+    for (example, _) in RENDERED {
+        let package = ["run", "--release", "--package", "light-render", "--example"];
+        run(cargo(package).arg(example))?;
+    }
+    let rendered = RENDERED.iter().flat_map(|(_, pictures)| *pictures);
+    for name in DEMO.iter().chain(&EXAMPLES).chain(rendered) {
         let from = root().join(format!("out/{name}.png"));
         let to = root().join(format!("docs/images/gallery/{name}.png"));
         fs::copy(&from, to).map_err(|e| format!("{}: {e}", from.display()))?;

@@ -2,15 +2,19 @@
 //! the hemisphere, with the same mean; and a lamp that hangs below the ceiling lights it only when
 //! it emits light on both sides.
 //!
-//! `cargo run --release -p light-render --example cornell_lesson`
+//! `cargo run --release -p light-render --example cornell_lesson` prints means and noise, and
+//! writes `out/cornell-lesson-KIND-SPP.png` of the first three rows.
+
+use std::fs;
+use std::path::Path;
 
 use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{AnyLightSampler, RenderSettings, SamplerKind, View, World, render};
 use light_scene::glam::Vec3;
-use light_scene::{BuiltinScene, EmissionSides, Scene};
+use light_scene::{BuiltinScene, EmissionSides, Image, Scene, write_png};
 
 /// The side of the picture in pixels.
-const SIZE: u32 = 48;
+const SIZE: u32 = 128;
 
 fn main() -> Result<(), Box<dyn core::error::Error>> {
     let scene = BuiltinScene::CornellBox.load();
@@ -22,6 +26,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     );
     for (name, scene, estimator, spp) in [
         ("toward the lamp", &scene, Estimator::Light, 10),
+        ("over the hemisphere", &scene, Estimator::Bsdf, 10),
         ("over the hemisphere", &scene, Estimator::Bsdf, 1000),
         ("both, weighted", &scene, Estimator::Mis, 10),
         (
@@ -46,9 +51,26 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
             mean(&a),
             noise(&a, &b)
         );
+        match name {
+            "toward the lamp" => show("lamp", spp, &a)?,
+            "over the hemisphere" => show("hemisphere", spp, &a)?,
+            _ => {}
+        }
     }
     Ok(())
 }
+
+/// Writes a picture.
+fn show(kind: &str, spp: u32, pixels: &[Vec3]) -> Result<(), Box<dyn core::error::Error>> {
+    let pixels = pixels.iter().map(|&l| (l * EXPOSURE).min(Vec3::ONE));
+    let image = Image::new(SIZE, SIZE, pixels.collect())?;
+    fs::create_dir_all("out")?;
+    let path = format!("out/cornell-lesson-{kind}-{spp}.png");
+    Ok(write_png(Path::new(&path), &image)?)
+}
+
+/// Factor of radiances; 1 is white then.
+const EXPOSURE: f32 = 8.0;
 
 /// The scene with its lamp 200 mm below the ceiling, in whose plane it lies otherwise, shining on
 /// the given `sides`.
