@@ -173,7 +173,7 @@ impl ReportArgs {
         if wanted.is_none() && lights > MOST_EXHAUSTIVE {
             notes.push(format!(
                 "The exhaustive sampler looks at all {lights} lights for each choice; it takes \
-                 part by --samplers alone."
+                 part only where it is named."
             ));
         }
         ReportOptions {
