@@ -5,6 +5,7 @@ mod buffers;
 mod data_uri;
 mod document;
 mod glb;
+mod gpu_instancing;
 mod instances;
 mod item;
 mod known_materials;

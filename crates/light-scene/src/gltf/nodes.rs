@@ -61,11 +61,30 @@ impl<'a> Reader<'a> {
             return Ok(());
         };
         let (index, mesh) = mesh.target("meshes")?;
+        if let Some(placements) = self.placements(node)? {
+            for placement in placements {
+                self.show(node, (index, &mesh), transform * placement)?;
+            }
+            return Ok(());
+        }
+        self.show(node, (index, &mesh), *transform)
+    }
+
+    /// Puts a mesh where a node shows it.
+    fn show(
+        &mut self,
+        node: &Item<'a>,
+        (index, mesh): (usize, &Item<'a>),
+        transform: Affine3A,
+    ) -> Result<(), Diagnostic> {
+        if !transform.is_finite() {
+            return Err(node.error("expected instances with finite transforms"));
+        }
         if transform.matrix3.determinant() == 0.0 {
             self.warn(node, "was left out: its transform makes its mesh flat");
             return Ok(());
         }
-        self.uses.add(index, mesh, node.clone(), *transform);
+        self.uses.add(index, mesh.clone(), node.clone(), transform);
         Ok(())
     }
 

@@ -21,6 +21,8 @@ pub(super) struct Reader<'a> {
     pub(super) uses: MeshUses<'a>,
     /// How many the document holds so far.
     pub(super) triangles: usize,
+    /// Instances that an extension places, so far.
+    pub(super) placed: usize,
     warnings: Warnings,
 }
 
@@ -68,6 +70,7 @@ impl<'a> Reader<'a> {
             materials: Materials::default(),
             uses: MeshUses::default(),
             triangles: 0,
+            placed: 0,
             warnings,
         })
     }

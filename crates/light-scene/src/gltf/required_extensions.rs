@@ -13,8 +13,9 @@ pub(super) enum Required {
 }
 
 /// Extensions that are read.
-const READ: [&str; 9] = [
+const READ: [&str; 10] = [
     "EXT_lights_ies",
+    "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -77,7 +78,8 @@ mod tests {
             ("KHR_animation_pointer", Required::Looks),
             ("KHR_draco_mesh_compression", Required::Compressed),
             ("EXT_meshopt_compression", Required::Compressed),
-            ("EXT_mesh_gpu_instancing", Required::Unknown),
+            ("EXT_mesh_gpu_instancing", Required::Read),
+            ("EXT_mesh_manifold", Required::Unknown),
             ("materials", Required::Unknown),
         ] {
             assert_eq!(required(name), expected, "{name}");

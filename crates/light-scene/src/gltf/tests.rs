@@ -154,6 +154,63 @@ fn meshes_of_several_nodes_are_instanced() {
 }
 
 #[test]
+fn an_extension_places_a_mesh_many_times() {
+    // The vertices of the square, as places; its texture coordinates are no places.
+    let json = r#""extensionsRequired": ["EXT_mesh_gpu_instancing"], "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "scale": [2, 2, 2], "extensions": {"EXT_mesh_gpu_instancing":
+            {"attributes": {"TRANSLATION": 0, "_ID": 1}}}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 2}]}]"#;
+    let scene = read(json).expect("a scene");
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let twice = Affine3A::from_scale(Vec3::splat(2.0));
+    let expected = corners.map(|[x, y]| twice * Affine3A::from_translation(Vec3::new(x, y, 0.0)));
+    let transforms: Vec<_> = scene.instances.iter().map(|i| i.transform).collect();
+    assert_eq!(transforms, expected, "in the node's space");
+    assert_eq!(scene.triangle_count(), 8, "four squares");
+
+    let scales = json.replace("\"TRANSLATION\"", "\"SCALE\"");
+    let scene = read(&scales).expect("a scene");
+    // In z all are flat.
+    assert_eq!(scene.triangle_count(), 0, "none is left");
+    let start = "a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: ";
+    for (from, to, expected) in [
+        (
+            "\"TRANSLATION\": 0, ",
+            "",
+            "expected a member `TRANSLATION`, `ROTATION` or `SCALE`",
+        ),
+        (
+            "\"_ID\": 1",
+            "\"SCALE\": 3",
+            "expected attributes of as many elements each",
+        ),
+        (
+            "\"TRANSLATION\": 0",
+            "\"ROTATION\": 4",
+            "element 0 of `ROTATION`: expected a length of 1",
+        ),
+        (
+            "\"TRANSLATION\": 0, \"_ID\": 1",
+            "\"TRANSLATION\": 5",
+            "expected at most 1048576 instances in all",
+        ),
+    ] {
+        // Accessors without a view are of zeros.
+        let broken = format!("{{{} {}}}", head(), json.replace(from, to)).replace(
+            "\"count\": 6, \"type\": \"SCALAR\"}",
+            "\"count\": 6, \"type\": \"SCALAR\"}, \
+             {\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}, \
+             {\"componentType\": 5126, \"count\": 1, \"type\": \"VEC4\"}, \
+             {\"componentType\": 5126, \"count\": 1048577, \"type\": \"VEC3\"}",
+        );
+        let scene = parse_gltf(Path::new("a.gltf"), broken.as_bytes(), Files::NONE);
+        let error = scene.expect_err("not read").to_string();
+        assert_eq!(error, format!("{start}{expected}"), "{to}");
+    }
+}
+
+#[test]
 fn binary_files_carry_their_buffer() {
     let json = format!("{{{} {LAMP}}}", SQUARE.replace("$URI", ""));
     let file = glb(&json, &square());

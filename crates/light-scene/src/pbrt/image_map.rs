@@ -29,7 +29,7 @@ impl Reader {
             let what = format!("the image \"{file}\"");
             let message = format!("was taken as grey: expected {IMAGE_ENDINGS}");
             self.warn_kind(typed.at, "image", &what, &message);
-            return Ok(Color::Constant(Vec3::splat(0.5)));
+            return Ok(self.stand_in());
         }
         let inverted = parameters.is_true("invert", false);
         let key = ImageKey {
@@ -44,7 +44,7 @@ impl Reader {
                 let what = format!("{missing};");
                 let message = "the texture was taken as grey";
                 self.warn_kind(typed.at, "missing image", &what, message);
-                return Ok(Color::Constant(Vec3::splat(0.5)));
+                return Ok(self.stand_in());
             }
         };
         Ok(Color::Image(ColorImage {

@@ -95,6 +95,39 @@ fn textures_whose_file_is_missing_are_grey() {
 }
 
 #[test]
+fn alphas_whose_texture_was_not_read_are_opaque() {
+    let missing = "\"imagemap\" \"string filename\" \"no.png\"";
+    let made_of_it = "Texture \"b\" \"float\" \"scale\" \"texture tex\" \"a\" \
+                      \"float scale\" .5";
+    let opaque = "an `alpha` whose texture was not read was taken as opaque";
+    for (textures, alpha) in [
+        (format!("Texture \"a\" \"float\" {missing}"), "a"),
+        (
+            format!("Texture \"a\" \"float\" {missing} {made_of_it}"),
+            "b",
+        ),
+        ("Texture \"a\" \"float\" \"fbm\"".into(), "a"),
+        (String::new(), "nowhere"),
+    ] {
+        let shape = TRIANGLE.to_owned() + &format!(" \"texture alpha\" \"{alpha}\"");
+        let text = format!("WorldBegin {textures} {shape}");
+        let scene = read(&text).expect("a scene");
+        let material = scene.material(scene.meshes[0].material);
+        assert_eq!(material.alpha, None, "{text}");
+        let found = warnings(&text);
+        assert!(found.contains(&opaque.into()), "{text}: {found:?}");
+    }
+    // One that was read after another of its name counts.
+    let again = format!(
+        "WorldBegin Texture \"a\" \"float\" {missing} Texture \"a\" \"float\" \"constant\" \
+         \"float value\" .5 {TRIANGLE} \"texture alpha\" \"a\""
+    );
+    let scene = read(&again).expect("a scene");
+    let material = scene.material(scene.meshes[0].material);
+    assert!(material.alpha.is_some(), "half of it");
+}
+
+#[test]
 fn lights_of_no_light_are_left_out() {
     for (kind, name) in [
         ("point", "I"),

@@ -117,7 +117,14 @@ impl Reader {
         if !typed.parameters.has("alpha") {
             return material;
         }
+        self.met_stand_in = false;
         let opacity = self.share(typed, "alpha", 1.0);
+        if self.met_stand_in {
+            // Half a surface is worse than all of it.
+            let what = "an `alpha` whose texture was not read";
+            self.warn(typed.at, what, "was taken as opaque");
+            return material;
+        }
         if opacity == Color::Constant(Vec3::ONE) {
             return material;
         }

@@ -42,6 +42,8 @@ pub(super) struct Reader {
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: NamedMaterials,
     pub(super) textures: Textures,
+    /// Whether a texture that was not read was asked for.
+    pub(super) met_stand_in: bool,
     /// Each file read once.
     pub(super) images: HashMap<ImageKey, ImageId>,
     /// What the images of surfaces and lights have together.

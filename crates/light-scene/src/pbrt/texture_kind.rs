@@ -3,7 +3,15 @@ use std::collections::HashMap;
 use crate::Color;
 
 /// The textures so far: numbers and colours have names of their own.
-pub(super) type Textures = HashMap<(TextureKind, String), Color>;
+pub(super) type Textures = HashMap<(TextureKind, String), NamedTexture>;
+
+/// A texture that a file has named.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NamedTexture {
+    pub(super) color: Color,
+    /// Whether it is grey because it, or one that it is made of, was not read.
+    pub(super) is_stand_in: bool,
+}
 
 /// The value type of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

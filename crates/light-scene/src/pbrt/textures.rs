@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::file_loc::Typed;
 use super::state::Reader;
-use super::texture_kind::TextureKind;
+use super::texture_kind::{NamedTexture, TextureKind};
 use super::tokens::Tokens;
 use super::upgrade::UPGRADE;
 use crate::glam::Vec3;
@@ -32,10 +32,15 @@ impl Reader {
         };
         let typed = self.typed(path, tokens, "Texture")?;
         let what = format!("Texture \"{}\"", typed.kind);
+        self.met_stand_in = false;
         let color = self.texture_color(&typed, &what, kind);
         typed.parameters.check()?;
         self.warn_unused(typed.at, &what, &typed.parameters);
-        self.textures.insert((kind, name), color?);
+        let texture = NamedTexture {
+            color: color?,
+            is_stand_in: self.met_stand_in,
+        };
+        self.textures.insert((kind, name), texture);
         Ok(())
     }
 
@@ -54,9 +59,15 @@ impl Reader {
             _ => {
                 self.warn(typed.at, what, "was taken as grey");
                 typed.parameters.accept_all();
-                Color::Constant(Vec3::splat(0.5))
+                self.stand_in()
             }
         })
+    }
+
+    /// What takes the place of a texture that was not read.
+    pub(super) const fn stand_in(&mut self) -> Color {
+        self.met_stand_in = true;
+        Color::Constant(Vec3::splat(0.5))
     }
 
     /// A parameter that is a colour or the name of a texture.
@@ -103,13 +114,14 @@ impl Reader {
     ) -> Color {
         if let Some(texture) = typed.parameters.texture(name) {
             let known = |kind| self.textures.get(&(kind, texture.to_owned()));
-            if let Some(color) = known(kind).or_else(|| known(kind.other())) {
-                return *color;
+            if let Some(texture) = known(kind).or_else(|| known(kind.other())) {
+                self.met_stand_in |= texture.is_stand_in;
+                return texture.color;
             }
             let what = format!("texture \"{texture}\"");
             let message = "is not defined and was taken as grey";
             self.warn_kind(typed.at, "undefined texture", &what, message);
-            return Color::Constant(Vec3::splat(0.5));
+            return self.stand_in();
         }
         if kind == TextureKind::Float {
             return Color::Constant(Vec3::splat(typed.parameters.amount_or(name, default)));
