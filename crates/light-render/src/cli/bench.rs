@@ -59,7 +59,7 @@ Columns:
   no light        share of choices that choose none, where bounds grow tighter on the way down")]
 pub(crate) struct BenchArgs {
     /// The scene, whose lights are seen from points on its surfaces: an .obj, .pbrt, .gltf or .glb
-    /// file, or the name of a scene that ships.
+    /// file, or one that ships, as for lights render.
     scene: Option<PathBuf>,
     #[command(flatten)]
     changes: SceneChanges,

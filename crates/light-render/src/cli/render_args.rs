@@ -23,7 +23,7 @@ use super::view_args::ViewArgs;
   lights render night --samples 0..64 -o part-0.exr   (lights merge adds the parts)
   lights render night --checkpoint night.part.exr --spp 1024 -o night.exr
 
-Exit status: 0 done, 2 bad usage or bad input."
+Exit status: 0 done, 2 bad usage or bad input, 130 interrupted."
 )]
 pub(crate) struct RenderArgs {
     #[command(flatten)]

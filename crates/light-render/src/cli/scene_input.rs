@@ -1,3 +1,4 @@
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::World;
@@ -14,7 +15,8 @@ use super::stdout::complain;
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
 pub(crate) struct SceneInput {
-    /// The scene: an .obj, .pbrt, .gltf or .glb file, or the name of a scene that ships.
+    /// The scene: an .obj, .pbrt, .gltf or .glb file, or one that ships: cornell-box, rotunda, fog,
+    /// night; or rooms, slabs, louvres, boxes, street, trunks, open, each also with -large.
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) changes: SceneChanges,
@@ -125,9 +127,19 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
     }
     let shipped = path.to_string_lossy().parse::<BuiltinScene>();
     shipped.map(BuiltinScene::load).map_err(|error| {
-        let message = format!("expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}");
+        let message = match scene_in(path) {
+            Some(file) => format!("is a folder; expected a file in it, as {}", file.display()),
+            None => format!("expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}"),
+        };
         Failure::input(Diagnostic::file(path, message))
     })
+}
+
+/// The first scene file in a folder, by name.
+fn scene_in(folder: &Path) -> Option<PathBuf> {
+    let entries = fs::read_dir(folder).ok()?.flatten();
+    let files = entries.map(|entry| entry.path());
+    files.filter(|path| is_scene_name(path)).min()
 }
 
 /// Prints to standard error what the readers repaired or left out.

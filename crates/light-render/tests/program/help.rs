@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use light_scene::BuiltinScene;
+
 use crate::folder::{Folder, assert_refused, stdout};
 
 #[test]
@@ -11,8 +13,12 @@ fn help_has_examples_values_and_exit_codes() {
         assert!(help.contains(word), "{word} in {help}");
     }
     let render = stdout(&["render", "--help"]);
-    for word in ["Examples:", "lights render", "Exit status:"] {
+    for word in ["Examples:", "lights render", "Exit status:", "130"] {
         assert!(render.contains(word), "{word} in {render}");
+    }
+    for scene in BuiltinScene::ALL {
+        let name = scene.name().trim_end_matches("-large");
+        assert!(render.contains(name), "{name} in {render}");
     }
     // Of every choice the values.
     for value in [

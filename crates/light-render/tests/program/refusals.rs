@@ -40,6 +40,21 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     );
 }
 
+/// With the file that it may mean.
+#[test]
+fn a_folder_is_no_scene() {
+    let folder = Folder::new("is a Größe");
+    let out = folder.path("out.exr");
+    let path = folder.0.to_str().expect("a plain path");
+    let render = ["render", path, "-o", &out];
+    assert_refused(&render, &["expected a scene file"]);
+    let scene = folder.scene(LIT);
+    assert_refused(&render, &["is a folder; expected a file in it, as", &scene]);
+    // Blanks and letters beyond ASCII are part of a path as all others.
+    let done = lights(&["render", &scene, "-o", &out, "--width", "8", "--spp", "1"]);
+    assert!(done.status.success(), "{done:?}");
+}
+
 /// The file, the line and the light.
 #[test]
 fn a_bad_light_of_a_set_is_named() {
