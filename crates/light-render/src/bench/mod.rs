@@ -47,7 +47,6 @@ pub use scene::{SceneBenchOptions, bench_scene};
 pub use scene_receiver::Shadows;
 pub use scene_variance::{ChoiceKind, RelativeVariance, SceneVariance, scene_variance};
 pub use timing::QueryTime;
-pub(crate) use unlit_pixels::pixels_without_lights;
 pub use variance::{Ceiling, Variance};
 pub use variance_split::{LightMoments, VarianceSplit};
 
