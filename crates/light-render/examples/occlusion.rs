@@ -272,8 +272,8 @@ fn picture(
     let sampler = sampler.clone();
     let timer = CpuTimer::start();
     let guided = match method.visibility {
-        Visibility::Cells => sampler.in_cells(bench.world(), bench.view())?,
-        _ => sampler.by_visible_share(bench.world(), bench.view()),
+        Visibility::Cells => sampler.in_cells(bench.world(), bench.view(), arguments.max_depth)?,
+        _ => sampler.by_estimates(bench.world(), bench.view(), arguments.max_depth),
     };
     let filling = timer.seconds();
     let mut picture = bench.picture(&guided, path, samples, seed);

@@ -84,6 +84,6 @@ pub use surface::Surface;
 pub use tone_map::{ToneCurve, ToneMap};
 pub use view::{View, ViewError};
 pub use visibility::{
-    CellLightSampler, SingleChoiceLightSampler, Visibility, VisibilityCells, visible_share,
+    CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler, Visibility, VisibilityCells,
 };
 pub use world::{World, WorldError};

@@ -11,7 +11,7 @@ use lights::samplers::{
 };
 use lights::sources::{LightSet, Rgb};
 
-use crate::{CellLightSampler, SingleChoiceLightSampler, View, World, visible_share};
+use crate::{CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler, View, World};
 
 /// A way to choose one light of many, by its name on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub enum AnyLightSampler {
     /// The default light hierarchy.
     Bvh(BvhLightSampler),
     /// The default light hierarchy where much light is hidden.
-    BvhSingleChoice(SingleChoiceLightSampler),
+    BvhPlanned(PlannedLightSampler),
     /// The default light hierarchy with cells of visibility.
     BvhInCells(CellLightSampler),
 }
@@ -63,10 +63,6 @@ pub enum AnyLightSamplerError {
     /// Lights are not chosen by the default hierarchy: only that one has cells of visibility.
     NoCells,
 }
-
-/// If a larger share of the light in a picture arrives, several candidates for one shadow ray gain
-/// more than they cost: see `docs/occlusion.md`.
-const LEAST_VISIBLE_SHARE: f32 = 0.75;
 
 impl SamplerKind {
     /// The default kind of the program.
@@ -140,31 +136,35 @@ impl AnyLightSampler {
     }
 
     /// The same hierarchy with cells of visibility for what `view` shows of `world`, filled on the
-    /// threads of the current `rayon` pool.
+    /// threads of the current `rayon` pool: see [`CellLightSampler::new`].
     ///
     /// # Errors
     /// When the lights are not chosen by the default hierarchy, or the cells are too many.
-    pub fn in_cells(self, world: &World, view: &View) -> Result<Self, AnyLightSamplerError> {
+    pub fn in_cells(
+        self,
+        world: &World,
+        view: &View,
+        max_depth: u32,
+    ) -> Result<Self, AnyLightSamplerError> {
         match self {
             Self::Bvh(lights) => Ok(Self::BvhInCells(CellLightSampler::new(
-                lights, world, view,
+                lights, world, view, max_depth,
             )?)),
             _ => Err(AnyLightSamplerError::NoCells),
         }
     }
 
-    /// The same hierarchy, with single choices if less than 0.75 of the light in what `view` shows
-    /// of `world` arrives, by its [`visible_share`]; other samplers as they are.
+    /// The same hierarchy with the best plan of the [`ChoiceEstimates`] of what `view` shows of
+    /// `world`, over paths of at most `max_depth` segments; other samplers as they are.
     #[must_use]
-    pub fn by_visible_share(self, world: &World, view: &View) -> Self {
-        match self {
-            Self::Bvh(lights) => match visible_share(world, view, &lights) {
-                Some(share) if share < LEAST_VISIBLE_SHARE => {
-                    Self::BvhSingleChoice(SingleChoiceLightSampler::new(lights))
-                }
-                _ => Self::Bvh(lights),
-            },
-            other => other,
+    pub fn by_estimates(self, world: &World, view: &View, max_depth: u32) -> Self {
+        let Self::Bvh(lights) = self else {
+            return self;
+        };
+        let estimates = ChoiceEstimates::new(world, view, &lights, max_depth);
+        match estimates.map(|estimates| estimates.best()) {
+            None | Some(ChoicePlan::AsAsked) => Self::Bvh(lights),
+            Some(plan) => Self::BvhPlanned(PlannedLightSampler::new(lights, plan)),
         }
     }
 
@@ -172,7 +172,7 @@ impl AnyLightSampler {
     pub(crate) const fn hierarchy(&self) -> Option<&BvhLightSampler> {
         match self {
             Self::Bvh(sampler) => Some(sampler),
-            Self::BvhSingleChoice(sampler) => Some(sampler.lights()),
+            Self::BvhPlanned(sampler) => Some(sampler.lights()),
             Self::BvhInCells(sampler) => Some(sampler.lights()),
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
         }
@@ -188,7 +188,7 @@ impl AnyLightSampler {
             Self::Exhaustive(_) => size_of::<LightBounds>() * lights,
             Self::BvhReference(sampler) => sampler.tree().stats().bytes,
             Self::Bvh(sampler) => sampler.tree().bytes(),
-            Self::BvhSingleChoice(sampler) => sampler.lights().tree().bytes(),
+            Self::BvhPlanned(sampler) => sampler.lights().tree().bytes(),
             Self::BvhInCells(sampler) => sampler.lights().tree().bytes() + sampler.cells().bytes(),
         }
     }
@@ -208,7 +208,7 @@ impl AnyLightSampler {
             Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) => 0,
             Self::BvhReference(sampler) => sampler.tree().stats().max_depth as usize,
             Self::Bvh(sampler) => sampler.tree().depth(),
-            Self::BvhSingleChoice(sampler) => sampler.lights().tree().depth(),
+            Self::BvhPlanned(sampler) => sampler.lights().tree().depth(),
             Self::BvhInCells(sampler) => sampler.lights().tree().depth(),
         }
     }
@@ -231,7 +231,7 @@ macro_rules! for_each_kind {
             AnyLightSampler::Exhaustive($it) => $answer,
             AnyLightSampler::BvhReference($it) => $answer,
             AnyLightSampler::Bvh($it) => $answer,
-            AnyLightSampler::BvhSingleChoice($it) => $answer,
+            AnyLightSampler::BvhPlanned($it) => $answer,
             AnyLightSampler::BvhInCells($it) => $answer,
         }
     };

@@ -90,7 +90,7 @@ impl Candidate {
             AnyLightSampler::Exhaustive(sampler) => sampler,
             AnyLightSampler::BvhReference(sampler) => sampler,
             AnyLightSampler::Bvh(sampler) => sampler,
-            AnyLightSampler::BvhSingleChoice(sampler) => sampler,
+            AnyLightSampler::BvhPlanned(sampler) => sampler,
             AnyLightSampler::BvhInCells(sampler) => sampler,
         }
     }

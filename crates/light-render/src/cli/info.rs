@@ -2,8 +2,8 @@ use std::time::Instant;
 
 use crate::choice_variance::choice_variance;
 use crate::{
-    AnyLightSampler, LightInventory, SamplerKind, View, Visibility, VisibilityCells, World,
-    inventory, visible_share,
+    AnyLightSampler, ChoiceEstimates, ChoicePlan, LightInventory, SamplerKind, View, Visibility,
+    VisibilityCells, World, inventory,
 };
 use clap::Args;
 use light_scene::Diagnostic;
@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::memory_check::check_cells_memory;
+use super::render_settings::DEFAULT_DEPTH;
 use super::scene_input::SceneInput;
 use super::stdout::say;
 use super::view_args::ViewArgs;
@@ -24,8 +25,9 @@ use super::visibility::{VisibilityCosts, VisibilityName, cells, with_visibility}
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     input: SceneInput,
-    /// Measure the share of light that arrives at what the scene's camera sees, or fill the cells
-    /// of visibility for it, as `lights render --visibility` does, and show what was found.
+    /// Measure the share of light that arrives at what the scene's camera sees and how noisy choices
+    /// of lights are there, or fill the cells of visibility for it, as `lights render --visibility`
+    /// does, and show what was found.
     #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
     visibility: VisibilityName,
     /// Print one line of JSON.
@@ -47,8 +49,8 @@ struct Tree {
 
 /// What is known of visibility in a picture by the scene's camera.
 enum Visible {
-    /// The share of light that arrives; `None` where nothing is lit.
-    Share(Option<f32>),
+    /// What light samples tell; `None` where nothing is lit.
+    Share(Option<ChoiceEstimates>),
     Cells(Cells),
 }
 
@@ -68,13 +70,14 @@ impl InfoArgs {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let mut scene = self.input.read()?;
         let warnings = core::mem::take(&mut scene.warnings);
+        let max_depth = scene.max_depth.unwrap_or(DEFAULT_DEPTH);
         let view = match self.visibility {
             VisibilityName::Off => None,
             _ => Some(ViewArgs::default().view(&scene)?),
         };
         let world = self.input.build(scene)?;
         let tree = Tree::over(&world)?;
-        let visible = |view| Visible::over(self.visibility, &world, &view);
+        let visible = |view| Visible::over(self.visibility, &world, &view, max_depth);
         let visible = view.map(visible).transpose()?;
         let kinds = inventory(world.lights());
         if self.json {
@@ -208,29 +211,50 @@ impl InfoArgs {
 }
 
 impl Visible {
-    fn over(name: VisibilityName, world: &World, view: &View) -> Result<Self, Failure> {
+    fn over(
+        name: VisibilityName,
+        world: &World,
+        view: &View,
+        max_depth: u32,
+    ) -> Result<Self, Failure> {
         let sampler =
             AnyLightSampler::new(SamplerKind::DEFAULT, world.lights()).map_err(Failure::input)?;
         Ok(match name {
-            VisibilityName::Cells => Self::Cells(Cells::over(sampler, world, view)?),
+            VisibilityName::Cells => Self::Cells(Cells::over(sampler, world, view, max_depth)?),
             VisibilityName::Off | VisibilityName::Share => {
-                let lights = sampler.hierarchy();
-                Self::Share(lights.and_then(|lights| visible_share(world, view, lights)))
+                let estimates = |lights| ChoiceEstimates::new(world, view, lights, max_depth);
+                Self::Share(sampler.hierarchy().and_then(estimates))
             }
         })
     }
 
     fn report(&self) -> Value {
         match self {
-            Self::Share(share) => json!({ "visible_share": share }),
+            Self::Share(Some(estimates)) => json!({
+                "visible_share": estimates.visible_share(),
+                "variances": ChoicePlan::ALL.map(|plan| estimates.variance(plan)),
+                "choice": estimates.best().name(),
+            }),
+            Self::Share(None) => json!({ "visible_share": null }),
             Self::Cells(cells) => cells.report(),
         }
     }
 
     fn print(&self) -> Result<(), Failure> {
         match self {
-            Self::Share(Some(share)) => {
-                say!("  visibility {share:.2} of the light that nothing would hide arrives")
+            Self::Share(Some(estimates)) => {
+                let of = |plan| estimates.variance(plan);
+                say!(
+                    "  visibility {:.2} of the light that nothing would hide arrives",
+                    estimates.visible_share()
+                )?;
+                say!(
+                    "  choice     {}: variances of a sample {:.3}, by a cut {:.3}, by two {:.3}",
+                    estimates.best().name(),
+                    of(ChoicePlan::OneFromRoot),
+                    of(ChoicePlan::OneByCut),
+                    of(ChoicePlan::AsAsked)
+                )
             }
             Self::Share(None) => say!("  visibility no light"),
             Self::Cells(cells) => cells.print(),
@@ -239,10 +263,15 @@ impl Visible {
 }
 
 impl Cells {
-    fn over(sampler: AnyLightSampler, world: &World, view: &View) -> Result<Self, Failure> {
+    fn over(
+        sampler: AnyLightSampler,
+        world: &World,
+        view: &View,
+        max_depth: u32,
+    ) -> Result<Self, Failure> {
         let (width, height) = view.resolution();
         check_cells_memory(width, height)?;
-        let (sampler, costs) = with_visibility(sampler, Visibility::Cells, world, view)?;
+        let (sampler, costs) = with_visibility(sampler, Visibility::Cells, world, view, max_depth)?;
         let cells = cells(&sampler);
         Ok(Self {
             counts: cells.map_or([0; 2], VisibilityCells::counts),

@@ -26,7 +26,9 @@ impl LightChoice {
         let sampler = AnyLightSampler::new(picture.sampler, world.lights());
         let sampler = sampler.map_err(Failure::input)?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
-        let (sampler, visibility) = with_visibility(sampler, picture.visibility, world, view)?;
+        let max_depth = picture.settings.path.max_depth;
+        let (sampler, visibility) =
+            with_visibility(sampler, picture.visibility, world, view, max_depth)?;
         Ok(Self {
             sampler,
             build_ms,

@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::visibility::VisibilityName;
 
 /// Segments of the longest path where nobody says how many.
-const DEFAULT_DEPTH: u32 = 8;
+pub(super) const DEFAULT_DEPTH: u32 = 8;
 
 /// Samples a pixel when nothing is said.
 const DEFAULT_SAMPLES: u32 = 64;
@@ -78,11 +78,11 @@ pub(crate) struct SettingsArgs {
     /// are; without it 2, or as --visibility says.
     #[arg(long, value_name = "N")]
     light_samples: Option<NonZeroU32>,
-    /// What choices of lights know of their visibility: nothing (off); which share of the light in
-    /// the picture arrives, so that one light is chosen instead of several where much is hidden
-    /// (share); or what cells of space know that are filled before the picture, for what the camera
-    /// sees of surfaces (cells). Without it share, but off with --light-samples, with samplers that
-    /// are not bvh or bvh-morton, and for single scattering.
+    /// What choices of lights know of their visibility: nothing (off); how much of the light in the
+    /// picture arrives and how noisy it is, so that one light is chosen instead of several where
+    /// much is hidden (share); or what cells of space know that are filled before the picture, for
+    /// what the camera sees of surfaces (cells). Without it share, but off with --light-samples,
+    /// with samplers that are not bvh or bvh-morton, and for single scattering.
     #[arg(long, value_enum)]
     visibility: Option<VisibilityName>,
     /// How light is found: by light samples, by material samples, or by both, weighted.

@@ -21,8 +21,8 @@ pub(super) struct VisibilityCosts {
     pub(super) bytes: usize,
 }
 
-/// The sampler with what is to be known of `visibility`, measured or filled on the threads of the
-/// current `rayon` pool.
+/// The sampler with what is to be known of `visibility` for paths of at most `max_depth` segments,
+/// measured or filled on the threads of the current `rayon` pool.
 ///
 /// # Errors
 /// When there are more cells than 32 bits count.
@@ -31,12 +31,15 @@ pub(super) fn with_visibility(
     visibility: Visibility,
     world: &World,
     view: &View,
+    max_depth: u32,
 ) -> Result<(AnyLightSampler, VisibilityCosts), Failure> {
     let start = Instant::now();
     let sampler = match visibility {
         Visibility::Off => return Ok((sampler, VisibilityCosts::default())),
-        Visibility::Share => sampler.by_visible_share(world, view),
-        Visibility::Cells => sampler.in_cells(world, view).map_err(Failure::input)?,
+        Visibility::Share => sampler.by_estimates(world, view, max_depth),
+        Visibility::Cells => sampler
+            .in_cells(world, view, max_depth)
+            .map_err(Failure::input)?,
     };
     let costs = VisibilityCosts {
         seconds: start.elapsed().as_secs_f64(),

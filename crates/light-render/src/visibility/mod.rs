@@ -1,18 +1,19 @@
-//! Visibility of lights from the surfaces that the camera sees: the share of light that arrives,
-//! and cells of space, both before the picture.
+//! Visibility of lights from the surfaces that the camera sees: how noisy choices of lights will be
+//! among hidden ones, and cells of space, both before the picture.
 
 mod cell_size;
 mod cells;
 mod census;
+mod choice_estimates;
+mod choice_plan;
 mod fill;
+mod pixel_moments;
 mod sampler;
-mod single_choice;
-mod visible_share;
 
 pub use cells::VisibilityCells;
+pub use choice_estimates::ChoiceEstimates;
+pub use choice_plan::{ChoicePlan, PlannedLightSampler};
 pub use sampler::CellLightSampler;
-pub use single_choice::SingleChoiceLightSampler;
-pub use visible_share::visible_share;
 
 /// The visibility that the choices of a picture's lights use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,8 +21,8 @@ pub enum Visibility {
     /// Nothing: lights are chosen as if nothing were in the way.
     #[default]
     Off,
-    /// The [`visible_share`] of the light in the picture: where much is hidden, one light is chosen
-    /// instead of several.
+    /// The [`ChoiceEstimates`] of the picture: where much light is hidden, one light is chosen
+    /// instead of several, from the root or by a cut.
     Share,
     /// The factors of [`VisibilityCells`].
     Cells,

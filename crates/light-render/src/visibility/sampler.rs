@@ -2,22 +2,24 @@ use lights::bounds::{LightId, LightSampleContext, SampledLight};
 use lights::bvh::visibility::CellTableError;
 use lights::samplers::{BvhLightSampler, LightChoices, LightSampler, VisibilityLightSampler};
 
-use super::VisibilityCells;
+use super::{ChoiceEstimates, ChoicePlan, VisibilityCells};
 use crate::{View, World};
 
 /// The default light hierarchy with the cells of a picture.
 ///
 /// In a cell with factors, [`at`](LightSampler::at) makes a single choice for any count: candidates
-/// that share a shadow ray undo the gain of the cell.
+/// that share a shadow ray undo the gain of the cell. Elsewhere it follows a [`ChoicePlan`].
 #[derive(Clone, Debug)]
 pub struct CellLightSampler {
     lights: BvhLightSampler,
     cells: VisibilityCells,
+    elsewhere: ChoicePlan,
 }
 
 impl CellLightSampler {
     /// The lights of `world`, and the cells of what `view` shows of it: see
-    /// [`VisibilityCells::fill`].
+    /// [`VisibilityCells::fill`]. Outside of cells they are chosen by the best plan of the
+    /// [`ChoiceEstimates`] for paths of at most `max_depth` segments.
     ///
     /// # Errors
     /// When there are more cells than 32 bits count.
@@ -25,9 +27,16 @@ impl CellLightSampler {
         lights: BvhLightSampler,
         world: &World,
         view: &View,
+        max_depth: u32,
     ) -> Result<Self, CellTableError> {
         let cells = VisibilityCells::fill(world, view, &lights)?;
-        Ok(Self { lights, cells })
+        let estimates = ChoiceEstimates::new(world, view, &lights, max_depth);
+        let elsewhere = estimates.map_or(ChoicePlan::AsAsked, |estimates| estimates.best());
+        Ok(Self {
+            lights,
+            cells,
+            elsewhere,
+        })
     }
 
     /// The hierarchy.
@@ -61,7 +70,10 @@ impl LightSampler for CellLightSampler {
 
     #[inline]
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        self.guided().choices(ctx, count.min(1), count)
+        let [asked, made] = self.elsewhere.counts(count);
+        let choices = self.guided().choices(ctx, count.min(1), asked);
+        let count = choices.count().min(made);
+        choices.with_count(count)
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {

@@ -27,6 +27,9 @@ const VALUES: [&str; 18] = [
     "\u{1F4A1}=,..:",
 ];
 
+/// Flags that take one of some words, and these.
+const NAMED: [(&str, &[&str]); 1] = [("--visibility", &["off", "share", "cells"])];
+
 /// A command, what it needs to work, and pairs of flags and values that keep it short.
 struct Case {
     command: &'static [&'static str],
@@ -177,7 +180,7 @@ fn no_value_of_any_flag_breaks_the_program() {
     listed_commands.sort();
     sorted.sort();
     assert_eq!(listed_commands, sorted, "every command has its case");
-    let mut runs = vec![];
+    let (mut runs, mut works) = (vec![], vec![]);
     for case in &cases {
         let help = stdout(&[case.command, &["--help"]].concat());
         let flags = listed(&help, true);
@@ -189,6 +192,17 @@ fn no_value_of_any_flag_breaks_the_program() {
         for flag in &flags {
             runs.extend(VALUES.map(|value| arguments(case, flag, value)));
         }
+        for (flag, words) in NAMED {
+            if flags.iter().any(|f| f == flag) {
+                let runs_of_words = words.iter().map(|word| arguments(case, flag, word));
+                works.extend(runs_of_words);
+            }
+        }
+    }
+    assert_eq!(works.len(), 9, "render, farm and info by three words each");
+    for run in &works {
+        let words: Vec<&str> = run.iter().map(String::as_str).collect();
+        watch(&folder.0, &words).assert_works(&run.join(" "));
     }
     assert!(runs.len() > 700, "many flags: {}", runs.len());
     let (first, second) = runs.split_at(runs.len() / 2);

@@ -74,6 +74,12 @@ impl Ending {
         }
     }
 
+    /// The program did what was asked for.
+    pub(crate) fn assert_works(&self, words: &str) {
+        let Self { status, error } = self;
+        assert_eq!(*status, 0, "{words}: {error}");
+    }
+
     /// The program refused what was asked for, with one line that holds all of `words`.
     pub(crate) fn assert_refused(&self, words: &[&str]) {
         self.assert_clean(&format!("{words:?}"));
