@@ -23,6 +23,9 @@ const LIGHT_NEARNESS: f32 = 0.2;
 const LIGHT_PLACES: f32 = 4.0;
 const LIGHT_RAMP_BY_POSITION: f32 = 11.0;
 const LIGHT_ROUND_OFF: f32 = 1e-5;
+const LIGHT_SHEET_CORRELATION: f32 = 0.325;
+const LIGHT_SHEET_NEARER: f32 = 0.3;
+const LIGHT_SHEET_THICKNESS: f32 = 0.05;
 const LIGHT_STEP_EDGE: f32 = 4.87;
 const LIGHT_UNIT: f32 = 127.25;
 const LIGHT_WIDENING: f32 = 0.375;
@@ -309,6 +312,7 @@ struct LightNode {
     parent: u32,
     // The largest power of a child, as a share of the tree's.
     gain: f32,
+    has_sheets: bool,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -340,6 +344,12 @@ struct LightChildren {
     soft: vec4<bool>,
     step: vec4<bool>,
     both_sides: vec4<bool>,
+    // Whether the lights lie in a thin sheet, and how positions along the axes are correlated:
+    // x and y, y and z, z and x. Set only where the node has sheets.
+    sheet: vec4<bool>,
+    correlation_xy: vec4<f32>,
+    correlation_yz: vec4<f32>,
+    correlation_zx: vec4<f32>,
 }
 
 // The node that begins in row `first`.
@@ -357,7 +367,9 @@ fn light_node(first: u32) -> LightNode {
     node.inner = (links.z >> 16u) & 0xffu;
     node.count = links.z >> 24u;
     node.parent = links.w;
-    node.gain = bitcast<f32>(links.z << 16u);
+    // The sign of the gain is a flag.
+    node.gain = bitcast<f32>((links.z & 0x7fffu) << 16u);
+    node.has_sheets = (links.z & 0x8000u) != 0u;
     return node;
 }
 
@@ -395,6 +407,17 @@ fn light_children(node: ptr<function, LightNode>, frame: LightFrame, word: u32) 
     c.soft = (spread & vec4<u32>(64u)) != vec4<u32>(0u);
     let least = bitcast<u32>(f32(LIGHT_LEAST_SPREAD));
     c.spread = bitcast<vec4<f32>>(((spread & vec4<u32>(63u)) << vec4<u32>(20u)) + least);
+    if (*node).has_sheets {
+        c.sheet = c.soft & !c.step & (c.offset > vec4<f32>(0.0));
+        let code = c.offset - 63.0;
+        let a = round(code * (1.0 / 25.0));
+        let rest = code - 25.0 * a;
+        let b = round(rest * (1.0 / 5.0));
+        c.correlation_xy = LIGHT_SHEET_CORRELATION * a;
+        c.correlation_yz = LIGHT_SHEET_CORRELATION * b;
+        c.correlation_zx = LIGHT_SHEET_CORRELATION * (rest - 5.0 * b);
+        c.offset = select(c.offset, vec4<f32>(0.0), c.sheet);
+    }
     let power = light_bytes_as_u32((*node).rows[11][word]);
     let zero = 96u << 23u;
     c.power = bitcast<vec4<f32>>((power << vec4<u32>(20u)) + zero) - bitcast<f32>(zero);
@@ -480,10 +503,39 @@ fn light_surface_importance(receiver: LightReceiver, c: LightChildren) -> vec4<f
     let raised = max(vec4<f32>(0.0), support - mean) * along;
     let lift = select(vec4<f32>(0.0), raised, c.soft & !c.step);
     var weight = light_emitted(c, height, lift);
+    if any(c.sheet) {
+        weight = select(weight, light_sheet_emitted(c, receiver.n, height), c.sheet);
+    }
     if receiver.kind == LIGHT_GLOSSY {
         weight *= light_reflected(receiver, c, height);
     }
     return select(vec4<f32>(0.0), weight, (mean + support > -c.slack) & reaches);
+}
+
+// What children that are thin sheets emit: of their lights those above the horizon count.
+fn light_sheet_emitted(c: LightChildren, n: vec3<f32>, height: vec4<f32>) -> vec4<f32> {
+    let tx = n.x * c.extent_x;
+    let ty = n.y * c.extent_y;
+    let tz = n.z * c.extent_z;
+    // Three times the covariance of height and position, and the variance of height.
+    let ux = c.extent_x * (tx + c.correlation_xy * ty + c.correlation_zx * tz);
+    let uy = c.extent_y * (ty + c.correlation_xy * tx + c.correlation_yz * tz);
+    let uz = c.extent_z * (tz + c.correlation_zx * tx + c.correlation_yz * ty);
+    let of_box = tx * tx + ty * ty + tz * tz;
+    let least = max(vec4<f32>(1e-37), LIGHT_SHEET_THICKNESS * of_box);
+    let variance = max(least, n.x * ux + n.y * uy + n.z * uz);
+    let mean = n.x * c.mean_x + n.y * c.mean_y + n.z * c.mean_z;
+    let raised = max(vec4<f32>(0.0), 0.5 * (sqrt(variance) - mean)) / variance;
+    let lift = raised * (c.axis_x * ux + c.axis_y * uy + c.axis_z * uz);
+    let sx = LIGHT_SHEET_NEARER * raised * ux;
+    let sy = LIGHT_SHEET_NEARER * raised * uy;
+    let sz = LIGHT_SHEET_NEARER * raised * uz;
+    let farther = sx * (2.0 * c.mean_x + sx) + sy * (2.0 * c.mean_y + sy)
+        + sz * (2.0 * c.mean_z + sz);
+    var seen = c;
+    seen.dist_sq = max(c.dist_sq + farther, LIGHT_SHEET_THICKNESS * c.dist_sq);
+    seen.dist = sqrt(seen.dist_sq);
+    return light_emitted(seen, height, lift);
 }
 
 // Whether any light of the child may emit toward the receiver.

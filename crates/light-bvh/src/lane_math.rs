@@ -32,7 +32,7 @@ impl LaneMask {
         Self((x >> 31) as u32)
     }
 
-    #[cfg(test)]
+    #[cfg(any(test, feature = "alloc"))]
     pub(crate) const fn is_set(self) -> bool {
         self.0 != 0
     }

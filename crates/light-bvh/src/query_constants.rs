@@ -10,12 +10,14 @@ use crate::importance::glossy::{self, MIN_ALPHA, MIN_COS, MIN_DIFFUSE, MIN_HALF_
 use crate::importance::horizon::HEIGHT;
 use crate::importance::position::FAR;
 use crate::importance::segment::{BENT, NEAREST, PLACES};
+use crate::importance::sheet;
+use crate::node::sheet_code::CORRELATION;
 use crate::node::spread_code::LEAST_SPREAD;
 use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 24] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 27] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
@@ -37,6 +39,9 @@ pub const QUERY_CONSTANTS: [(&str, f32); 24] = [
     ("PLACES", PLACES as f32),
     ("RAMP_BY_POSITION", RAMP_BY_POSITION),
     ("ROUND_OFF", ROUND_OFF),
+    ("SHEET_CORRELATION", CORRELATION),
+    ("SHEET_NEARER", sheet::NEARER),
+    ("SHEET_THICKNESS", sheet::LEAST_THICKNESS),
     ("STEP_EDGE", STEP_EDGE),
     ("UNIT", UNIT),
     ("WIDENING", WIDENING),

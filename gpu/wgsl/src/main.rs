@@ -1,9 +1,10 @@
 //! Holds the shaders of light-gpu against the Rust crates: `light-gpu-check [QUERIES]`.
 //!
-//! Sets of four kinds and three sizes, each with so many queries (default: 2^20) by all kinds of
-//! receivers in turn. The shader has to choose the same light for at least 99 % of them, to have
-//! the probability 0 where the crates have it and nowhere else, and to find its own samples'
-//! probabilities again, bit for bit. Then alias tables, octahedral codes and the equal-area map.
+//! Sets of four kinds and three sizes, and a tribune, each with so many queries (default: 2^20) by
+//! all kinds of receivers in turn. The shader has to choose the same light for at least 99 % of
+//! them, to have the probability 0 where the crates have it and nowhere else, and to find its own
+//! samples' probabilities again, bit for bit. Then alias tables, octahedral codes and the
+//! equal-area map.
 //! Before all of it, what arrives from lights of each kind.
 
 mod arrivals;
@@ -20,7 +21,7 @@ use light_gpu::{LIGHTS_WGSL, light_sampler_rows};
 use light_math::DirectionCone;
 use light_math::glam::Vec3;
 use light_samplers::BvhLightSampler;
-use light_sets::{BenchSet, SetKind};
+use light_sets::{BenchSet, Family, SetKind};
 
 use crate::device::Device;
 use crate::query::{Answer, Query};
@@ -73,6 +74,8 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
             all &= check_set(device, kind, n, &[], count)?;
         }
     }
+    // Slanted sheets.
+    all &= check_set(device, SetKind::Place(Family::Tribune), 10_000, &[], count)?;
     all &= check_set(device, SetKind::Uniform, 10_000, &sky(), count)?;
     let set = BenchSet::generate(SetKind::Uniform, 100, 1);
     let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, 100, i)).collect();

@@ -97,6 +97,7 @@ fn axis_of(node: &WideNode, k: usize) -> Vec3 {
 fn offset_of(node: &WideNode, k: usize) -> f32 {
     match node.offset[k] {
         BOTH_SIDES => 0.0,
+        1.. if node.is_sheet(k) => 0.0,
         offset => f32::from(offset),
     }
 }

@@ -2,6 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::lane_math::LaneMask;
+use crate::node::sheet_code::SheetCode;
 use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
 
@@ -47,6 +48,16 @@ pub struct ChildView {
     pub(crate) both_sides: LaneMask,
     /// Scale of the emission; 0 for an empty slot.
     pub power: f32,
+    /// How it lies, if it is a thin sheet; `None` if no child of the node is one.
+    pub(crate) sheet: Option<Sheet>,
+}
+
+/// A child whose lights lie in a thin slanted sheet, if they do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sheet {
+    pub(crate) is_sheet: LaneMask,
+    /// Of x and y, y and z, z and x.
+    pub(crate) correlations: [f32; 3],
 }
 
 /// Where a receiver sees the children of a node, and in which unit of length.
@@ -129,6 +140,25 @@ impl NodeFrame {
             step: spread.step(),
             both_sides,
             power: decode_power(node.power[k]),
+            sheet: None,
+        }
+    }
+
+    /// Child `k` of a node that has sheets.
+    #[inline(always)]
+    pub(crate) fn sheet_child(&self, node: &WideNode, k: usize) -> ChildView {
+        let child = self.child(node, k);
+        let is_sheet = child
+            .is_ramp_group()
+            .and(LaneMask::when(child.offset > 0.0));
+        let correlations = SheetCode::correlations(child.offset);
+        ChildView {
+            offset: is_sheet.clear(child.offset),
+            sheet: Some(Sheet {
+                is_sheet,
+                correlations,
+            }),
+            ..child
         }
     }
 }

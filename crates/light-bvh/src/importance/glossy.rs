@@ -142,6 +142,7 @@ mod tests {
             step: LaneMask::of_sign(0),
             both_sides: LaneMask::when(false),
             power: 1.0,
+            sheet: None,
         }
     }
 

@@ -42,7 +42,6 @@ impl Horizon {
     }
 
     /// The normal.
-    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) const fn normal(&self) -> Vec3 {
         self.n

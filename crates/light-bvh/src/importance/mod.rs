@@ -11,5 +11,6 @@ pub(crate) mod medium;
 pub(crate) mod position;
 pub(crate) mod receiver;
 pub(crate) mod segment;
+pub(crate) mod sheet;
 pub(crate) mod surface;
 pub(crate) mod two_sided;

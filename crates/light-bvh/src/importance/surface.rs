@@ -57,8 +57,11 @@ impl Receiver for SurfaceReceiver {
     #[inline(always)]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         let height = self.horizon.half_height(child);
-        let lift = self.horizon.lift(child, &height);
-        let weight = child.weight(height.above(child.slack), lift);
+        let (seen, lift) = match &child.sheet {
+            None => (*child, self.horizon.lift(child, &height)),
+            Some(sheet) => self.horizon.above(child, &height, sheet),
+        };
+        let weight = seen.weight(height.above(child.slack), lift);
         let is_above = height.is_above(child.slack);
         is_above.and(child.may_reach()).keep(weight)
     }

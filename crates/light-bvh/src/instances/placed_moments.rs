@@ -40,9 +40,11 @@ impl PlacedGroup {
             axis: axes * inner.axis * 1.0f32.copysign(scale),
             ..*inner
         };
-        // The depth stays a share of the squared width, which turning changes.
+        // Depth and covariance stay shares of the squared width, which turning changes.
         let relative_width = inner.width() * scale.abs() / moments.width().max(f32::MIN_POSITIVE);
-        moments.depth_var *= (relative_width * relative_width).min(1.0);
+        let relative_width = relative_width.min(1.0);
+        moments.depth_var *= relative_width * relative_width;
+        moments.covariance = inner.covariance.turned(axes, relative_width);
         Self { moments, power }
     }
 

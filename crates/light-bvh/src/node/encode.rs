@@ -1,7 +1,7 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::wide_node::{WIDTH, WideNode, encode_power};
+use crate::node::wide_node::{HAS_SHEETS, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
@@ -44,12 +44,14 @@ impl WideNode {
             };
             return;
         };
-        let children = ChildrenSoa::new(children, some);
+        let all = children;
+        let children = ChildrenSoa::new(all, some);
         self.set_frame(&children);
         self.set_boxes(&children);
         let units = self.set_emission(&children);
         self.set_power(&children, &units);
         self.clear_unlit(&children);
+        self.set_sheets(all);
     }
 
     #[inline(always)]
@@ -107,6 +109,19 @@ impl WideNode {
         let max_power = larger(reduce(powers, larger), f32::MIN_POSITIVE);
         self.gain = encode_gain(max_power);
         self.power = powers.map(|power| encode_power(power / max_power));
+    }
+
+    /// Where flat lights lie in a thin slanted sheet, the offset, which is 0, tells how it lies.
+    fn set_sheets(&mut self, children: &[Moments]) {
+        for (offset, child) in self.offset.iter_mut().zip(children) {
+            if *offset != 0 || !(child.power > 0.0) {
+                continue;
+            }
+            if let Some(sheet) = child.sheet() {
+                *offset = sheet.0;
+                self.gain |= HAS_SHEETS;
+            }
+        }
     }
 
     /// What is off leaves its slot empty.

@@ -3,6 +3,8 @@
 #[cfg(feature = "alloc")]
 pub(crate) mod children_soa;
 #[cfg(feature = "alloc")]
+pub(crate) mod covariance;
+#[cfg(feature = "alloc")]
 pub(crate) mod encode;
 #[cfg(feature = "alloc")]
 pub(crate) mod encode_emission;
@@ -10,5 +12,6 @@ pub(crate) mod encode_emission;
 pub(crate) mod light_emission;
 #[cfg(feature = "alloc")]
 pub(crate) mod moments;
+pub(crate) mod sheet_code;
 pub(crate) mod spread_code;
 pub(crate) mod wide_node;

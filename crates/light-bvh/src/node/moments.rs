@@ -2,7 +2,9 @@ use light_bounds::{LightBounds, LightExtent};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
+use crate::node::covariance::Covariance;
 use crate::node::light_emission::{Emission, Lobe, Shape};
+use crate::node::sheet_code::SheetCode;
 
 /// How much of the squared depth of a group of ramps, over its squared width, counts as squared
 /// spread. Chosen by V: see `docs/light-bvh.md`.
@@ -31,6 +33,8 @@ pub(crate) struct Moments {
     /// The depth: mean squared product of the axis and the position relative to the mean, over the
     /// squared [`width`](Self::width).
     pub(crate) depth_var: f32,
+    /// The covariance of positions, over the squared width.
+    pub(crate) covariance: Covariance,
     /// How the emission is shaped.
     pub(crate) shape: Shape,
     /// Whether the edge of the emission is that of a mean: of several lights, or of a measured one.
@@ -48,6 +52,7 @@ impl Moments {
         spread_sq: 0.0,
         axis_var: 0.0,
         depth_var: 0.0,
+        covariance: Covariance::ZERO,
         shape: Shape::Mixed,
         is_mean: false,
     };
@@ -75,6 +80,7 @@ impl Moments {
             spread_sq: emission.spread_sq,
             axis_var: 0.0,
             depth_var: 0.0,
+            covariance: Covariance::ZERO,
             shape: emission.shape,
             is_mean: matches!(extent, LightExtent::Lobe(..)),
         }
@@ -107,6 +113,26 @@ impl Moments {
         Lobe::new(light.cos_theta_o, light.cos_theta_e, light.two_sided).slope()
     }
 
+    /// The covariance of positions; that of an evenly filled box for one light.
+    #[inline(always)]
+    fn own_covariance(&self) -> Covariance {
+        if self.is_mean {
+            self.covariance
+        } else {
+            Covariance::of_box(&self.bounds, self.width())
+        }
+    }
+
+    /// The code of a thin slanted sheet, if the group is one of flat lights that shine to one side.
+    pub(crate) fn sheet(&self) -> Option<SheetCode> {
+        let is_group = self.is_mean && self.shape == Shape::Mixed;
+        if is_group {
+            self.covariance.sheet(self.axis)
+        } else {
+            None
+        }
+    }
+
     /// The moments of several groups together; those that are off do not count.
     pub(crate) fn join(parts: &[Self]) -> Self {
         let parts = || parts.iter().filter(|p| p.power > 0.0);
@@ -127,6 +153,7 @@ impl Moments {
             spread_sq: 0.0,
             axis_var: 0.0,
             depth_var: 0.0,
+            covariance: Covariance::ZERO,
             shape,
             is_mean: true,
         };
@@ -147,7 +174,12 @@ impl Moments {
             let axis_sq = part.axis.distance_squared(joined.axis);
             let offset = part.offset - joined.offset;
             let relative_width = part.width() * inv_width;
-            let depth = joined.axis.dot((part.mean - joined.mean) * inv_width);
+            let from_mean = (part.mean - joined.mean) * inv_width;
+            let depth = joined.axis.dot(from_mean);
+            let covariance = part.own_covariance();
+            joined
+                .covariance
+                .add(share, &covariance, relative_width, from_mean);
             joined.depth_var +=
                 share * (part.depth_var * (relative_width * relative_width) + depth * depth);
             joined.axis_var += share * (part.axis_var + axis_sq);

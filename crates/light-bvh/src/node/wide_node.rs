@@ -24,14 +24,14 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 0 | `mean[axis][child]` | mean position: `origin + mean / inv_scale` |
 /// | 48 | `extent[axis][child]` | half extents of a box about that position, at least 1 |
 /// | 96 | `axis[axis][child]` | mean emission axis, signed |
-/// | 144 | `offset[child]` | mean emission offset, signed; -128: to both sides alike |
+/// | 144 | `offset[child]` | mean emission offset, signed; -128: to both sides alike; or a sheet |
 /// | 160 | `spread[child]` | bit 7: a step; bit 6: soft; below, a deviation |
 /// | 176 | `power[child]` | relative to `gain`; 0 for an empty slot |
 /// | 192 | `origin` | |
 /// | 204 | `inv_scale` | |
 /// | 208 | `child_base` | |
 /// | 212 | `light_base` | |
-/// | 216 | `gain` | upper half of an `f32`: the largest share of a child of the tree's power |
+/// | 216 | `gain` | upper half of an `f32`: the largest share of a child; its sign: has sheets |
 /// | 218 | `inner` | |
 /// | 219 | `count` | children in all |
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
@@ -40,6 +40,11 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// power doubled. A child is soft if it is anything but one flat light or one spot. The deviation
 /// of axis and offset has six bits, of which three are the exponent: 0.52 to 122. A power has five
 /// bits of exponent and three of mantissa, less their value for 0.
+///
+/// The share of a child is that of the tree's power. A group of flat lights that lie in a thin
+/// slanted sheet has offset 0, and the byte tells instead how positions along the axes are
+/// correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c` are -2 to 2, for x and y, y and
+/// z, z and x. No offset of a group of ramps is above 0 otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]
@@ -73,6 +78,9 @@ const _: () = {
 /// The offset that marks a child that emits alike to both sides.
 pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 
+/// The bit of [`WideNode::gain`] that is set where a child is a sheet.
+pub(crate) const HAS_SHEETS: u16 = 1 << 15;
+
 impl WideNode {
     /// A node without children.
     pub const EMPTY: Self = Self {
@@ -96,7 +104,13 @@ impl WideNode {
     #[inline]
     #[must_use]
     pub(crate) const fn gain(&self) -> f32 {
-        f32::from_bits((self.gain as u32) << 16)
+        f32::from_bits(((self.gain & !HAS_SHEETS) as u32) << 16)
+    }
+
+    /// Whether a child may be a group of lights in a thin slanted sheet.
+    #[inline(always)]
+    pub(crate) const fn has_sheets(&self) -> bool {
+        self.gain & HAS_SHEETS != 0
     }
 }
 

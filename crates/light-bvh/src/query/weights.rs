@@ -5,6 +5,7 @@ use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
 use crate::lane_math::{LaneMask, larger};
 use crate::node::wide_node::{WIDTH, WideNode};
+use crate::simd::{VectorWork, dispatch};
 
 /// The least sum of weights in codes that is trusted: a weight 10^18 times smaller than the
 /// largest, and its factors 10^27 times smaller, are still normal floats.
@@ -41,11 +42,11 @@ impl Weights {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let weights = Self::in_frame(node, receiver, &frame, note_nothing);
-        if is_trusted(weights.total, &frame, receiver) {
+        let weights = Self::in_frame::<R, false>(node, receiver, &frame, note_nothing);
+        if is_trusted(weights.total, &frame, receiver) && !node.has_sheets() {
             weights
         } else {
-            Self::from_afar(node, receiver)
+            Self::in_rare_cases(node, receiver)
         }
     }
 
@@ -58,16 +59,19 @@ impl Weights {
     ) -> (Self, [f32; WIDTH]) {
         let mut angular_size_sq = [0.0; WIDTH];
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let weights = Self::in_frame(node, receiver, &frame, |k, child| {
+        let note = |k: usize, child: &ChildView| {
             let [hx, hy, hz] = child.extent;
             let width = hx + hy + hz;
             angular_size_sq[k] = width * width * (1.0 / child.dist_sq);
-        });
-        if is_trusted(weights.total, &frame, receiver) {
-            (weights, angular_size_sq)
-        } else {
+        };
+        let weights = Self::in_frame::<R, false>(node, receiver, &frame, note);
+        if !is_trusted(weights.total, &frame, receiver) {
             // So far away, all are points.
-            (Self::from_afar(node, receiver), [0.0; WIDTH])
+            (Self::in_rare_cases(node, receiver), [0.0; WIDTH])
+        } else if node.has_sheets() {
+            (Self::in_rare_cases(node, receiver), angular_size_sq)
+        } else {
+            (weights, angular_size_sq)
         }
     }
 
@@ -87,23 +91,33 @@ impl Weights {
         irradiance(self.total, self.inv_unit, node.gain())
     }
 
+    /// The weights where a child is a sheet, or where those in codes are not trusted.
+    ///
+    /// A function of its own, which computes all of them again: nodes without sheets, which are
+    /// most, pay for one test.
+    #[cold]
+    #[inline(never)]
+    fn in_rare_cases<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
+        if node.has_sheets() {
+            dispatch(WithSheets { node, receiver })
+        } else {
+            Self::from_afar::<R, false>(node, receiver)
+        }
+    }
+
     /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
     /// weights in codes underflow.
     #[cold]
-    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        Self::in_frame(
-            node,
-            receiver,
-            &NodeFrame::from_afar(node, receiver.position(), receiver.reach()),
-            note_nothing,
-        )
+    fn from_afar<R: Receiver, const SHEETS: bool>(node: &WideNode, receiver: &R) -> Self {
+        let frame = NodeFrame::from_afar(node, receiver.position(), receiver.reach());
+        Self::in_frame::<R, SHEETS>(node, receiver, &frame, note_nothing)
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that
     /// depends on another child.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
-    fn in_frame<R: Receiver>(
+    fn in_frame<R: Receiver, const SHEETS: bool>(
         node: &WideNode,
         receiver: &R,
         frame: &NodeFrame,
@@ -111,7 +125,11 @@ impl Weights {
     ) -> Self {
         let mut lanes = [0.0; WIDTH];
         for (k, weight) in lanes.iter_mut().enumerate() {
-            let child = frame.child(node, k);
+            let child = if SHEETS {
+                frame.sheet_child(node, k)
+            } else {
+                frame.child(node, k)
+            };
             *weight = receiver.weigh(&child, frame.inv_unit);
             note(k, &child);
         }
@@ -123,6 +141,28 @@ impl Weights {
             lanes,
             total: total(lanes),
             inv_unit: frame.inv_unit,
+        }
+    }
+}
+
+/// The weights of the children of a node of which some are sheets.
+struct WithSheets<'a, R> {
+    node: &'a WideNode,
+    receiver: &'a R,
+}
+
+impl<R: Receiver> VectorWork for WithSheets<'_, R> {
+    type Output = Weights;
+
+    #[inline(always)]
+    fn run(self) -> Weights {
+        let Self { node, receiver } = self;
+        let frame = NodeFrame::in_codes(node, receiver.position());
+        let weights = Weights::in_frame::<R, true>(node, receiver, &frame, note_nothing);
+        if is_trusted(weights.total, &frame, receiver) {
+            weights
+        } else {
+            Weights::from_afar::<R, true>(node, receiver)
         }
     }
 }

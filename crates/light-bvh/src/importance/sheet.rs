@@ -1,0 +1,68 @@
+//! What of a thin slanted sheet of lights is above a horizon.
+
+use light_math::float;
+
+use crate::importance::child_view::{ChildView, Sheet};
+use crate::importance::horizon::{HalfHeight, Horizon};
+use crate::lane_math::larger;
+
+/// How far the mean position counts as moved toward that of what is above the horizon, for the
+/// distance. Chosen by V: see `docs/light-bvh.md`.
+pub(crate) const NEARER: f32 = 0.3;
+
+/// The least variance along a normal, over that of the box without correlations.
+pub(crate) const LEAST_THICKNESS: f32 = 0.05;
+
+impl Horizon {
+    /// The child as the point sees what is above the horizon, and its [`lift`](Self::lift).
+    ///
+    /// Of lights whose heights vary by `sigma^2`, evenly filling `root(3) sigma` on either side of
+    /// their mean, those above the horizon have their mean higher by
+    /// `raised = (root(3) sigma - height) / 2`. Regression on the height moves it by
+    /// `covariance n / sigma^2` times that.
+    #[inline(always)]
+    pub(crate) fn above(
+        &self,
+        child: &ChildView,
+        height: &HalfHeight,
+        sheet: &Sheet,
+    ) -> (ChildView, f32) {
+        let n = self.normal();
+        let [hx, hy, hz] = child.extent;
+        let [tx, ty, tz] = [n.x * hx, n.y * hy, n.z * hz];
+        let [xy, yz, zx] = sheet.correlations;
+        // Three times the covariance of height and position, and the variance of height.
+        let ux = hx * (tx + xy * ty + zx * tz);
+        let uy = hy * (ty + xy * tx + yz * tz);
+        let uz = hz * (tz + zx * tx + yz * ty);
+        let of_box = tx * tx + ty * ty + tz * tz;
+        let variance = n.x * ux + n.y * uy + n.z * uz;
+        let variance = larger(
+            f32::MIN_POSITIVE,
+            larger(LEAST_THICKNESS * of_box, variance),
+        );
+        let [mx, my, mz] = child.axis;
+        let [vx, vy, vz] = child.mean;
+        let above = 0.5 * (float::sqrt(variance) - (n.x * vx + n.y * vy + n.z * vz));
+        let raised = larger(0.0, above) / variance;
+        let lift = raised * (mx * ux + my * uy + mz * uz);
+        let nearer = NEARER * raised;
+        let (sx, sy, sz) = (nearer * ux, nearer * uy, nearer * uz);
+        // The squared length of `mean + shift` less that of `mean`.
+        let farther = sx * (2.0 * vx + sx) + sy * (2.0 * vy + sy) + sz * (2.0 * vz + sz);
+        let dist_sq = sheet.is_sheet.select(
+            larger(child.dist_sq + farther, LEAST_THICKNESS * child.dist_sq),
+            child.dist_sq,
+        );
+        let seen = ChildView {
+            dist_sq,
+            dist: float::sqrt(dist_sq),
+            ..*child
+        };
+        let lift = sheet.is_sheet.select(lift, self.lift(child, height));
+        (seen, lift)
+    }
+}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;
