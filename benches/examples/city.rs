@@ -1,7 +1,8 @@
 //! A city whose houses are placed and stored once: a billion lights, and with a million the same
 //! lights in one flat tree for comparison.
 //!
-//! `city` measures both; `city samples` and `city flat` only take samples, for callgrind.
+//! `city` measures both; `city variance` is the comparison alone; `city samples` and `city flat` only
+//! take samples, for callgrind.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -22,6 +23,7 @@ fn main() {
     match std::env::args().nth(1).as_deref() {
         Some("samples") => ask(&billion(&mut Rng::new(1)), 316),
         Some("flat") => ask_flat(&flat_million()),
+        Some("variance") => ARRANGEMENTS.into_iter().for_each(million_lights),
         _ => {
             billion_lights();
             for name in ARRANGEMENTS {
@@ -95,6 +97,8 @@ fn context(point: &SetPoint) -> LightSampleContext {
     LightSampleContext::surface(point.p, point.n, point.n)
 }
 
+// Not inlined, so that callgrind can count it alone.
+#[inline(never)]
 fn ask(tree: &InstancedLightBvh, across: u16) {
     let mut rng = Rng::new(3);
     for _ in 0..CALLS {
@@ -103,6 +107,7 @@ fn ask(tree: &InstancedLightBvh, across: u16) {
     }
 }
 
+#[inline(never)]
 fn ask_flat(tree: &LightBvh) {
     let mut rng = Rng::new(3);
     for _ in 0..CALLS {
@@ -205,7 +210,7 @@ fn million_lights(name: &str) {
     let flat = LightBvh::build(&extents(&lights)).expect("valid lights");
     let across = if name == "crowded" { 6.0 } else { 32.0 };
     let (mut ours, mut theirs, mut points) = (Vec::new(), Vec::new(), 0);
-    while points < 32 {
+    while points < 200 {
         let point = receiver(&mut rng, across);
         let total: f64 = lights.iter().map(|light| light.contribution(&point)).sum();
         if total <= 0.0 {
@@ -239,7 +244,7 @@ fn variance(
     rng: &mut Rng,
     sample: impl Fn(u64) -> Option<(usize, f32)>,
 ) -> f64 {
-    const SAMPLES: u32 = 20_000;
+    const SAMPLES: u32 = 3_000;
     let squares: f64 = (0..SAMPLES)
         .filter_map(|_| sample(rng.u64()))
         .map(|(light, pmf)| (lights[light].contribution(point) / f64::from(pmf)).powi(2))

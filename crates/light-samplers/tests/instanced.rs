@@ -3,17 +3,13 @@
 use light_samplers::light_bounds::glam::{Mat3, Quat, Vec3};
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{
-    EmissionLobe, Gloss, InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
-    SampledLight,
+    EmissionLobe, Gloss, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
 };
-use light_samplers::light_bvh::{
-    InstancedLightBvh, InstancedLightBvhError, LightBvhOptions, LightPrototype, PlacedLight,
-    Placement,
-};
+use light_samplers::light_bvh::{InstancedLightBvh, LightPrototype, Placement};
 use light_samplers::{
     InstancedBvhLightSampler, InstancedBvhLightSamplerError, LightChoices, LightSampler,
 };
-use light_testkit::{Emitter, SamplerCase};
+use light_testkit::SamplerCase;
 
 #[path = "support/asked.rs"]
 mod asked;
@@ -170,154 +166,6 @@ impl LightSampler for Renumbered {
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
         self.sampler.pmf_emitter(self.own(light))
-    }
-}
-
-mod placed {
-    //! Prototypes that are placed several times, against lights where they are placed.
-
-    use super::*;
-    use light_testkit::laws::{sampler as laws, several_choices_follow_their_pmf};
-    use light_testkit::{Rng, light_sets::SetKind, light_sets::SetLight};
-
-    const SKY: f32 = 0.01;
-
-    /// Two prototypes in many places, and all their lights there with a sky.
-    fn village(seed: u64) -> (SamplerCase, InstancedBvhLightSampler, Vec<Placement>) {
-        let mut rng = Rng::new(seed);
-        let kinds = [(SetKind::Mixed, 40), (SetKind::Spots, 5)];
-        let kinds = kinds.map(|(kind, n)| SamplerCase::generated(kind, n, seed).emitters);
-        let prototypes = kinds.each_ref().map(|emitters| {
-            let extents: Vec<_> = emitters.iter().map(Emitter::extent).collect();
-            LightPrototype::new(&extents).expect("valid bounds")
-        });
-        let (mut emitters, mut placements) = (Vec::new(), Vec::new());
-        for i in 0..20 {
-            let (turn, scale, _) = motion(i);
-            let translation = (rng.vec3() - 0.5) * 60.0;
-            let kind = i % 3 % 2;
-            let placement = Placement::new([0, 1][kind], turn, scale, translation);
-            placements.push(placement.expect("rigid"));
-            let out = |x: Vec3| translation + turn * (x * scale);
-            emitters.extend(kinds[kind].iter().map(|emitter| there(emitter, scale, out)));
-        }
-        emitters.push(Emitter::Sky { radiance: SKY });
-        let tree = InstancedLightBvh::build_with(
-            prototypes.into(),
-            &placements,
-            &LightBvhOptions::DYNAMIC,
-        );
-        let sky = [InfiniteBounds::uniform(SKY)];
-        let sampler = InstancedBvhLightSampler::new(tree.expect("a tree"), &sky);
-        let case = SamplerCase::new("village", emitters, 24, seed);
-        (case, sampler.expect("a sampler"), placements)
-    }
-
-    /// A light where it is placed.
-    fn there(emitter: &Emitter, scale: f32, out: impl Fn(Vec3) -> Vec3) -> Emitter {
-        let &Emitter::Set(light) = emitter else {
-            panic!("a light of a set");
-        };
-        Emitter::Set(match light {
-            SetLight::Triangle {
-                vertices,
-                radiance,
-                two_sided,
-            } => {
-                let mut vertices = vertices.map(&out);
-                if scale < 0.0 {
-                    // The mirror image of its front.
-                    vertices.swap(1, 2);
-                }
-                SetLight::Triangle {
-                    vertices,
-                    radiance,
-                    two_sided,
-                }
-            }
-            SetLight::Point { p, intensity } => SetLight::Point {
-                p: out(p),
-                intensity: intensity * scale * scale,
-            },
-            SetLight::Spot {
-                p,
-                target,
-                intensity,
-                cone_deg,
-                delta_deg,
-            } => SetLight::Spot {
-                p: out(p),
-                target: out(target),
-                intensity: intensity * scale * scale,
-                cone_deg,
-                delta_deg,
-            },
-        })
-    }
-
-    fn laws(set: &SamplerCase, sampler: &InstancedBvhLightSampler) {
-        laws::sampled_pmf_is_the_queried_pmf(set, sampler);
-        laws::pmfs_and_none_sum_to_one(set, sampler);
-        laws::contributing_lights_can_be_chosen(set, sampler);
-        laws::unknown_lights_have_no_pmf(set, sampler);
-        laws::frequencies_match_and_u_stays_uniform(set, sampler);
-        laws::invalid_queries_do_not_panic(set, sampler);
-        several_choices_follow_their_pmf(set, sampler);
-    }
-
-    #[test]
-    fn laws_hold_for_many_placements() {
-        for seed in 1..5 {
-            let (set, sampler, _) = village(seed);
-            laws(&set, &sampler);
-        }
-    }
-
-    #[test]
-    fn laws_hold_after_a_refit() {
-        let (set, sampler, placements) = village(5);
-        let far = |i: usize| {
-            let at = Vec3::new(i as f32 * 7.0 % 50.0, i as f32 * 11.0 % 50.0, 3.0);
-            let (turn, _, _) = motion(i + 1);
-            Placement::new(placements[i].prototype(), turn, 1.0, at).expect("rigid")
-        };
-        let before: Vec<_> = (0..placements.len()).map(far).collect();
-        let prototypes = sampler.tree().prototypes().to_vec();
-        let tree = InstancedLightBvh::build(prototypes, &before).expect("a tree");
-        let sky = [InfiniteBounds::uniform(SKY)];
-        let mut moved = InstancedBvhLightSampler::new(tree, &sky).expect("a sampler");
-        let error = moved.refit(&placements[1..]).err();
-        let expected = placements.len();
-        let missing = InstancedLightBvhError::OtherPlacements { expected };
-        assert_eq!(error, Some(missing), "one is missing");
-        let mut exchanged = placements.clone();
-        exchanged.swap(0, 1);
-        let error = moved.refit(&exchanged).err();
-        let other = InstancedLightBvhError::Prototype { placement: 0 };
-        assert_eq!(error, Some(other), "another prototype");
-        moved.refit(&placements).expect("the same prototypes");
-        laws(&set, &moved);
-    }
-
-    #[test]
-    fn ids_are_positions() {
-        let (set, sampler, _) = village(7);
-        let tree = sampler.tree();
-        assert_eq!(
-            tree.light_count() + 1,
-            u64::from(set.count()),
-            "and the sky"
-        );
-        for id in 0..set.count() - 1 {
-            let light = sampler.placed_light(LightId(id)).expect("a light");
-            assert_eq!(tree.light_index(light), Some(u64::from(id)), "{light:?}");
-        }
-        assert_eq!(sampler.placed_light(LightId(set.count() - 1)), None, "sky");
-        let none = PlacedLight {
-            placement: 1000,
-            light: LightId(0),
-        };
-        assert_eq!(tree.pmf(&set.contexts[0], none), 0.0, "no such placement");
     }
 }
 

@@ -40,6 +40,8 @@ mod may_contribute;
 pub mod naive;
 #[cfg(feature = "sources")]
 mod own_twin;
+#[cfg(feature = "samplers")]
+mod placed_case;
 mod quadrature;
 mod real3;
 mod rng;
@@ -63,6 +65,8 @@ pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 pub use may_contribute::may_contribute;
 #[cfg(feature = "sources")]
 pub use own_twin::own_twin;
+#[cfg(feature = "samplers")]
+pub use placed_case::PlacedCase;
 pub use quadrature::{GaussLegendre, integrate};
 pub use rng::Rng;
 #[cfg(feature = "samplers")]

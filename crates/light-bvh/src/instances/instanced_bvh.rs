@@ -270,7 +270,7 @@ impl Placed {
         });
         let groups = table(placements.len(), |i| {
             let placement = &placements[i];
-            PlacedGroup::new(prototype(placement), &frames[i], placement.power)
+            PlacedGroup::new(prototype(placement), &frames[i], placement)
         });
         for (placement, group) in (0..).zip(&groups) {
             let bounds = group.bounds();

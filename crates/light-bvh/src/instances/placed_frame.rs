@@ -36,13 +36,12 @@ impl PlacedFrame {
         let center = translation + rotation * (inside * scale);
         let inv_scale = 1.0 / scale;
         let coordinates = (norm(center) + norm(translation)) * inv_scale.abs();
-        let size = norm(inside) + half_width(prototype);
         Self {
             rotation,
             center,
             inv_scale,
             prototype: placement.prototype,
-            error: ROUND_OFF * coordinates + (RIGID_TOLERANCE + ROUND_OFF) * size,
+            error: error(coordinates, size(prototype)),
         }
     }
 
@@ -56,9 +55,11 @@ impl PlacedFrame {
         1.0 / self.inv_scale
     }
 
-    /// How far placed lights may be from where they are computed to be.
-    pub(crate) fn error(&self) -> f32 {
-        self.error / self.inv_scale.abs()
+    /// How far the lights of `placement`, which this is the frame of, may be from where they are
+    /// computed to be. Where lengths of the prototype overflow, those of the scene need not.
+    pub(crate) fn error(&self, placement: &Placement, prototype: &LightPrototype) -> f32 {
+        let coordinates = norm(self.center) + norm(placement.translation);
+        error(coordinates, size(prototype) * placement.scale.abs())
     }
 
     /// A receiver in the frame of the prototype.
@@ -75,6 +76,16 @@ impl PlacedFrame {
         let error = self.error + (RIGID_TOLERANCE + ROUND_OFF) * away;
         PlacedReceiver::new(receiver, error, away + half_width(prototype))
     }
+}
+
+/// The error of lights at coordinates of this sum, in a prototype of this size.
+fn error(coordinates: f32, size: f32) -> f32 {
+    ROUND_OFF * coordinates + (RIGID_TOLERANCE + ROUND_OFF) * size
+}
+
+/// How far from its origin lights of a prototype may be.
+fn size(prototype: &LightPrototype) -> f32 {
+    norm(prototype.center()) + half_width(prototype)
 }
 
 /// Half of the sum of the sides of the box of all lights.

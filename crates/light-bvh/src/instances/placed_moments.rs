@@ -6,6 +6,7 @@ use light_math::glam::{Mat3, Vec3};
 
 use crate::build::lights::LeafMoments;
 use crate::instances::placed_frame::PlacedFrame;
+use crate::instances::placement::Placement;
 use crate::instances::prototype::LightPrototype;
 use crate::node::moments::Moments;
 use crate::simd::prefetch;
@@ -20,10 +21,14 @@ pub(crate) struct PlacedGroup {
 }
 
 impl PlacedGroup {
-    /// The lights of `prototype` where `frame` places them, with powers multiplied by `factor`.
-    pub(crate) fn new(prototype: &LightPrototype, frame: &PlacedFrame, factor: f32) -> Self {
+    /// The lights of `prototype` as `placement` places them, which `frame` is made of.
+    pub(crate) fn new(
+        prototype: &LightPrototype,
+        frame: &PlacedFrame,
+        placement: &Placement,
+    ) -> Self {
         let inner = &prototype.moments;
-        let power = f64::from(prototype.tree().power()) * f64::from(factor);
+        let power = f64::from(prototype.tree().power()) * f64::from(placement.power);
         if !(inner.power > 0.0 && power > 0.0) {
             return Self {
                 moments: Moments::NOTHING,
@@ -33,7 +38,8 @@ impl PlacedGroup {
         let scale = frame.scale();
         let axes = frame.axes();
         let place = |x: Vec3| frame.center + axes * ((x - prototype.center()) * scale);
-        let bounds = bounds(prototype, scale.abs(), frame.error(), axes, place);
+        let error = frame.error(placement, prototype);
+        let bounds = bounds(prototype, scale.abs(), error, axes, place);
         let mut moments = Moments {
             bounds,
             mean: place(inner.mean).clamp(bounds.min, bounds.max),
@@ -61,11 +67,18 @@ impl PlacedGroup {
     /// centre, power, and axis.
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn extent(&self) -> LightExtent {
+        /// The least length of an axis that the builder groups by.
+        const SHORT: f32 = 1e-6;
         let is_lit = self.moments.power > 0.0;
         let length = self.moments.axis.length();
         LightExtent::Bounded(LightBounds {
             bounds: Aabb::from_point(self.moments.mean),
-            w: self.moments.axis.normalize_or(Vec3::Z),
+            // The square of a short axis vanishes, and its direction says little.
+            w: if length > SHORT {
+                self.moments.axis * (1.0 / length)
+            } else {
+                Vec3::Z
+            },
             phi: if is_lit {
                 (self.power as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
             } else {

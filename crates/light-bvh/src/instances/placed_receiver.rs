@@ -1,7 +1,8 @@
 use light_bounds::LightGroups;
+use light_math::float;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::ChildView;
+use crate::importance::child_view::{ChildView, DISTANCE, ROUND_OFF, dist_sq};
 use crate::importance::context_receiver::{AnyKind, ContextReceiver, with_kind};
 use crate::importance::receiver::{NoReceiver, Receiver};
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query};
@@ -66,6 +67,11 @@ impl IntoReceiver for PlacedContext {
     }
 }
 
+/// The largest error, in the unit of a node, so that no weight overflows or vanishes. Boxes as
+/// large as this make weights in codes so small that they are not trusted, and in a unit near the
+/// distance they hold the receiver.
+const WIDEST: f32 = 1e7;
+
 /// A receiver that sees every box larger by an error of positions, so that what it proves of a box
 /// it proves of the lights.
 #[derive(Clone, Copy, Debug)]
@@ -87,9 +93,15 @@ impl<R: Receiver> Receiver for Widened<R> {
 
     #[inline(always)]
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
-        let error = self.error * inv_unit;
+        let error = (self.error * inv_unit).min(WIDEST);
+        let extent = child.extent.map(|half| half + error);
+        let dist_sq = dist_sq(child.mean, extent, DISTANCE);
+        let dist = float::sqrt(dist_sq);
         let child = ChildView {
-            extent: child.extent.map(|half| half + error),
+            extent,
+            dist,
+            dist_sq,
+            slack: ROUND_OFF * dist,
             ..*child
         };
         self.receiver.weigh(&child, inv_unit)

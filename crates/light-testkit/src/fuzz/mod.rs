@@ -11,12 +11,14 @@ mod distributions;
 mod encodings;
 mod images;
 mod input;
+mod instanced_trees;
 mod light_sources;
 mod light_trees;
 mod lights;
 mod media;
 mod octahedral;
 mod partials;
+mod placed_scene;
 mod quantisation;
 mod readers;
 mod refits;
@@ -25,6 +27,7 @@ mod samplers;
 
 pub use command_lines::command_lines;
 pub use encodings::encodings;
+pub use instanced_trees::instanced_trees;
 pub use light_sources::light_sources;
 pub use light_trees::light_trees;
 pub use media::media;
@@ -37,9 +40,10 @@ pub use samplers::samplers;
 pub type Target = fn(&[u8]);
 
 /// All targets by name, which is also the name of the folder of their corpus.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("command_lines", command_lines),
     ("encodings", encodings),
+    ("instanced_trees", instanced_trees),
     ("light_sources", light_sources),
     ("light_trees", light_trees),
     ("media", media),

@@ -8,7 +8,7 @@ use light_samplers::{
 use light_sets::SetKind;
 
 use super::report::Row;
-use crate::{Emitter, SamplerCase, stored};
+use crate::{Emitter, PlacedCase, SamplerCase, stored};
 
 /// Above so many lights a sampler that looks at all of them is left out.
 const FEW: usize = 64;
@@ -24,7 +24,7 @@ pub(super) struct SoakSet {
 type AnySampler = Box<dyn LightSampler + Sync + Send>;
 
 /// Generated sets of several sizes, the same below a sky and two suns, the last of them also in
-/// groups, and the adversarial ones.
+/// groups, the adversarial ones, and prototypes that are placed many times.
 pub(super) fn sets() -> Vec<SoakSet> {
     let (mut sets, mut grouped) = (Vec::new(), Vec::new());
     for n in [40, 1000, 30_000] {
@@ -54,7 +54,8 @@ pub(super) fn sets() -> Vec<SoakSet> {
         let groups = groups(set.emitters.len());
         SoakSet::new(set, groups)
     });
-    sets.chain(grouped).collect()
+    let placed = [20, 400].map(|count| SoakSet::placed(&PlacedCase::village(count, 56)));
+    sets.chain(grouped).chain(placed).collect()
 }
 
 /// One empty row a set.
@@ -130,6 +131,22 @@ impl SoakSet {
             set,
             groups,
             samplers,
+        }
+    }
+
+    /// Prototypes in their places, and after a refit that moves all of them.
+    fn placed(case: &PlacedCase) -> Self {
+        let mut refitted = case.sampler(&case.elsewhere());
+        refitted
+            .refit(&case.placements)
+            .expect("as many placements");
+        Self {
+            set: case.case.clone(),
+            groups: Vec::new(),
+            samplers: vec![
+                ("instanced", Box::new(case.sampler(&case.placements))),
+                ("instanced, refitted", Box::new(refitted)),
+            ],
         }
     }
 
