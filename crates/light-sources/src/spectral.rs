@@ -10,9 +10,11 @@ use crate::spectral_emission::SpectralEmission;
 
 /// The spectral colour model, with `N` sampled wavelengths per query.
 ///
-/// The example [`spectral`][1] makes a picture with it.
+/// The example [`spectral`][1] makes a picture with it; [`spectral_and_rgb`][2] has the same lamps in
+/// both models.
 ///
 /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/spectral.rs
+/// [2]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/spectral_and_rgb.rs
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spectral<const N: usize>;
 

@@ -12,7 +12,7 @@ pub struct Estimate {
 impl Estimate {
     /// How many standard errors a mean may be off: a normal variable is further away with the
     /// chance [`SIGNIFICANCE`](crate::SIGNIFICANCE).
-    pub const STANDARD_ERRORS: f64 = 6.12;
+    pub const STANDARD_ERRORS: f64 = 6.14;
 
     /// Relative error that the arithmetic in `f32` may add.
     pub const ROUNDING: f64 = 1e-4;
