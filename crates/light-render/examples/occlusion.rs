@@ -163,9 +163,9 @@ impl fmt::Display for Place {
 }
 
 /// One of [`METHODS`].
-fn method(text: &str) -> Result<&'static Method, &'static str> {
+fn method(text: &str) -> Result<&'static Method, String> {
     let method = text.parse().ok().and_then(|i: usize| METHODS.get(i));
-    method.ok_or("expected a number from 0 to 5")
+    method.ok_or_else(|| format!("expected a number from 0 to {}", METHODS.len() - 1))
 }
 
 /// `WIDTHxHEIGHT`.
