@@ -195,11 +195,7 @@ fn unshadowed<V: Scatters>(
     }
     let density = query.choices.count() as f32 * choice.pmf * sample.pdf;
     let kind = light.light_type();
-    let weight = if kind.is_delta() {
-        1.0
-    } else {
-        estimator.light_weight(density, scattering.pdf(wo, sample.wi))
-    };
+    let weight = estimator.light_weight(kind, density, || scattering.pdf(wo, sample.wi));
     Some(Unshadowed {
         light: choice.light,
         radiance: scattered * (weight / density),

@@ -1,5 +1,5 @@
 use lights::math::mis;
-use lights::sources::PdfCoverage;
+use lights::sources::{LightType, PdfCoverage};
 
 /// Which strategies find the light that arrives at a surface.
 ///
@@ -34,12 +34,20 @@ impl Estimator {
     }
 
     /// The weight of a light sample of density `light`, where the material has density `bsdf`; both
-    /// in sr^-1.
+    /// in sr^-1. It is 1 for a `kind` of light that rays cannot find.
     #[inline]
     #[must_use]
-    pub(crate) fn light_weight(self, light: f32, bsdf: f32) -> f32 {
+    pub(crate) fn light_weight(
+        self,
+        kind: LightType,
+        light: f32,
+        bsdf: impl FnOnce() -> f32,
+    ) -> f32 {
+        if kind.is_delta() {
+            return 1.0;
+        }
         match self {
-            Self::Mis => mis::power(light, bsdf),
+            Self::Mis => mis::power(light, bsdf()),
             Self::Light => 1.0,
             Self::Bsdf => 0.0,
         }

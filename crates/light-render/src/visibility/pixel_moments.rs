@@ -186,18 +186,10 @@ impl MeasuredVertex {
         if !(light > 0.0 && root > 0.0 && cut > 0.0) {
             return None;
         }
-        let is_delta = world
-            .lights()
-            .get(choice.light)
-            .is_some_and(|light| light.light_type().is_delta());
+        let kind = world.lights().get(choice.light)?.light_type();
         let bsdf = self.scattering.pdf(self.wo, li.wi);
         let weighted = |expected: f32| {
-            let weight = if is_delta {
-                1.0
-            } else {
-                estimator.light_weight(expected * li.pdf, bsdf)
-            };
-            light * f64::from(weight)
+            light * f64::from(estimator.light_weight(kind, expected * li.pdf, || bsdf))
         };
         let of_pair = weighted(2.0 * cut);
         let is_seen = !world.occluded(&self.surface, li.wi, li.p_light);
