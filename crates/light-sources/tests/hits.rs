@@ -1,6 +1,7 @@
 //! A short ray to a point of a shape meets the shape there, from both sides; one that leads away
 //! from it meets nothing.
 
+use light_sources::SurfacePoint;
 use light_sources::glam::{Affine3A, Vec2, Vec3};
 use light_sources::shape::{AnyShape, Shape, ShapeDesc};
 use light_testkit::Rng;
@@ -35,51 +36,51 @@ fn shapes() -> [ShapeDesc; 7] {
     ]
 }
 
+/// Calls `each` with shapes and so many points of each.
+fn each_point(seed: u64, count: u32, mut each: impl FnMut(&ShapeDesc, &AnyShape, &SurfacePoint)) {
+    let mut rng = Rng::new(seed);
+    for desc in shapes() {
+        let shape = desc.build().expect("a shape");
+        for _ in 0..count {
+            let u = Vec2::new(rng.range(0.01, 0.99), rng.range(0.01, 0.99));
+            each(&desc, &shape, &shape.sample(u).expect("a point").at);
+        }
+    }
+}
+
 #[test]
 fn rays_meet_the_nearest_point_from_both_sides() {
     /// Less than any shape is thick.
     const NEAR: f32 = 0.05;
-    let mut rng = Rng::new(1);
-    for desc in shapes() {
-        let shape = desc.build().expect("a shape");
-        for _ in 0..200 {
-            let u = Vec2::new(rng.range(0.01, 0.99), rng.range(0.01, 0.99));
-            let at = shape.sample(u).expect("a point").at;
-            for side in [1.0, -1.0] {
-                let outward = side * at.n;
-                let origin = at.p + NEAR * outward;
-                let hit = shape.hit(origin, -outward);
-                let hit = hit.unwrap_or_else(|| panic!("{desc:?}: {at:?} is missed"));
-                assert!(hit.p.abs_diff_eq(at.p, 1e-5), "{desc:?}: {hit:?}, {at:?}");
-                assert!(hit.n.abs_diff_eq(at.n, 1e-3), "{desc:?}: {hit:?}, {at:?}");
-                assert!(hit.uv.abs_diff_eq(at.uv, 1e-3), "{desc:?}: {hit:?}, {at:?}");
-            }
-            let away = shape.hit(at.p + NEAR * at.n, at.n);
-            assert_eq!(away, None, "{desc:?}: away from the front");
+    each_point(1, 200, |desc, shape, at| {
+        for side in [1.0, -1.0] {
+            let outward = side * at.n;
+            let origin = at.p + NEAR * outward;
+            let hit = shape.hit(origin, -outward);
+            let hit = hit.unwrap_or_else(|| panic!("{desc:?}: {at:?} is missed"));
+            assert!(hit.p.abs_diff_eq(at.p, 1e-5), "{desc:?}: {hit:?}, {at:?}");
+            assert!(hit.n.abs_diff_eq(at.n, 1e-3), "{desc:?}: {hit:?}, {at:?}");
+            assert!(hit.uv.abs_diff_eq(at.uv, 1e-3), "{desc:?}: {hit:?}, {at:?}");
         }
-    }
+        let away = shape.hit(at.p + NEAR * at.n, at.n);
+        assert_eq!(away, None, "{desc:?}: away from the front");
+    });
 }
 
 /// A sphere that is not turned is one around its centre; a point of a disk or of a tube is that of
 /// its surface parameters.
 #[test]
 fn short_names_and_parameters() {
-    let mut rng = Rng::new(2);
-    for desc in shapes() {
-        let shape = desc.build().expect("a shape");
-        for _ in 0..50 {
-            let u = Vec2::new(rng.range(0.01, 0.99), rng.range(0.01, 0.99));
-            let at = shape.sample(u).expect("a point").at;
-            let found = match &shape {
-                AnyShape::Disk(disk) => disk.at_uv(at.uv),
-                AnyShape::Cylinder(tube) => tube.at_uv(at.uv),
-                _ => continue,
-            };
-            assert!(found.p.abs_diff_eq(at.p, 1e-5), "{found:?}, {at:?}");
-            assert!(found.n.abs_diff_eq(at.n, 1e-5), "{found:?}, {at:?}");
-            assert_eq!(found.uv, at.uv, "{found:?}");
-        }
-    }
+    each_point(2, 50, |_, shape, at| {
+        let found = match shape {
+            AnyShape::Disk(disk) => disk.at_uv(at.uv),
+            AnyShape::Cylinder(tube) => tube.at_uv(at.uv),
+            _ => return,
+        };
+        assert!(found.p.abs_diff_eq(at.p, 1e-5), "{found:?}, {at:?}");
+        assert!(found.n.abs_diff_eq(at.n, 1e-5), "{found:?}, {at:?}");
+        assert_eq!(found.uv, at.uv, "{found:?}");
+    });
     let sphere = ShapeDesc::sphere(Vec3::X, 0.5).build().expect("a sphere");
     let hit = sphere.hit(Vec3::ZERO, Vec3::X).expect("its near side");
     assert!(hit.p.abs_diff_eq(Vec3::new(0.5, 0.0, 0.0), 1e-6), "{hit:?}");
