@@ -43,6 +43,7 @@ mod ray;
 mod render;
 mod report;
 mod sample_stream;
+mod sampler_kind;
 mod scene_digest;
 mod scene_lights;
 mod scene_lights_error;
@@ -68,7 +69,7 @@ pub use flight_numbers::FlightNumbers;
 pub use flip::Flip;
 pub use inventory::{LightInventory, inventory};
 pub use light_layers::{LightGroupPattern, LightLayers, LightLayersError};
-pub use light_sampler::{AnyLightSampler, AnyLightSamplerError, SamplerKind};
+pub use light_sampler::{AnyLightSampler, AnyLightSamplerError};
 pub use partial::PartialPicture;
 pub use partial_error::PartialPictureError;
 pub use picture_identity::PictureIdentity;
@@ -78,6 +79,7 @@ pub use render::{
     LayerRendering, Progress, RenderSettings, Rendering, render, render_layers, render_while,
 };
 pub use sample_stream::{CameraNumbers, SampleStream, VertexNumbers};
+pub use sampler_kind::SamplerKind;
 pub use scene_digest::{SceneDigest, SceneDigestError};
 pub use scene_lights_error::SceneLightsError;
 pub use surface::Surface;

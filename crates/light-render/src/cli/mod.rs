@@ -43,6 +43,7 @@ mod stdout;
 mod unfinished;
 mod view_args;
 mod visibility;
+mod visible;
 
 use alloc::collections::BTreeSet;
 use std::ffi::OsString;

@@ -1,0 +1,120 @@
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::memory_check::check_cells_memory;
+use super::stdout::say;
+use super::visibility::{VisibilityCosts, VisibilityName, cells, with_visibility};
+use crate::{
+    AnyLightSampler, ChoiceEstimates, ChoicePlan, SamplerKind, View, Visibility, VisibilityCells,
+    World,
+};
+
+/// What is known of visibility in a picture by the scene's camera.
+pub(super) enum Visible {
+    /// What light samples tell; `None` where nothing is lit.
+    Share(Option<ChoiceEstimates>),
+    Cells(Cells),
+}
+
+/// The cells of visibility for a picture by the scene's camera.
+pub(super) struct Cells {
+    counts: [usize; 2],
+    /// Pixels that show a surface in a cell, and all.
+    pixels: [usize; 2],
+    costs: VisibilityCosts,
+}
+
+impl Visible {
+    pub(super) fn over(
+        name: VisibilityName,
+        world: &World,
+        view: &View,
+        max_depth: u32,
+    ) -> Result<Self, Failure> {
+        let sampler =
+            AnyLightSampler::new(SamplerKind::DEFAULT, world.lights()).map_err(Failure::input)?;
+        Ok(match name {
+            VisibilityName::Cells => Self::Cells(Cells::over(sampler, world, view, max_depth)?),
+            VisibilityName::Off | VisibilityName::Share => {
+                let estimates = |lights| ChoiceEstimates::new(world, view, lights, max_depth);
+                Self::Share(sampler.hierarchy().and_then(estimates))
+            }
+        })
+    }
+
+    pub(super) fn report(&self) -> Value {
+        match self {
+            Self::Share(Some(estimates)) => json!({
+                "visible_share": estimates.visible_share(),
+                "variances": ChoicePlan::ALL.map(|plan| estimates.variance(plan)),
+                "choice": estimates.best().name(),
+            }),
+            Self::Share(None) => json!({ "visible_share": null }),
+            Self::Cells(cells) => cells.report(),
+        }
+    }
+
+    pub(super) fn print(&self) -> Result<(), Failure> {
+        match self {
+            Self::Share(Some(estimates)) => {
+                let of = |plan| estimates.variance(plan);
+                say!(
+                    "  visibility {:.2} of the light that nothing would hide arrives",
+                    estimates.visible_share()
+                )?;
+                say!(
+                    "  choice     {}: variances of a sample {:.3}, by a cut {:.3}, by two {:.3}",
+                    estimates.best().name(),
+                    of(ChoicePlan::OneFromRoot),
+                    of(ChoicePlan::OneByCut),
+                    of(ChoicePlan::AsAsked)
+                )
+            }
+            Self::Share(None) => say!("  visibility no light"),
+            Self::Cells(cells) => cells.print(),
+        }
+    }
+}
+
+impl Cells {
+    fn over(
+        sampler: AnyLightSampler,
+        world: &World,
+        view: &View,
+        max_depth: u32,
+    ) -> Result<Self, Failure> {
+        let (width, height) = view.resolution();
+        check_cells_memory(width, height)?;
+        let (sampler, costs) = with_visibility(sampler, Visibility::Cells, world, view, max_depth)?;
+        let cells = cells(&sampler);
+        Ok(Self {
+            counts: cells.map_or([0; 2], VisibilityCells::counts),
+            pixels: [
+                cells.map_or(0, VisibilityCells::pixels),
+                width as usize * height as usize,
+            ],
+            costs,
+        })
+    }
+
+    fn report(&self) -> Value {
+        json!({
+            "coarse_cells": self.counts[0],
+            "fine_cells": self.counts[1],
+            "known_pixels": self.pixels[0],
+            "pixels": self.pixels[1],
+            "bytes": self.costs.bytes,
+            "seconds": self.costs.seconds,
+        })
+    }
+
+    fn print(&self) -> Result<(), Failure> {
+        let ([coarse, fine], [known, all]) = (self.counts, self.pixels);
+        say!(
+            "  visibility {coarse} coarse and {fine} fine cells know the lights of {known} of {all} \
+             pixels: {} bytes, filled in {:.2} s",
+            self.costs.bytes,
+            self.costs.seconds
+        )
+    }
+}
