@@ -74,11 +74,13 @@ fn picture(name: &str, title: &str, scene: Scene) -> Result<()> {
         .zip(&b.pixels)
         .map(|(a, b)| 0.5 * (*a + *b))
         .collect();
-    let error = bench.error(&both, bench.tenth_of_mean(&both));
+    // The square of a tenth of the mean.
+    let floor = bench.tenth_of_mean(&both);
+    let error = bench.error(&both, floor);
     println!(
         "{title:<18} {spp:>3} {:>9.1} {:>7.4} {:>8.4}",
         0.5 * (a.seconds + b.seconds),
-        (100.0 * bench.tenth_of_mean(&both)).sqrt(),
+        10.0 * floor.sqrt(),
         error.of_pair(&a.pixels, &b.pixels)
     );
     let shown = a.pixels.iter().map(|&l| (l * EXPOSURE).min(Vec3::ONE));
