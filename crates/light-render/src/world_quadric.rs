@@ -4,11 +4,11 @@ use lights::sources::SurfacePoint;
 
 use crate::{QuadricShape, WorldError};
 
-/// A sphere, disk or cylinder of one material.
+/// A sphere, disk or cylinder of one material, whole or in part.
 #[derive(Debug, serde::Serialize)]
 pub(crate) struct WorldQuadric {
     pub(crate) described: Quadric,
-    /// It follows from the description.
+    /// That of the whole; it follows from the description.
     #[serde(skip)]
     pub(crate) shape: QuadricShape,
 }
@@ -21,7 +21,16 @@ impl WorldQuadric {
     /// The point with the coordinates of a [`Hit`](crate::Hit), with its outward normal.
     #[inline]
     pub(super) fn at(&self, coords: Vec2) -> SurfacePoint {
-        self.shape.at(coords)
+        let at = self.shape.at(coords);
+        let uv = self.described.part.map_or(at.uv, |part| part.uv(at.uv));
+        SurfacePoint { uv, ..at }
+    }
+
+    /// Whether the point with these coordinates belongs to the part that is there.
+    #[inline]
+    pub(super) fn is_there(&self, coords: Vec2) -> bool {
+        let part = self.described.part;
+        part.is_none_or(|part| part.contains(self.shape.at(coords).uv))
     }
 
     /// The normal of the front, where that of the outside is `n`.

@@ -4,9 +4,9 @@ use lights::math::Aabb;
 use lights::sources::shape::ShapeDesc;
 
 use crate::glam::{Affine3A, Mat3A, Vec3};
-use crate::{MaterialId, Mesh};
+use crate::{MaterialId, Mesh, QuadricKind, QuadricPart};
 
-/// A whole sphere, disk or cylinder of one material: round, not made of triangles.
+/// A sphere, disk or cylinder of one material, whole or in part: round, not made of triangles.
 ///
 /// Its texture coordinates are those of [`Mesh`]es that readers make of such shapes: u runs around
 /// the axis +z of `transform`, v from the lower pole or rim to the upper, of a disk from the rim
@@ -14,7 +14,8 @@ use crate::{MaterialId, Mesh};
 ///
 /// An emissive one is one light. Light samples only find the part of a sphere or cylinder that is
 /// visible, so that inside emission through an alpha mask or a
-/// [`Surface::Interface`](crate::Surface::Interface) is noisier.
+/// [`Surface::Interface`](crate::Surface::Interface) is noisier. No light has the shape of a part:
+/// one that emits is rendered as its [`mesh`](Self::mesh).
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Quadric {
     /// The name in the file; may be empty.
@@ -23,29 +24,14 @@ pub struct Quadric {
     pub material: MaterialId,
     /// Which shape it is.
     pub kind: QuadricKind,
+    /// The part of it that is there; `None` for all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<QuadricPart>,
     /// From the space of `kind` to the scene: a rotation or reflection with uniform scale and
     /// translation.
     pub transform: Affine3A,
     /// Which side is the front, on which a one-sided emitter emits.
     pub front: QuadricFront,
-}
-
-/// A shape of radius 1 around the axis z.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub enum QuadricKind {
-    /// The unit sphere around the origin.
-    Sphere,
-    /// The unit disk in the plane z = 0; its outside is the side of +z.
-    Disk {
-        /// The radius of the hole in it, in `[0, 1)`; 0 for none.
-        inner_radius: f32,
-    },
-    /// The wall of a tube without its ends, half of it on each side of the origin.
-    Cylinder {
-        /// Its length.
-        length: f32,
-    },
 }
 
 /// The front of a quadric.
@@ -71,6 +57,7 @@ impl Quadric {
             name: name.into(),
             material,
             kind,
+            part: None,
             transform,
             front: QuadricFront::Outside,
         }
@@ -102,12 +89,34 @@ impl Quadric {
             QuadricKind::Disk { inner_radius } => PI * (1.0 - inner_radius * inner_radius),
             QuadricKind::Cylinder { length } => TAU * length,
         };
-        of_unit * self.radius() * self.radius()
+        let share = self.part.map_or(1.0, |part| part.area_share(self.kind));
+        of_unit * share * self.radius() * self.radius()
     }
 
-    /// The box around it.
+    /// A box around it: the smallest, unless it is a part.
     #[must_use]
     pub fn bounds(&self) -> Aabb {
+        let whole = self.bounds_of_whole();
+        let Some(part) = self.part else {
+            return whole;
+        };
+        let Aabb { min, max } = part.bounds(self.kind);
+        let center = self.transform.transform_point3(0.5 * (min + max));
+        let half = 0.5 * (max - min);
+        let Mat3A {
+            x_axis,
+            y_axis,
+            z_axis,
+        } = self.transform.matrix3;
+        let reach = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
+        let reach = Vec3::from(reach);
+        Aabb {
+            min: whole.min.max(center - reach),
+            max: whole.max.min(center + reach),
+        }
+    }
+
+    fn bounds_of_whole(&self) -> Aabb {
         let radius = self.radius();
         let axis = Vec3::from(self.transform.matrix3.z_axis) / radius;
         // How far the rim of a disk reaches along each axis of the scene.
@@ -123,7 +132,7 @@ impl Quadric {
         }
     }
 
-    /// The shape of a light with this surface; it is invalid where `transform` does not keep
+    /// The shape of a light with the surface of the whole; it is invalid where `transform` does not keep
     /// angles.
     #[must_use]
     pub fn shape(&self) -> ShapeDesc {
@@ -199,17 +208,28 @@ impl Quadric {
             let (sin, cos) = (u * TAU).sin_cos();
             Vec3::new(cos, sin, 0.0)
         };
+        let all = QuadricPart {
+            turn: 1.0,
+            v: [0.0, 1.0],
+        };
+        let part = self.part.unwrap_or(all);
+        let grid = |rows, point: &dyn Fn(f32, f32) -> (Vec3, Vec3)| {
+            Mesh::grid([columns, rows], |u, v| {
+                let [u, v] = part.of_whole([u, v]);
+                point(u, v)
+            })
+        };
         let unit = match self.kind {
-            QuadricKind::Sphere => Mesh::grid([columns, columns / 2], |u, v| {
+            QuadricKind::Sphere => grid(columns / 2, &|u, v| {
                 let (sin, cos) = (v * PI).sin_cos();
                 // Not below 0, to which the sine of pi is rounded.
                 let normal = around(u) * sin.max(0.0) - Vec3::Z * cos;
                 (normal, normal)
             }),
-            QuadricKind::Disk { inner_radius } => Mesh::grid([columns, 1], |u, v| {
+            QuadricKind::Disk { inner_radius } => grid(1, &|u, v| {
                 (around(u) * (1.0 + (inner_radius - 1.0) * v), Vec3::Z)
             }),
-            QuadricKind::Cylinder { length } => Mesh::grid([columns, 1], |u, v| {
+            QuadricKind::Cylinder { length } => grid(1, &|u, v| {
                 (around(u) + Vec3::Z * (length * (v - 0.5)), around(u))
             }),
         };

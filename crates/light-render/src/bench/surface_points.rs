@@ -8,12 +8,13 @@ use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use super::scene_receiver::SceneReceiver;
-use crate::{PrimitiveId, QuadricShape, Surface, World};
+use crate::{PrimitiveId, QuadricShape, World};
 
 /// Primitives whose areas are held at most; of more, only some are looked at.
 const MOST_PRIMITIVES: usize = 1 << 20;
 
-/// Points that may be tried for each that is wanted: some lie on lamps and mirrors.
+/// Points that may be tried for each that is wanted: some lie on lamps, on mirrors, and where a
+/// part of a quadric is not.
 const TRIES: usize = 8;
 
 /// Up to `count` points on the surfaces of `world` that scatter light, uniform in area and in
@@ -46,7 +47,11 @@ pub(super) fn on_surfaces(world: &World, count: usize, seed: u64) -> Vec<SceneRe
         let Some(&(primitive, _)) = ends.get(at) else {
             continue;
         };
-        let surface = point(world, primitive, Vec2::new(number(), number()));
+        let coords = coords(world, primitive, Vec2::new(number(), number()));
+        if !world.is_there(primitive, coords) {
+            continue;
+        }
+        let surface = world.surface(primitive, coords);
         let wo = warp::cosine_hemisphere::sample(Vec2::new(number(), number()));
         let wo = Frame::from_z(surface.n).from_local(wo);
         receivers.extend(SceneReceiver::new(world, surface, wo, key as u64));
@@ -54,7 +59,7 @@ pub(super) fn on_surfaces(world: &World, count: usize, seed: u64) -> Vec<SceneRe
     receivers
 }
 
-/// The area of a primitive in the scene.
+/// The area of a primitive in the scene, that of the whole for a part of a quadric.
 fn area(world: &World, primitive: PrimitiveId) -> f64 {
     let p = |x, y| world.surface(primitive, Vec2::new(x, y)).p.as_dvec3();
     // Transforms of quadrics keep their form.
@@ -75,9 +80,10 @@ fn area(world: &World, primitive: PrimitiveId) -> f64 {
     if area.is_finite() { area } else { 0.0 }
 }
 
-/// A point of a primitive, uniform in area.
-fn point(world: &World, primitive: PrimitiveId, u: Vec2) -> Surface {
-    let coords = match world.quadric(primitive) {
+/// The coordinates of a point of a primitive, uniform in area; of a part of a quadric they may be
+/// those of a point of the rest.
+fn coords(world: &World, primitive: PrimitiveId, u: Vec2) -> Vec2 {
+    match world.quadric(primitive) {
         Some(QuadricShape::Sphere(_)) => octahedral::to_square(uniform_sphere::sample(u)),
         Some(QuadricShape::Disk(disk)) => {
             let inner = disk.inner_radius() / disk.radius();
@@ -89,6 +95,5 @@ fn point(world: &World, primitive: PrimitiveId, u: Vec2) -> Surface {
             let weights = uniform_triangle::sample(u);
             Vec2::new(weights.y, weights.z)
         }
-    };
-    world.surface(primitive, coords)
+    }
 }

@@ -9,8 +9,8 @@ use crate::surface_emission::AlphaMaskedLights;
 use crate::{PrimitiveId, Ray, Surface, sobol};
 
 impl World {
-    /// Any-hit test: whether `ray` hits a primitive at `coords`, or passes through its alpha mask
-    /// or a back face that is culled.
+    /// Any-hit test: whether `ray` hits a primitive at `coords`, or passes through its alpha mask,
+    /// a back face that is culled, or what a part of a quadric lacks.
     ///
     /// A surface of fractional opacity is hit by that share of the rays, chosen by a hash of ray
     /// and primitive, so that the same ray always gets the same answer. A ray may cross a quadric
@@ -19,6 +19,9 @@ impl World {
         let (_, material) = self.material(primitive);
         let is_culled = material.back_faces == BackFaces::Culled;
         if is_culled && self.is_seen_from_behind(ray, primitive) {
+            return false;
+        }
+        if !self.is_there(primitive, coords) {
             return false;
         }
         if material.alpha.is_none() {

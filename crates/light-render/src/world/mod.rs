@@ -55,7 +55,8 @@ pub struct World {
     /// numbers behind those of quadrics.
     listed_lights: Vec<LightId>,
     media: WorldMedia,
-    /// Whether rays pass through any material: alpha masks, back faces that are culled.
+    /// Whether rays pass through anything: alpha masks, back faces that are culled, what parts of
+    /// quadrics lack.
     has_any_hits: bool,
     /// Whether any material has a normal map.
     has_normal_maps: bool,
@@ -134,7 +135,7 @@ impl World {
         Ok(Self {
             has_any_hits: materials.iter().any(|material| {
                 material.alpha.is_some() || material.back_faces == BackFaces::Culled
-            }),
+            }) || quadrics.iter().any(|q| q.described.part.is_some()),
             has_normal_maps: materials
                 .iter()
                 .any(|material| material.normal_map.is_some()),

@@ -10,7 +10,8 @@ use crate::InstanceTransform;
 /// instances, and rays find them faster.
 const FEW: usize = 2;
 
-/// Columns of the mesh that replaces an emissive ellipsoid: no light has that shape.
+/// Columns of the mesh that replaces an emissive ellipsoid or part of a quadric: no light has that
+/// shape.
 const COLUMNS: u16 = 64;
 
 /// The objects of a scene that are instanced rather than copied.
@@ -96,8 +97,20 @@ impl Objects {
                 });
             }
         }
+        tessellate_emissive_parts(scene);
         Ok(objects)
     }
+}
+
+/// Replaces the parts of quadrics that emit by meshes.
+fn tessellate_emissive_parts(scene: &mut Scene) {
+    let quadrics = core::mem::take(&mut scene.quadrics);
+    let is_mesh = |q: &Quadric| q.part.is_some() && scene.is_emissive(q.material);
+    let (parts, others): (Vec<_>, Vec<_>) = quadrics.into_iter().partition(is_mesh);
+    scene.quadrics = others;
+    scene
+        .meshes
+        .extend(parts.iter().map(|part| part.mesh(COLUMNS)));
 }
 
 /// The transforms without duplicates: opaque instances that coincide look like one.
@@ -137,13 +150,14 @@ impl Part {
         triangles.sum::<usize>() + self.quadrics.len()
     }
 
-    /// The number of triangles and quadrics of a copy; one that is stretched counts as its mesh.
+    /// The number of triangles and quadrics of an emissive copy; a part, or one that is stretched,
+    /// counts as its mesh.
     fn count_under(&self, transform: &Affine3A) -> usize {
-        let stretched = self
+        let tessellated = self
             .quadrics
             .iter()
-            .filter(|s| s.transformed(transform).is_none());
-        self.count() + stretched.count() * usize::from(COLUMNS).pow(2)
+            .filter(|q| q.part.is_some() || q.transformed(transform).is_none());
+        self.count() + tessellated.count() * usize::from(COLUMNS).pow(2)
     }
 
     /// Whether all quadrics stay quadrics under all transforms.

@@ -96,6 +96,15 @@ impl World {
         }
     }
 
+    /// Whether the primitive has a point with these coordinates: a part of a quadric lacks those of
+    /// the rest of it.
+    pub(crate) fn is_there(&self, primitive: PrimitiveId, coords: Vec2) -> bool {
+        match self.stored(primitive) {
+            Stored::Quadric(quadric) => quadric.is_there(coords),
+            _ => true,
+        }
+    }
+
     /// Whether `ray` arrives at the back of a triangle.
     pub(super) fn is_seen_from_behind(&self, ray: &Ray, primitive: PrimitiveId) -> bool {
         let Stored::Triangle { mesh, index } = self.stored(primitive) else {

@@ -18,7 +18,7 @@ const KINDS: [QuadricKind; 3] = [
 ];
 
 /// A room with a quadric of `material` in it, an ordinary lamp above.
-fn in_room(kind: QuadricKind, material: Material) -> Scene {
+pub(crate) fn in_room(kind: QuadricKind, material: Material) -> Scene {
     let mut scene = cornell();
     let material = scene.add_material(material);
     let transform = similarity(Vec3::new(0.6, 0.35, 0.45), 0.25);
@@ -27,7 +27,7 @@ fn in_room(kind: QuadricKind, material: Material) -> Scene {
     scene
 }
 
-fn assert_looks_tessellated(scene: &Scene, what: &str) {
+pub(crate) fn assert_looks_tessellated(scene: &Scene, what: &str) {
     let shot = Shot {
         max_depth: 12,
         ..Shot::default()
@@ -42,46 +42,46 @@ fn rays_meet_what_they_meet_of_triangles() {
         for front in [QuadricFront::Outside, QuadricFront::Inside] {
             let mut scene = in_room(kind, Material::diffuse("a", Vec3::ONE));
             scene.quadrics[0].front = front;
-            // Nothing else.
-            scene.meshes.clear();
-            let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 1024))];
-            let lattice = |i: u32, g: Vec3| (g * i as f32).fract();
-            let (mut met, mut differ) = (0, 0);
-            for i in 1..20_000 {
-                let origin = lattice(i, Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5));
-                let target = lattice(i, Vec3::new(0.754_877_7, 0.569_840_3, 0.430_159_7));
-                let direction = (target - origin).normalize();
-                let ray = Ray { origin, direction };
-                let (a, b) = (round.closest(&ray, None), fine.closest(&ray, None));
-                let (Some(a), Some(b)) = (a, b) else {
-                    // At the rims.
-                    differ += usize::from(a.is_some() != b.is_some());
-                    continue;
-                };
-                if a.n.dot(direction).abs() < 0.1 || a.p.distance(b.p) > 0.05 {
-                    differ += usize::from(a.p.distance(b.p) > 0.05);
-                    continue;
-                }
-                met += 1;
-                assert!(a.p.distance(b.p) < 1e-3, "{} and {}", a.p, b.p);
-                assert!(
-                    a.n.dot(b.n) > 0.999,
-                    "{kind:?}, {front:?}: {} and {}",
-                    a.n,
-                    b.n
-                );
-                let seam = (a.uv - b.uv).abs();
-                assert!(
-                    seam.min(1.0 - seam).max_element() < 0.02,
-                    "{kind:?}: {} and {}",
-                    a.uv,
-                    b.uv
-                );
-            }
-            assert!(met > 1000, "{kind:?}: {met} rays met it");
-            assert!(differ * 200 < met, "{kind:?}: {differ} of {met} at rims");
+            assert_rays_agree(scene, &format!("{kind:?}, {front:?}"));
         }
     }
+}
+
+/// Rays meet the quadrics of a scene as such where they meet very many triangles instead.
+pub(crate) fn assert_rays_agree(mut scene: Scene, what: &str) {
+    // Nothing else.
+    scene.meshes.clear();
+    let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 1024))];
+    let lattice = |i: u32, g: Vec3| (g * i as f32).fract();
+    let (mut met, mut differ) = (0, 0);
+    for i in 1..20_000 {
+        let origin = lattice(i, Vec3::new(0.819_172_5, 0.671_043_6, 0.549_700_5));
+        let target = lattice(i, Vec3::new(0.754_877_7, 0.569_840_3, 0.430_159_7));
+        let direction = (target - origin).normalize();
+        let ray = Ray { origin, direction };
+        let (a, b) = (round.closest(&ray, None), fine.closest(&ray, None));
+        let (Some(a), Some(b)) = (a, b) else {
+            // At the rims.
+            differ += usize::from(a.is_some() != b.is_some());
+            continue;
+        };
+        if a.n.dot(direction).abs() < 0.1 || a.p.distance(b.p) > 0.05 {
+            differ += usize::from(a.p.distance(b.p) > 0.05);
+            continue;
+        }
+        met += 1;
+        assert!(a.p.distance(b.p) < 1e-3, "{what}: {} and {}", a.p, b.p);
+        assert!(a.n.dot(b.n) > 0.999, "{what}: {} and {}", a.n, b.n);
+        let seam = (a.uv - b.uv).abs();
+        assert!(
+            seam.min(1.0 - seam).max_element() < 0.02,
+            "{what}: {} and {}",
+            a.uv,
+            b.uv
+        );
+    }
+    assert!(met > 1000, "{what}: {met} rays met it");
+    assert!(differ * 200 < met, "{what}: {differ} of {met} at rims");
 }
 
 /// A ray that starts on a disk never comes back; one into a tube meets the wall across, or leaves

@@ -3,6 +3,7 @@
 
 mod disks_and_cylinders;
 mod hits;
+mod parts;
 mod pictures;
 mod radiance;
 #[path = "../support/mod.rs"]
@@ -58,7 +59,11 @@ fn spheres_of_pbrt_files_are_round_where_they_can_be() {
         let text = format!("WorldBegin {text}");
         let scene = parse_scene(Path::new("a.pbrt"), text.as_bytes(), Files::NONE);
         let scene = scene.expect("a scene");
-        (scene.quadrics.len(), scene.meshes.len())
+        let placed = scene.prototypes.iter().map(|p| p.quadrics.len());
+        assert_eq!(scene.instances.len(), scene.prototypes.len(), "{text}");
+        let round = scene.quadrics.len() + placed.sum::<usize>();
+        assert!(World::new(scene.clone()).is_ok(), "{text}");
+        (round, scene.meshes.len())
     };
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]";
     let both = format!("{light} \"bool twosided\" true");
@@ -69,13 +74,17 @@ fn spheres_of_pbrt_files_are_round_where_they_can_be() {
         "Shape \"sphere\" \"float zmin\" -1 \"float phimax\" 360 \"float alpha\" .5".into(),
         format!("{light} Material \"interface\" Shape \"sphere\" \"float alpha\" .5"),
         format!("{both} Shape \"sphere\""),
+        "Scale 1 2 1 Shape \"sphere\"".into(),
+        "Scale 1 2 1 Shape \"cylinder\" \"float phimax\" 90".into(),
+        "Shape \"sphere\" \"float zmax\" 0.5".into(),
+        "Shape \"sphere\" \"float phimax\" 90".into(),
     ] {
         assert_eq!(count(&round), (1, 0), "{round}");
     }
     for tessellated in [
-        "Scale 1 2 1 Shape \"sphere\"".to_owned(),
-        "Shape \"sphere\" \"float zmax\" 0.5".into(),
-        "Shape \"sphere\" \"float phimax\" 90".into(),
+        format!("{light} Scale 1 2 1 Shape \"sphere\""),
+        format!("{light} Shape \"sphere\" \"float zmax\" 0.5"),
+        "Shape \"sphere\" \"float zmin\" 0.5 \"float zmax\" 0.5".to_owned(),
         format!("{both} Material \"interface\" Shape \"sphere\""),
         format!("{light} ReverseOrientation Shape \"sphere\" \"float alpha\" .5"),
     ] {

@@ -42,12 +42,23 @@ impl Objects {
         if let Some(&id) = self.by_name.get(name) {
             return id;
         }
+        let id = self.add(at, name, None);
+        self.by_name.insert(name.to_owned(), id);
+        id
+    }
+
+    /// Adds an object to be defined, or one that is.
+    pub(super) fn add(
+        &mut self,
+        at: FileLoc<'_>,
+        name: &str,
+        prototype: Option<Prototype>,
+    ) -> PrototypeId {
         let id = u32::try_from(self.slots.len()).expect("fewer than 2^32 objects");
-        self.by_name.insert(name.to_owned(), PrototypeId(id));
         let message = format!("expected an object's name, found \"{}\"", shown(name));
         self.slots.push(ObjectSlot {
             unknown: at.diagnostic(message),
-            prototype: None,
+            prototype,
             emissive: 0,
             instances: 0,
         });

@@ -103,6 +103,20 @@ impl Reader {
         }
     }
 
+    /// Adds an object without a name, which emits nothing, in one place.
+    pub(super) fn add_single_instance(
+        &mut self,
+        at: FileLoc<'_>,
+        prototype: Prototype,
+        transform: Affine3A,
+    ) {
+        let prototype = self.objects.add(at, "", Some(prototype));
+        self.scene.instances.push(Instance {
+            prototype,
+            transform,
+        });
+    }
+
     /// All objects, in the order of their ids, after the last directive.
     pub(super) fn finished_objects(&mut self) -> Result<Vec<Prototype>, Diagnostic> {
         let Objects { slots, .. } = core::mem::take(&mut self.objects);

@@ -1,61 +1,96 @@
-use core::f32::consts::{PI, TAU};
+use core::f32::consts::PI;
 
 use super::file_loc::Typed;
 use super::state::Reader;
-use crate::glam::{Affine3A, Vec3};
-use crate::{Color, Diagnostic, Mesh, Quadric, QuadricFront, QuadricKind, Surface};
+use crate::glam::{Affine3A, Mat3A, Vec3};
+use crate::{
+    Color, Diagnostic, MaterialId, Mesh, Prototype, Quadric, QuadricFront, QuadricKind,
+    QuadricPart, Surface,
+};
 
 /// Of tessellated shapes: columns around; a sphere has half as many rows.
 const AROUND: u16 = 64;
 
+/// The sphere, disk or cylinder of a directive, whole or in part, in its own space, with its front
+/// outside and without a material; `None` for other shapes.
+pub(super) fn quadric(typed: &Typed<'_>) -> Result<Option<Quadric>, Diagnostic> {
+    let radius = typed.parameters.positive_or("radius", 1.0);
+    let (kind, height, v) = match typed.kind.as_str() {
+        "sphere" => sphere(typed, radius),
+        "disk" => disk(typed, radius),
+        "cylinder" => cylinder(typed, radius),
+        _ => return Ok(None),
+    };
+    if !(radius > 0.0) {
+        let message = format!("expected a positive radius, found {radius}");
+        return Err(typed.at.diagnostic(message));
+    }
+    let part = QuadricPart {
+        turn: typed.parameters.positive_or("phimax", 360.0).min(360.0) / 360.0,
+        v,
+    };
+    let is_whole = part.turn == 1.0 && part.v == [0.0, 1.0];
+    let local = Affine3A::from_translation(Vec3::Z * height);
+    let local = local * Affine3A::from_scale(Vec3::splat(radius));
+    Ok(Some(Quadric {
+        part: (!is_whole).then_some(part),
+        ..Quadric::new(typed.kind.as_str(), MaterialId(0), kind, local)
+    }))
+}
+
 impl Reader {
-    /// A whole sphere, disk or cylinder as one primitive; `None` for other shapes, and for parts of
-    /// these, which have to be tessellated.
-    pub(super) fn whole_quadric(
-        &mut self,
-        typed: &Typed<'_>,
-    ) -> Result<Option<Quadric>, Diagnostic> {
-        let unit = match typed.kind.as_str() {
-            "sphere" => Parts::of(typed).whole(),
-            "disk" => DiskParts::of(typed).whole(),
-            "cylinder" => CylinderParts::of(typed).whole(),
-            _ => return Ok(None),
-        };
-        let radius = typed.parameters.positive_or("radius", 1.0);
-        if !(radius > 0.0) {
-            let message = format!("expected a positive radius, found {radius}");
-            return Err(typed.at.diagnostic(message));
+    /// Adds `quadric` of the current space as such, and one that the current transform stretches as
+    /// an object in one place. Returns the triangles, in the space of `quadric` and with their front
+    /// outside, that have to replace it where it emits as no light does, and where an object holds a
+    /// stretched one.
+    pub(super) fn add_as_such(&mut self, typed: &Typed<'_>, quadric: Quadric) -> Option<Mesh> {
+        if self.is_added(typed, &quadric) {
+            return None;
         }
-        let front = if self.turns_quadrics_over() {
-            QuadricFront::Inside
-        } else {
-            QuadricFront::Outside
-        };
-        let Some((kind, z)) = unit else {
-            return Ok(None);
-        };
-        if !self.is_one_light(typed, kind, front) {
-            return Ok(None);
-        }
-        let unit = Quadric::new(
-            typed.kind.as_str(),
-            self.material(),
-            kind,
-            Affine3A::IDENTITY,
-        );
-        let local = Affine3A::from_translation(Vec3::Z * z);
-        let local = local * Affine3A::from_scale(Vec3::splat(radius));
-        let transform = Affine3A::from_mat4(self.state.transform) * local;
-        let quadric = unit.transformed(&transform);
-        Ok(quadric.map(|quadric| Quadric { front, ..quadric }))
+        let what = format!("Shape \"{}\"", typed.kind);
+        self.warn(typed.at, &what, "was made of triangles");
+        Some(quadric.mesh(AROUND))
     }
 
-    /// Whether a quadric, if it is emissive, has uniform emission that is visible where light
-    /// samples find it.
-    fn is_one_light(&mut self, typed: &Typed<'_>, kind: QuadricKind, front: QuadricFront) -> bool {
+    /// Adds `quadric`, if it can be added as such.
+    fn is_added(&mut self, typed: &Typed<'_>, quadric: &Quadric) -> bool {
+        let mut quadric = quadric.clone();
+        if self.turns_quadrics_over() {
+            quadric.front = QuadricFront::Inside;
+        }
+        let transform = Affine3A::from_mat4(self.state.transform);
+        let is_empty = quadric.part.is_some_and(|part| !(part.v[0] < part.v[1]));
+        if is_empty || !self.is_one_light(typed, &quadric) {
+            return false;
+        }
+        if let Some(mut moved) = quadric.transformed(&transform) {
+            moved.material = self.shape_material(typed, || moved.area());
+            self.add_quadric(moved);
+            return true;
+        }
+        let place = transform * quadric.transform;
+        let is_object = self.state.area_light.is_none() && self.objects.open.is_none();
+        if !(is_object && keeps_digits(&place)) {
+            return false;
+        }
+        quadric.transform = Affine3A::IDENTITY;
+        quadric.material = self.shape_material(typed, || 0.0);
+        let mut prototype = Prototype::new(typed.kind.as_str(), Vec::new());
+        prototype.quadrics.push(quadric);
+        self.add_single_instance(typed.at, prototype, place);
+        true
+    }
+
+    /// Whether a quadric, if it is emissive, is whole and has uniform emission that is visible where
+    /// light samples find it.
+    fn is_one_light(&mut self, typed: &Typed<'_>, quadric: &Quadric) -> bool {
         let Some(light) = self.state.area_light else {
             return true;
         };
+        if quadric.part.is_some() {
+            return false;
+        }
+        let &Quadric { kind, front, .. } = quadric;
         let material = self.material();
         let surface = &self.scene.material(material).surface;
         let lets_light_pass = matches!(surface, Surface::Interface | Surface::Mix { .. })
@@ -77,136 +112,46 @@ impl Reader {
     }
 }
 
-/// The part of a sphere that is kept.
-struct Parts {
-    radius: f32,
-    /// Its lowest and its highest z.
-    z: [f32; 2],
-    /// The part of a full turn.
-    turn: f32,
+/// Whether rays can be taken to a space and back: its axes, and theirs of the inverse, have lengths.
+fn keeps_digits(place: &Affine3A) -> bool {
+    let has_lengths = |matrix: Mat3A| {
+        let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+        axes.map(|axis| axis.length_squared())
+            .iter()
+            .sum::<f32>()
+            .is_finite()
+    };
+    place.is_finite() && has_lengths(place.matrix3) && has_lengths(place.matrix3.inverse())
 }
 
-impl Parts {
-    fn of(typed: &Typed<'_>) -> Self {
-        let parameters = &typed.parameters;
-        let radius = parameters.positive_or("radius", 1.0);
-        let z = [("zmin", -radius), ("zmax", radius)].map(|(name, all)| {
-            let z = parameters.number_or(name, all);
-            z.max(-radius).min(radius)
-        });
-        let z = [z[0].min(z[1]), z[0].max(z[1])];
-        let turn = turn(typed);
-        Self { radius, z, turn }
-    }
+/// What a shape says: its kind for radius 1, the height of its centre, and where v of the part that
+/// is kept starts and ends.
+type Described = (QuadricKind, f32, [f32; 2]);
 
-    /// The kind of the whole shape, and the height of its centre.
-    fn whole(&self) -> Option<(QuadricKind, f32)> {
-        let is_whole = self.z == [-self.radius, self.radius] && self.turn == 1.0;
-        is_whole.then_some((QuadricKind::Sphere, 0.0))
-    }
-}
-
-/// A disk, an annulus, or a part of one.
-struct DiskParts {
-    radius: f32,
-    inner: f32,
-    height: f32,
-    turn: f32,
-}
-
-impl DiskParts {
-    fn of(typed: &Typed<'_>) -> Self {
-        let parameters = &typed.parameters;
-        let radius = parameters.positive_or("radius", 1.0);
-        let is_inside = |inner: f32| (0.0..radius).contains(&inner);
-        let inner = parameters.number_where("innerradius", is_inside, "from 0 to below `radius`");
-        Self {
-            radius,
-            inner: inner.unwrap_or(0.0),
-            height: parameters.number_or("height", 0.0),
-            turn: turn(typed),
-        }
-    }
-
-    /// The kind of the whole shape, and the height of its centre.
-    fn whole(&self) -> Option<(QuadricKind, f32)> {
-        let inner_radius = self.inner / self.radius;
-        let kind = QuadricKind::Disk { inner_radius };
-        (self.turn == 1.0).then_some((kind, self.height))
-    }
-}
-
-/// A cylinder, or a part of one.
-struct CylinderParts {
-    radius: f32,
-    /// Its lowest and its highest z.
-    z: [f32; 2],
-    turn: f32,
-}
-
-impl CylinderParts {
-    fn of(typed: &Typed<'_>) -> Self {
-        let parameters = &typed.parameters;
-        let z = [("zmin", -1.0), ("zmax", 1.0)];
-        let z = z.map(|(name, default)| parameters.number_or(name, default));
-        Self {
-            radius: parameters.positive_or("radius", 1.0),
-            z: [z[0].min(z[1]), z[0].max(z[1])],
-            turn: turn(typed),
-        }
-    }
-
-    /// The kind of the whole shape, and the height of its centre.
-    fn whole(&self) -> Option<(QuadricKind, f32)> {
-        let [low, high] = self.z;
-        let length = (high - low) / self.radius;
-        let kind = QuadricKind::Cylinder { length };
-        (self.turn == 1.0).then_some((kind, low + 0.5 * (high - low)))
-    }
-}
-
-/// The part of a full turn that `phimax` says.
-fn turn(typed: &Typed<'_>) -> f32 {
-    let phi_max = typed.parameters.positive_or("phimax", 360.0);
-    phi_max.min(360.0) / 360.0
-}
-
-/// A sphere, or a part of one.
-pub(super) fn sphere(typed: &Typed<'_>) -> Mesh {
-    let Parts { radius, z, turn } = Parts::of(typed);
+fn sphere(typed: &Typed<'_>, radius: f32) -> Described {
+    let z = [("zmin", -radius), ("zmax", radius)].map(|(name, all)| {
+        let z = typed.parameters.number_or(name, all) / radius;
+        z.clamp(-1.0, 1.0)
+    });
     // From the lower pole on.
-    let [low, high] = z.map(|z| PI - (z / radius).clamp(-1.0, 1.0).acos());
-    Mesh::grid([AROUND, AROUND / 2], |u, v| {
-        let angle = low + (high - low) * v;
-        let ((sin_phi, cos_phi), (sin, cos)) = ((u * turn * TAU).sin_cos(), angle.sin_cos());
-        let normal = Vec3::new(sin * cos_phi, sin * sin_phi, -cos);
-        (normal * radius, normal)
-    })
+    let v = [z[0].min(z[1]), z[0].max(z[1])].map(|z| (PI - z.acos()) / PI);
+    (QuadricKind::Sphere, 0.0, v)
 }
 
-pub(super) fn disk(typed: &Typed<'_>) -> Mesh {
-    let DiskParts {
-        radius,
-        inner,
-        height,
-        turn,
-    } = DiskParts::of(typed);
-    Mesh::grid([AROUND, 1], |u, v| {
-        let (sin, cos) = (u * turn * TAU).sin_cos();
-        let r = radius + (inner - radius) * v;
-        (Vec3::new(r * cos, r * sin, height), Vec3::Z)
-    })
+fn disk(typed: &Typed<'_>, radius: f32) -> Described {
+    let parameters = &typed.parameters;
+    let is_inside = |inner: f32| (0.0..radius).contains(&inner);
+    let inner = parameters.number_where("innerradius", is_inside, "from 0 to below `radius`");
+    let inner_radius = inner.unwrap_or(0.0) / radius;
+    let height = parameters.number_or("height", 0.0);
+    (QuadricKind::Disk { inner_radius }, height, [0.0, 1.0])
 }
 
-pub(super) fn cylinder(typed: &Typed<'_>) -> Mesh {
-    let CylinderParts {
-        radius,
-        z: [low, high],
-        turn,
-    } = CylinderParts::of(typed);
-    Mesh::grid([AROUND, 1], |u, v| {
-        let (sin, cos) = (u * turn * TAU).sin_cos();
-        let normal = Vec3::new(cos, sin, 0.0);
-        (normal * radius + Vec3::Z * (low + (high - low) * v), normal)
-    })
+fn cylinder(typed: &Typed<'_>, radius: f32) -> Described {
+    let z = [("zmin", -1.0), ("zmax", 1.0)];
+    let z = z.map(|(name, default)| typed.parameters.number_or(name, default));
+    let [low, high] = [z[0].min(z[1]), z[0].max(z[1])];
+    let length = (high - low) / radius;
+    let height = low + 0.5 * (high - low);
+    (QuadricKind::Cylinder { length }, height, [0.0, 1.0])
 }

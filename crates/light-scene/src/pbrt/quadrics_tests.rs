@@ -12,8 +12,9 @@ fn scene(text: &str) -> Scene {
     parse_pbrt(Path::new("a"), &text, Files::NONE).expect("a scene")
 }
 
+/// The triangles of one that emits.
 fn mesh(shape: &str) -> Mesh {
-    let scene = scene(&format!("Shape {shape}"));
+    let scene = scene(&format!("AreaLightSource \"diffuse\" Shape {shape}"));
     assert_eq!(
         scene.warnings.len(),
         1,
@@ -41,6 +42,11 @@ fn has_area(shape: &str, expected: f32) {
     assert!(
         (area / expected - 1.0).abs() < 2.1e-3,
         "{shape}: {area}, not {expected}"
+    );
+    let area = quadric(&format!("Shape {shape}")).area();
+    assert!(
+        (area / expected - 1.0).abs() < 1e-5,
+        "{shape} as such: {area}, not {expected}"
     );
 }
 
@@ -94,9 +100,31 @@ fn whole_disks_and_cylinders_are_no_triangles() {
     );
     let mirrored = quadric("Scale -1 1 1 Shape \"disk\"");
     assert_eq!(mirrored.front, QuadricFront::Inside, "as pbrt has it");
-    // Ellipses are triangles still.
-    let ellipse = scene("Scale 1 2 1 Shape \"disk\"");
-    assert_eq!((ellipse.meshes.len(), ellipse.warnings.len()), (1, 1));
+}
+
+#[test]
+fn stretched_quadrics_are_objects_in_one_place() {
+    let ellipse = scene(
+        "ObjectBegin \"a\" Shape \"sphere\" ObjectEnd ObjectInstance \"a\" ReverseOrientation \
+         Scale 1 2 1 Shape \"disk\" \"float radius\" 3 \"float height\" 1",
+    );
+    assert!(ellipse.warnings.is_empty(), "{:?}", ellipse.warnings);
+    assert!(ellipse.meshes.is_empty() && ellipse.quadrics.is_empty());
+    let place = ellipse.instances[1];
+    let quadric = &ellipse.prototype(place.prototype).quadrics[0];
+    assert_eq!(quadric.front, QuadricFront::Inside, "reversed");
+    let at = |p| place.transform.transform_point3(p);
+    assert_eq!(at(Vec3::Y), Vec3::new(0.0, 6.0, 1.0), "its rim");
+    // An object in an object is not read.
+    let in_object = scene("Scale 1 2 1 ObjectBegin \"a\" Shape \"sphere\" ObjectEnd");
+    assert_eq!(in_object.prototypes[0].meshes.len(), 1);
+    assert_eq!(in_object.warnings.len(), 1, "{:?}", in_object.warnings);
+    // As are those that emit, since no light has that shape.
+    let lamp = scene("AreaLightSource \"diffuse\" Scale 1 2 1 Shape \"disk\"");
+    assert_eq!((lamp.meshes.len(), lamp.warnings.len()), (1, 1));
+    // And those whose squared scale is beyond what floats hold.
+    let tiny = scene("Scale 1e-20 2e-20 1e-20 Shape \"sphere\"");
+    assert_eq!(tiny.instances.len(), 0, "{:?}", tiny.meshes.len());
 }
 
 #[test]

@@ -1,13 +1,13 @@
-use super::file_loc::{FileLoc, Typed};
+use super::file_loc::Typed;
 use super::lights::area_scale;
 use super::loop_subdivision::loop_subdivision;
 use super::meshes::{bilinear_mesh, check, triangle_mesh};
 use super::ply::read_ply;
-use super::quadrics::{cylinder, disk, sphere};
+use super::quadrics::quadric;
 use super::state::{FLATTENED, Reader};
 use crate::glam::{Affine3A, Vec3};
 use crate::scene_light::scaled;
-use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId, Mesh};
+use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId};
 
 impl Reader {
     pub(super) fn shape(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -19,11 +19,8 @@ impl Reader {
             self.warn(at, &format!("Shape \"{kind}\""), FLATTENED);
             return Ok(());
         }
-        if let Some(mut quadric) = self.whole_quadric(typed)? {
-            quadric.material = self.shape_material(typed, || quadric.area());
-            self.add_quadric(quadric);
-            return Ok(());
-        }
+        let quadric = quadric(typed)?;
+        let is_quadric = quadric.is_some();
         let mut mesh = match kind.as_str() {
             "trianglemesh" => triangle_mesh(typed)?,
             "loopsubdiv" => loop_subdivision(typed)?,
@@ -42,14 +39,17 @@ impl Reader {
                 read_ply(&self.resolve(name), self.files, &mut self.included)
                     .map_err(|error| at.diagnostic(error.to_string()))?
             }
-            "sphere" => self.rounded(at, kind, sphere(typed)),
-            "disk" => self.rounded(at, kind, disk(typed)),
-            "cylinder" => self.rounded(at, kind, cylinder(typed)),
             other => {
-                let what = format!("Shape \"{other}\"");
-                self.warn(at, &what, "is not understood and was left out");
-                typed.parameters.accept_all();
-                return Ok(());
+                let Some(quadric) = quadric else {
+                    let what = format!("Shape \"{other}\"");
+                    self.warn(at, &what, "is not understood and was left out");
+                    typed.parameters.accept_all();
+                    return Ok(());
+                };
+                let Some(mesh) = self.add_as_such(typed, quadric) else {
+                    return Ok(());
+                };
+                mesh
             }
         };
         check(at, &mesh)?;
@@ -66,7 +66,6 @@ impl Reader {
         mesh.drop_empty_triangles();
         // Given normals say where the front is, whatever the order of the vertices.
         mesh.align_with_normals();
-        let is_quadric = matches!(kind.as_str(), "sphere" | "disk" | "cylinder");
         let turns_over = if is_quadric {
             self.turns_quadrics_over()
         } else {
@@ -81,17 +80,15 @@ impl Reader {
 
     /// The material of a shape of this area: the current one, with the media, the emission and the
     /// alpha mask of the shape.
-    fn shape_material(&mut self, typed: &Typed<'_>, area: impl FnOnce() -> f32) -> MaterialId {
+    pub(super) fn shape_material(
+        &mut self,
+        typed: &Typed<'_>,
+        area: impl FnOnce() -> f32,
+    ) -> MaterialId {
         let material = self.material();
         let material = self.with_media(material);
         let material = self.with_light(material, area);
         self.with_alpha(material, typed)
-    }
-
-    fn rounded(&mut self, at: FileLoc<'_>, kind: &str, mesh: Mesh) -> Mesh {
-        let what = format!("Shape \"{kind}\"");
-        self.warn(at, &what, "was made of triangles");
-        mesh
     }
 
     /// The material with the emission of the current area light; the same material without one.
