@@ -16,13 +16,14 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Added to the squared reference, it keeps dark pixels from ruling the relative error.
+    pub(crate) const FLOOR: f64 = 1e-2;
+
     /// Compares `image` with `reference`, pixel by pixel.
     ///
     /// `None` when the numbers of pixels differ or are zero.
     #[must_use]
     pub fn new(image: &[Vec3], reference: &[Vec3]) -> Option<Self> {
-        /// Keeps dark pixels from ruling the relative error.
-        const FLOOR: f64 = 1e-2;
         if image.len() != reference.len() || image.is_empty() {
             return None;
         }
@@ -35,7 +36,7 @@ impl Comparison {
             let d = x - r;
             sum += d;
             square_sum += d * d;
-            rel_sum += d * d / (r * r + FLOOR);
+            rel_sum += d * d / (r * r + Self::FLOOR);
         }
         let bias = sum / n;
         let variance = (square_sum / n - bias * bias).max(DVec3::ZERO);

@@ -84,19 +84,8 @@ impl PictureBench {
     /// Errors relative to `reference` plus `floor`, a squared radiance.
     #[must_use]
     pub fn error(&self, reference: &[Vec3], floor: f64) -> RelativeError {
-        let pixels = reference.iter().zip(&self.measured);
-        let count = self.measured.iter().filter(|&&measured| measured).count();
-        let weight = |(r, &measured): (&Vec3, &bool)| {
-            if measured {
-                let r = r.as_dvec3();
-                1.0 / (r * r + floor) / (3.0 * count as f64)
-            } else {
-                DVec3::ZERO
-            }
-        };
-        RelativeError {
-            weights: pixels.map(weight).collect(),
-        }
+        let measured = self.measured.iter().copied();
+        RelativeError::new(reference, floor, measured)
     }
 
     /// The floor that keeps dark pixels from ruling: the square of a tenth of the mean of the
@@ -111,6 +100,27 @@ impl PictureBench {
 }
 
 impl RelativeError {
+    /// That of all pixels, relative to `reference` plus `floor`, a squared radiance.
+    pub(crate) fn of_all(reference: &[Vec3], floor: f64) -> Self {
+        let measured = core::iter::repeat_n(true, reference.len());
+        Self::new(reference, floor, measured)
+    }
+
+    /// That of the pixels that are `measured`.
+    fn new(reference: &[Vec3], floor: f64, measured: impl Iterator<Item = bool> + Clone) -> Self {
+        let count = measured.clone().filter(|&measured| measured).count();
+        let weight = |(r, measured): (&Vec3, bool)| {
+            if measured {
+                let r = r.as_dvec3();
+                1.0 / (r * r + floor) / (3.0 * count as f64)
+            } else {
+                DVec3::ZERO
+            }
+        };
+        let weights = reference.iter().zip(measured).map(weight).collect();
+        Self { weights }
+    }
+
     /// What relMSE of pictures such as `a` and `b`, which differ by their seeds alone, would be
     /// against a perfect one: that of half their squared difference.
     #[must_use]

@@ -40,12 +40,12 @@ impl SceneReport {
                 sampler,
                 samples,
                 time,
-                rel_mse,
+                ..
             } => json!({
                 "sampler": sampler.name(),
                 "spp": samples,
                 "seconds": time.as_secs_f64(),
-                "relmse": rel_mse,
+                "relmse": self.reference.rel_mse(),
             }),
         }
     }
@@ -82,7 +82,7 @@ fn row_json(row: &SamplerRow) -> Value {
         "spp": row.samples,
         "rays": row.rays,
         "rejected": row.rejected,
-        "relmse": row.comparison.rel_mse,
+        "relmse": row.rel_mse,
         "mse": row.comparison.mse,
         "bias": row.comparison.bias.to_array(),
         "bias_se": row.comparison.bias_error.to_array(),

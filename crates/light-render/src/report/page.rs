@@ -111,7 +111,7 @@ impl SceneReport {
                 format!("samples a pixel: {}", row.samples),
                 format!(
                     "relMSE {}: red too bright, blue too dark",
-                    figure(row.comparison.rel_mse)
+                    figure(row.rel_mse)
                 ),
                 format!("FLIP {}: brighter differs more", figure(row.flip.mean())),
             ];
@@ -156,11 +156,13 @@ impl SceneReport {
                 sampler,
                 samples,
                 time,
-                rel_mse,
+                ..
             } => format!(
                 "Reference: {sampler}, {samples} samples a pixel, {} s, relMSE of its own {}",
                 figure(time.as_secs_f64()),
-                rel_mse.map_or_else(|| "unknown".into(), figure)
+                self.reference
+                    .rel_mse()
+                    .map_or_else(|| "unknown".into(), figure)
             ),
         }
     }
@@ -185,7 +187,9 @@ impl SceneReport {
             });
         });
         let floor = if self.reference.rel_mse().is_some() {
-            " The dashed line is the error of the reference: near it and below, curves flatten."
+            " The dashed line is the reference's own error. It cancels on average: each error is the \
+             product of the differences to the two halves of the reference, which may be below 0 for \
+             a picture far better than it."
         } else {
             ""
         };

@@ -11,7 +11,9 @@ pub(super) struct SamplerRow {
     pub(super) samples: u32,
     pub(super) rays: u64,
     pub(super) rejected: u64,
-    /// The picture against the reference.
+    /// relMSE of the picture, from which the noise of a reference made for the report cancels.
+    pub(super) rel_mse: f64,
+    /// The picture against the mean of the reference.
     pub(super) comparison: Comparison,
     pub(super) flip_ldr: f64,
     pub(super) flip: Flip,

@@ -9,7 +9,7 @@ type Column = (&'static str, fn(&SamplerRow) -> Option<f64>);
 const ERRORS: [Column; 7] = [
     ("samples a pixel", |row| Some(row.samples.into())),
     ("seconds", |row| Some(row.seconds)),
-    ("relMSE", |row| Some(row.comparison.rel_mse)),
+    ("relMSE", |row| Some(row.rel_mse)),
     ("slope", |row| row.slope),
     ("FLIP, exposures", |row| Some(row.flip.mean())),
     ("FLIP, screen", |row| Some(row.flip_ldr)),
