@@ -36,6 +36,8 @@ mod lane_math;
 #[cfg(feature = "alloc")]
 mod light_bvh;
 mod node;
+#[cfg(all(feature = "std", feature = "bytemuck"))]
+pub mod out_of_core;
 #[cfg(feature = "alloc")]
 mod parallel;
 mod query;

@@ -74,7 +74,7 @@ impl LightBvh {
         options: &LightBvhOptions,
         leaves: &impl LeafMoments,
     ) -> (Self, Moments) {
-        let (topology, order) = build(lights, scan, options);
+        let (topology, order) = build(lights, scan, options, 0);
         let mut nodes = topology.nodes();
         let (moments, slots) = join(
             lights.len(),
@@ -232,6 +232,6 @@ impl LightBvh {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
-const fn rounded(power: f64) -> f32 {
+pub(crate) const fn rounded(power: f64) -> f32 {
     (power as f32).min(f32::MAX)
 }

@@ -15,11 +15,13 @@ use crate::build::subtree::{OutputSlice, ParallelGroup};
 use crate::build::topology::Topology;
 use crate::parallel::table;
 
-/// The shape of the tree of `lights`, and these in the order that its nodes refer to.
+/// The shape of the tree of `extents`, and these in the order that its nodes refer to; `depth`
+/// levels are, or will be, above its root.
 pub(crate) fn build(
     extents: &[LightExtent],
     scan: &Scan,
     options: &LightBvhOptions,
+    depth: usize,
 ) -> (Topology, Vec<u32>) {
     let mut order = vec![0; scan.count];
     if scan.count == 0 {
@@ -35,7 +37,7 @@ pub(crate) fn build(
     let whole = MortonRange::new(&mut entries, &lights, cell);
     let output = OutputSlice {
         order: &mut order,
-        depth: 0,
+        depth,
     };
     let tree = match options.mode {
         BuildMode::Morton => output.build(whole),

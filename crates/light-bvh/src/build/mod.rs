@@ -6,6 +6,7 @@ pub(crate) mod builder;
 pub(crate) mod cluster;
 pub(crate) mod clustering;
 pub(crate) mod dominant;
+pub(crate) mod group_extent;
 pub(crate) mod light_primitive;
 pub(crate) mod lights;
 pub(crate) mod morton;

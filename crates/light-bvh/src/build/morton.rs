@@ -16,6 +16,10 @@ use crate::parallel::map;
 /// Bits of a key for each axis.
 const BITS: u32 = 21;
 
+/// Bits of a key.
+#[cfg(all(feature = "std", feature = "bytemuck"))]
+pub(crate) const KEY_BITS: u32 = 3 * BITS;
+
 /// The cells that keys number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {

@@ -57,12 +57,16 @@ impl Scan {
             || Self::new(left, first, dark, check),
             || Self::new(right, middle, dark, check),
         );
-        let (left, right) = (left?, right?);
-        Ok(Self {
-            power: left.power + right.power,
-            count: left.count + right.count,
-            centers: left.centers.union(right.centers),
-        })
+        Ok(left?.union(&right?))
+    }
+
+    /// The sums of both sets of lights.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            power: self.power + other.power,
+            count: self.count + other.count,
+            centers: self.centers.union(other.centers),
+        }
     }
 
     fn of_chunk(

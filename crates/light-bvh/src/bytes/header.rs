@@ -14,7 +14,7 @@ const VERSION: u32 = 3;
 /// What precedes the nodes, which so keep their alignment.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C, align(32))]
-pub(super) struct Header {
+pub(crate) struct Header {
     magic: [u8; 8],
     version: u32,
     nodes: u32,
@@ -27,7 +27,7 @@ pub(super) struct Header {
 }
 
 /// Bytes of the header.
-pub(super) const HEADER: usize = size_of::<Header>();
+pub(crate) const HEADER: usize = size_of::<Header>();
 
 const _: () = assert!(HEADER == 32, "no padding");
 
@@ -39,7 +39,7 @@ impl Header {
         clippy::cast_possible_truncation,
         reason = "a tree addresses its parts by 32 bits"
     )]
-    pub(super) const fn new([nodes, order, slots, groups]: [usize; 4], power: f32) -> Self {
+    pub(crate) const fn new([nodes, order, slots, groups]: [usize; 4], power: f32) -> Self {
         Self {
             magic: MAGIC,
             version: VERSION,

@@ -7,4 +7,6 @@ mod owned;
 mod stored;
 
 pub use header::TreeBytesError;
+#[cfg(feature = "std")]
+pub(crate) use header::{HEADER, Header};
 pub use stored::StoredLightBvh;

@@ -1,9 +1,10 @@
 use alloc::vec::Vec;
 
-use light_bounds::{LightBounds, LightExtent};
+use light_bounds::LightExtent;
 use light_math::Aabb;
 use light_math::glam::{Mat3, Vec3};
 
+use crate::build::group_extent::group_extent;
 use crate::build::lights::LeafMoments;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placement::Placement;
@@ -65,30 +66,10 @@ impl PlacedGroup {
 
     /// What the builder reads of the group to place it among others, as if it were one light:
     /// centre, power, and axis.
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub(crate) fn extent(&self) -> LightExtent {
-        /// The least length of an axis that the builder groups by.
-        const SHORT: f32 = 1e-6;
         let is_lit = self.moments.power > 0.0;
-        let length = self.moments.axis.length();
-        LightExtent::Bounded(LightBounds {
-            bounds: Aabb::from_point(self.moments.mean),
-            // The square of a short axis vanishes, and its direction says little.
-            w: if length > SHORT {
-                self.moments.axis * (1.0 / length)
-            } else {
-                Vec3::Z
-            },
-            phi: if is_lit {
-                (self.power as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
-            } else {
-                0.0
-            },
-            // The cone of a diffuse light whose mean axis is as long.
-            cos_theta_o: (2.0 * length - 1.0).clamp(-1.0, 1.0),
-            cos_theta_e: 0.0,
-            two_sided: false,
-        })
+        let power = if is_lit { Some(self.power) } else { None };
+        group_extent(self.moments.mean, self.moments.axis, power)
     }
 }
 
