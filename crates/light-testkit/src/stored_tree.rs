@@ -1,5 +1,5 @@
+use core::sync::atomic::{AtomicUsize, Ordering};
 use std::io::{self, Cursor};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{env, fs, process};
 
 use light_bounds::LightExtent;
