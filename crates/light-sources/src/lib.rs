@@ -94,6 +94,8 @@ mod light_set_bytes;
 #[cfg(feature = "alloc")]
 mod light_set_groups;
 #[cfg(feature = "alloc")]
+mod light_set_placed;
+#[cfg(feature = "alloc")]
 mod light_set_update;
 mod light_type;
 #[cfg(feature = "alloc")]
@@ -116,6 +118,8 @@ mod parallel;
 mod pdf_coverage;
 #[cfg(feature = "alloc")]
 mod picture_grid;
+#[cfg(feature = "alloc")]
+mod placed_mesh;
 mod point;
 mod point_source;
 #[cfg(feature = "alloc")]
@@ -224,6 +228,8 @@ pub use mesh_indices::MeshIndices;
 #[cfg(feature = "alloc")]
 pub use own_light::{OwnLight, OwnLightError};
 pub use pdf_coverage::PdfCoverage;
+#[cfg(feature = "alloc")]
+pub use placed_mesh::{MeshPrototypeId, PlacedMeshCounts, PlacedMeshError};
 pub use point::{PointLight, PointLightDesc, PointLightError};
 pub use point_source::{DirectionSample, PointSource};
 #[cfg(feature = "alloc")]

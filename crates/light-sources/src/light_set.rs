@@ -7,6 +7,7 @@ use crate::light::Light;
 use crate::light_desc::LightDescError;
 use crate::light_kinds::{LightKind, LightLists, LightSource};
 use crate::light_ref::LightRef;
+use crate::placed_mesh::PlacedMeshes;
 use crate::scene_sphere::SceneSphere;
 use crate::shape::Triangle;
 use crate::source_table::{SourceId, SourcePlace, SourceTable};
@@ -51,6 +52,7 @@ use light_bounds::{LightExtent, LightId};
 #[derive(Clone, Debug)]
 pub struct LightSet<C: ColorModel> {
     pub(crate) lists: LightLists<C>,
+    pub(crate) placed: PlacedMeshes<C>,
     pub(crate) sources: SourceTable,
     /// The lights at infinity, in ascending order.
     infinite: Vec<LightId>,
@@ -62,6 +64,7 @@ impl<C: ColorModel> LightSet<C> {
     pub(crate) const fn empty(scene: SceneSphere) -> Self {
         Self {
             lists: LightLists::EMPTY,
+            placed: PlacedMeshes::EMPTY,
             sources: SourceTable::EMPTY,
             infinite: Vec::new(),
             scene,
@@ -76,7 +79,7 @@ impl<C: ColorModel> LightSet<C> {
         let first = LightId(self.sources.lights());
         let id = self
             .sources
-            .add(SourcePlace { kind, index }, source.lights());
+            .add(SourcePlace::Listed { kind, index }, source.lights());
         let id = id.ok_or(too_many)?;
         if source.is_infinite() {
             self.infinite.push(first);
@@ -108,13 +111,18 @@ impl<C: ColorModel> LightSet<C> {
     #[must_use]
     pub fn get(&self, light: LightId) -> Option<LightRef<'_, C>> {
         let (source, number) = self.sources.find(light)?;
-        let SourcePlace { kind, index } = self.sources.place(source)?;
-        let index = index as usize;
-        // Large sets consist mostly of triangles.
-        if kind == LightKind::Triangle {
-            return Some(LightRef::Triangle(self.triangle(index, number)?));
+        match self.sources.place(source)? {
+            // Large sets consist mostly of triangles.
+            SourcePlace::Listed {
+                kind: LightKind::Triangle,
+                index,
+            } => Some(LightRef::Triangle(self.triangle(index as usize, number)?)),
+            SourcePlace::Listed { kind, index } => self.get_other(kind, index as usize),
+            SourcePlace::Placed(placement) => {
+                let triangle = self.placed.triangle(placement, number)?;
+                Some(LightRef::Triangle(triangle))
+            }
         }
-        self.get_other(kind, index)
     }
 
     /// A light other than a triangle.
@@ -140,16 +148,20 @@ impl<C: ColorModel> LightSet<C> {
 
     /// The memory that sampling of the light waits for, if its address is known without a read:
     /// the corners of a triangle whose mesh has no list of vertices
-    /// ([`MeshIndices::Consecutive`](crate::MeshIndices)). Callers may prefetch it.
+    /// ([`MeshIndices::Consecutive`](crate::MeshIndices)), in the coordinates that it is stored in.
+    /// Callers may prefetch it.
     #[inline]
     #[must_use]
     pub fn corners(&self, light: LightId) -> Option<&[Vec3; 3]> {
         let (source, triangle) = self.sources.find(light)?;
-        let SourcePlace { kind, index } = self.sources.place(source)?;
-        if kind != LightKind::Triangle {
-            return None;
+        match self.sources.place(source)? {
+            SourcePlace::Listed {
+                kind: LightKind::Triangle,
+                index,
+            } => self.lists.meshes[index as usize].corners(triangle as usize),
+            SourcePlace::Listed { .. } => None,
+            SourcePlace::Placed(placement) => self.placed.stored_corners(placement, triangle),
         }
-        self.lists.meshes[index as usize].corners(triangle as usize)
     }
 
     /// A triangle of a mesh.
@@ -217,7 +229,10 @@ impl<C: ColorModel> LightSet<C> {
 
     /// Bytes of the lists themselves.
     pub(crate) fn own_bytes(&self) -> usize {
-        self.lists.bytes() + self.sources.bytes() + size_of_val(&*self.infinite)
+        self.lists.bytes()
+            + self.placed.bytes()
+            + self.sources.bytes()
+            + size_of_val(&*self.infinite)
     }
 }
 

@@ -43,6 +43,11 @@ impl<C: ColorModel> LightSetBuilder<C> {
         self.set.push(source)
     }
 
+    /// The set so far.
+    pub(crate) const fn set_mut(&mut self) -> &mut LightSet<C> {
+        &mut self.set
+    }
+
     /// The set of all lights that were added.
     #[must_use]
     pub fn build(self) -> LightSet<C> {

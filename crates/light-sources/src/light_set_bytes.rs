@@ -38,7 +38,7 @@ impl<C: ColorModel> LightSet<C> {
         for source in &self.lists.areas {
             count.emission(source.light().emission());
         }
-        for mesh in &self.lists.meshes {
+        for mesh in self.lists.meshes.iter().chain(self.placed.meshes()) {
             let (positions, indices, uvs) = mesh.vertices();
             count.vertices(positions);
             if let MeshIndices::List(list) = indices {

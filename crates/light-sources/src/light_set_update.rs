@@ -19,7 +19,8 @@ pub enum LightUpdateError {
     /// The new description is invalid.
     Description(LightDescError),
     /// The new description is of another kind of light; of own lights, of another
-    /// [`LightType`](crate::LightType).
+    /// [`LightType`](crate::LightType). Or the source is a placed mesh, which
+    /// [`LightSet::update_placement`] moves.
     OtherKind,
     /// The new description has another number of triangles, so that the ids behind it would move.
     OtherCount {
@@ -55,7 +56,10 @@ impl<C: ColorModel> LightSet<C> {
         desc: impl Into<LightDesc<C>>,
     ) -> Result<(), LightUpdateError> {
         let unknown = LightUpdateError::UnknownSource;
-        let SourcePlace { kind, index } = self.sources.place(source).ok_or(unknown)?;
+        let (kind, index) = match self.sources.place(source).ok_or(unknown)? {
+            SourcePlace::Listed { kind, index } => (kind, index),
+            SourcePlace::Placed(_) => return Err(LightUpdateError::OtherKind),
+        };
         let expected = self.sources.ids(source).ok_or(unknown)?.len();
         let index = index as usize;
         let new = match (kind, desc.into()) {

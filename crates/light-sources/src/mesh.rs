@@ -11,6 +11,7 @@ use crate::mean_cache::MeanCache;
 use crate::mesh_indices::MeshIndices;
 use crate::shape::{Shape, Triangle};
 use crate::surface_texture::SurfaceTexture;
+use light_math::Aabb;
 
 /// A [`MeshLight`] as a user describes it.
 #[derive(Clone, Debug)]
@@ -168,10 +169,29 @@ impl<C: ColorModel> MeshLight<C> {
     #[inline]
     #[must_use]
     pub fn triangle(&self, index: usize) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
-        let vertices = self.indices.get(index)?;
+        self.triangle_by(index, |vertices| vertices, |corner| corner)
+    }
+
+    /// The light of triangle `index` with its vertices in the order of `turn`, each where `place`
+    /// takes it; `None` beyond the last.
+    #[inline]
+    pub(crate) fn triangle_by(
+        &self,
+        index: usize,
+        turn: impl Fn([u32; 3]) -> [u32; 3],
+        place: impl Fn(Vec3) -> Vec3,
+    ) -> Option<DiffuseAreaLight<'_, C, Triangle>> {
+        let vertices = turn(self.indices.get(index)?);
         let triangle = triangle(&self.positions, self.uvs.as_deref(), vertices);
+        let triangle = Triangle::from_corners(triangle.vertices().map(place), triangle.uvs());
         let mean = self.means.as_ref().and_then(|means| means.get(index));
         Some(DiffuseAreaLight::with_mean(triangle, &self.emission, mean))
+    }
+
+    /// The box of all vertices of triangles; empty without triangles.
+    pub(crate) fn bounds(&self) -> Aabb {
+        let corners = self.indices.iter().flatten();
+        Aabb::from_points(corners.map(|vertex| self.positions[vertex as usize]))
     }
 
     /// The corners of a triangle, if no index list has to be read for them.

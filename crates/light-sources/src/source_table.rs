@@ -8,11 +8,13 @@ use light_bounds::{LightGroups, LightId};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(pub u32);
 
-/// Where a source is stored: its kind, and its index in the list of that kind.
+/// Where a source is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SourcePlace {
-    pub(crate) kind: LightKind,
-    pub(crate) index: u32,
+pub(crate) enum SourcePlace {
+    /// Its kind, and its index in the list of that kind.
+    Listed { kind: LightKind, index: u32 },
+    /// The number of a placement of a mesh.
+    Placed(u32),
 }
 
 /// The sources of a set in the order of adding, and the ids of their lights, which run through
@@ -116,7 +118,7 @@ mod tests {
 
     #[test]
     fn sources_take_no_more_ids_than_32_bits_count() {
-        let place = SourcePlace {
+        let place = SourcePlace::Listed {
             kind: LightKind::Triangle,
             index: 0,
         };
