@@ -36,6 +36,7 @@ mod live;
 mod partial;
 mod partial_error;
 mod picture_identity;
+mod placed_lights;
 pub mod plot;
 mod primitive_id;
 mod raster;
@@ -56,6 +57,7 @@ mod visibility;
 mod world;
 mod world_media;
 mod world_mesh;
+mod world_object;
 mod world_quadric;
 
 pub use accel::{Accel, Hit, InstanceTransform, Prototype, QuadricShape};

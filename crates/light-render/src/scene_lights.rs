@@ -9,8 +9,10 @@ use lights::sources::{
 
 use crate::SceneLightsError;
 use crate::emitter_ids::EmitterIds;
+use crate::placed_lights::PlacedLights;
 use crate::surface_emission::{AlphaMaskedLights, Textures};
 use crate::world_mesh::WorldMesh;
+use crate::world_object::WorldObject;
 use crate::world_quadric::WorldQuadric;
 
 /// The lights of a scene.
@@ -36,7 +38,7 @@ pub(crate) struct SceneLights {
 /// What a source of lights is in the scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SceneSource {
-    /// An emissive mesh in world space.
+    /// An emissive mesh in world space, or one of an object that an instance places.
     Mesh(usize),
     /// An emissive quadric in world space.
     Quadric(usize),
@@ -45,12 +47,14 @@ pub(crate) enum SceneSource {
 }
 
 impl SceneLights {
-    /// Builds all lights.
+    /// Builds all lights: those of meshes and quadrics in world space, of the scene's list, and
+    /// then of objects, instance by instance.
     pub(crate) fn new(
         meshes: &[WorldMesh],
         quadrics: &[WorldQuadric],
         materials: &[Material],
         images: &[Image],
+        objects: &[WorldObject],
         scene_lights: Vec<LightDesc<Rgb>>,
         bounds: &Aabb,
     ) -> Result<Self, SceneLightsError> {
@@ -93,8 +97,14 @@ impl SceneLights {
             }
             sources.push(SceneSource::Light(number));
         }
+        let own_meshes = meshes.len() + listed_meshes.len();
+        let placed =
+            PlacedLights::add(&mut builder, objects, own_meshes, materials, &mut textures)?;
+        sources.extend(placed.meshes.iter().copied().map(SceneSource::Mesh));
         let lights = builder.build();
-        let mut emitters = EmitterIds::new(meshes.len() + listed_meshes.len(), quadrics.len());
+        let in_objects = objects.iter().map(|object| object.meshes.len());
+        let all_meshes = own_meshes + in_objects.sum::<usize>();
+        let mut emitters = EmitterIds::new(all_meshes, quadrics.len());
         for (index, (source, _)) in (meshes.len()..).zip(&listed_meshes) {
             emitters.set_mesh(index, lights.first_id(*source));
         }
@@ -117,6 +127,7 @@ impl SceneLights {
             emitters.set_quadric(index, id);
             add_masked(id, 1, quadrics[index].material(), is_masked);
         }
+        placed.set_ids(&lights, &mut emitters, &mut masked);
         masked.sort_by_key(|lights| lights.ids.start);
         let has_type = |id: &LightId, light_type| {
             lights

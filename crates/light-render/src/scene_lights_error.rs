@@ -1,7 +1,7 @@
 use core::error::Error;
 use core::fmt;
 
-use lights::sources::{self, LightDescError, SceneSphereError};
+use lights::sources::{self, LightDescError, PlacedMeshError, SceneSphereError};
 
 /// Why the lights of a scene cannot be built.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,13 @@ pub enum SceneLightsError {
         name: String,
         /// What is wrong with it.
         error: LightDescError,
+    },
+    /// The lights of an instance cannot be placed; the name is that of their material.
+    Placement {
+        /// Which lights.
+        name: String,
+        /// Why.
+        error: PlacedMeshError,
     },
     /// An image has texels that are negative or not finite.
     Image {
@@ -30,6 +37,7 @@ impl fmt::Display for SceneLightsError {
         match self {
             Self::Bounds(error) => error.fmt(f),
             Self::Light { name, error } => write!(f, "{name}: {error}"),
+            Self::Placement { name, error } => write!(f, "{name}: {error}"),
             Self::Image { name, error } => write!(f, "{name}: {error}"),
         }
     }

@@ -1,5 +1,6 @@
 /// The most emissive triangles and quadrics in all instances of a scene: each is a light of its
-/// own, so that instances of them are copied. This many triangles take about 8 GB.
+/// own. This many triangles take about 8 GB where they are copied, as those of small objects and
+/// all quadrics are.
 pub const MAX_EMISSIVE_COPIES: usize = 1 << 25;
 
 /// Counts the copies of emissive primitives while a file is read.

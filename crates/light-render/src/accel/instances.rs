@@ -36,6 +36,8 @@ pub(super) struct Instances {
 struct Instance {
     transform: InstanceTransform,
     prototype: u32,
+    /// Its position among the transforms of all prototypes.
+    position: u32,
 }
 
 /// A ray in the object space of one instance.
@@ -54,6 +56,7 @@ impl Instances {
     pub(super) fn new(prototypes: Vec<Prototype>, mut next: Numbers) -> Self {
         let mut this = Self::default();
         let (mut instances, mut boxes) = (Vec::new(), Vec::new());
+        let mut positions = 0u32..;
         for (prototype, stored) in (0u32..).zip(prototypes) {
             let Prototype {
                 triangles,
@@ -65,17 +68,16 @@ impl Instances {
             let bounds = Aabb::from_points(triangles.as_flattened().iter().copied());
             let quadrics = quadrics.iter().map(QuadricShape::bounds);
             let bounds = quadrics.fold(bounds, Aabb::union);
-            if !bounds.is_empty() {
-                boxes.extend(
-                    transforms
-                        .iter()
-                        .map(|transform| boxed(&transform.bounds(&bounds))),
-                );
-                let instance = |transform| Instance {
-                    transform,
-                    prototype,
-                };
-                instances.extend(transforms.into_iter().map(instance));
+            for (transform, position) in transforms.into_iter().zip(positions.by_ref()) {
+                // Nothing can be hit in an empty prototype, but positions go on.
+                if !bounds.is_empty() {
+                    boxes.push(boxed(&transform.bounds(&bounds)));
+                    instances.push(Instance {
+                        transform,
+                        prototype,
+                        position,
+                    });
+                }
             }
         }
         if boxes.is_empty() {
@@ -104,6 +106,12 @@ impl Instances {
     #[inline]
     pub(super) fn transform(&self, instance: u32) -> &InstanceTransform {
         &self.instances[instance as usize].transform
+    }
+
+    /// The position of an instance among the transforms of all prototypes, in their order.
+    #[inline]
+    pub(super) fn position(&self, instance: u32) -> u32 {
+        self.instances[instance as usize].position
     }
 
     /// The geometry of every instance.
@@ -182,6 +190,7 @@ impl Instances {
         let Instance {
             transform,
             prototype,
+            ..
         } = &self.instances[slot];
         let geometry = &self.prototypes[*prototype as usize];
         let instance = u32::try_from(slot).ok()?;

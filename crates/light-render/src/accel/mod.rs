@@ -135,6 +135,17 @@ impl Accel {
         self.instances.transform(instance)
     }
 
+    /// The position of an instance among the transforms of all prototypes, in the order in which
+    /// they were given: the hierarchy has another.
+    ///
+    /// # Panics
+    /// Panics if there is no such instance.
+    #[inline]
+    #[must_use]
+    pub(crate) fn instance_position(&self, instance: u32) -> u32 {
+        self.instances.position(instance)
+    }
+
     /// The numbers of the triangles and of the quadrics in world space.
     #[must_use]
     pub(crate) fn world(&self) -> [Range<u32>; 2] {

@@ -94,6 +94,7 @@ impl InfoArgs {
             .collect();
         let bounds = world.bounds();
         let bytes = world.lights().bytes();
+        let placed = world.lights().placed_counts();
         json!({
             "scene": self.input.scene.display().to_string(),
             "triangles": world.triangle_count(),
@@ -105,6 +106,12 @@ impl InfoArgs {
             "bounds": [bounds.min.to_array(), bounds.max.to_array()],
             "lights": count,
             "kinds": kinds,
+            "placed_lights": {
+                "meshes": placed.prototypes,
+                "stored": placed.stored_lights,
+                "placements": placed.placements,
+                "lights": placed.lights,
+            },
             "tree": {
                 "sampler": tree.sampler.name(),
                 "build_ms": tree.build_ms,
@@ -148,6 +155,16 @@ impl InfoArgs {
         }
         say!("  bounds     {} to {}", bounds.min, bounds.max)?;
         say!("  lights     {}", world.lights().len())?;
+        let placed = world.lights().placed_counts();
+        if placed.placements > 0 {
+            say!(
+                "    of them {} placed: {} of {} meshes stored once, in {} places",
+                placed.lights,
+                placed.stored_lights,
+                placed.prototypes,
+                placed.placements
+            )?;
+        }
         for k in kinds {
             let [r, g, b] = k.power.to_array();
             say!(

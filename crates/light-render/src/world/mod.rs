@@ -29,9 +29,9 @@ use objects::Objects;
 
 /// A scene prepared for rendering: acceleration structures, materials, lights, media.
 ///
-/// Prototypes are stored once, except for emissive primitives: each copy of such a triangle or
-/// sphere is a light of its own, with an id. Objects of very few triangles are copied as well,
-/// because an instance takes as much memory as they do.
+/// Prototypes are stored once, emissive meshes among them: each triangle of each instance is a
+/// light of its own, with an id. Objects of very few triangles are copied, because an instance
+/// takes as much memory as they do, and so are emissive quadrics.
 #[derive(Debug)]
 pub struct World {
     /// Those in world space, then those of prototypes.
@@ -84,7 +84,7 @@ impl World {
     /// are too many emissive primitives in all instances.
     pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
         let bounds = scene.bounds();
-        let Objects { instanced } = Objects::take(&mut scene)?;
+        let objects = Objects::take(&mut scene)?.instanced;
         let Scene {
             meshes,
             quadrics,
@@ -108,24 +108,25 @@ impl World {
             masked: masked_lights,
             listed: listed_lights,
             listed_meshes,
-        } = SceneLights::new(&meshes, &quadrics, &materials, &images, lights, &bounds)?;
+        } = SceneLights::new(
+            &meshes, &quadrics, &materials, &images, &objects, lights, &bounds,
+        )?;
         if !(listed_lights.is_empty() && listed_meshes.is_empty()) {
             materials.push(Material::diffuse("listed light", Vec3::ZERO));
         }
         meshes.extend(listed_meshes);
         let corners: Vec<[Vec3; 3]> = meshes.iter().flat_map(WorldMesh::triangles).collect();
         let own_quadrics = shapes(&quadrics);
-        let mut prototypes = Vec::with_capacity(instanced.len());
-        for object in instanced {
-            let (first_mesh, first_quadric) = (meshes.len(), quadrics.len());
-            meshes.extend(object.meshes.into_iter().map(WorldMesh::from));
-            quadrics.extend(world_quadrics(object.quadrics)?);
-            let triangles = meshes[first_mesh..].iter().flat_map(WorldMesh::triangles);
+        let mut prototypes = Vec::with_capacity(objects.len());
+        for object in objects {
+            let triangles = object.meshes.iter().flat_map(WorldMesh::triangles);
             prototypes.push(Prototype {
                 triangles: triangles.collect(),
-                quadrics: shapes(&quadrics[first_quadric..]),
+                quadrics: shapes(&object.quadrics),
                 transforms: object.transforms,
             });
+            meshes.extend(object.meshes);
+            quadrics.extend(object.quadrics);
         }
         let accel = Accel::with_quadrics_and_prototypes(&corners, &own_quadrics, prototypes);
         let triangles = (0u32..).zip(&meshes).flat_map(|(mesh, m)| {

@@ -5,6 +5,7 @@ use light_scene::{Instance, MAX_EMISSIVE_COPIES, Mesh, Prototype, Quadric, Scene
 
 use super::WorldError;
 use crate::InstanceTransform;
+use crate::world_object::WorldObject;
 
 /// Objects of at most this many triangles and quadrics are copied: copies take no more memory than
 /// instances, and rays find them faster.
@@ -17,15 +18,7 @@ const COLUMNS: u16 = 64;
 /// The objects of a scene that are instanced rather than copied.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
-    pub(super) instanced: Vec<InstancedObject>,
-}
-
-/// The instanced part of an object, with the transforms of its instances.
-#[derive(Debug)]
-pub(super) struct InstancedObject {
-    pub(super) meshes: Vec<Mesh>,
-    pub(super) quadrics: Vec<Quadric>,
-    pub(super) transforms: Vec<InstanceTransform>,
+    pub(super) instanced: Vec<WorldObject>,
 }
 
 /// Meshes and quadrics of an object.
@@ -36,9 +29,9 @@ struct Part {
 }
 
 impl Objects {
-    /// Takes the objects out of `scene`. Emissive primitives are copied for every instance, because
-    /// each copy is a light of its own; objects with a single instance and small ones are copied
-    /// too.
+    /// Takes the objects out of `scene`. Emissive quadrics are copied for every instance, because
+    /// each is a light of its own that takes no more memory than a transform; objects with a single
+    /// instance and small ones are copied too, and emissive meshes as those are.
     pub(super) fn take(scene: &mut Scene) -> Result<Self, WorldError> {
         let mut transforms: Vec<Vec<Affine3A>> = vec![Vec::new(); scene.prototypes.len()];
         for Instance {
@@ -64,7 +57,11 @@ impl Objects {
                     name: name.clone(),
                     most: MAX_EMISSIVE_COPIES,
                 })?;
-            let shared_transforms = if instanced.has_fractional_opacity(scene) {
+            let lamps = copied.take_lamps(&transforms);
+            // Lights add up where they coincide.
+            let all_count = !lamps.is_empty() || instanced.has_fractional_opacity(scene);
+            instanced.meshes.extend(lamps);
+            let shared_transforms = if all_count {
                 transforms.clone()
             } else {
                 distinct(&transforms)
@@ -90,11 +87,10 @@ impl Objects {
                     .map(InstanceTransform::new)
                     .collect();
                 let transforms = transforms.ok_or(WorldError::Instance { name })?;
-                objects.instanced.push(InstancedObject {
-                    meshes: instanced.meshes,
-                    quadrics: instanced.quadrics,
-                    transforms,
-                });
+                let Part { meshes, quadrics } = instanced;
+                objects
+                    .instanced
+                    .push(WorldObject::new(meshes, quadrics, transforms)?);
             }
         }
         tessellate_emissive_parts(scene);
@@ -142,6 +138,18 @@ impl Part {
             .partition(|sphere| scene.is_emissive(sphere.material));
         let part = |meshes, quadrics| Self { meshes, quadrics };
         (part(meshes.0, quadrics.0), part(meshes.1, quadrics.1))
+    }
+
+    /// Takes out the emissive meshes that instances share; none where copies take no more memory,
+    /// or a transform makes the object flat.
+    fn take_lamps(&mut self, transforms: &[Affine3A]) -> Vec<Mesh> {
+        let triangles = self.meshes.iter().map(|mesh| mesh.indices.len());
+        let is_small = transforms.len() < 2 || triangles.sum::<usize>() <= FEW;
+        let is_solid = |transform: &Affine3A| InstanceTransform::new(*transform).is_some();
+        if is_small || !transforms.iter().all(is_solid) {
+            return Vec::new();
+        }
+        core::mem::take(&mut self.meshes)
     }
 
     /// The number of triangles and quadrics.

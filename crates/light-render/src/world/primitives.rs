@@ -182,7 +182,14 @@ impl World {
         let number = surface.primitive.number() as usize;
         let (id, n) = match self.triangles.get(number) {
             Some(&MeshTriangle { mesh, index }) => {
-                (self.emitters.triangle(mesh, index)?, surface.n)
+                let id = match surface.primitive.instance() {
+                    None => self.emitters.triangle(mesh, index),
+                    Some(instance) => {
+                        let position = self.accel.instance_position(instance);
+                        self.emitters.triangle_in(position, mesh, index)
+                    }
+                };
+                (id?, surface.n)
             }
             None => {
                 let number = number - self.triangles.len();

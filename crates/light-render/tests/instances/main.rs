@@ -1,6 +1,7 @@
 //! Instances of an object look as copies of it do, and the object is stored once.
 
 mod hits;
+mod lamps;
 mod pictures;
 mod storage;
 #[path = "../support/mod.rs"]

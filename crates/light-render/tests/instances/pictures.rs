@@ -17,7 +17,7 @@ use crate::support::{Shot, agree};
 /// The instances of `scene` look like copies: with the same random numbers no more than one pixel
 /// in a hundred differs, where rounding sent a path another way, and the means agree within their
 /// noise.
-fn assert_looks_flattened(scene: &Scene, what: &str) {
+pub(crate) fn assert_looks_flattened(scene: &Scene, what: &str) {
     let shot = Shot {
         size: 32,
         spp: 4,

@@ -96,6 +96,30 @@ fn parts_merge_into_the_same_bytes() {
 }
 
 #[test]
+fn info_counts_placed_lights() {
+    let folder = Folder::new("placed");
+    let scene = folder.path("lamps.pbrt");
+    let object = r#"WorldBegin ObjectBegin "lamp" AreaLightSource "diffuse" "rgb L" [ 1 2 3 ]
+        Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  0 0 1 ]
+        "integer indices" [ 0 2 1  0 1 3  1 2 3  0 3 2 ] ObjectEnd"#;
+    let places = "Translate 3 0 0 ObjectInstance \"lamp\"\n".repeat(5);
+    fs::write(&scene, format!("{object}\n{places}")).expect("a file");
+    let line = stdout(&["info", &scene, "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+    let expected = serde_json::json!({
+        "meshes": 1,
+        "stored": 4,
+        "placements": 5,
+        "lights": 20,
+    });
+    assert_eq!(report["placed_lights"], expected, "{line}");
+    assert_eq!(report["stored_triangles"], 4, "{line}");
+    let words = stdout(&["info", &scene]);
+    let placed = "of them 20 placed: 4 of 1 meshes stored once, in 5 places";
+    assert!(words.contains(placed), "{words}");
+}
+
+#[test]
 fn info_counts_the_lights() {
     let folder = Folder::new("info");
     let line = stdout(&["info", &folder.scene(LIT), "--json"]);
