@@ -1,17 +1,15 @@
-use core::error::Error;
-use core::fmt;
-
 use lights::bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
-use lights::bvh::visibility::CellTableError;
-use lights::bvh::{LightBvhError, LightBvhOptions};
+use lights::bvh::LightBvhOptions;
 use lights::samplers::{
-    BvhLightSampler, ExhaustiveLightSampler, LightChoices, LightSampler, PowerLightSampler,
-    PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
+    BvhLightSampler, ExhaustiveLightSampler, InstancedBvhLightSampler, LightChoices, LightSampler,
+    PowerLightSampler, PowerLightSamplerError, ReferenceBvhLightSampler, UniformLightSampler,
 };
 use lights::sources::{LightSet, Rgb};
 
+use crate::placed_tree::{is_mostly_placed, placed_tree};
 use crate::{
-    CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler, SamplerKind, View, World,
+    AnyLightSamplerError, CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler,
+    SamplerKind, View, World,
 };
 
 /// A light sampler of any kind, chosen at run time without a virtual call.
@@ -32,32 +30,33 @@ pub enum AnyLightSampler {
     BvhPlanned(PlannedLightSampler),
     /// The default light hierarchy with cells of visibility.
     BvhInCells(CellLightSampler),
-}
-
-/// Why lights cannot be sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum AnyLightSamplerError {
-    /// A power is no power.
-    Power(PowerLightSamplerError),
-    /// Bounds are invalid.
-    Bvh(LightBvhError),
-    /// The cells of visibility are too many.
-    Cells(CellTableError),
-    /// Lights are not chosen by the default hierarchy: only that one has cells of visibility.
-    NoCells,
+    /// The default light hierarchy of lights that are placed many times: a tree of placed trees.
+    BvhPlaced(InstancedBvhLightSampler),
 }
 
 impl AnyLightSampler {
-    /// The sampler of the given kind over `lights`.
+    /// The sampler of the given kind over `lights`. The default one is a tree of placed trees
+    /// where a million lights and more are [placed](LightSetBuilder::place_mesh): that needs no
+    /// memory for each of them.
+    ///
+    /// [`LightSetBuilder::place_mesh`]: lights::sources::LightSetBuilder::place_mesh
     ///
     /// # Errors
     /// When the lights are more than ids, or more than the sampler can hold.
     pub fn new(kind: SamplerKind, lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
         match kind {
             SamplerKind::Power => Ok(Self::Power(PowerLightSampler::new(&lights.powers())?)),
+            SamplerKind::Bvh if is_mostly_placed(lights) => Self::placed(lights),
             _ => Self::over(kind, &lights.extents()),
         }
+    }
+
+    /// A tree of placed trees over `lights`, however few are placed.
+    ///
+    /// # Errors
+    /// When the lights are more than ids, or bounds are invalid.
+    pub fn placed(lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
+        placed_tree(lights).map(Self::BvhPlaced)
     }
 
     /// The sampler of the given kind over lights of the given extents; the index is the id. Powers
@@ -98,7 +97,12 @@ impl AnyLightSampler {
         view: &View,
         max_depth: u32,
     ) -> Result<Self, AnyLightSamplerError> {
-        match self {
+        let flat = match self {
+            // Cells are those of a flat tree.
+            Self::BvhPlaced(_) => Self::over(SamplerKind::Bvh, &world.lights().extents())?,
+            other => other,
+        };
+        match flat {
             Self::Bvh(lights) => Ok(Self::BvhInCells(CellLightSampler::new(
                 lights, world, view, max_depth,
             )?)),
@@ -120,13 +124,17 @@ impl AnyLightSampler {
         }
     }
 
-    /// The default hierarchy, with cells or without.
+    /// The default hierarchy, with cells or without; `None` where it is a tree of placed trees.
     pub(crate) const fn hierarchy(&self) -> Option<&BvhLightSampler> {
         match self {
             Self::Bvh(sampler) => Some(sampler),
             Self::BvhPlanned(sampler) => Some(sampler.lights()),
             Self::BvhInCells(sampler) => Some(sampler.lights()),
-            Self::Uniform(_) | Self::Power(_) | Self::Exhaustive(_) | Self::BvhReference(_) => None,
+            Self::Uniform(_)
+            | Self::Power(_)
+            | Self::Exhaustive(_)
+            | Self::BvhReference(_)
+            | Self::BvhPlaced(_) => None,
         }
     }
 
@@ -142,6 +150,7 @@ impl AnyLightSampler {
             Self::Bvh(sampler) => sampler.tree().bytes(),
             Self::BvhPlanned(sampler) => sampler.lights().tree().bytes(),
             Self::BvhInCells(sampler) => sampler.lights().tree().bytes() + sampler.cells().bytes(),
+            Self::BvhPlaced(sampler) => sampler.tree().bytes(),
         }
     }
 
@@ -150,7 +159,10 @@ impl AnyLightSampler {
     /// not know.
     #[must_use]
     pub fn degradation(&self) -> Option<f64> {
-        Some(self.hierarchy()?.tree().degradation())
+        match self {
+            Self::BvhPlaced(sampler) => Some(sampler.tree().top().degradation()),
+            _ => Some(self.hierarchy()?.tree().degradation()),
+        }
     }
 
     /// Nodes on the longest way down a hierarchy; 0 without one.
@@ -162,6 +174,11 @@ impl AnyLightSampler {
             Self::Bvh(sampler) => sampler.tree().depth(),
             Self::BvhPlanned(sampler) => sampler.lights().tree().depth(),
             Self::BvhInCells(sampler) => sampler.lights().tree().depth(),
+            Self::BvhPlaced(sampler) => {
+                let depths = sampler.tree().prototypes().iter();
+                let lower = depths.map(|prototype| prototype.tree().depth()).max();
+                sampler.tree().top().depth() + lower.unwrap_or(0)
+            }
         }
     }
 }
@@ -185,6 +202,7 @@ macro_rules! for_each_kind {
             AnyLightSampler::Bvh($it) => $answer,
             AnyLightSampler::BvhPlanned($it) => $answer,
             AnyLightSampler::BvhInCells($it) => $answer,
+            AnyLightSampler::BvhPlaced($it) => $answer,
         }
     };
 }
@@ -215,34 +233,3 @@ impl LightSampler for AnyLightSampler {
         for_each_kind!(self, sampler => sampler.at(ctx, count))
     }
 }
-
-impl From<PowerLightSamplerError> for AnyLightSamplerError {
-    fn from(error: PowerLightSamplerError) -> Self {
-        Self::Power(error)
-    }
-}
-
-impl From<LightBvhError> for AnyLightSamplerError {
-    fn from(error: LightBvhError) -> Self {
-        Self::Bvh(error)
-    }
-}
-
-impl From<CellTableError> for AnyLightSamplerError {
-    fn from(error: CellTableError) -> Self {
-        Self::Cells(error)
-    }
-}
-
-impl fmt::Display for AnyLightSamplerError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Power(error) => error.fmt(f),
-            Self::Bvh(error) => error.fmt(f),
-            Self::Cells(error) => error.fmt(f),
-            Self::NoCells => f.write_str("cells of visibility: expected the default hierarchy"),
-        }
-    }
-}
-
-impl Error for AnyLightSamplerError {}

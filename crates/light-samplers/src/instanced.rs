@@ -58,6 +58,37 @@ impl InstancedBvhLightSampler {
         })
     }
 
+    /// A sampler of the lights of `tree`, and of lights at infinity whose ids are among those of
+    /// the tree, in ascending order: a prototype that was made of all lights of a scene has places
+    /// for them, where it is dark.
+    ///
+    /// # Errors
+    /// More than 2^32 lights; ids that are not in order, or not among those of the tree; the first
+    /// light at infinity with invalid bounds.
+    pub fn with_infinite_among(
+        tree: InstancedLightBvh,
+        infinite: &[(LightId, InfiniteBounds)],
+    ) -> Result<Self, InstancedBvhLightSamplerError> {
+        let count = u32::try_from(tree.light_count());
+        let count = count.map_err(|_| InstancedBvhLightSamplerError::TooManyLights)?;
+        let is_sorted = infinite.is_sorted_by(|(a, _), (b, _)| a < b);
+        if !is_sorted || infinite.last().is_some_and(|(last, _)| last.0 >= count) {
+            return Err(InstancedBvhLightSamplerError::InfiniteIds);
+        }
+        let all: Vec<_> = infinite.iter().map(|(_, bounds)| *bounds).collect();
+        let mut sampler = Self::new(tree, &all).map_err(|error| match error {
+            InstancedBvhLightSamplerError::Infinite { light, reason } => {
+                let (light, _) = infinite[(light.0 - count) as usize];
+                InstancedBvhLightSamplerError::Infinite { light, reason }
+            }
+            other => other,
+        })?;
+        for light in &mut sampler.infinite {
+            light.light = infinite[(light.light.0 - count) as usize].0;
+        }
+        Ok(sampler)
+    }
+
     /// Refits the upper tree to placements that moved: see [`InstancedLightBvh::refit`].
     ///
     /// # Errors
@@ -141,6 +172,8 @@ const fn fluence(light: &InfiniteLight) -> f32 {
 pub enum InstancedBvhLightSamplerError {
     /// There are more lights than ids of 32 bits.
     TooManyLights,
+    /// Lights at infinity are not in the order of their ids, or not among those of the tree.
+    InfiniteIds,
     /// The bounds of a light at infinity are not valid.
     Infinite {
         /// Which light.
@@ -154,6 +187,9 @@ impl fmt::Display for InstancedBvhLightSamplerError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooManyLights => f.write_str("more lights than ids of 32 bits"),
+            Self::InfiniteIds => {
+                f.write_str("lights at infinity: expected ids of the tree, in ascending order")
+            }
             Self::Infinite { light, reason } => write!(f, "light {}: {reason}", light.0),
         }
     }

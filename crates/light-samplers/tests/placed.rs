@@ -1,8 +1,11 @@
 //! Prototypes that are placed several times, against lights where they are placed.
 
 use light_samplers::InstancedBvhLightSampler;
-use light_samplers::light_bounds::LightId;
-use light_samplers::light_bvh::{InstancedLightBvhError, PlacedLight};
+use light_samplers::light_bounds::glam::Vec3;
+use light_samplers::light_bounds::{InfiniteBounds, LightId};
+use light_samplers::light_bvh::{
+    InstancedLightBvh, InstancedLightBvhError, LightPrototype, PlacedLight, Placement,
+};
 use light_testkit::laws::{sampler as laws, several_choices_follow_their_pmf};
 use light_testkit::{PlacedCase, SamplerCase};
 
@@ -65,4 +68,39 @@ fn ids_are_positions() {
         light: LightId(0),
     };
     assert_eq!(tree.pmf(&set.contexts[0], none), 0.0, "no such placement");
+}
+
+/// A prototype of all lights has places for those at infinity, where it is dark.
+#[test]
+fn lights_at_infinity_may_be_among_those_of_a_prototype() {
+    let set = SamplerCase::mixed(60, 9);
+    let all = set.extents();
+    let whole = LightPrototype::new(&all).expect("valid lights");
+    let tree = || {
+        let whole = vec![whole.clone()];
+        InstancedLightBvh::build(whole, &[Placement::at(0, Vec3::ZERO)]).expect("one place")
+    };
+    let ids = (0..).map(LightId).zip(&all);
+    let infinite: Vec<_> = ids
+        .filter_map(|(id, extent)| Some((id, *extent.infinite()?)))
+        .collect();
+    assert_eq!(infinite.len(), 2, "a sky and a sun");
+    let sampler = InstancedBvhLightSampler::with_infinite_among(tree(), &infinite);
+    laws(&set, &sampler.expect("a sky and a sun among the lights"));
+
+    let error = |infinite: &[_]| {
+        InstancedBvhLightSampler::with_infinite_among(tree(), infinite)
+            .err()
+            .map(|error| error.to_string())
+    };
+    let (id, sky) = infinite[0];
+    let order = Some("lights at infinity: expected ids of the tree, in ascending order".into());
+    assert_eq!(error(&[(id, sky), (id, sky)]), order, "twice");
+    assert_eq!(error(&[(LightId(set.count()), sky)]), order, "beyond");
+    let bad = InfiniteBounds {
+        fluence: f32::NAN,
+        ..sky
+    };
+    let words = error(&[(id, bad)]).expect("no number");
+    assert!(words.starts_with(&format!("light {}: ", id.0)), "{words}");
 }

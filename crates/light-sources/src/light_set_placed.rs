@@ -1,11 +1,15 @@
+use alloc::vec::Vec;
+
 use crate::color::ColorModel;
 use crate::glam::Affine3A;
+use crate::light::Light;
 use crate::light_desc::LightDescError;
 use crate::light_set::LightSet;
 use crate::light_set_builder::LightSetBuilder;
 use crate::mesh::{MeshLight, MeshLightDesc};
 use crate::placed_mesh::{MeshPrototypeId, PlacedMeshCounts, PlacedMeshError};
 use crate::source_table::{SourceId, SourcePlace};
+use light_bounds::LightExtent;
 
 /// Emissive meshes that are stored once and placed any number of times.
 impl<C: ColorModel> LightSetBuilder<C> {
@@ -76,6 +80,27 @@ impl<C: ColorModel> LightSet<C> {
     #[must_use]
     pub fn placed_counts(&self) -> PlacedMeshCounts {
         self.placed.counts()
+    }
+
+    /// The prototype of a source that is a placed mesh, and the transform that takes it to the
+    /// scene; `None` for other sources.
+    #[must_use]
+    pub fn placement(&self, source: SourceId) -> Option<(MeshPrototypeId, &Affine3A)> {
+        match self.sources.place(source)? {
+            SourcePlace::Placed(placement) => self.placed.placement(placement),
+            SourcePlace::Listed { .. } => None,
+        }
+    }
+
+    /// The extents of the triangles of a prototype, in its own coordinates; none of an unknown one.
+    #[must_use]
+    pub fn prototype_extents(&self, prototype: MeshPrototypeId) -> Vec<LightExtent> {
+        let mesh = self.placed.prototype(prototype);
+        let triangles = mesh.into_iter().flat_map(|mesh| {
+            let numbers = 0..mesh.len();
+            numbers.filter_map(|number| mesh.triangle(number))
+        });
+        triangles.map(|triangle| triangle.extent()).collect()
     }
 
     /// Moves a source that is a [placed](LightSetBuilder::place_mesh) mesh to where `to_scene`

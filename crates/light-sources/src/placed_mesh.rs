@@ -145,6 +145,18 @@ impl<C: ColorModel> PlacedMeshes<C> {
         mesh.corners(number as usize)
     }
 
+    /// The prototype and the transform of a placement.
+    pub(crate) fn placement(&self, placement: u32) -> Option<(MeshPrototypeId, &Affine3A)> {
+        let placed = self.placements.get(placement as usize)?;
+        Some((MeshPrototypeId(placed.prototype), &placed.to_scene))
+    }
+
+    /// A prototype.
+    pub(crate) fn prototype(&self, prototype: MeshPrototypeId) -> Option<&MeshLight<C>> {
+        let found = self.prototypes.get(prototype.0 as usize);
+        found.map(|prototype| &prototype.mesh)
+    }
+
     pub(crate) fn counts(&self) -> PlacedMeshCounts {
         let len = |prototype: u32| self.prototypes[prototype as usize].mesh.len();
         let placements = self.placements.iter();

@@ -92,6 +92,7 @@ impl Candidate {
             AnyLightSampler::Bvh(sampler) => sampler,
             AnyLightSampler::BvhPlanned(sampler) => sampler,
             AnyLightSampler::BvhInCells(sampler) => sampler,
+            AnyLightSampler::BvhPlaced(sampler) => sampler,
         }
     }
 

@@ -35,6 +35,8 @@ pub(crate) struct InfoArgs {
 /// The light hierarchy over a scene's lights.
 struct Tree {
     sampler: SamplerKind,
+    /// Whether it is a tree of placed trees.
+    is_placed: bool,
     build_ms: f64,
     depth: usize,
     bytes: usize,
@@ -114,6 +116,7 @@ impl InfoArgs {
             },
             "tree": {
                 "sampler": tree.sampler.name(),
+                "placed": tree.is_placed,
                 "build_ms": tree.build_ms,
                 "depth": tree.depth,
                 "bytes": tree.bytes,
@@ -175,8 +178,13 @@ impl InfoArgs {
             )?;
         }
         say!(
-            "  hierarchy  {}: depth {}, {} bytes, built in {:.2} ms",
+            "  hierarchy  {}{}: depth {}, {} bytes, built in {:.2} ms",
             tree.sampler,
+            if tree.is_placed {
+                " of placed trees"
+            } else {
+                ""
+            },
             tree.depth,
             tree.bytes,
             tree.build_ms
@@ -217,6 +225,7 @@ impl Tree {
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(Self {
             sampler: kind,
+            is_placed: matches!(sampler, AnyLightSampler::BvhPlaced(_)),
             build_ms,
             quality: choice_variance(world, &sampler),
             degradation: sampler.degradation(),

@@ -3,6 +3,7 @@
 mod hits;
 mod lamps;
 mod pictures;
+mod placed_tree;
 mod storage;
 #[path = "../support/mod.rs"]
 mod support;

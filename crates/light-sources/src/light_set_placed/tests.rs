@@ -1,6 +1,5 @@
 use alloc::string::String;
 use alloc::vec;
-use alloc::vec::Vec;
 
 use super::*;
 use crate::amount::RadianceAmount;
@@ -8,7 +7,7 @@ use crate::channels::Channels;
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
 use crate::glam::{Quat, Vec2, Vec3};
 use crate::image::Image;
-use crate::light::{AreaLight, Light};
+use crate::light::AreaLight;
 use crate::light_desc::LightDesc;
 use crate::light_ref::LightRef;
 use crate::light_set_update::LightUpdateError;
@@ -206,6 +205,11 @@ fn placements_move_and_other_sources_do_not() {
         [&before[..4], &before[8..]],
         "the others"
     );
+    let (of, to_scene) = set.placement(placed).expect("a placement");
+    assert_eq!((of, *to_scene), (prototype, third), "its transform");
+    assert_eq!(set.placement(listed), None, "a mesh");
+    assert_eq!(set.prototype_extents(prototype), before[..4], "at its own");
+    assert!(set.prototype_extents(MeshPrototypeId(1)).is_empty(), "none");
     let refused = set.update_placement(listed, &third).err();
     assert_eq!(refused, Some(PlacedMeshError::OtherSource), "a mesh");
     let refused = set.update_placement(SourceId(9), &third).err();
