@@ -36,10 +36,10 @@ pub enum AnyLightSampler {
 
 impl AnyLightSampler {
     /// The sampler of the given kind over `lights`. The default one is a tree of placed trees
-    /// where a million lights and more are [placed](LightSetBuilder::place_mesh): that needs no
+    /// where a million lights and more are [placed]: that needs no
     /// memory for each of them.
     ///
-    /// [`LightSetBuilder::place_mesh`]: lights::sources::LightSetBuilder::place_mesh
+    /// [placed]: lights::sources::LightSetBuilder::place_mesh
     ///
     /// # Errors
     /// When the lights are more than ids, or more than the sampler can hold.
