@@ -21,6 +21,7 @@ pub use half;
 pub use light_bounds;
 pub use light_bounds::glam;
 pub use light_bounds::light_math;
+pub use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 
 #[cfg(feature = "alloc")]
 mod alpha_mask;

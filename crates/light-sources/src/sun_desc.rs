@@ -20,6 +20,19 @@ pub struct SunLightDesc<C: ColorModel> {
     pub amount: SunAmount,
 }
 
+impl<C: ColorModel> SunLightDesc<C> {
+    /// A sun of the size of the earth's, whose middle is toward `direction`, of any length above 0.
+    #[must_use]
+    pub fn new(direction: Vec3, emission: C::Emission, amount: impl Into<SunAmount>) -> Self {
+        Self {
+            direction,
+            angular_diameter: 0.0093,
+            emission,
+            amount: amount.into(),
+        }
+    }
+}
+
 /// The amount of a sun; the emission gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -29,4 +42,16 @@ pub enum SunAmount {
     Radiance(RadianceAmount),
     /// The irradiance of a plane that faces it.
     Irradiance(IrradianceAmount),
+}
+
+impl From<RadianceAmount> for SunAmount {
+    fn from(amount: RadianceAmount) -> Self {
+        Self::Radiance(amount)
+    }
+}
+
+impl From<IrradianceAmount> for SunAmount {
+    fn from(amount: IrradianceAmount) -> Self {
+        Self::Irradiance(amount)
+    }
 }

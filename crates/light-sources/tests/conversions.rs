@@ -103,6 +103,23 @@ fn a_sun_ends_at_its_edge() {
     assert_eq!(le(0.0101), Vec3::ZERO, "outside");
 }
 
+/// Units are where descriptions are, and a sun is made like other lights.
+#[test]
+fn a_sun_of_so_many_lux_is_that_of_the_earth() {
+    let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
+    let white = Vec3::ONE;
+    let amount = IrradianceAmount::Illuminance(Lux(100_000.0));
+    let desc = SunLightDesc::<Rgb>::new(Vec3::Z, white, amount);
+    assert_eq!(desc.amount, SunAmount::Irradiance(amount));
+    let sun = SunLight::new(desc, scene).expect("a sun");
+    let le = |angle: f32| sun.le(Vec3::ZERO, Vec3::new(angle.sin(), 0.0, angle.cos()), &());
+    assert!(le(0.0046).y > 0.0, "inside");
+    assert_eq!(le(0.0047), Vec3::ZERO, "outside");
+    let by_radiance = RadianceAmount::Luminance(Nit(1.6e9));
+    let desc = SunLightDesc::<Rgb>::new(Vec3::Z, white, by_radiance);
+    assert_eq!(desc.amount, SunAmount::Radiance(by_radiance));
+}
+
 /// A point light so near that the inverse square is no float is not sampled.
 #[test]
 fn a_point_within_reach_of_nothing() {

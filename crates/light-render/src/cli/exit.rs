@@ -35,6 +35,15 @@ pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
         .unwrap_or_default();
     // What clap suggests stands in paragraphs of its own.
     let paragraphs = wrong.trim_start_matches("error: ").trim_end().split("\n\n");
+    // How an unknown flag would be a value is no help; what flags there are is.
+    let paragraphs = paragraphs.map(|words| {
+        let is_of_values = words.trim_start().starts_with("tip: to pass ");
+        if is_of_values {
+            "`--help` lists the flags"
+        } else {
+            words
+        }
+    });
     Failure::input(paragraphs.collect::<Vec<_>>().join("; ")).report()
 }
 

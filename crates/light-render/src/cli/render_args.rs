@@ -56,6 +56,6 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(super) json: bool,
     /// Print nothing but results: no progress, no warnings.
-    #[arg(long)]
+    #[arg(long, short)]
     pub(super) quiet: bool,
 }

@@ -76,7 +76,7 @@ pub(crate) struct ReportArgs {
     #[arg(long)]
     json: bool,
     /// Print nothing but results: no progress, no warnings.
-    #[arg(long)]
+    #[arg(long, short)]
     quiet: bool,
 }
 

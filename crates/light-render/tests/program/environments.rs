@@ -44,7 +44,7 @@ fn environments_are_clamped_or_refused() {
         warning.contains("1 of 8") && warning.lines().count() == 1,
         "and counted: {warning}"
     );
-    let quiet = lights(&[&args[..], &SMALL, &["--quiet"]].concat());
+    let quiet = lights(&[&args[..], &SMALL, &["-q"]].concat());
     assert!(quiet.stderr.is_empty(), "unless nobody wants to know");
 }
 
@@ -82,6 +82,8 @@ fn environments_are_turned_about_what_is_up() {
 fn suggestions_stand_apart() {
     let wrong = ["render", "night", "-o", "a.png", "--env-turn", "90"];
     assert_refused(&wrong, &["'--env-turn' found; tip: "]);
+    let unlike = ["render", "night", "-o", "a.png", "--hdri", "sky.exr"];
+    assert_refused(&unlike, &["'--hdri' found; `--help` lists the flags"]);
 }
 
 #[test]

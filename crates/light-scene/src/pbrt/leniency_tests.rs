@@ -131,7 +131,7 @@ fn names_are_not_cut_and_kinds_are_counted() {
     let uses =
         (0..3).map(|n| format!("Material \"diffuse\" \"texture reflectance\" \"{long}{n}\""));
     let scene = read_world(&uses.collect::<Vec<_>>().join("\n"));
-    let taken = "is not defined and was taken as grey (and 2 more like it)";
+    let taken = "is not defined before it is used and was taken as grey (and 2 more like it)";
     assert_eq!(
         warnings(&scene),
         [format!("texture \"{long}0\" {taken}")],

@@ -119,7 +119,7 @@ impl Reader {
                 return texture.color;
             }
             let what = format!("texture \"{texture}\"");
-            let message = "is not defined and was taken as grey";
+            let message = "is not defined before it is used and was taken as grey";
             self.warn_kind(typed.at, "undefined texture", &what, message);
             return self.stand_in();
         }
