@@ -52,7 +52,10 @@ impl CompletionsArgs {
 }
 
 /// Prints one page: the program, then each command as a section of its own.
-fn man(mut program: Command) -> Result<(), Failure> {
+///
+/// # Errors
+/// When standard output takes nothing.
+pub(super) fn man(mut program: Command) -> Result<(), Failure> {
     program.build();
     let mut page = Vec::new();
     let failed = |error: std::io::Error| Failure::Input(format!("the man page: {error}"));

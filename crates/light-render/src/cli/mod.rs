@@ -59,7 +59,8 @@ Examples:
   lights render car.glb --sky clear-noon --spp 256 -o car.exr -o car.png
   lights info scene.pbrt                       its lights, and what was not read of the file
   lights compare a.exr reference.exr --max-relmse 0.01
-  lights completions bash                      completions of a shell, or the man page
+  lights completions bash                      completions of a shell
+  lights man                                   the man page
 
 Exit status:
   0    done
@@ -89,6 +90,8 @@ enum Command {
     Farm(farm::FarmArgs),
     Ies(ies::IesArgs),
     Info(info::InfoArgs),
+    /// Print the man page of the program and all of its commands.
+    Man,
     Merge(merge::MergeArgs),
     Render(Box<render_args::RenderArgs>),
     Report(Box<report::ReportArgs>),
@@ -110,6 +113,7 @@ pub fn main() -> ExitCode {
         Some(Command::Farm(args)) => args.run(&typed),
         Some(Command::Ies(args)) => args.run(),
         Some(Command::Info(args)) => args.run(),
+        Some(Command::Man) => completions::man(Program::command()),
         Some(Command::Merge(args)) => args.run(),
         Some(Command::Render(args)) => args.run(),
         Some(Command::Report(args)) => args.run(),

@@ -11,7 +11,7 @@ use crate::{
 
 /// What is known of visibility in a picture by the scene's camera.
 pub(super) enum Visible {
-    /// What light samples tell; `None` where nothing is lit.
+    /// What light samples tell; `None` where nothing is lit, and for a tree of placed trees.
     Share(Option<ChoiceEstimates>),
     Cells(Cells),
 }
@@ -70,7 +70,7 @@ impl Visible {
                     of(ChoicePlan::AsAsked)
                 )
             }
-            Self::Share(None) => say!("  visibility no light"),
+            Self::Share(None) => say!("  visibility no estimate: nothing is lit, or a tree of placed trees chooses"),
             Self::Cells(cells) => cells.print(),
         }
     }

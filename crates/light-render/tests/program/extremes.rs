@@ -85,6 +85,7 @@ fn cases(folder: &Folder) -> Vec<Case> {
         ),
         case(&["compare"], &[&picture, &picture], &[]),
         case(&["completions"], &[&"man".to_owned()], &[]),
+        case(&["man"], &[], &[]),
         case(
             &["env", "convert"],
             &[&map, &folder.path("converted.exr")],

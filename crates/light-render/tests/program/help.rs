@@ -84,6 +84,7 @@ fn completions_and_a_man_page_are_printed() {
         assert!(page.contains(word), "{word} in {page}");
     }
     assert!(!page.contains("LIGHTS HELP"), "no help of the help");
+    assert_eq!(stdout(&["man"]), page, "by a command of its own");
     assert_refused(&["completions", "tcsh"], &["tcsh", "zsh", "man"]);
 }
 
