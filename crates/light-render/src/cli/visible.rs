@@ -70,7 +70,9 @@ impl Visible {
                     of(ChoicePlan::AsAsked)
                 )
             }
-            Self::Share(None) => say!("  visibility no estimate: nothing is lit, or a tree of placed trees chooses"),
+            Self::Share(None) => {
+                say!("  visibility no estimate: nothing is lit, or a tree of placed trees chooses")
+            }
             Self::Cells(cells) => cells.print(),
         }
     }
