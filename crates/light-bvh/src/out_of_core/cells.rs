@@ -53,9 +53,8 @@ impl<'a> Cells<'a> {
         light: &LightExtent,
     ) -> io::Result<()> {
         let slot = &mut to.cells[cell(to.grid.as_ref(), light)];
-        if to.grid.is_none()
-            && let Some(full) = slot.take_if(|writer| writer.count() == self.most)
-        {
+        let in_order = to.grid.is_none();
+        if let Some(full) = slot.take_if(|writer| in_order && writer.count() == self.most) {
             to.full.push(full.finish()?);
         }
         let writer = match slot {
