@@ -1,5 +1,6 @@
 use light_bounds::{LightExtent, LightId};
 use light_math::Aabb;
+use light_math::glam::Vec3;
 
 use crate::LightBvhError;
 use crate::build::lights::phi;
@@ -32,6 +33,21 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
+    /// The sums of no light.
+    pub(crate) const NOTHING: Self = Self {
+        power: 0.0,
+        count: 0,
+        centers: Aabb::EMPTY,
+    };
+
+    /// Adds a light that the tree holds.
+    #[inline]
+    pub(crate) fn add(&mut self, power: f32, center: Vec3) {
+        self.power += f64::from(power);
+        self.count += 1;
+        self.centers = self.centers.extend(center);
+    }
+
     /// Validates `lights`, of which `first` is the id of the first one; `check` may refuse more of
     /// them.
     ///
@@ -75,11 +91,7 @@ impl Scan {
         dark: DarkLights,
         check: &(impl Fn(LightId, &LightExtent) -> Result<(), LightBvhError> + Sync),
     ) -> Result<Self, LightBvhError> {
-        let mut scan = Self {
-            power: 0.0,
-            count: 0,
-            centers: Aabb::EMPTY,
-        };
+        let mut scan = Self::NOTHING;
         for (light, extent) in (first..).map(LightId).zip(lights) {
             validate_light(light, extent)?;
             check(light, extent)?;
@@ -91,9 +103,7 @@ impl Scan {
             }
             let phi = phi(extent);
             if is_held(phi, dark) {
-                scan.power += f64::from(phi);
-                scan.count += 1;
-                scan.centers = scan.centers.extend(bounds.bounds.center());
+                scan.add(phi, bounds.bounds.center());
             }
         }
         Ok(scan)
@@ -112,7 +122,6 @@ fn is_far(bounds: &Aabb) -> bool {
 #[cfg(test)]
 mod tests {
     use light_math::float::next_up;
-    use light_math::glam::Vec3;
 
     use super::*;
     use crate::node::wide_node::{NOWHERE, WIDTH};

@@ -107,6 +107,6 @@ struct Place {
     clippy::cast_possible_truncation,
     reason = "a tree holds fewer than 2^32 lights, and fewer nodes than lights"
 )]
-const fn low_word(x: usize) -> u32 {
+pub(crate) const fn low_word(x: usize) -> u32 {
     x as u32
 }

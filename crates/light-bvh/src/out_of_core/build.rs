@@ -3,7 +3,6 @@ use std::io::{Seek, Write};
 use std::path::PathBuf;
 
 use light_bounds::LightExtent;
-use light_math::Aabb;
 
 use crate::LightBvhError;
 use crate::build::builder::build;
@@ -132,11 +131,7 @@ impl OutOfCoreBuild {
         lights: &mut impl LightChunks,
         progress: &mut dyn FnMut(usize),
     ) -> Result<(usize, Scan), OutOfCoreError> {
-        let mut all = Scan {
-            power: 0.0,
-            count: 0,
-            centers: Aabb::EMPTY,
-        };
+        let mut all = Scan::NOTHING;
         let count = each_chunk(lights, |first, chunk| {
             let scan = Scan::new(chunk, first, self.options.dark, &|_, _| Ok(()))?;
             all = all.union(&scan);
@@ -166,7 +161,7 @@ impl OutOfCoreBuild {
             Ok(())
         })?;
         let groups = cells.finish(groups)?;
-        let held: usize = groups.iter().map(|group| group.sums.count).sum();
+        let held: usize = groups.iter().map(|group| group.sums.scan.count).sum();
         if again == count && held == scan.count {
             Ok(groups)
         } else {

@@ -8,7 +8,8 @@ use light_bounds::LightExtent;
 use light_math::Aabb;
 
 use crate::build::morton::{Grid, KEY_BITS};
-use crate::out_of_core::group::{Group, GroupSums, GroupWriter};
+use crate::build::scan::Scan;
+use crate::out_of_core::group::{Group, GroupWriter};
 
 /// Eight cells along each axis: as many files are open at once, of the 1,024 that systems allow.
 const CELL_BITS: u32 = 9;
@@ -86,7 +87,7 @@ impl<'a> Cells<'a> {
     /// The group, or its parts where it has too many lights. These are in smaller cells: a box of
     /// centres is never one cell, so that it ends.
     fn divide(&mut self, group: Group) -> io::Result<Vec<Group>> {
-        let GroupSums { count, centers, .. } = group.sums;
+        let Scan { count, centers, .. } = group.sums.scan;
         if count <= self.most {
             return Ok(vec![group]);
         }

@@ -4,7 +4,6 @@ use std::io::{self, BufReader, BufWriter, Write};
 use std::path::PathBuf;
 
 use light_bounds::LightExtent;
-use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use crate::build::group_extent::group_extent;
@@ -16,10 +15,7 @@ use crate::out_of_core::record;
 /// Sums over the lights of a group, by which the upper tree is built.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GroupSums {
-    pub(super) count: usize,
-    pub(super) power: f64,
-    /// Box of their centres.
-    pub(super) centers: Aabb,
+    pub(super) scan: Scan,
     /// Means of centres and axes, weighted by power.
     center: Vec3,
     axis: Vec3,
@@ -27,9 +23,7 @@ pub(super) struct GroupSums {
 
 impl GroupSums {
     pub(super) const NOTHING: Self = Self {
-        count: 0,
-        power: 0.0,
-        centers: Aabb::EMPTY,
+        scan: Scan::NOTHING,
         center: Vec3::ZERO,
         axis: Vec3::ZERO,
     };
@@ -41,30 +35,21 @@ impl GroupSums {
         };
         let power = phi(extent);
         let primitive = LightPrimitive::new(0, bounds, power);
-        self.count += 1;
-        self.power += f64::from(power);
-        self.centers = self.centers.extend(primitive.center);
+        self.scan.add(power, primitive.center);
         if power > 0.0 {
-            let share = (f64::from(power) / self.power) as f32;
+            let share = (f64::from(power) / self.scan.power) as f32;
             self.center += (primitive.center - self.center) * share;
             self.axis += (primitive.axis - self.axis) * share;
         }
     }
 
-    pub(super) const fn scan(&self) -> Scan {
-        Scan {
-            power: self.power,
-            count: self.count,
-            centers: self.centers,
-        }
-    }
-
     /// The group as if it were one light.
     pub(super) fn extent(&self) -> LightExtent {
-        if self.power > 0.0 {
-            group_extent(self.center, self.axis, Some(self.power))
+        let Scan { power, centers, .. } = self.scan;
+        if power > 0.0 {
+            group_extent(self.center, self.axis, Some(power))
         } else {
-            group_extent(self.centers.center(), Vec3::ZERO, None)
+            group_extent(centers.center(), Vec3::ZERO, None)
         }
     }
 }
@@ -79,8 +64,8 @@ pub(super) struct Group {
 impl Group {
     /// The lights, in the order in which they were written, and their ids.
     pub(super) fn read(&self) -> io::Result<(Vec<u32>, Vec<LightExtent>)> {
-        let mut ids = Vec::with_capacity(self.sums.count);
-        let mut lights = Vec::with_capacity(self.sums.count);
+        let mut ids = Vec::with_capacity(self.sums.scan.count);
+        let mut lights = Vec::with_capacity(self.sums.scan.count);
         self.for_each(|id, light| {
             ids.push(id);
             lights.push(*light);
@@ -95,7 +80,7 @@ impl Group {
         mut each: impl FnMut(u32, &LightExtent) -> io::Result<()>,
     ) -> io::Result<()> {
         let mut file = BufReader::with_capacity(1 << 20, File::open(&self.path)?);
-        for _ in 0..self.sums.count {
+        for _ in 0..self.sums.scan.count {
             let (id, light) = record::read(&mut file)?;
             each(id, &light)?;
         }
@@ -128,7 +113,7 @@ impl GroupWriter {
 
     /// Lights so far.
     pub(super) const fn count(&self) -> usize {
-        self.group.sums.count
+        self.group.sums.scan.count
     }
 
     pub(super) fn add(&mut self, id: u32, light: &LightExtent) -> io::Result<()> {

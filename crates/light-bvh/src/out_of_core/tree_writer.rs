@@ -8,6 +8,7 @@ use crate::build::lights::Lights;
 use crate::build::options::LightBvhOptions;
 use crate::build::refit;
 use crate::build::scan::{Scan, is_addressable};
+use crate::build::topology::low_word;
 use crate::bytes::{HEADER, Header};
 use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
@@ -181,7 +182,7 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
             return Ok(Moments::NOTHING);
         };
         let (ids, lights) = group.read()?;
-        let scan = group.sums.scan();
+        let scan = group.sums.scan;
         // Its file is not needed any more.
         drop(group);
         let (topology, order) = build(&lights, &scan, &self.options, root.depth);
@@ -227,12 +228,4 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
         }
         Ok(())
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a tree addresses its parts by 32 bits"
-)]
-const fn low_word(x: usize) -> u32 {
-    x as u32
 }

@@ -5,7 +5,8 @@ impl World {
     /// Digests of what rays meet, each with the name of what it is of: every vertex, material and
     /// texel counts. Lights without a surface and media are not in them.
     pub(crate) fn digests(&self) -> [(&'static str, String); 3] {
-        // Ids of lights follow the order of the instances in the scene. The rest by content, because the order in the hierarchy is a matter of how that is built.
+        // Ids of lights follow the order of the instances in the scene. The rest by content,
+        // because the order in the hierarchy is a matter of how that is built.
         let instances = (0u32..).zip(self.accel.instances());
         let mut instances: Vec<_> = instances
             .map(|(instance, [triangles, quadrics])| {
