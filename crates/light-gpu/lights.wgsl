@@ -13,6 +13,7 @@ const LIGHT_HEIGHT: f32 = 0.43;
 const LIGHT_LEAST_SHARE: f32 = 0.0009765625;
 const LIGHT_LEAST_SPREAD: f32 = 0.51961523;
 const LIGHT_LEAST_TOTAL: f32 = 1e-10;
+const LIGHT_MAX_REVISION: f32 = 16.0;
 const LIGHT_MAX_ZOOM: f32 = 1073741800.0;
 const LIGHT_MIN_ALPHA: f32 = 0.01;
 const LIGHT_MIN_COS: f32 = 0.001;
@@ -908,6 +909,8 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
         weights = light_cut_scaled(weights, node.gain, cut.inv_unit);
         if index == 0u {
             limit = LIGHT_CUT_THRESHOLD * light_total(weights.lanes);
+        } else {
+            weights = light_cut_revised(weights, totals[index]);
         }
         var opened = 0u;
         for (var k = 0u; k < node.inner; k++) {
@@ -919,7 +922,10 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
             opened = 0u;
         }
         for (var left = opened; left != 0u; left &= left - 1u) {
-            cut.nodes[count] = node.child_base + firstTrailingBit(left);
+            let k = firstTrailingBit(left);
+            cut.nodes[count] = node.child_base + k;
+            // What each is estimated at, until its own weights are known.
+            totals[count] = weights.lanes[k >> 2u][k & 3u];
             count++;
         }
         cut.opened[index] = opened;
@@ -1047,6 +1053,20 @@ fn light_cut_scaled(weights: LightWeights, gain: f32, inv_unit: f32) -> LightWei
         scaled.lanes[word] = select(vec4<f32>(0.0), some, lanes > vec4<f32>(0.0));
     }
     return scaled;
+}
+
+// Weights of an opened node, together within LIGHT_MAX_REVISION of what the group was estimated at.
+// Choices within the node do not need it: there only ratios count.
+fn light_cut_revised(weights: LightWeights, expected: f32) -> LightWeights {
+    var revised = weights;
+    let ratio = min(expected / max(light_total(weights.lanes), LIGHT_MIN), LIGHT_MAX);
+    let revision = min(ratio * LIGHT_MAX_REVISION, max(ratio / LIGHT_MAX_REVISION, 1.0));
+    for (var word = 0u; word < 4u; word++) {
+        let lanes = weights.lanes[word];
+        let some = max(lanes * revision, vec4<f32>(LIGHT_MIN));
+        revised.lanes[word] = select(vec4<f32>(0.0), some, lanes > vec4<f32>(0.0));
+    }
+    return revised;
 }
 
 fn light_cut_unopened(weights: LightWeights, opened: u32) -> LightWeights {

@@ -4,6 +4,7 @@ use light_render::SamplerKind;
 use light_render::bench::Variance;
 use light_sets::{BenchSet, Family, SetKind};
 
+use super::by_cut::by_cut;
 use super::measure::{figure, measure, options};
 
 /// Lights, the points that the variance is taken over, and the seeds; constants were chosen on
@@ -14,17 +15,17 @@ const SIZES: [(usize, usize, &[u64]); 3] = [
     (1_000_000, 32, &[11]),
 ];
 
-/// Samples of one call of the last column.
+/// Samples of one call of the column `k = 16`.
 const K: u32 = 16;
 
 const HEADER: &str = "\
 | family | lights | reference: V mean | 99 % | by light | default: V mean | median | 99 % | \
-by light | k = 16: V mean |
-| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+by light | k = 16: V mean | by a cut: V mean | nodes |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 
 /// The figures of a line.
-type Figures = [f64; 8];
+type Figures = [f64; 10];
 
 /// A line a family and size: means over the seeds.
 pub(super) fn table() -> Result<String, String> {
@@ -70,6 +71,7 @@ fn figures(kind: SetKind, lights: usize, seed: u64, points: usize) -> Result<Fig
     let single = variances(&[SamplerKind::BvhReference, SamplerKind::Bvh], 1)?;
     let of_16 = variances(&[SamplerKind::Bvh], K)?;
     let [reference, default] = [single[0], single[1]];
+    let by_cut = by_cut(&set)?;
     Ok([
         reference.mean,
         reference.p99,
@@ -79,6 +81,8 @@ fn figures(kind: SetKind, lights: usize, seed: u64, points: usize) -> Result<Fig
         default.p99,
         default.flux_weighted,
         of_16[0].mean,
+        by_cut.variance,
+        by_cut.nodes,
     ])
 }
 

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use benches::page::write_table;
 
 mod adversarial;
+mod by_cut;
 mod families;
 mod hierarchies;
 mod measure;

@@ -1,6 +1,6 @@
 //! What a port of the queries to another language has to know.
 
-use crate::cut::grow::MAX_ZOOM;
+use crate::cut::grow::{MAX_REVISION, MAX_ZOOM};
 use crate::cut::light_cut;
 use crate::importance::child_importance::{
     BOX_EMISSION, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
@@ -17,7 +17,7 @@ use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 27] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 28] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
@@ -29,6 +29,7 @@ pub const QUERY_CONSTANTS: [(&str, f32); 27] = [
     ("LEAST_SHARE", LEAST_SHARE),
     ("LEAST_SPREAD", LEAST_SPREAD),
     ("LEAST_TOTAL", LEAST_TOTAL),
+    ("MAX_REVISION", MAX_REVISION),
     ("MAX_ZOOM", MAX_ZOOM),
     ("MIN_ALPHA", MIN_ALPHA),
     ("MIN_COS", MIN_COS),

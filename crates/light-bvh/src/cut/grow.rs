@@ -16,6 +16,10 @@ use crate::simd::dispatch;
 /// than 2^30, weights lose their proportion and keep their sign.
 pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
 
+/// How many times less or more an opened group may count than it was estimated: a few lights near
+/// the receiver, or a beam beside it, would take nearly all of the choices from the other groups.
+pub(crate) const MAX_REVISION: f32 = 16.0;
+
 impl<'a> LightBvhRef<'a> {
     /// A cut through the tree for `receiver`, for several choices there.
     #[inline]
@@ -96,12 +100,22 @@ impl Query for Grow<'_, '_> {
             if index == 0 {
                 // Not a number counts as 0.
                 limit = detail.threshold.max(0.0) * total(lanes);
+            } else {
+                let revision = revision(total(lanes), cut.totals[index]);
+                for weight in &mut lanes {
+                    *weight = positive_product(*weight, revision);
+                }
             }
             let open_weights = open_weights(&lanes, &angular_size_sq, node.inner);
             let mask = mask_above(&open_weights, limit);
             // A node whose children do not all fit opens none.
             let opened = append_set_bits(&mut cut.nodes, count, mask, node.child_base);
             if count + opened <= MAX_NODES {
+                // What each is estimated at, until its own weights are known.
+                let totals = cut.totals[count..][..opened].iter_mut();
+                for (total, opened) in totals.zip(&cut.nodes[count..]) {
+                    *total = lanes[(opened - node.child_base) as usize];
+                }
                 count += opened;
                 for k in 0..WIDTH {
                     lanes[k] = if open_weights[k] > limit {
@@ -142,6 +156,14 @@ impl CutNodes {
             *place = end;
         }
     }
+}
+
+/// The factor that brings the weights of a node, `total` together, within [`MAX_REVISION`] of what
+/// the group was estimated at, `expected`.
+#[inline(always)]
+fn revision(total: f32, expected: f32) -> f32 {
+    let ratio = (expected / total.max(f32::MIN_POSITIVE)).min(f32::MAX);
+    (ratio * MAX_REVISION).min((ratio * (1.0 / MAX_REVISION)).max(1.0))
 }
 
 /// How rough the estimate of each child is: its weight times the square of its angular size; 0 for
@@ -247,6 +269,24 @@ mod tests {
                 "{mask:b}: {nodes:?}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_within_16_times_its_estimate_is_left_as_it_is() {
+        for (total, expected, counts_for) in [
+            (3.0, 40.0, 3.0),
+            (40.0, 3.0, 40.0),
+            (1.0, 32.0, 2.0),
+            (32.0, 1.0, 16.0),
+            (f32::MIN_POSITIVE, 2.0, 0.125),
+            (0.5, f32::MIN_POSITIVE, f32::MIN_POSITIVE * 16.0),
+            (0.0, 1.0, 0.0),
+        ] {
+            let revised = total * revision(total, expected);
+            assert_eq!(revised, counts_for, "{total} for {expected}");
+        }
+        let revised = f32::MIN_POSITIVE * revision(f32::MIN_POSITIVE, f32::MAX);
+        assert!(revised > 0.0 && revised < f32::MAX, "{revised}");
     }
 
     #[test]

@@ -103,6 +103,13 @@ pub(crate) struct CutNodes {
 }
 
 impl<R> LightCut<'_, R> {
+    /// Nodes of the tree that the cut holds, from 0 (a tree without lights) to
+    /// [`CutDetail::MAX_NODES`]. To make a cut costs about as much as to descend so many levels.
+    #[must_use]
+    pub const fn node_count(&self) -> usize {
+        self.grown.count
+    }
+
     /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only
     /// if none of them can contribute.
     #[must_use]

@@ -7,15 +7,12 @@ use core::borrow::Borrow;
 use light_bounds::LightSampleContext;
 use light_math::float::positive_product;
 
+use crate::cut::grow::MAX_ZOOM;
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{IntoReceiver, Query, QueryFor};
 use crate::simd::dispatch;
-
-/// The largest ratio of units of length that counts in full: its square and what is multiplied by
-/// it stay floats.
-const MAX_ZOOM: f32 = 1_073_741_824.0;
 
 /// The largest importance: sums of all children of all copied nodes stay floats.
 const MAX_IMPORTANCE: f32 = 1e30;
