@@ -92,7 +92,11 @@ impl Query for Grow<'_, '_> {
             }
             tree.prefetch_below(node);
             let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
-            let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            let mut scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            if index > 0 {
+                let revision = revision(weights.total * scale, cut.totals[index]);
+                scale = positive_product(scale, revision).min(f32::MAX);
+            }
             let mut lanes = weights.lanes;
             for weight in &mut lanes {
                 *weight = positive_product(*weight, scale);
@@ -100,11 +104,6 @@ impl Query for Grow<'_, '_> {
             if index == 0 {
                 // Not a number counts as 0.
                 limit = detail.threshold.max(0.0) * total(lanes);
-            } else {
-                let revision = revision(total(lanes), cut.totals[index]);
-                for weight in &mut lanes {
-                    *weight = positive_product(*weight, revision);
-                }
             }
             let open_weights = open_weights(&lanes, &angular_size_sq, node.inner);
             let mask = mask_above(&open_weights, limit);
