@@ -1,4 +1,4 @@
-use light_bounds::{LightId, LightSampleContext, SampledLight};
+use light_bounds::{Gloss, LightId, LightSampleContext, SampledLight};
 use light_bvh::{LightBvhRef, SurfaceReceiver};
 use light_math::discrete::SampledIndex;
 use light_math::distribution::AliasTable;
@@ -107,13 +107,13 @@ pub fn choices() {
         |i| (receiver(i), random(i)),
         |(ctx, u)| {
             sampler.set_at(&ctx, 4, &mut here);
-            let mut lights = [choice(None); 4];
-            for (place, light) in lights.iter_mut().zip(here.samples(u)) {
-                *place = choice(Some(light));
+            let mut lights = [u32::MAX; 16];
+            for (place, light) in lights.chunks_exact_mut(4).zip(here.samples(u)) {
+                place.copy_from_slice(&choice(Some(light)));
             }
             lights
         },
-        |lights| core::array::from_fn::<u32, 16, _>(|i| lights[i / 4][i % 4]),
+        |lights| lights,
     );
     machine::end();
 }
@@ -160,10 +160,22 @@ fn point(i: u32) -> (Vec3, Vec3) {
     (Vec3::from_array(p), Vec3::from_array(n))
 }
 
-/// The `i`th receiver, a point on a surface.
+/// The `i`th receiver, of each of the five kinds in turn.
+#[inline(never)]
 fn receiver(i: u32) -> LightSampleContext {
-    let (p, n) = point(i);
-    LightSampleContext::surface(p, n, n)
+    let ((p, n), (q, wo)) = (point(i), point(i + 1));
+    let surface = LightSampleContext::surface(p, n, n);
+    match i % 5 {
+        0 => surface,
+        1 => LightSampleContext::two_sided(p, n, n),
+        2 => surface.with_gloss(Gloss {
+            wo,
+            alpha: 0.2,
+            diffuse: 0.5,
+        }),
+        3 => LightSampleContext::medium(p),
+        _ => LightSampleContext::segment(p, q - p),
+    }
 }
 
 /// One of the first `count` lights.

@@ -8,7 +8,8 @@ const UNIT_TOLERANCE: f32 = 1e-5;
 /// infinite, or not a number.
 ///
 /// A unit vector to rounding, with a squared length within 1e-5 of one, comes back bit for bit.
-#[inline]
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline)]
 #[must_use]
 pub fn direction(v: Vec3) -> Option<Vec3> {
     if (v.length_squared() - 1.0).abs() <= UNIT_TOLERANCE {

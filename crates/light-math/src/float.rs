@@ -77,7 +77,8 @@ fn arc_sine(x: f32) -> f32 {
 
 /// The product of two numbers of at least 0, such as probabilities: 0 only if one of them is, and
 /// never by rounding alone. 0 for any other number.
-#[inline(always)]
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
 #[must_use]
 pub fn positive_product(a: f32, b: f32) -> f32 {
     if a > 0.0 && b > 0.0 {

@@ -1,3 +1,4 @@
+use super::board::BOARDS;
 use super::elf::Program;
 use super::report::Report;
 
@@ -5,8 +6,8 @@ use super::report::Report;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Firmware {
     pub(super) name: &'static str,
-    /// The most bytes of code on the first board.
-    pub(super) code: Option<u32>,
+    /// The most bytes of code on each board, where a promise was made.
+    pub(super) code: [Option<u32>; BOARDS.len()],
 }
 
 /// What a program did on a board.

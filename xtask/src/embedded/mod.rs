@@ -19,28 +19,28 @@ use elf::Program;
 use firmware::{Firmware, Measured};
 use report::Report;
 
-/// The programs of `embedded/`: what each may take on the first board, in bytes, where a promise
-/// was made.
+/// The programs of `embedded/`: what each may take on each board, in bytes, where a promise was
+/// made. Without an instruction for floats the tables alone call 2 KB of routines.
 const PROGRAMS: [Firmware; 5] = [
     Firmware {
         name: "tables",
-        code: Some(4 << 10),
+        code: [Some(4 << 10), None],
     },
     Firmware {
         name: "tree",
-        code: Some(24 << 10),
+        code: [Some(24 << 10); 2],
     },
     Firmware {
         name: "sampler",
-        code: Some(24 << 10),
+        code: [Some(24 << 10); 2],
     },
     Firmware {
         name: "choices",
-        code: None,
+        code: [None; 2],
     },
     Firmware {
         name: "lights",
-        code: None,
+        code: [None; 2],
     },
 ];
 
@@ -141,11 +141,12 @@ fn check(
             program,
         });
     }
-    // Not the first that ran: another one may have been skipped.
-    let is_first = board.name == BOARDS[0].name;
+    // Not which one ran as the first: another one may have been skipped.
+    let index = BOARDS.iter().position(|b| b.name == board.name);
+    let index = index.ok_or("no such board")?;
     let broken: Vec<String> = measured
         .iter()
-        .flat_map(|m| broken_promises(m, is_first))
+        .flat_map(|m| broken_promises(m, index))
         .collect();
     all.push((board, measured));
     if broken.is_empty() {
@@ -155,7 +156,7 @@ fn check(
     }
 }
 
-fn broken_promises(measured: &Measured, is_first: bool) -> Vec<String> {
+fn broken_promises(measured: &Measured, board: usize) -> Vec<String> {
     let Measured {
         firmware,
         report,
@@ -163,8 +164,8 @@ fn broken_promises(measured: &Measured, is_first: bool) -> Vec<String> {
     } = measured;
     let name = firmware.name;
     let mut broken = Vec::new();
-    if let Some(code) = firmware.code {
-        if is_first && program.code > code {
+    if let Some(code) = firmware.code[board] {
+        if program.code > code {
             broken.push(format!(
                 "{name}: {} bytes of code, not {code}",
                 program.code

@@ -2,7 +2,6 @@ use core::error::Error;
 use core::fmt;
 
 use light_math::discrete::PARTS;
-use light_math::glam::Vec3;
 
 use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::medium::MediumReceiver;
@@ -124,7 +123,7 @@ impl Default for LightCut<'_> {
     fn default() -> Self {
         Self {
             tree: LightBvhRef::new(&[], &[], &[]),
-            receiver: ContextReceiver::Medium(MediumReceiver::new(Vec3::ZERO)),
+            receiver: ContextReceiver::Medium(MediumReceiver::ORIGIN),
             grown: CutNodes::NONE,
         }
     }

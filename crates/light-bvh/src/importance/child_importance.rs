@@ -35,10 +35,31 @@ pub(crate) const BOX_EMISSION: f32 = 297.0;
 /// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
 pub(crate) const STEP_EDGE: f32 = 4.87;
 
+/// From a point to a child.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Displacement {
+    /// To the mean position.
+    pub(crate) mean: [f32; 3],
+    /// About the root mean square distance, and its square.
+    pub(crate) dist: f32,
+    pub(crate) dist_sq: f32,
+}
+
 impl ChildView {
+    /// From the receiver's position.
+    #[inline(always)]
+    pub(crate) const fn displacement(&self) -> Displacement {
+        Displacement {
+            mean: self.mean,
+            dist: self.dist,
+            dist_sq: self.dist_sq,
+        }
+    }
+
     /// Whether any light of the child may emit toward the receiver's position. Sound there only:
     /// not for other points of a segment.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn may_reach(&self) -> LaneMask {
         let [hx, hy, hz] = self.extent;
         let [vx, vy, vz] = self.mean;
@@ -58,52 +79,52 @@ impl ChildView {
         self.soft.and_not(self.step)
     }
 
-    /// The same child as seen from a point `offset` away from the receiver's position, and no
-    /// nearer than the root of `least_sq`.
+    /// From a point `offset` away from the receiver's position, and no nearer than the root of
+    /// `least_sq`.
     #[inline(always)]
-    pub(crate) fn at_offset(&self, offset: Vec3, least_sq: f32) -> Self {
+    pub(crate) fn displacement_at(&self, offset: Vec3, least_sq: f32) -> Displacement {
         let mean = (Vec3::from(self.mean) - offset).to_array();
         let dist_sq = dist_sq(mean, self.extent, DISTANCE);
         let dist_sq = larger(least_sq, dist_sq);
-        Self {
+        Displacement {
             mean,
-            dist_sq,
             dist: float::sqrt(dist_sq),
-            ..*self
+            dist_sq,
         }
     }
 
-    /// The importance of the child to a point without a normal.
+    /// The importance of the child to a point without a normal, from which it is so far.
     #[inline(always)]
-    pub(crate) fn fluence(&self) -> f32 {
-        self.weight(self.dist, 0.0)
+    pub(crate) fn fluence(&self, from: &Displacement) -> f32 {
+        self.weight(from, from.dist, 0.0)
     }
 
-    /// The importance of the child to a point over whose horizon it is at `height`. `lift` is
-    /// `dot(axis, mean above the horizon - mean)`: it is added to `beyond`, which is
-    /// `dot(axis, mean) + offset * distance`, negative where the child emits to the receiver.
+    /// The importance of the child to a point, from which it is so far, over whose horizon it is at
+    /// `height`. `lift` is `dot(axis, mean above the horizon - mean)`: it is added to `beyond`, which
+    /// is `dot(axis, mean) + offset * distance`, negative where the child emits to the receiver.
     ///
     /// A ramp emits `max(0, -beyond)`, half of the root less `beyond` where these vary. A step
     /// emits where `beyond` is below 0: half of `1 - beyond / root`. Where positions vary by
     /// `width` a step varies by the solid angle of its cap, `2 pi (1 - cos)`, so that the flux of
     /// a beam stays about what it is.
-    #[inline(always)]
-    pub(crate) fn weight(&self, height: f32, lift: f32) -> f32 {
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    pub(crate) fn weight(&self, from: &Displacement, height: f32, lift: f32) -> f32 {
         let [hx, hy, hz] = self.extent;
-        let [vx, vy, vz] = self.mean;
+        let [vx, vy, vz] = from.mean;
         let [mx, my, mz] = self.axis;
         // The emission times the distance: all divisions come at the end.
-        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * self.dist + lift;
+        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * from.dist + lift;
         let width = hx + hy + hz;
         let cap = (0.25 * UNIT) * (UNIT - self.offset);
         let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
         let by_position = self.step.select(cap, ramp);
         let width_sq = width * width;
-        let variance = by_position * width_sq + (self.spread * self.spread) * self.dist_sq;
+        let variance = by_position * width_sq + (self.spread * self.spread) * from.dist_sq;
         let root = float::sqrt(beyond * beyond + variance);
         let ramp = root - self.both_sides.clear(beyond);
-        let scale = self.step.select(UNIT * self.dist / root, 1.0);
-        let inv_dist_sq = 1.0 / self.dist_sq;
+        let scale = self.step.select(UNIT * from.dist / root, 1.0);
+        let inv_dist_sq = 1.0 / from.dist_sq;
         // One near light may outshine all others of its group.
         let near = 1.0 + NEARNESS * (width_sq * inv_dist_sq);
         (((self.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * (ramp * scale)

@@ -143,23 +143,18 @@ impl NodeFrame {
             sheet: None,
         }
     }
+}
 
-    /// Child `k` of a node that has sheets.
+impl ChildView {
+    /// Sets how the child lies: one of a node that has sheets.
     #[inline(always)]
-    pub(crate) fn sheet_child(&self, node: &WideNode, k: usize) -> ChildView {
-        let child = self.child(node, k);
-        let is_sheet = child
-            .is_ramp_group()
-            .and(LaneMask::when(child.offset > 0.0));
-        let correlations = SheetCode::correlations(child.offset);
-        ChildView {
-            offset: is_sheet.clear(child.offset),
-            sheet: Some(Sheet {
-                is_sheet,
-                correlations,
-            }),
-            ..child
-        }
+    pub(crate) fn set_sheet(&mut self) {
+        let is_sheet = self.is_ramp_group().and(LaneMask::when(self.offset > 0.0));
+        self.sheet = Some(Sheet {
+            is_sheet,
+            correlations: SheetCode::correlations(self.offset),
+        });
+        self.offset = is_sheet.clear(self.offset);
     }
 }
 

@@ -115,7 +115,8 @@ impl Receiver for GlossyReceiver {
         self.surface.position()
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
         let height = self.surface.expected_height(child);
         self.surface.weigh(child, inv_unit) * self.reflected(child, height)

@@ -31,7 +31,8 @@ pub(crate) struct HalfHeight {
 }
 
 impl Horizon {
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn new(n: Vec3) -> Self {
         let half_n = 0.5 * n;
         Self {
@@ -48,7 +49,8 @@ impl Horizon {
     }
 
     /// The height of the child over the plane.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn half_height(&self, child: &ChildView) -> HalfHeight {
         let (n, abs_n) = (self.half_n, self.abs_half_n);
         let [vx, vy, vz] = child.mean;
@@ -99,7 +101,8 @@ impl HalfHeight {
         larger(slack, self.root())
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn root(&self) -> f32 {
         float::sqrt(self.mean * self.mean + self.variance)
     }

@@ -13,6 +13,9 @@ pub struct MediumReceiver {
 }
 
 impl MediumReceiver {
+    /// The origin.
+    pub(crate) const ORIGIN: Self = Self { p: Vec3::ZERO };
+
     /// The point `p`.
     #[inline(always)]
     #[must_use]
@@ -34,8 +37,9 @@ impl Receiver for MediumReceiver {
         self.p
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
-        child.fluence()
+        child.fluence(&child.displacement())
     }
 }

@@ -10,7 +10,8 @@ pub(crate) fn is_far(p: Vec3) -> bool {
     near(p) != p
 }
 
-#[inline(always)]
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
 pub(crate) fn near(p: Vec3) -> Vec3 {
     p.clamp(Vec3::splat(-FAR), Vec3::splat(FAR))
 }

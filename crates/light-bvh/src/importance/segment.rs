@@ -72,7 +72,8 @@ impl Receiver for SegmentReceiver {
         self.reach
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
         // Far from a short segment, or at a segment without length, all places are the same.
         let length = larger(1e-3 * child.dist, self.length * inv_unit);
@@ -93,8 +94,8 @@ impl Receiver for SegmentReceiver {
             let t = nearest + height * tangent(theta);
             let t = smaller(length, larger(0.0, t));
             let from_nearest = t - nearest;
-            let here = child.at_offset(w * t, least_sq);
-            sum += here.fluence() * (height_sq + from_nearest * from_nearest);
+            let from = child.displacement_at(w * t, least_sq);
+            sum += child.fluence(&from) * (height_sq + from_nearest * from_nearest);
         }
         sum * (span / (PLACES as f32 * height * length))
     }

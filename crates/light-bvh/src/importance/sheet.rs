@@ -2,6 +2,7 @@
 
 use light_math::float;
 
+use crate::importance::child_importance::Displacement;
 use crate::importance::child_view::{ChildView, Sheet};
 use crate::importance::horizon::{HalfHeight, Horizon};
 use crate::lane_math::larger;
@@ -14,7 +15,7 @@ pub(crate) const NEARER: f32 = 0.3;
 pub(crate) const LEAST_THICKNESS: f32 = 0.05;
 
 impl Horizon {
-    /// The child as the point sees what is above the horizon, and its [`lift`](Self::lift).
+    /// From the point to what of the child is above the horizon, and its [`lift`](Self::lift).
     ///
     /// Of lights whose heights vary by `sigma^2`, evenly filling `root(3) sigma` on either side of
     /// their mean, those above the horizon have their mean higher by
@@ -26,7 +27,7 @@ impl Horizon {
         child: &ChildView,
         height: &HalfHeight,
         sheet: &Sheet,
-    ) -> (ChildView, f32) {
+    ) -> (Displacement, f32) {
         let n = self.normal();
         let [hx, hy, hz] = child.extent;
         let [tx, ty, tz] = [n.x * hx, n.y * hy, n.z * hz];
@@ -54,13 +55,13 @@ impl Horizon {
             larger(child.dist_sq + farther, LEAST_THICKNESS * child.dist_sq),
             child.dist_sq,
         );
-        let seen = ChildView {
-            dist_sq,
+        let from = Displacement {
+            mean: child.mean,
             dist: float::sqrt(dist_sq),
-            ..*child
+            dist_sq,
         };
         let lift = sheet.is_sheet.select(lift, self.lift(child, height));
-        (seen, lift)
+        (from, lift)
     }
 }
 

@@ -54,14 +54,15 @@ impl Receiver for SurfaceReceiver {
         self.p
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         let height = self.horizon.half_height(child);
-        let (seen, lift) = match &child.sheet {
-            None => (*child, self.horizon.lift(child, &height)),
+        let (from, lift) = match &child.sheet {
+            None => (child.displacement(), self.horizon.lift(child, &height)),
             Some(sheet) => self.horizon.above(child, &height, sheet),
         };
-        let weight = seen.weight(height.above(child.slack), lift);
+        let weight = child.weight(&from, height.above(child.slack), lift);
         let is_above = height.is_above(child.slack);
         is_above.and(child.may_reach()).keep(weight)
     }

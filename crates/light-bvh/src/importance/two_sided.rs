@@ -47,9 +47,11 @@ impl Receiver for TwoSidedReceiver {
         self.p
     }
 
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         let half = self.horizon.half_height(child).either_side(child.slack);
-        child.may_reach().keep(child.weight(2.0 * half, 0.0))
+        let weight = child.weight(&child.displacement(), 2.0 * half, 0.0);
+        child.may_reach().keep(weight)
     }
 }

@@ -34,7 +34,7 @@ impl Weights {
         if !(self.total > 0.0) {
             return None;
         }
-        let place = (u >> 48) as f32;
+        let place = (u >> 48) as u32 as f32;
         // Running sums of the weights guess the child without waiting for the division that makes
         // them parts: the processor goes on down the tree meanwhile.
         let guess = if HAS_VECTORS {

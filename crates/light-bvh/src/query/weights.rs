@@ -42,7 +42,7 @@ impl Weights {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let weights = Self::in_frame::<R, false>(node, receiver, &frame, note_nothing);
+        let weights = Self::in_frame(node, receiver, &frame, false, note_nothing);
         if is_trusted(weights.total, &frame, receiver) && !node.has_sheets() {
             weights
         } else {
@@ -64,7 +64,7 @@ impl Weights {
             let width = hx + hy + hz;
             angular_size_sq[k] = width * width * (1.0 / child.dist_sq);
         };
-        let weights = Self::in_frame::<R, false>(node, receiver, &frame, note);
+        let weights = Self::in_frame(node, receiver, &frame, false, note);
         if !is_trusted(weights.total, &frame, receiver) {
             // So far away, all are points.
             (Self::in_rare_cases(node, receiver), [0.0; WIDTH])
@@ -76,7 +76,8 @@ impl Weights {
     }
 
     /// Sets the weights of children without a light in a `wanted` group to 0.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn keep(&mut self, groups: &[LightGroups; WIDTH], wanted: LightGroups) {
         for (weight, groups) in self.lanes.iter_mut().zip(groups) {
             *weight = LaneMask::when(groups.is_wanted(wanted)).keep(*weight);
@@ -110,26 +111,26 @@ impl Weights {
     #[cold]
     fn from_afar<R: Receiver, const SHEETS: bool>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::from_afar(node, receiver.position(), receiver.reach());
-        Self::in_frame::<R, SHEETS>(node, receiver, &frame, note_nothing)
+        Self::in_frame(node, receiver, &frame, SHEETS, note_nothing)
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that
     /// depends on another child.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
-    fn in_frame<R: Receiver, const SHEETS: bool>(
+    fn in_frame<R: Receiver>(
         node: &WideNode,
         receiver: &R,
         frame: &NodeFrame,
+        sheets: bool,
         mut note: impl FnMut(usize, &ChildView),
     ) -> Self {
         let mut lanes = [0.0; WIDTH];
         for (k, weight) in lanes.iter_mut().enumerate() {
-            let child = if SHEETS {
-                frame.sheet_child(node, k)
-            } else {
-                frame.child(node, k)
-            };
+            let mut child = frame.child(node, k);
+            if sheets {
+                child.set_sheet();
+            }
             *weight = receiver.weigh(&child, frame.inv_unit);
             note(k, &child);
         }
@@ -158,7 +159,7 @@ impl<R: Receiver> VectorWork for WithSheets<'_, R> {
     fn run(self) -> Weights {
         let Self { node, receiver } = self;
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let weights = Weights::in_frame::<R, true>(node, receiver, &frame, note_nothing);
+        let weights = Weights::in_frame(node, receiver, &frame, true, note_nothing);
         if is_trusted(weights.total, &frame, receiver) {
             weights
         } else {
@@ -183,13 +184,15 @@ pub(crate) fn irradiance(total: f32, inv_unit: f32, gain: f32) -> f32 {
 
 /// Whether a sum of weights in codes is neither so small that parts of it may have vanished, nor
 /// infinite, nor not a number. Near a node nothing vanishes: there a sum of 0 is right.
-#[inline(always)]
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
 fn is_trusted<R: Receiver>(total: f32, frame: &NodeFrame, receiver: &R) -> bool {
     (LEAST_TOTAL..=f32::MAX).contains(&total) || (total == 0.0 && frame.is_near(receiver.reach()))
 }
 
 /// The sum of all lanes, in pairs.
-#[inline(always)]
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline(always))]
 pub(crate) fn total(lanes: [f32; WIDTH]) -> f32 {
     let four = |first: usize| Vec4::from_slice(&lanes[first..]);
     let sums = (four(0) + four(8)) + (four(4) + four(12));
