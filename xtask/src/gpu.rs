@@ -1,6 +1,6 @@
-//! `cargo xtask gpu [QUERIES]`: the shaders of `light-gpu` against the Rust crates, on the driver
-//! of this machine, or on Mesa's software driver from Debian; then the pictures of the examples
-//! `gbuffer` and `techniques`.
+//! `cargo xtask gpu [QUERIES [SET]]`: the shaders of `light-gpu` against the Rust crates, on the
+//! driver of this machine, or on Mesa's software driver from Debian; then the pictures of the
+//! examples `gbuffer` and `techniques`.
 
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,12 @@
-//! Holds the shaders of light-gpu against the Rust crates: `light-gpu-check [QUERIES]`.
+//! Holds the shaders of light-gpu against the Rust crates: `light-gpu-check [QUERIES [SET]]`.
 //!
 //! Sets of four kinds and three sizes, and a tribune, each with so many queries (default: 2^20) by
 //! all kinds of receivers in turn. The shader has to choose the same light for at least 99 % of
 //! them, to have the probability 0 where the crates have it and nowhere else, and to find its own
 //! samples' probabilities again, bit for bit. Then alias tables, octahedral codes and the
 //! equal-area map.
-//! Before all of it, what arrives from lights of each kind.
+//! Before all of it, what arrives from lights of each kind. With a part of the name of a set, such
+//! as `clusters 10000`, only choices in the sets that have it.
 
 mod arrivals;
 mod bounds;
@@ -41,7 +42,7 @@ fn main() -> ExitCode {
     let count = match std::env::args().nth(1).map_or(Ok(1 << 20), |n| n.parse()) {
         Ok(count) => count,
         Err(_) => {
-            eprintln!("usage: light-gpu-check [QUERIES]");
+            eprintln!("usage: light-gpu-check [QUERIES [SET]]");
             return ExitCode::from(2);
         }
     };
@@ -53,9 +54,20 @@ fn main() -> ExitCode {
             return ExitCode::from(NO_DEVICE);
         }
     };
-    match check(&device, count) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
+    let part = std::env::args().nth(2);
+    let checked = match part {
+        None => check(&device, count),
+        Some(part) => check_sets(&device, count, &part),
+    };
+    match checked {
+        Ok(all) => {
+            println!("\n{}", if all { "all of it holds" } else { "FAILED" });
+            if all {
+                ExitCode::SUCCESS
+            } else {
+                ExitCode::FAILURE
+            }
+        }
         Err(why) => {
             eprintln!("{why}");
             ExitCode::FAILURE
@@ -68,20 +80,38 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
     println!("{count} queries a set on {}", device.name());
     let mut all = arrivals::check(device, count)?;
     all &= bounds::check(device, count, &KINDS)?;
-    println!("\n{}", Tally::HEAD);
-    for kind in KINDS {
-        for n in [100, 10_000, 1_000_000] {
-            all &= check_set(device, kind, n, &[], count)?;
-        }
-    }
-    // Slanted sheets.
-    all &= check_set(device, SetKind::Place(Family::Tribune), 10_000, &[], count)?;
-    all &= check_set(device, SetKind::Uniform, 10_000, &sky(), count)?;
+    all &= check_sets(device, count, "")?;
     let set = BenchSet::generate(SetKind::Uniform, 100, 1);
     let queries: Vec<Query> = (0..count).map(|i| Query::new(&set, 100, i)).collect();
-    all &= maps::check(device, &queries)?;
-    println!("\n{}", if all { "all of it holds" } else { "FAILED" });
+    Ok(all & maps::check(device, &queries)?)
+}
+
+/// Prints the rows of choices in the sets whose names have this `part`.
+fn check_sets(device: &Device, count: u32, part: &str) -> Result<bool, String> {
+    let sky = sky();
+    let sizes = [100, 10_000, 1_000_000];
+    let mut sets: Vec<(SetKind, usize, &[LightExtent])> = Vec::new();
+    for kind in KINDS {
+        sets.extend(sizes.map(|n| (kind, n, &[][..])));
+    }
+    // Slanted sheets.
+    sets.push((SetKind::Place(Family::Tribune), 10_000, &[]));
+    sets.push((SetKind::Uniform, 10_000, &sky));
+    sets.retain(|&(kind, n, beside)| name(kind, n, beside).contains(part));
+    if sets.is_empty() {
+        return Err(format!("no set has {part} in its name"));
+    }
+    println!("\n{}", Tally::HEAD);
+    let mut all = true;
+    for (kind, n, beside) in sets {
+        all &= check_set(device, kind, n, beside, count)?;
+    }
     Ok(all)
+}
+
+fn name(kind: SetKind, n: usize, beside: &[LightExtent]) -> String {
+    let beside = if beside.is_empty() { "" } else { " and a sky" };
+    format!("{} {n}{beside}", kind.name())
 }
 
 /// Prints the row of a set of `n` lights with the lights at infinity `beside`; whether it keeps
@@ -102,8 +132,7 @@ fn check_set(
     let queries: Vec<Query> = (0..count)
         .map(|i| Query::new(&set, lights.len(), i))
         .collect();
-    let beside = if beside.is_empty() { "" } else { " and a sky" };
-    let name = format!("{} {n}{beside}", kind.name());
+    let name = name(kind, n, beside);
     let mut all = true;
     for choices in [Choices::Single, Choices::OfFour] {
         let entry = choices.entry_point();

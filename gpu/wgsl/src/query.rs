@@ -87,11 +87,13 @@ pub struct Weighed {
 
 impl Query {
     /// Query `i` about the light `light`, at a point of a cube of the edge 4 about the origin, of
-    /// each kind of receiver in turn.
+    /// each kind of receiver in turn. Some viewers are along an axis.
     pub fn about(light: u32, i: u32) -> Self {
         let mut random = Random(u64::from(i) << 8);
         let mut vector = || Vec3::new(random.unit(), random.unit(), random.unit()) * 2.0 - 1.0;
         let (p, n, wo) = (2.0 * vector(), vector(), vector().normalize());
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z];
+        let wo = axes.get(i as usize % 64).map_or(wo, |&axis| axis);
         Self {
             p: p.to_array(),
             kind: i % KINDS.len() as u32,

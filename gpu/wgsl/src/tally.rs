@@ -10,6 +10,10 @@ use crate::query::{Answer, Query};
 /// The least share of queries for which the shader has to choose the same light.
 const SAME: f64 = 0.99;
 
+/// Differences of a probability, as a part of it, that are counted. The first would be rounding;
+/// one part of a node's 2^16 is more.
+const DIFFERENCES: [f32; 2] = [1e-4, 1e-2];
+
 /// How many lights are chosen at a receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choices {
@@ -49,6 +53,8 @@ pub struct Tally {
     pmfs: u32,
     /// Those that are not the same bits.
     unlike: u32,
+    /// Those of [`DIFFERENCES`] and more.
+    beyond: [u32; 2],
     /// The largest relative difference.
     largest: f32,
     /// The sum of all.
@@ -62,8 +68,9 @@ pub struct Tally {
 impl Tally {
     /// The head of the table.
     pub const HEAD: &str = "\
-| set | same light | unlike pmfs | mean, largest difference | zeros | not found again | M queries/s |
-| --- | ---: | ---: | ---: | ---: | ---: | ---: |";
+| set | same light | unlike pmfs | by 1e-4, by 1e-2 | mean, largest difference | zeros | \
+not found again | M queries/s |
+| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |";
 
     /// Compares the answer to one query with those of the crates.
     pub fn add(
@@ -98,6 +105,9 @@ impl Tally {
         if ours != theirs {
             let difference = (theirs / ours - 1.0).abs();
             self.unlike += 1;
+            for (count, least) in self.beyond.iter_mut().zip(DIFFERENCES) {
+                *count += u32::from(difference >= least);
+            }
             self.largest = self.largest.max(difference);
             self.sum += f64::from(difference);
         }
@@ -115,10 +125,12 @@ impl Tally {
     /// A row of the table.
     pub fn row(&self, set: &str, seconds: f64) -> String {
         let pmfs = f64::from(self.pmfs);
+        let percent = |count: u32| 100.0 * f64::from(count) / pmfs;
+        let [small, large] = self.beyond.map(percent);
         format!(
-            "| {set} | {:.3} % | {:.2} % | {:.1e}, {:.1e} | {} | {} | {:.2} |",
+            "| {set} | {:.3} % | {:.2} % | {small:.2} %, {large:.3} % | {:.1e}, {:.1e} | {} | {} | {:.2} |",
             100.0 * self.same(),
-            100.0 * f64::from(self.unlike) / pmfs,
+            percent(self.unlike),
             self.sum / pmfs,
             self.largest,
             self.zeros,
