@@ -32,7 +32,7 @@ struct Arguments {
     #[arg(long, value_delimiter = ',', value_parser = method)]
     methods: Vec<&'static Method>,
     /// Samples a pixel, with commas between.
-    #[arg(long, value_delimiter = ',', default_values_t = [16, 64, 256])]
+    #[arg(long, value_delimiter = ',', default_values_t = [16, 64, 256, 1024])]
     samples: Vec<u32>,
     /// Width and height of the pictures.
     #[arg(long, default_value = "96x64", value_parser = size)]

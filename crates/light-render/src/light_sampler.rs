@@ -9,7 +9,7 @@ use lights::sources::{LightSet, Rgb};
 use crate::placed_tree::{is_mostly_placed, placed_tree};
 use crate::{
     AnyLightSamplerError, CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler,
-    SamplerKind, View, World,
+    SamplerKind, View, VisibilityCells, World,
 };
 
 /// A light sampler of any kind, chosen at run time without a virtual call.
@@ -111,16 +111,24 @@ impl AnyLightSampler {
     }
 
     /// The same hierarchy with the best plan of the [`ChoiceEstimates`] of what `view` shows of
-    /// `world`, over paths of at most `max_depth` segments; other samplers as they are.
+    /// `world`, over paths of at most `max_depth` segments, and with those cells of visibility that
+    /// are estimated to pay for their rays at 64 samples a pixel; other samplers as they are.
     #[must_use]
     pub fn by_estimates(self, world: &World, view: &View, max_depth: u32) -> Self {
         let Self::Bvh(lights) = self else {
             return self;
         };
-        let estimates = ChoiceEstimates::new(world, view, &lights, max_depth);
-        match estimates.map(|estimates| estimates.best()) {
-            None | Some(ChoicePlan::AsAsked) => Self::Bvh(lights),
-            Some(plan) => Self::BvhPlanned(PlannedLightSampler::new(lights, plan)),
+        let Some(estimates) = ChoiceEstimates::new(world, view, &lights, max_depth) else {
+            return Self::Bvh(lights);
+        };
+        let plan = estimates.best();
+        let cells = VisibilityCells::that_pay(world, view, &lights, &estimates);
+        if let Some(cells) = cells.ok().filter(|cells| !cells.is_plain()) {
+            return Self::BvhInCells(CellLightSampler::with(lights, cells, plan));
+        }
+        match plan {
+            ChoicePlan::AsAsked => Self::Bvh(lights),
+            _ => Self::BvhPlanned(PlannedLightSampler::new(lights, plan)),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::{PictureIdentity, RenderSettings, SamplerKind, View, Visibility, Worl
 
 /// The layout of files with parts of pictures, and the rules by which samples are made: one that
 /// changes makes other pictures.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// Digests of what a picture depends on and the world of a scene does not keep as it was described:
 /// lights without a surface, and media. Taken before the scene becomes a world.

@@ -92,6 +92,24 @@ impl View {
         }
     }
 
+    /// The whole picture of the same camera with at most so many pixels: if it has more, a number of
+    /// times smaller in both directions.
+    #[must_use]
+    pub(crate) fn of_at_most(&self, pixels: usize) -> Self {
+        let smaller = |scale| {
+            let (width, height) = (self.width.div_ceil(scale), self.height.div_ceil(scale));
+            Self::new(&self.camera, width, height).ok()
+        };
+        let mut all = (1..=self.width.max(self.height)).filter_map(smaller);
+        all.find(|view| view.pixels() <= pixels).unwrap_or(*self)
+    }
+
+    /// How many pixels the whole picture has.
+    #[must_use]
+    pub(crate) const fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
     /// The pixels that are rendered: all of them, unless [`with_crop`](Self::with_crop) chose some.
     #[must_use]
     pub(crate) const fn crop(&self) -> Crop {

@@ -80,9 +80,9 @@ pub(crate) struct SettingsArgs {
     light_samples: Option<NonZeroU32>,
     /// What choices of lights know of their visibility: nothing (off); how much of the light in the
     /// picture arrives and how noisy it is, so that one light is chosen instead of several where
-    /// much is hidden (share); or what cells of space know that are filled before the picture, for
-    /// what the camera sees of surfaces (cells). Without it share, but off with --light-samples,
-    /// with samplers that are not bvh or bvh-morton, and for single scattering.
+    /// much is hidden, and cells of space are filled where they save time (share); or what all
+    /// cells know for what the camera sees of surfaces (cells). Without it share, but off with
+    /// --light-samples, with samplers that are not bvh or bvh-morton, and for single scattering.
     #[arg(long, value_enum)]
     visibility: Option<VisibilityName>,
     /// How light is found: by light samples, by material samples, or by both, weighted.

@@ -11,8 +11,9 @@ use crate::{
 
 /// What is known of visibility in a picture by the scene's camera.
 pub(super) enum Visible {
-    /// What light samples tell; `None` where nothing is lit, and for a tree of placed trees.
-    Share(Option<ChoiceEstimates>),
+    /// What light samples tell, and the cells that pay; `None` where nothing is lit, and for a tree
+    /// of placed trees.
+    Share(Option<(ChoiceEstimates, Cells)>),
     Cells(Cells),
 }
 
@@ -34,20 +35,28 @@ impl Visible {
         let sampler =
             AnyLightSampler::new(SamplerKind::DEFAULT, world.lights()).map_err(Failure::input)?;
         Ok(match name {
-            VisibilityName::Cells => Self::Cells(Cells::over(sampler, world, view, max_depth)?),
+            VisibilityName::Cells => {
+                let (width, height) = view.resolution();
+                check_cells_memory(width, height)?;
+                let with = with_visibility(sampler, Visibility::Cells, world, view, max_depth)?;
+                Self::Cells(Cells::of(with, view))
+            }
             VisibilityName::Off | VisibilityName::Share => {
                 let estimates = |lights| ChoiceEstimates::new(world, view, lights, max_depth);
-                Self::Share(sampler.hierarchy().and_then(estimates))
+                let estimates = sampler.hierarchy().and_then(estimates);
+                let with = with_visibility(sampler, Visibility::Share, world, view, max_depth)?;
+                Self::Share(estimates.map(|estimates| (estimates, Cells::of(with, view))))
             }
         })
     }
 
     pub(super) fn report(&self) -> Value {
         match self {
-            Self::Share(Some(estimates)) => json!({
+            Self::Share(Some((estimates, cells))) => json!({
                 "visible_share": estimates.visible_share(),
                 "variances": ChoicePlan::ALL.map(|plan| estimates.variance(plan)),
                 "choice": estimates.best().name(),
+                "cells": cells.report(),
             }),
             Self::Share(None) => json!({ "visible_share": null }),
             Self::Cells(cells) => cells.report(),
@@ -56,7 +65,7 @@ impl Visible {
 
     pub(super) fn print(&self) -> Result<(), Failure> {
         match self {
-            Self::Share(Some(estimates)) => {
+            Self::Share(Some((estimates, cells))) => {
                 let of = |plan| estimates.variance(plan);
                 say!(
                     "  visibility {:.2} of the light that nothing would hide arrives",
@@ -68,7 +77,8 @@ impl Visible {
                     of(ChoicePlan::OneFromRoot),
                     of(ChoicePlan::OneByCut),
                     of(ChoicePlan::AsAsked)
-                )
+                )?;
+                cells.print()
             }
             Self::Share(None) => {
                 say!("  visibility no estimate: nothing is lit, or a tree of placed trees chooses")
@@ -79,24 +89,13 @@ impl Visible {
 }
 
 impl Cells {
-    fn over(
-        sampler: AnyLightSampler,
-        world: &World,
-        view: &View,
-        max_depth: u32,
-    ) -> Result<Self, Failure> {
-        let (width, height) = view.resolution();
-        check_cells_memory(width, height)?;
-        let (sampler, costs) = with_visibility(sampler, Visibility::Cells, world, view, max_depth)?;
+    fn of((sampler, costs): (AnyLightSampler, VisibilityCosts), view: &View) -> Self {
         let cells = cells(&sampler);
-        Ok(Self {
+        Self {
             counts: cells.map_or([0; 2], VisibilityCells::counts),
-            pixels: [
-                cells.map_or(0, VisibilityCells::pixels),
-                width as usize * height as usize,
-            ],
+            pixels: [cells.map_or(0, VisibilityCells::pixels), view.pixels()],
             costs,
-        })
+        }
     }
 
     fn report(&self) -> Value {
@@ -113,7 +112,7 @@ impl Cells {
     fn print(&self) -> Result<(), Failure> {
         let ([coarse, fine], [known, all]) = (self.counts, self.pixels);
         say!(
-            "  visibility {coarse} coarse and {fine} fine cells know the lights of {known} of {all} \
+            "  cells      {coarse} coarse and {fine} fine ones know the lights of {known} of {all} \
              pixels: {} bytes, filled in {:.2} s",
             self.costs.bytes,
             self.costs.seconds

@@ -5,8 +5,12 @@ use lights::samplers::{BvhLightSampler, VisibilityCache};
 use super::cell_size::CellSize;
 use super::census::Sighting;
 use super::fill::Filled;
-use super::{census, fill};
+use super::{ChoiceEstimates, census, fill, paying_cells};
 use crate::{View, World};
+
+/// Pixels of the largest picture that is measured for cells nobody asked for, so that they take
+/// less than 2 GB.
+const MOST_PIXELS: usize = 1 << 21;
 
 /// Which lights are seen from the surfaces that a camera sees, in cells of space: pure functions of
 /// the scene and of the whole picture's view, whatever part of it is rendered and by how many
@@ -40,7 +44,37 @@ impl VisibilityCells {
     ) -> Result<Self, CellTableError> {
         let size = CellSize::of(view);
         let sightings = census::take(world, view, &size);
-        let Filled { cells, pixels } = fill::fill(world, view, sampler, &sightings);
+        let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
+        Self::of(size, fill::fill(world, view, sampler, &cells))
+    }
+
+    /// Those cells of what `view` shows of `world` that are estimated to pay for their rays in a
+    /// picture of 64 samples a pixel; plain where all of them together do not.
+    ///
+    /// A picture of more than [`MOST_PIXELS`] has the cells of a smaller one of the same camera.
+    ///
+    /// # Errors
+    /// When there are more cells than 32 bits count.
+    pub(crate) fn that_pay(
+        world: &World,
+        view: &View,
+        lights: &BvhLightSampler,
+        estimates: &ChoiceEstimates,
+    ) -> Result<Self, CellTableError> {
+        if !paying_cells::may_pay(estimates) {
+            return Ok(Self::default());
+        }
+        let measured = &view.of_at_most(MOST_PIXELS);
+        let size = CellSize::of(measured);
+        let sightings = census::take(world, measured, &size);
+        let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
+        let mut filled = paying_cells::fill_paying(world, measured, lights, &cells, estimates);
+        filled.pixels = filled.pixels * view.pixels() / measured.pixels();
+        Self::of(size, filled)
+    }
+
+    fn of(size: CellSize, filled: Filled) -> Result<Self, CellTableError> {
+        let Filled { cells, pixels } = filled;
         let (coarse, fine): (Vec<_>, Vec<_>) = cells.into_iter().unzip();
         let fine: Vec<_> = fine.into_iter().flatten().collect();
         let table = CellTable::new(&coarse, &fine)?;

@@ -7,6 +7,7 @@ use lights::sources::PdfCoverage;
 use rayon::prelude::*;
 
 use super::cell_size::CellSize;
+use crate::bsdf::Scattering;
 use crate::{Surface, View, World};
 
 /// A pixel, and the cell of the surface that it shows.
@@ -63,16 +64,29 @@ pub(super) fn take(world: &World, view: &View, size: &CellSize) -> Vec<Sighting>
     sightings
 }
 
-/// The first surface behind the middle of a pixel; `None` if there is none, or a mirror.
+/// The first surface behind the middle of a pixel, and the receiver there; `None` if there is none,
+/// or a mirror.
 pub(super) fn place(world: &World, view: &View, pixel: u32) -> Option<Place> {
+    let (surface, scattering, wo) = camera_surface(world, view, pixel, Vec2::splat(0.5))?;
+    let ctx = world.light_context(&surface, &scattering, wo);
+    Some(Place { surface, ctx })
+}
+
+/// The first surface behind the point `at` of a pixel, how it scatters, and the direction to the
+/// camera; `None` if there is none, or a mirror.
+pub(super) fn camera_surface(
+    world: &World,
+    view: &View,
+    pixel: u32,
+    at: Vec2,
+) -> Option<(Surface, Scattering, Vec3)> {
     let (width, _) = view.resolution();
     let corner = Vec2::new((pixel % width) as f32, (pixel / width) as f32);
-    let ray = view.ray(corner + 0.5, Vec2::splat(0.5));
+    let ray = view.ray(corner + at, Vec2::splat(0.5));
     let surface = world.closest(&ray, None)?;
     let scattering = world.scattering(&surface);
     if scattering.bsdf().is_dirac() {
         return None;
     }
-    let ctx = world.light_context(&surface, &scattering, -ray.direction);
-    Some(Place { surface, ctx })
+    Some((surface, scattering, -ray.direction))
 }

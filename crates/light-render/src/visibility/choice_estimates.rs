@@ -32,7 +32,11 @@ pub struct ChoiceEstimates {
     variances: [f64; 3],
     /// Relative to the light of each pixel.
     own_variances: [f64; 3],
+    /// The parts of the variances that are of first vertices.
+    first_shares: [f64; 3],
     costs: [f64; 3],
+    /// Of a path, where light is sampled.
+    vertices: f64,
 }
 
 impl ChoiceEstimates {
@@ -67,29 +71,30 @@ impl ChoiceEstimates {
         let lit = sum(|pixel| f64::from(u8::from(pixel.vertices > 0.0)));
         let floor = 0.1 * sum(|pixel| pixel.mean) / lit;
         let means: Vec<f64> = pixels.iter().map(|pixel| pixel.mean).collect();
-        let relative = |means: &[f64]| {
+        let relative = |means: &[f64], of: fn(&PixelMoments) -> [f64; 3]| {
             let mut sums = [0.0; 3];
             for (pixel, mean) in pixels.iter().zip(means) {
                 let scale = mean * mean + floor * floor;
                 if scale > 0.0 {
-                    for (sum, variance) in sums.iter_mut().zip(pixel.variances) {
+                    for (sum, variance) in sums.iter_mut().zip(of(pixel)) {
                         *sum += variance / scale / lit;
                     }
                 }
             }
             sums
         };
-        let vertices = sum(|pixel| pixel.vertices) / lit;
+        let vertices = (sum(|pixel| pixel.vertices) / lit).max(1.0);
         let cut = CUT_COST_PER_LEVEL * lights.tree().depth() as f64;
+        let blocks = means_of_blocks(&pixels);
+        let variances = relative(&blocks, |pixel| pixel.variances);
+        let of_first = relative(&blocks, |pixel| pixel.of_first);
         Some(Self {
             visible_share: sum(|pixel| pixel.seen) / asked,
-            variances: relative(&means_of_blocks(&pixels)),
-            own_variances: relative(&means),
-            costs: [
-                1.0,
-                1.0 + cut,
-                1.0 + (cut + SECOND_CHOICE_COST) / vertices.max(1.0),
-            ],
+            variances,
+            own_variances: relative(&means, |pixel| pixel.variances),
+            first_shares: core::array::from_fn(|plan| of_first[plan] / variances[plan]),
+            costs: [1.0, 1.0 + cut, 1.0 + (cut + SECOND_CHOICE_COST) / vertices],
+            vertices,
         })
     }
 
@@ -105,6 +110,21 @@ impl ChoiceEstimates {
     #[must_use]
     pub const fn variance(&self, plan: ChoicePlan) -> f64 {
         self.variances[plan as usize]
+    }
+
+    /// The part of the variance that is of first vertices.
+    pub(super) const fn first_share(&self, plan: ChoicePlan) -> f64 {
+        self.first_shares[plan as usize]
+    }
+
+    /// The cost of a sample, in costs of one with choices from the root.
+    pub(super) const fn cost(&self, plan: ChoicePlan) -> f64 {
+        self.costs[plan as usize]
+    }
+
+    /// Vertices of a path where light is sampled, of the three that are looked at.
+    pub(super) const fn vertices(&self) -> f64 {
+        self.vertices
     }
 
     /// The plan whose variance times the cost of a sample is estimated to be the least.

@@ -33,23 +33,64 @@ const FINE_RAYS_PER_PIXEL: f32 = 8.0;
 /// gain.
 const LEAST_KNOWN_SHARE: f32 = 0.02;
 
+/// A coarse cell with its fine ones.
+pub(super) type Cell = (CoarseCell, Vec<FineCell>);
+
 /// The cells that are not plain.
 #[derive(Default)]
 pub(super) struct Filled {
     /// In the order of their keys.
-    pub(super) cells: Vec<(CoarseCell, Vec<FineCell>)>,
+    pub(super) cells: Vec<Cell>,
     /// How many pixels show a surface in one of them.
     pub(super) pixels: usize,
 }
 
-/// The cells of `sightings` but for the plain ones. None at all where nearly all would be plain.
+impl Filled {
+    /// Those that are filled, of all in the order of their keys.
+    pub(super) fn from_cells<'a>(
+        all: impl Iterator<Item = (&'a &'a [Sighting], Option<Cell>)>,
+    ) -> Self {
+        let mut filled = Self::default();
+        for (sightings, cell) in all {
+            if let Some(cell) = cell {
+                filled.cells.push(cell);
+                filled.pixels += sightings.len();
+            }
+        }
+        filled
+    }
+}
+
+/// All `cells` but for the plain ones. None at all where nearly all would be plain.
 pub(super) fn fill(
     world: &World,
     view: &View,
-    sampler: &BvhLightSampler,
-    sightings: &[Sighting],
+    lights: &BvhLightSampler,
+    cells: &[&[Sighting]],
 ) -> Filled {
-    let tree = sampler.tree().view();
+    let filled: Vec<Option<Cell>> = cells
+        .par_iter()
+        .map(|cell| fill_cell(world, view, lights, cell))
+        .collect();
+    let filled = Filled::from_cells(cells.iter().zip(filled));
+    let pixels: usize = cells.iter().map(|cell| cell.len()).sum();
+    if (filled.pixels as f32) < LEAST_KNOWN_SHARE * pixels as f32 {
+        return Filled::default();
+    }
+    filled
+}
+
+/// The coarse cell of these sightings, with its fine cells; `None` if it is plain.
+pub(super) fn fill_cell(
+    world: &World,
+    view: &View,
+    lights: &BvhLightSampler,
+    cell: &[Sighting],
+) -> Option<Cell> {
+    if cell.len() < FEWEST_OF_COARSE {
+        return None;
+    }
+    let tree = lights.tree().view();
     let places = |sightings: &[Sighting], most| -> Vec<Place> {
         let stride = sightings.len().div_ceil(most);
         let pixels = sightings.iter().step_by(stride);
@@ -57,49 +98,53 @@ pub(super) fn fill(
     };
     let visible =
         |place: &Place, light: LightId, u: Vec2| place.sees(world, light, u) == Some(true);
-    let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
-    let filled = cells.into_par_iter().filter_map(|cell| {
-        if cell.len() < FEWEST_OF_COARSE {
-            return None;
-        }
-        let rays = rays_of(cell.len());
-        let at = places(cell, COARSE_PLACES);
-        let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &rays, visible);
-        if coarse.factors().is_plain() {
-            return None;
-        }
-        let parts = cell.chunk_by(|a, b| a.fine == b.fine);
-        let fine = parts
-            .filter(|part| part.len() >= FEWEST_OF_FINE)
-            .map(|part| {
-                let rays = rays_of(part.len());
-                let at = places(part, FINE_PLACES);
-                coarse.fill_fine(tree, part[0].fine, &at, &rays, visible)
-            });
-        let fine = fine.collect();
-        Some((cell.len(), (coarse, fine)))
-    });
-    let (pixels, cells): (Vec<usize>, Vec<_>) = filled.unzip();
-    let pixels = pixels.iter().sum();
-    if (pixels as f32) < LEAST_KNOWN_SHARE * sightings.len() as f32 {
-        return Filled::default();
+    let rays = rays_of(cell.len());
+    let at = places(cell, COARSE_PLACES);
+    let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &rays, visible);
+    if coarse.factors().is_plain() {
+        return None;
     }
-    Filled { cells, pixels }
+    let parts = cell.chunk_by(|a, b| a.fine == b.fine);
+    let fine = parts
+        .filter(|part| part.len() >= FEWEST_OF_FINE)
+        .map(|part| {
+            let rays = rays_of(part.len());
+            let at = places(part, FINE_PLACES);
+            coarse.fill_fine(tree, part[0].fine, &at, &rays, visible)
+        });
+    let fine = fine.collect();
+    Some((coarse, fine))
+}
+
+/// How many rays at most fill a cell that so many pixels show, and its fine cells.
+pub(super) fn rays_of_cell(pixels: usize) -> u32 {
+    let FillOptions {
+        first_rays,
+        exploring_rays,
+        guided_rays,
+        ..
+    } = rays_of(pixels);
+    let coarse = first_rays.max(exploring_rays) + 2 * guided_rays;
+    coarse + at_most(u32::MAX, FINE_RAYS_PER_PIXEL, pixels)
 }
 
 /// How many rays a cell is filled by that so many pixels show.
+fn rays_of(pixels: usize) -> FillOptions {
+    let all = FillOptions::default();
+    FillOptions {
+        exploring_rays: at_most(all.exploring_rays, EXPLORING_RAYS_PER_PIXEL, pixels),
+        guided_rays: at_most(all.guided_rays, GUIDED_RAYS_PER_PIXEL, pixels),
+        fine_rays: at_most(all.fine_rays, FINE_RAYS_PER_PIXEL, pixels),
+        ..all
+    }
+}
+
+/// So many rays for each of the pixels, but no more than `most`.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "at most the default numbers"
+    reason = "at most `most`"
 )]
-fn rays_of(pixels: usize) -> FillOptions {
-    let all = FillOptions::default();
-    let at_most = |most: u32, per_pixel: f32| (per_pixel * pixels as f32).min(most as f32) as u32;
-    FillOptions {
-        exploring_rays: at_most(all.exploring_rays, EXPLORING_RAYS_PER_PIXEL),
-        guided_rays: at_most(all.guided_rays, GUIDED_RAYS_PER_PIXEL),
-        fine_rays: at_most(all.fine_rays, FINE_RAYS_PER_PIXEL),
-        ..all
-    }
+fn at_most(most: u32, per_pixel: f32, pixels: usize) -> u32 {
+    (per_pixel * pixels as f32).min(most as f32) as u32
 }

@@ -1,12 +1,15 @@
 //! Visibility of lights from the surfaces that the camera sees: how noisy choices of lights will be
 //! among hidden ones, and cells of space, both before the picture.
 
+mod cell_noise;
 mod cell_size;
 mod cells;
 mod census;
 mod choice_estimates;
 mod choice_plan;
 mod fill;
+mod measured_vertex;
+mod paying_cells;
 mod pixel_moments;
 mod sampler;
 
@@ -22,9 +25,10 @@ pub enum Visibility {
     #[default]
     Off,
     /// The [`ChoiceEstimates`] of the picture: where much light is hidden, one light is chosen
-    /// instead of several, from the root or by a cut.
+    /// instead of several, from the root or by a cut; and with the factors of those
+    /// [`VisibilityCells`] that pay for their rays.
     Share,
-    /// The factors of [`VisibilityCells`].
+    /// The factors of all [`VisibilityCells`].
     Cells,
 }
 

@@ -1,13 +1,9 @@
-use lights::bounds::{LightSampleContext, SampledLight};
 use lights::glam::{Vec2, Vec3};
-use lights::math::fraction::stratum;
-use lights::samplers::{BvhLightSampler, LightChoices, LightSampler};
-use lights::sources::Light;
+use lights::samplers::BvhLightSampler;
 
 use super::choice_plan::ChoicePlan;
-use crate::bsdf::Scattering;
-use crate::integrator::{Estimator, is_in_the_surface};
-use crate::{SampleStream, Surface, View, World};
+use super::measured_vertex::{MeasuredVertex, VertexMoments, choices_of};
+use crate::{SampleStream, View, World};
 
 /// Vertices of a path that are looked at: later ones hardly count.
 const MAX_VERTICES: u32 = 3;
@@ -34,6 +30,8 @@ pub(super) struct PixelMoments {
     pub(super) mean: f64,
     /// The variance of that light by one sample, by the plan.
     pub(super) variances: [f64; 3],
+    /// The part of the variances that is of the first vertex.
+    pub(super) of_first: [f64; 3],
 }
 
 /// The pixel's path with so many vertices at most, from the middle of the pixel, by numbers that
@@ -61,7 +59,15 @@ pub(super) fn pixel_moments(
             throughput,
         };
         if !vertex.scattering.bsdf().is_dirac() {
-            pixel.add(vertex.moments(world, lights, &stream, number), number);
+            let ctx = vertex.context(world);
+            let choices = [ChoicePlan::OneFromRoot, ChoicePlan::OneByCut];
+            let choices = choices.map(|plan| choices_of(plan, lights, &ctx));
+            let count = match number {
+                0 => FIRST_SAMPLES,
+                _ => LATER_SAMPLES,
+            };
+            let moments = vertex.moments(world, &ctx, &choices, &stream, (number, count));
+            pixel.add(moments, number);
         }
         let numbers = stream.vertex(number);
         let scattered = vertex
@@ -77,163 +83,19 @@ pub(super) fn pixel_moments(
     pixel
 }
 
-/// A vertex where lights are sampled.
-struct MeasuredVertex {
-    surface: Surface,
-    scattering: Scattering,
-    wo: Vec3,
-    /// The share of the vertex's light that the path carries to the camera.
-    throughput: Vec3,
-}
-
-/// Moments of one light sample at a vertex: each is a mean of unbiased estimates.
-#[derive(Clone, Copy, Debug, Default)]
-struct VertexMoments {
-    asked: f64,
-    seen: f64,
-    /// What arrives, and what would without occlusion.
-    arriving: f64,
-    unoccluded: f64,
-    /// The square of what arrives.
-    arriving_sq: f64,
-    /// The mean square of one sample from the root, of one by a cut, and of the sum of two by a cut
-    /// if each is tested.
-    root: f64,
-    cut: f64,
-    pair: f64,
-}
-
 impl PixelMoments {
     fn add(&mut self, vertex: VertexMoments, number: u32) {
         self.vertices += 1.0;
         self.mean += vertex.arriving;
         if number > 0 {
             // The mean over all paths of the pixel is not known, and small against the squares.
-            let later = [vertex.root, vertex.cut, vertex.root];
+            let later = [vertex.first, vertex.second, vertex.first];
             self.variances = core::array::from_fn(|plan| self.variances[plan] + later[plan]);
             return;
         }
         self.asked += vertex.asked;
         self.seen += vertex.seen;
-        // Of two candidates `a` and `b`, one is tested with a probability in proportion to its
-        // light, and stands for their sum: the mean of `(a + b) (a v_a + b v_b)`, each half.
-        let two = 0.5 * (vertex.pair + vertex.unoccluded * vertex.arriving);
-        for (plan, square) in [
-            (ChoicePlan::OneFromRoot, vertex.root),
-            (ChoicePlan::OneByCut, vertex.cut),
-            (ChoicePlan::AsAsked, two),
-        ] {
-            self.variances[plan as usize] += square - vertex.arriving_sq;
-        }
-    }
-}
-
-impl MeasuredVertex {
-    /// Half of the samples are from the root and half by a cut; a light's probability is that of
-    /// all of them together, so that each sample tells of both.
-    fn moments(
-        &self,
-        world: &World,
-        lights: &BvhLightSampler,
-        stream: &SampleStream,
-        number: u32,
-    ) -> VertexMoments {
-        let ctx = world.light_context(&self.surface, &self.scattering, self.wo);
-        let of_plan = |plan: ChoicePlan| {
-            let [asked, made] = plan.counts(1);
-            lights.at(&ctx, asked).with_count(made)
-        };
-        let choices = [ChoicePlan::OneFromRoot, ChoicePlan::OneByCut].map(of_plan);
-        let count = match number {
-            0 => FIRST_SAMPLES,
-            _ => LATER_SAMPLES,
-        };
-        let u = stream.vertex(number).light;
-        let mut sum = VertexMoments::default();
-        let mut squares = 0.0;
-        for i in 0..count {
-            // One from each in turn.
-            let u = stratum(i / 2, count / 2, u);
-            let choice = choices[i as usize % 2].sample(u);
-            let point = stream.light_point(number, i, count);
-            if let Some(sample) =
-                choice.and_then(|choice| self.sample(world, &ctx, &choices, choice, point))
-            {
-                sum.add(&sample);
-                squares += sample.arriving * sample.arriving;
-            }
-        }
-        sum.over(f64::from(count), squares)
-    }
-
-    /// One light sample.
-    fn sample(
-        &self,
-        world: &World,
-        ctx: &LightSampleContext,
-        choices: &[LightChoices<'_>; 2],
-        choice: SampledLight,
-        point: Vec2,
-    ) -> Option<VertexMoments> {
-        let estimator = Estimator::Mis;
-        let li = world.sample_light(choice.light, ctx, point, estimator.coverage())?;
-        if is_in_the_surface(ctx, li.p_light) {
-            return None;
-        }
-        let scattered = self.scattering.eval(self.wo, li.wi) * li.l * self.throughput;
-        let light = f64::from(scattered.element_sum() / li.pdf);
-        let [root, cut] = choices.each_ref().map(|c| c.pmf(choice.light));
-        if !(light > 0.0 && root > 0.0 && cut > 0.0) {
-            return None;
-        }
-        let kind = world.lights().get(choice.light)?.light_type();
-        let bsdf = self.scattering.pdf(self.wo, li.wi);
-        let weighted = |expected: f32| {
-            light * f64::from(estimator.light_weight(kind, expected * li.pdf, || bsdf))
-        };
-        let of_pair = weighted(2.0 * cut);
-        let is_seen = !world.occluded(&self.surface, li.wi, li.p_light);
-        let seen = f64::from(u8::from(is_seen));
-        let [from_root, by_cut] = [weighted(root), weighted(cut)];
-        let [root, cut] = [root, cut].map(f64::from);
-        let all = 0.5 * (root + cut);
-        Some(VertexMoments {
-            asked: 1.0,
-            seen,
-            arriving: seen * of_pair / all,
-            unoccluded: of_pair / all,
-            arriving_sq: 0.0,
-            root: seen * from_root * from_root / (all * root),
-            cut: seen * by_cut * by_cut / (all * cut),
-            pair: seen * of_pair * of_pair / (all * cut),
-        })
-    }
-}
-
-impl VertexMoments {
-    fn add(&mut self, other: &Self) {
-        self.asked += other.asked;
-        self.seen += other.seen;
-        self.arriving += other.arriving;
-        self.unoccluded += other.unoccluded;
-        self.root += other.root;
-        self.cut += other.cut;
-        self.pair += other.pair;
-    }
-
-    /// The means of sums over so many samples, of whose arriving light the sum of squares is
-    /// `squares`.
-    fn over(self, count: f64, squares: f64) -> Self {
-        // The mean product of two different samples: its mean is the square of the mean.
-        let products = self.arriving * self.arriving - squares;
-        Self {
-            arriving: self.arriving / count,
-            unoccluded: self.unoccluded / count,
-            arriving_sq: (products / (count * (count - 1.0))).max(0.0),
-            root: self.root / count,
-            cut: self.cut / count,
-            pair: self.pair / count,
-            ..self
-        }
+        self.variances = vertex.variances();
+        self.of_first = self.variances;
     }
 }

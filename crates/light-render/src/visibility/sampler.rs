@@ -39,6 +39,19 @@ impl CellLightSampler {
         })
     }
 
+    /// Choices in these `cells` of `lights`, and by the plan `elsewhere`.
+    pub(crate) const fn with(
+        lights: BvhLightSampler,
+        cells: VisibilityCells,
+        elsewhere: ChoicePlan,
+    ) -> Self {
+        Self {
+            lights,
+            cells,
+            elsewhere,
+        }
+    }
+
     /// The hierarchy.
     #[must_use]
     pub const fn lights(&self) -> &BvhLightSampler {

@@ -4,8 +4,8 @@ use std::fs;
 
 use crate::folder::{Folder, assert_refused, stdout};
 
-/// A small picture.
-const SMALL: [&str; 6] = ["--width", "72", "--height", "48", "--max-depth", "3"];
+/// A small picture of direct light.
+const SMALL: [&str; 6] = ["--width", "72", "--height", "48", "--max-depth", "2"];
 
 /// Rooms of which most lamps are hidden, as small as cells still pay.
 const ROOMS: [&str; 8] = [
@@ -54,14 +54,22 @@ fn cells_make_the_same_picture_for_any_threads_and_parts() {
     );
 }
 
-/// By default a picture of rooms has one choice where one without visibility has two, and an open
-/// field has two.
+/// By default a picture of rooms has cells and one choice where one without visibility has two, and
+/// an open field has two and no cells.
 #[test]
-fn the_share_of_light_that_arrives_decides_the_number_of_choices() {
+fn light_that_arrives_decides_the_number_of_choices() {
     let folder = Folder::new("share");
     let render = |scene: &str, name: &str, how: &[&str]| {
         let out = folder.path(name);
-        stdout(&[&["render", scene, "-o", &out], &SMALL[..], how].concat());
+        let json = ["--json"];
+        let line = stdout(&[&["render", scene, "-o", &out], &SMALL[..], how, &json].concat());
+        let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+        let has_cells = report["visibility_bytes"].as_u64() > Some(0);
+        let is_plain = ["off", "--light-samples"]
+            .iter()
+            .any(|word| how.contains(word));
+        let wants_cells = scene == "rooms" && !is_plain;
+        assert_eq!(has_cells, wants_cells, "{scene} {how:?}: {line}");
         out
     };
     let bytes = |path: &str| fs::read(path).expect("a picture");
@@ -146,11 +154,14 @@ fn info_says_what_is_known_of_visibility() {
     let shares = ["rooms", "open"].map(|scene| {
         let line = stdout(&["info", scene, "--visibility", "share", "--json"]);
         let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
-        report["visibility"]["visible_share"].as_f64().expect(scene)
+        let found = &report["visibility"];
+        // No cell pays for the whole paths of these pictures.
+        assert_eq!(found["cells"]["coarse_cells"], 0, "{scene}: {found}");
+        found["visible_share"].as_f64().expect(scene)
     });
     assert!(shares[0] < 0.3 && shares[1] > 0.95, "{shares:?}");
     let text = stdout(&["info", "cornell-box", "--visibility", "cells"]);
-    assert!(text.contains("visibility "), "{text}");
+    assert!(text.contains("  cells "), "{text}");
     let text = stdout(&["info", "cornell-box"]);
     assert!(!text.contains("visibility"), "nothing is filled: {text}");
 }
