@@ -1044,12 +1044,16 @@ fn light_cut_weights(
 // Weights of a node in the root's unit. Where distances differ by more than LIGHT_MAX_ZOOM, they
 // lose their proportion and keep their sign.
 fn light_cut_scaled(weights: LightWeights, gain: f32, inv_unit: f32) -> LightWeights {
-    var scaled = weights;
     let zoom = min(weights.inv_unit / inv_unit, LIGHT_MAX_ZOOM);
-    let scale = max(gain * zoom * zoom, LIGHT_MIN);
+    return light_cut_times(weights, max(gain * zoom * zoom, LIGHT_MIN));
+}
+
+// Weights times a factor above 0: what is above 0 stays so.
+fn light_cut_times(weights: LightWeights, factor: f32) -> LightWeights {
+    var scaled = weights;
     for (var word = 0u; word < 4u; word++) {
         let lanes = weights.lanes[word];
-        let some = max(lanes * scale, vec4<f32>(LIGHT_MIN));
+        let some = max(lanes * factor, vec4<f32>(LIGHT_MIN));
         scaled.lanes[word] = select(vec4<f32>(0.0), some, lanes > vec4<f32>(0.0));
     }
     return scaled;
@@ -1058,15 +1062,9 @@ fn light_cut_scaled(weights: LightWeights, gain: f32, inv_unit: f32) -> LightWei
 // Weights of an opened node, together within LIGHT_MAX_REVISION of what the group was estimated at.
 // Choices within the node do not need it: there only ratios count.
 fn light_cut_revised(weights: LightWeights, expected: f32) -> LightWeights {
-    var revised = weights;
     let ratio = min(expected / max(light_total(weights.lanes), LIGHT_MIN), LIGHT_MAX);
     let revision = min(ratio * LIGHT_MAX_REVISION, max(ratio / LIGHT_MAX_REVISION, 1.0));
-    for (var word = 0u; word < 4u; word++) {
-        let lanes = weights.lanes[word];
-        let some = max(lanes * revision, vec4<f32>(LIGHT_MIN));
-        revised.lanes[word] = select(vec4<f32>(0.0), some, lanes > vec4<f32>(0.0));
-    }
-    return revised;
+    return light_cut_times(weights, revision);
 }
 
 fn light_cut_unopened(weights: LightWeights, opened: u32) -> LightWeights {
