@@ -11,7 +11,8 @@ impl Digest {
         self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x100_0000_01b3);
     }
 
-    pub(crate) fn bits(self) -> u64 {
-        self.0
+    /// Upper and lower word.
+    pub(crate) fn words(self) -> [u32; 2] {
+        [(self.0 >> 32) as u32, self.0 as u32]
     }
 }

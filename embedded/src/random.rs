@@ -4,14 +4,15 @@ use light_math::glam::Vec2;
 /// The `i`th random number, a fraction of 2^64, by integers alone.
 ///
 /// # Source
-/// The finaliser of SplitMix64.
+/// The finaliser of MurmurHash3, with shifts by a whole word, which 32-bit processors have for free.
 pub(crate) fn random(i: u32) -> u64 {
-    let z = u64::from(i)
+    let mut z = u64::from(i)
         .wrapping_add(1)
         .wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    for _ in 0..2 {
+        z = (z ^ (z >> 32)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    }
+    z ^ (z >> 32)
 }
 
 /// The `i`th random point of the unit square.

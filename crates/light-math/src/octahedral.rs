@@ -105,7 +105,9 @@ pub fn to_square(v: Vec3) -> Vec2 {
 #[must_use]
 pub fn from_square(Vec2 { x, y }: Vec2) -> Vec3 {
     let z = 1.0 - (x.abs() + y.abs());
-    let (x, y) = if z >= 0.0 { (x, y) } else { fold(x, y) };
+    // By the sign alone, for z is never -0.
+    let is_above = z.is_sign_positive();
+    let (x, y) = if is_above { (x, y) } else { fold(x, y) };
     let v = Vec3::new(x, y, z);
     v / sqrt(v.length_squared())
 }
@@ -128,9 +130,20 @@ fn quantize(f: f32) -> u32 {
     (0.5 * (f + 1.0) * 65535.0 + 0.5) as u32
 }
 
-#[inline]
+/// The coordinate of a code.
+// Without an operating system memory for code is short: both coordinates call one function.
+#[cfg_attr(target_os = "none", inline(never))]
+#[cfg_attr(not(target_os = "none"), inline)]
 fn dequantize(q: u32) -> f32 {
-    2.0 * (q as f32 / 65535.0) - 1.0
+    let q = if cfg!(target_os = "none") {
+        // The low bits of a float whose last place is 1: exact as well, and a processor without
+        // floats needs no routine for the conversion.
+        const ONES: f32 = 8_388_608.0;
+        f32::from_bits(ONES.to_bits() | q) - ONES
+    } else {
+        q as f32
+    };
+    2.0 * (q / 65535.0) - 1.0
 }
 
 #[cfg(test)]

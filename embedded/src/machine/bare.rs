@@ -84,6 +84,8 @@ const DONE: usize = 0x2_0026;
 /// The reason of a fault.
 const FAULT: usize = 0x2_0023;
 
+// One function for all callers: the instructions take up to 32 bytes.
+#[inline(never)]
 fn call_host(operation: Operation, argument: usize) {
     // SAFETY: the emulator stops at this instruction, reads what the argument points at, and goes
     // on; it writes one register. The argument is an address of a static or of a live variable, or
@@ -109,6 +111,7 @@ fn call_host(operation: Operation, argument: usize) {
     }
 }
 
+#[inline(never)]
 pub(crate) fn write_byte(byte: u8) {
     call_host(Operation::WriteCharacter, ptr::from_ref(&byte).addr());
 }

@@ -23,7 +23,7 @@ pub(super) struct Board {
     tick: u32,
 }
 
-/// The boards; promises about sizes are made for the first one.
+/// The boards.
 pub(super) const BOARDS: [Board; 2] = [
     Board {
         name: "Cortex-M4F",

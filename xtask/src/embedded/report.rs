@@ -1,18 +1,18 @@
 use super::board::Board;
 
-/// What a program printed: see `embedded/src/machine/mod.rs`.
+/// What a program printed: see `embedded/src/measure.rs`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Report {
-    /// Queries and the hashes of their answers.
-    hashes: Vec<(String, String)>,
-    costs: Vec<Cost>,
+    queries: Vec<Cost>,
 }
 
-/// What a query took.
+/// What a query answered, and what it took.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) name: String,
-    /// Ticks of the shortest, of all, and of the longest.
+    /// Of the answers.
+    hash: [u32; 2],
+    /// Ticks of the shortest, of all, and of the longest; the host counts none.
     ticks: [f64; 3],
     /// Bytes.
     pub(super) stack: u32,
@@ -28,29 +28,31 @@ impl Report {
     /// The report in a program's output.
     ///
     /// # Errors
-    /// The first line that is not understood, or that there is no hash.
+    /// The first line that is not understood, or that there is none.
     pub(super) fn of(text: &str) -> Result<Self, String> {
-        let mut report = Self::default();
-        for line in text.lines() {
+        let query = |line: &str| {
+            let error = || format!("not understood: {line}");
             let words: Vec<&str> = line.split(' ').collect();
-            let number = |word: &str| {
-                let number = word.parse::<u32>();
-                number.map_err(|_| format!("not a number in: {line}"))
+            let [name, numbers @ ..] = &words[..] else {
+                return Err(error());
             };
-            match words[..] {
-                ["hash", name, hash] => report.hashes.push((name.into(), hash.into())),
-                ["cost", name, least, all, most, stack] => report.costs.push(Cost {
-                    name: name.into(),
-                    ticks: [number(least)?, number(all)?, number(most)?].map(f64::from),
-                    stack: number(stack)?,
+            let numbers = numbers.iter().map(|word| u32::from_str_radix(word, 16));
+            let numbers: Result<Vec<u32>, _> = numbers.collect();
+            match numbers.map_err(|_| error())?[..] {
+                [high, low, least, all, most, stack] => Ok(Cost {
+                    name: (*name).to_owned(),
+                    hash: [high, low],
+                    ticks: [least, all, most].map(f64::from),
+                    stack,
                 }),
-                _ => return Err(format!("not understood: {line}")),
+                _ => Err(error()),
             }
+        };
+        let queries = text.lines().map(query).collect::<Result<Vec<_>, _>>()?;
+        if queries.is_empty() {
+            return Err("it printed nothing".into());
         }
-        if report.hashes.is_empty() {
-            return Err("it printed no hash".into());
-        }
-        Ok(report)
+        Ok(Self { queries })
     }
 
     /// Whether the answers have the bits of the host's.
@@ -58,30 +60,32 @@ impl Report {
     /// # Errors
     /// The first query whose answers differ.
     pub(super) fn must_equal(&self, host: &Self) -> Result<(), String> {
-        if self.hashes.len() != host.hashes.len() {
+        if self.queries.len() != host.queries.len() {
             return Err("not the host's queries".into());
         }
-        let pairs = self.hashes.iter().zip(&host.hashes);
-        match pairs.into_iter().find(|(ours, hosts)| ours != hosts) {
-            None => Ok(()),
-            Some(((name, ours), (_, hosts))) => Err(format!(
-                "{name}: other bits than on the host: {ours}, not {hosts}"
-            )),
+        for (ours, hosts) in self.queries.iter().zip(&host.queries) {
+            if (&ours.name, ours.hash) != (&hosts.name, hosts.hash) {
+                return Err(format!(
+                    "{}: other bits than on the host: {:x?}, not {:x?}",
+                    ours.name, ours.hash, hosts.hash
+                ));
+            }
         }
+        Ok(())
     }
 
     /// The most stack of any query.
     pub(super) fn stack(&self) -> u32 {
-        let stacks = self.costs.iter().map(|cost| cost.stack);
+        let stacks = self.queries.iter().map(|cost| cost.stack);
         stacks.max().unwrap_or(0)
     }
 
     /// Each query with the instructions of the shortest, the mean and the longest one.
     pub(super) fn rows(&self, board: &Board) -> Vec<(&Cost, [f64; 3])> {
         let mean = |cost: &Cost| cost.ticks[1] / SAMPLES;
-        let nothing = self.costs.iter().find(|cost| cost.name == NOTHING);
+        let nothing = self.queries.iter().find(|cost| cost.name == NOTHING);
         let overhead = nothing.map_or(0.0, mean);
-        let queries = self.costs.iter().filter(|cost| cost.name != NOTHING);
+        let queries = self.queries.iter().filter(|cost| cost.name != NOTHING);
         queries
             .map(|cost| {
                 let ticks = [cost.ticks[0], mean(cost), cost.ticks[2]];
@@ -107,8 +111,7 @@ mod tests {
     use super::super::board::BOARDS;
     use super::*;
 
-    const TEXT: &str = "hash nothing 01\ncost nothing 8 8000 8 100\n\
-                        hash tree 02\ncost tree 88 168000 248 900\n";
+    const TEXT: &str = "nothing 0 1 8 1f40 8 64\ntree 0 2 58 29040 f8 384\n";
 
     #[test]
     fn costs_are_those_beyond_nothing() {
@@ -121,19 +124,21 @@ mod tests {
 
     #[test]
     fn another_bit_is_a_fault() {
-        let host = Report::of("hash nothing 01\nhash tree 02\n").expect("a report");
+        let host = "nothing 0 1 0 0 0 0\ntree 0 2 0 0 0 0\n";
+        let host = Report::of(host).expect("a report");
         let report = |text: &str| Report::of(text).expect("a report");
         assert_eq!(report(TEXT).must_equal(&host), Ok(()), "the same");
-        let other = report(&TEXT.replace("02", "03")).must_equal(&host);
+        let other = report(&TEXT.replace("0 2", "0 3")).must_equal(&host);
         assert!(other.is_err_and(|e| e.starts_with("tree")), "another");
-        let fewer = report("hash nothing 01\n").must_equal(&host);
+        let fewer = report("nothing 0 1 8 1f40 8 64\n").must_equal(&host);
         assert!(fewer.is_err(), "a query less");
     }
 
     #[test]
     fn what_is_no_report_is_refused() {
         assert!(Report::of("").is_err(), "nothing");
-        assert!(Report::of("hash a 1\nP").is_err(), "a panic");
-        assert!(Report::of("cost a 1 2 x 4").is_err(), "no number");
+        assert!(Report::of("a 0 1 2 3 4 5\nP").is_err(), "a panic");
+        assert!(Report::of("a 0 1 2 3 4 x").is_err(), "no number");
+        assert!(Report::of("a 0 1 2 3 4").is_err(), "a number less");
     }
 }

@@ -84,12 +84,14 @@ impl<S: AsRef<[AliasBin]>> AliasTable<S> {
         if slice.is_empty() {
             return Err(TableError::Empty);
         }
+        // By bits, which are in the order of the numbers from 0 to 1; NaN and -0 are beyond.
+        let is_positive = |bin: &AliasBin| bin.pmf.to_bits() > 0;
         let is_valid = |bin: &AliasBin| {
             let rest_is_reachable = slice
                 .get(bin.alias as usize)
-                .is_some_and(|other| bin.own == PARTS || other.pmf > 0.0);
-            let own_is_reachable = bin.own == 0 || bin.pmf > 0.0;
-            let in_range = bin.own <= PARTS && (0.0..=1.0).contains(&bin.pmf);
+                .is_some_and(|other| bin.own == PARTS || is_positive(other));
+            let own_is_reachable = bin.own == 0 || is_positive(bin);
+            let in_range = bin.own <= PARTS && bin.pmf.to_bits() <= 1.0f32.to_bits();
             in_range && own_is_reachable && rest_is_reachable
         };
         if slice.iter().all(is_valid) {
@@ -262,6 +264,9 @@ mod tests {
             ([bin(PARTS, 0, 1.0), bin(1, 0, 0.0)], "has nothing"),
             ([bin(PARTS + 1, 0, 1.0), bin(0, 0, 0.0)], "too many parts"),
             ([bin(PARTS, 0, 1.5), bin(0, 0, 0.0)], "too likely"),
+            ([bin(PARTS, 0, 1.0), bin(0, 0, -1.0)], "below zero"),
+            ([bin(PARTS, 0, 1.0), bin(0, 0, f32::NAN)], "no number"),
+            ([bin(PARTS, 0, f32::NAN), bin(0, 0, 0.0)], "no number"),
         ] {
             let built = AliasTable::from_bins(bins);
             assert_eq!(built, Err(TableError::Malformed), "{what}");
