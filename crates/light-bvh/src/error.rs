@@ -27,7 +27,10 @@ pub enum LightBvhError {
         light: LightId,
     },
     /// There are more lights than the tree can address.
-    TooManyLights,
+    TooManyLights {
+        /// How many it can.
+        most: usize,
+    },
     /// A refit was given another number of lights than the tree was built for.
     OtherLights {
         /// How many the tree was built for.
@@ -47,7 +50,12 @@ impl fmt::Display for LightBvhError {
             Self::BadBounds { light, reason } => write!(f, "light {}: {reason}", light.0),
             Self::BadInfiniteBounds { light, reason } => write!(f, "light {}: {reason}", light.0),
             Self::TooFar { light } => write!(f, "light {}: a coordinate is beyond 1e36", light.0),
-            Self::TooManyLights => f.write_str("more lights than the tree can address"),
+            Self::TooManyLights { most } => {
+                write!(
+                    f,
+                    "expected at most {most} lights, which the tree can address"
+                )
+            }
             Self::OtherLights { expected } => {
                 write!(f, "expected {expected} lights, as when the tree was built")
             }
@@ -66,7 +74,7 @@ impl core::error::Error for LightBvhError {
             Self::BadBounds { reason, .. } => Some(reason),
             Self::BadInfiniteBounds { reason, .. } => Some(reason),
             Self::TooFar { .. }
-            | Self::TooManyLights
+            | Self::TooManyLights { .. }
             | Self::OtherLights { .. }
             | Self::NoPlace { .. } => None,
         }

@@ -7,7 +7,7 @@ use crate::LightBvhError;
 use crate::build::builder::build;
 use crate::build::lights::{LeafMoments, Lights};
 use crate::build::options::LightBvhOptions;
-use crate::build::scan::{Scan, is_addressable};
+use crate::build::scan::{Scan, expect_addressable};
 use crate::build::{quality, refit};
 use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
@@ -58,9 +58,7 @@ impl LightBvh {
         lights: &[LightExtent],
         options: &LightBvhOptions,
     ) -> Result<(Self, Moments), LightBvhError> {
-        if !is_addressable(lights.len()) {
-            return Err(LightBvhError::TooManyLights);
-        }
+        expect_addressable(lights.len())?;
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
         let leaves = Lights::new(lights, scan.power);
         Ok(Self::build_of_leaves(lights, &scan, options, &leaves))

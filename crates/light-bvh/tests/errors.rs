@@ -40,8 +40,8 @@ fn other_errors_are_their_own_reason() {
             "light 0: no place in the tree that fits; build a new tree",
         ),
         (
-            LightBvhError::TooManyLights,
-            "more lights than the tree can address",
+            LightBvhError::TooManyLights { most: 9 },
+            "expected at most 9 lights, which the tree can address",
         ),
     ] {
         assert_eq!(error.to_string(), says, "{error:?}");

@@ -2,6 +2,7 @@
 //! others.
 #![cfg(all(feature = "std", feature = "bytemuck"))]
 
+use core::num::NonZeroUsize;
 use std::fs;
 use std::io::{self, Cursor, ErrorKind, Seek, SeekFrom, Write};
 use std::path::PathBuf;
@@ -10,7 +11,9 @@ use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
 use light_bvh::light_bounds::{
     EmissionLobe, InfiniteBounds, LightBounds, LightExtent, LightId, LightSampleContext,
 };
-use light_bvh::out_of_core::{BuildStage, LightChunks, OutOfCoreBuild, OutOfCoreError};
+use light_bvh::out_of_core::{
+    BuildStage, LightChunks, OutOfCoreBuild, OutOfCoreError, SliceChunks,
+};
 use light_bvh::{LightBvh, LightBvhError, LightBvhOptions, MAX_DEPTH};
 use light_testkit::Rng;
 
@@ -38,34 +41,8 @@ impl Scratch {
 }
 
 /// Lights of a slice, so many at a time.
-struct Slice<'a> {
-    lights: &'a [LightExtent],
-    chunk: usize,
-    next: usize,
-}
-
-impl<'a> Slice<'a> {
-    fn new(lights: &'a [LightExtent], chunk: usize) -> Self {
-        Self {
-            lights,
-            chunk,
-            next: 0,
-        }
-    }
-}
-
-impl LightChunks for Slice<'_> {
-    fn next_chunk(&mut self, chunk: &mut Vec<LightExtent>) -> io::Result<()> {
-        let rest = &self.lights[self.next..];
-        chunk.extend_from_slice(&rest[..self.chunk.min(rest.len())]);
-        self.next += chunk.len();
-        Ok(())
-    }
-
-    fn rewind(&mut self) -> io::Result<()> {
-        self.next = 0;
-        Ok(())
-    }
+fn slice(lights: &[LightExtent], chunk: usize) -> SliceChunks<'_> {
+    SliceChunks::new(lights, NonZeroUsize::new(chunk).expect("some"))
 }
 
 /// Spots, points, panels, measured lights, skies and dark lights at the places of `place`.
@@ -106,7 +83,7 @@ fn in_a_cube(rng: &mut Rng, _: usize) -> Vec3 {
 fn written(build: &OutOfCoreBuild, lights: &[LightExtent], chunk: usize) -> (Vec<u8>, LightBvh) {
     let mut out = Cursor::new(Vec::new());
     let tree = build
-        .write(&mut Slice::new(lights, chunk), &mut out, |_, _| {})
+        .write(&mut slice(lights, chunk), &mut out, |_, _| {})
         .expect("valid lights");
     let bytes = out.into_inner();
     let bounded = lights.iter().filter_map(LightExtent::bounded);
@@ -196,7 +173,7 @@ fn dark_lights_have_a_place_where_they_are_kept() {
     lights.clone_from(&dark);
     let mut out = Cursor::new(Vec::new());
     let tree = build
-        .write(&mut Slice::new(&lights, 64), &mut out, |_, _| {})
+        .write(&mut slice(&lights, 64), &mut out, |_, _| {})
         .expect("valid lights");
     assert_eq!(tree.held, 1960, "all but skies");
     let mut tree = LightBvh::from_bytes(out.get_ref()).expect("a tree");
@@ -217,7 +194,7 @@ fn progress_covers_every_stage() {
     let tree = scratch
         .build(100)
         .write(
-            &mut Slice::new(&lights, 400),
+            &mut slice(&lights, 400),
             &mut Cursor::new(vec![]),
             |stage, done| {
                 calls.push((stage, done));
@@ -244,7 +221,7 @@ fn a_tree_is_written_where_the_file_stands() {
     let mut out = Cursor::new(vec![7; 64]);
     out.seek(SeekFrom::End(0)).expect("memory");
     build
-        .write(&mut Slice::new(&lights, 100), &mut out, |_, _| {})
+        .write(&mut slice(&lights, 100), &mut out, |_, _| {})
         .expect("valid lights");
     out.write_all(&[9]).expect("memory");
     let out = out.into_inner();
@@ -256,16 +233,20 @@ fn a_tree_is_written_where_the_file_stands() {
 }
 
 /// Other lights when they are read again.
-struct Changing<'a>(Slice<'a>);
+struct Changing<'a> {
+    lights: &'a [LightExtent],
+    chunks: SliceChunks<'a>,
+}
 
 impl LightChunks for Changing<'_> {
     fn next_chunk(&mut self, chunk: &mut Vec<LightExtent>) -> io::Result<()> {
-        self.0.next_chunk(chunk)
+        self.chunks.next_chunk(chunk)
     }
 
     fn rewind(&mut self) -> io::Result<()> {
-        self.0.lights = &self.0.lights[1..];
-        self.0.rewind()
+        self.lights = &self.lights[1..];
+        self.chunks = slice(self.lights, 30);
+        Ok(())
     }
 }
 
@@ -281,7 +262,10 @@ fn what_cannot_be_a_tree_is_refused_and_leaves_no_scratch_files() {
     };
     let out = || Cursor::new(Vec::new());
     let changed = write(&mut |build| {
-        let mut changing = Changing(Slice::new(&lights, 30));
+        let mut changing = Changing {
+            lights: &lights,
+            chunks: slice(&lights, 30),
+        };
         build
             .write(&mut changing, &mut out(), |_, _| {})
             .map(|_| ())
@@ -296,7 +280,7 @@ fn what_cannot_be_a_tree_is_refused_and_leaves_no_scratch_files() {
         two_sided: false,
     });
     let far = write(&mut |build| {
-        let mut lights = Slice::new(&lights, 30);
+        let mut lights = slice(&lights, 30);
         build.write(&mut lights, &mut out(), |_, _| {}).map(|_| ())
     });
     let expected = LightBvhError::TooFar {
@@ -309,7 +293,7 @@ fn what_cannot_be_a_tree_is_refused_and_leaves_no_scratch_files() {
     lights.truncate(100);
     let nowhere = OutOfCoreBuild::new(scratch.0.join("missing")).with_lights_at_once(50);
     let missing = nowhere
-        .write(&mut Slice::new(&lights, 30), &mut out(), |_, _| {})
+        .write(&mut slice(&lights, 30), &mut out(), |_, _| {})
         .expect_err("no folder");
     assert!(
         matches!(&missing, OutOfCoreError::Io(error) if error.kind() == ErrorKind::NotFound),

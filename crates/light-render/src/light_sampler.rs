@@ -67,8 +67,11 @@ impl AnyLightSampler {
     pub fn over(kind: SamplerKind, extents: &[LightExtent]) -> Result<Self, AnyLightSamplerError> {
         Ok(match kind {
             SamplerKind::Uniform => {
-                let count = u32::try_from(extents.len())
-                    .map_err(|_| PowerLightSamplerError::TooManyLights)?;
+                let count = u32::try_from(extents.len()).map_err(|_| {
+                    PowerLightSamplerError::TooManyLights {
+                        most: u32::MAX as usize,
+                    }
+                })?;
                 Self::Uniform(UniformLightSampler::new(count))
             }
             SamplerKind::Power => {

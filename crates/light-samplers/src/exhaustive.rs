@@ -6,7 +6,7 @@ use light_math::discrete;
 use light_math::float::positive_product;
 
 use crate::first_choice::{FirstChoice, FirstPmf};
-use crate::id_count::id_count;
+use crate::id_count::{MOST, id_count};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 use crate::{LightChoices, LightSampler};
 
@@ -33,7 +33,7 @@ impl ExhaustiveLightSampler {
     /// [`LightBvhError`] names the first light whose bounds are not valid; or there are more than
     /// 2^32 - 1 lights.
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
-        id_count(lights.len()).ok_or(LightBvhError::TooManyLights)?;
+        id_count(lights.len()).ok_or(LightBvhError::TooManyLights { most: MOST })?;
         light_bvh::validate(lights)?;
         let bounds: Vec<_> = lights
             .iter()

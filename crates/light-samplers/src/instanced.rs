@@ -9,6 +9,7 @@ use light_math::float::positive_product;
 
 use crate::bvh_choices::BvhChoices;
 use crate::first_choice::{FirstChoice, FirstPmf};
+use crate::id_count::MOST;
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, emitting};
 use crate::placed_lights_at::{PlacedLightsAt, numbered};
 use crate::{LightChoices, LightSampler};
@@ -37,7 +38,7 @@ impl InstancedBvhLightSampler {
         let first = u32::try_from(placed).ok();
         let last = u32::try_from(placed + infinite.len() as u64).ok();
         let (Some(first), Some(_)) = (first, last) else {
-            return Err(InstancedBvhLightSamplerError::TooManyLights);
+            return Err(TOO_MANY);
         };
         for (light, bounds) in (first..).map(LightId).zip(infinite) {
             let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
@@ -70,7 +71,7 @@ impl InstancedBvhLightSampler {
         infinite: &[(LightId, InfiniteBounds)],
     ) -> Result<Self, InstancedBvhLightSamplerError> {
         let count = u32::try_from(tree.light_count());
-        let count = count.map_err(|_| InstancedBvhLightSamplerError::TooManyLights)?;
+        let count = count.map_err(|_| TOO_MANY)?;
         let is_sorted = infinite.is_sorted_by(|(a, _), (b, _)| a < b);
         if !is_sorted || infinite.last().is_some_and(|(last, _)| last.0 >= count) {
             return Err(InstancedBvhLightSamplerError::InfiniteIds);
@@ -166,12 +167,19 @@ const fn fluence(light: &InfiniteLight) -> f32 {
     light.bounds.fluence
 }
 
+/// More lights than ids.
+const TOO_MANY: InstancedBvhLightSamplerError =
+    InstancedBvhLightSamplerError::TooManyLights { most: MOST };
+
 /// Why there is no sampler of a tree of trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstancedBvhLightSamplerError {
     /// There are more lights than ids of 32 bits.
-    TooManyLights,
+    TooManyLights {
+        /// How many ids there are.
+        most: usize,
+    },
     /// Lights at infinity are not in the order of their ids, or not among those of the tree.
     InfiniteIds,
     /// The bounds of a light at infinity are not valid.
@@ -186,7 +194,9 @@ pub enum InstancedBvhLightSamplerError {
 impl fmt::Display for InstancedBvhLightSamplerError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooManyLights => f.write_str("more lights than ids of 32 bits"),
+            Self::TooManyLights { most } => {
+                write!(f, "expected at most {most} lights: ids have 32 bits")
+            }
             Self::InfiniteIds => {
                 f.write_str("lights at infinity: expected ids of the tree, in ascending order")
             }

@@ -4,7 +4,7 @@ use core::fmt;
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_math::distribution::{AliasBin, AliasTable, TableError};
 
-use crate::id_count::id_count;
+use crate::id_count::{MOST, id_count};
 use crate::{LightChoices, LightSampler, UniformLightSampler};
 
 /// Chooses each light in proportion to its power.
@@ -24,6 +24,9 @@ enum Choice {
     Uniform(UniformLightSampler),
 }
 
+/// More lights than ids.
+const TOO_MANY: PowerLightSamplerError = PowerLightSamplerError::TooManyLights { most: MOST };
+
 impl PowerLightSampler {
     /// A sampler in proportion to `powers`: one for each light in the order of ids, all in W or in
     /// another common unit; for a spectrum the mean over wavelengths.
@@ -31,7 +34,7 @@ impl PowerLightSampler {
     /// # Errors
     /// A power is negative or not finite, or there are more than 2^32 - 1 lights.
     pub fn new(powers: &[f32]) -> Result<Self, PowerLightSamplerError> {
-        let count = id_count(powers.len()).ok_or(PowerLightSamplerError::TooManyLights)?;
+        let count = id_count(powers.len()).ok_or(TOO_MANY)?;
         for (light, &power) in (0..).map(LightId).zip(powers) {
             if !(power >= 0.0 && power.is_finite()) {
                 return Err(PowerLightSamplerError::BadPower { light });
@@ -42,7 +45,7 @@ impl PowerLightSampler {
             Err(TableError::Empty | TableError::AllZero) => {
                 Choice::Uniform(UniformLightSampler::new(count))
             }
-            Err(_) => return Err(PowerLightSamplerError::TooManyLights),
+            Err(_) => return Err(TOO_MANY),
         };
         Ok(Self { choice })
     }
@@ -102,7 +105,10 @@ pub enum PowerLightSamplerError {
         light: LightId,
     },
     /// There are more lights than ids.
-    TooManyLights,
+    TooManyLights {
+        /// How many ids there are.
+        most: usize,
+    },
 }
 
 impl fmt::Display for PowerLightSamplerError {
@@ -111,7 +117,9 @@ impl fmt::Display for PowerLightSamplerError {
             Self::BadPower { light } => {
                 write!(f, "light {}: the power is negative or not finite", light.0)
             }
-            Self::TooManyLights => f.write_str("more lights than ids"),
+            Self::TooManyLights { most } => {
+                write!(f, "expected at most {most} lights: ids have 32 bits")
+            }
         }
     }
 }

@@ -184,6 +184,9 @@ fn too_many_lights_for_ids_are_refused() {
     let tree = InstancedLightBvh::build(vec![prototype], &placements).expect("a tree");
     assert_eq!(tree.light_count(), 1 << 32, "one more than ids count");
     let refused = InstancedBvhLightSampler::new(tree, &[]).err();
-    let many = InstancedBvhLightSamplerError::TooManyLights;
+    let most = u32::MAX as usize;
+    let many = InstancedBvhLightSamplerError::TooManyLights { most };
     assert_eq!(refused, Some(many), "by name");
+    let says = "expected at most 4294967295 lights: ids have 32 bits";
+    assert_eq!(many.to_string(), says, "with the limit");
 }

@@ -1,10 +1,11 @@
+use core::num::NonZeroUsize;
 use core::sync::atomic::{AtomicUsize, Ordering};
-use std::io::{self, Cursor};
+use std::io::Cursor;
 use std::{env, fs, process};
 
 use light_bounds::LightExtent;
 use light_bvh::StoredLightBvh;
-use light_bvh::out_of_core::{LightChunks, OutOfCoreBuild};
+use light_bvh::out_of_core::{OutOfCoreBuild, SliceChunks};
 use light_samplers::{BvhLightSampler, BvhLightSamplerRef};
 
 /// `sampler` with its tree in bytes, which are queried where they lie; they stay until the program
@@ -36,31 +37,12 @@ pub fn built_out_of_core(
     fs::create_dir(&scratch).expect("a folder for scratch files");
     let build = OutOfCoreBuild::new(&scratch).with_lights_at_once(lights_at_once);
     let mut bytes = Cursor::new(Vec::new());
-    let mut chunks = SliceChunks { lights, next: 0 };
+    let mut chunks = SliceChunks::new(lights, const { NonZeroUsize::new(1000).unwrap() });
     let written = build.write(&mut chunks, &mut bytes, |_, _| {});
     written.expect("valid lights");
     fs::remove_dir(&scratch).expect("an empty folder");
     let in_memory = BvhLightSampler::new(lights).expect("valid lights");
     in_bytes(&in_memory, bytes.get_ref())
-}
-
-/// The lights of a slice, a few at a time.
-struct SliceChunks<'a> {
-    lights: &'a [LightExtent],
-    next: usize,
-}
-
-impl LightChunks for SliceChunks<'_> {
-    fn next_chunk(&mut self, chunk: &mut Vec<LightExtent>) -> io::Result<()> {
-        chunk.extend(self.lights[self.next..].iter().take(1000));
-        self.next += chunk.len();
-        Ok(())
-    }
-
-    fn rewind(&mut self) -> io::Result<()> {
-        self.next = 0;
-        Ok(())
-    }
 }
 
 /// The tree in `bytes` beside the lights of `sampler` at infinity.

@@ -19,7 +19,7 @@ pub(super) fn reason(file: &str, line: &str, function: &str) -> Option<&'static 
     if file == "light-bvh/src/simd.rs" {
         return Some("vectors of another width than this machine has");
     }
-    if line.contains("::TooMany") {
+    if line.contains("::TooMany") || line.contains("(TOO_MANY)") {
         return Some("more lights than 32 bits can count");
     }
     let mut known = KNOWN.iter();

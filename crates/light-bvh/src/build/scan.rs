@@ -18,6 +18,17 @@ pub(crate) const fn is_addressable(lights: usize) -> bool {
     lights <= MAX_LIGHTS
 }
 
+/// Makes sure that slots of 32 bits can name the places of so many lights.
+///
+/// # Errors
+/// [`LightBvhError::TooManyLights`].
+pub(crate) const fn expect_addressable(lights: usize) -> Result<(), LightBvhError> {
+    if is_addressable(lights) {
+        return Ok(());
+    }
+    Err(LightBvhError::TooManyLights { most: MAX_LIGHTS })
+}
+
 /// Lights that one job validates.
 const CHUNK: usize = 8192;
 
@@ -123,6 +134,8 @@ fn is_far(bounds: &Aabb) -> bool {
 mod tests {
     use light_math::float::next_up;
 
+    use alloc::string::ToString;
+
     use super::*;
     use crate::node::wide_node::{NOWHERE, WIDTH};
 
@@ -144,5 +157,9 @@ mod tests {
         assert!(is_addressable(MAX_LIGHTS), "so many");
         assert!(slots <= NOWHERE as usize, "no slot is that of no place");
         assert!(!is_addressable(MAX_LIGHTS + 1), "one more");
+        assert_eq!(expect_addressable(MAX_LIGHTS), Ok(()), "so many");
+        let error = expect_addressable(MAX_LIGHTS + 1).expect_err("one more");
+        let says = "expected at most 268435456 lights, which the tree can address";
+        assert_eq!(error.to_string(), says, "the limit");
     }
 }

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use light_bounds::LightExtent;
 
-use crate::LightBvhError;
 use crate::build::builder::build;
 use crate::build::lights::phi;
 use crate::build::options::{DarkLights, LightBvhOptions};
-use crate::build::scan::{Scan, is_addressable, is_held};
+use crate::build::scan::{Scan, expect_addressable, is_held};
+use crate::build::topology::low_word;
 use crate::light_bvh::rounded;
 use crate::node::wide_node::MAX_DEPTH;
 use crate::out_of_core::cells::Cells;
@@ -202,11 +202,9 @@ fn each_chunk(
         if chunk.is_empty() {
             return Ok(first);
         }
-        let id = u32::try_from(first).map_err(|_| LightBvhError::TooManyLights)?;
+        let id = low_word(first);
         first += chunk.len();
-        if !is_addressable(first) {
-            return Err(LightBvhError::TooManyLights.into());
-        }
+        expect_addressable(first)?;
         each(id, &chunk)?;
     }
 }

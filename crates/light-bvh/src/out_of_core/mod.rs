@@ -62,4 +62,4 @@ mod tree_writer;
 
 pub use build::{BuildStage, OutOfCoreBuild, OutOfCoreTree};
 pub use error::OutOfCoreError;
-pub use light_chunks::LightChunks;
+pub use light_chunks::{LightChunks, SliceChunks};

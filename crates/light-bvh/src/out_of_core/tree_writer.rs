@@ -2,12 +2,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use std::io::{self, Seek, SeekFrom, Write};
 
-use crate::LightBvhError;
 use crate::build::builder::build;
 use crate::build::lights::Lights;
 use crate::build::options::LightBvhOptions;
 use crate::build::refit;
-use crate::build::scan::{Scan, is_addressable};
+use crate::build::scan::{Scan, expect_addressable};
 use crate::build::topology::low_word;
 use crate::bytes::{HEADER, Header};
 use crate::node::moments::Moments;
@@ -204,9 +203,7 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
         // What is below the root follows what was written before.
         let below = self.nodes;
         let index = |k: usize| if k == 0 { root.index } else { below + k - 1 };
-        if !is_addressable(below + nodes.len()) {
-            return Err(LightBvhError::TooManyLights.into());
-        }
+        expect_addressable(below + nodes.len())?;
         let light_base = low_word(self.order.len());
         self.order.extend(ids);
         for (k, node) in nodes.iter_mut().enumerate() {

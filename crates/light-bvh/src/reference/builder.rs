@@ -49,7 +49,7 @@ pub(super) fn build(lights: &[LightExtent]) -> Result<(Vec<ReferenceNode>, Aabb)
 /// The lights that the tree holds: somewhere, with power.
 fn leaves(lights: &[LightExtent]) -> Result<Vec<Leaf>, LightBvhError> {
     if !is_addressable(lights.len()) {
-        return Err(LightBvhError::TooManyLights);
+        return Err(LightBvhError::TooManyLights { most: MAX_LIGHTS });
     }
     validate(lights)?;
     let bounded = (0..).map(LightId).zip(lights);
