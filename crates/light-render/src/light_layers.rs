@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use lights::bounds::LightId;
 
 use crate::World;
+use crate::source_ids::source_ids;
 
 /// A group of lights by name: `NAME=PATTERN`. The pattern is the name of a material, an object or a
 /// light, in which `*` matches any text.
@@ -22,8 +23,15 @@ pub struct LightGroupPattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightLayers {
     names: Vec<String>,
-    /// The layer of each light, in the order of ids.
-    of_light: Vec<u8>,
+    /// Lights of adjacent ids in the same layer, in the order of ids.
+    runs: Vec<Run>,
+}
+
+/// Lights of one layer: those behind the ones before, up to an id.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Run {
+    end: u32,
+    layer: u8,
 }
 
 /// Why lights cannot be divided into layers.
@@ -58,27 +66,36 @@ impl LightLayers {
     /// # Errors
     /// When a group has no light, or there are more than 31.
     pub fn new(world: &World, groups: &[LightGroupPattern]) -> Result<Self, LightLayersError> {
-        let lights = (0..).map(LightId).take(world.lights().len());
-        let names_of: Vec<[Cow<'_, str>; 2]> = lights
-            .map(|light| world.light_names(light).unwrap_or_default())
-            .collect();
+        let (ends, names_of): (Vec<u32>, Vec<[Cow<'_, str>; 2]>) = source_ids(world.lights())
+            .filter(|(_, ids)| !ids.is_empty())
+            .map(|(_, ids)| {
+                let names = world.light_names(LightId(ids.start));
+                (ids.end, names.unwrap_or_default())
+            })
+            .unzip();
         let found = if groups.is_empty() {
             by_first_name(&names_of)
         } else {
             by_pattern(&names_of, groups)?
         };
-        let (mut names, of_light) = found;
+        let (mut names, of_source) = found;
         if names.len() >= Self::MOST {
             let groups = names.len();
             return Err(LightLayersError::TooMany { groups });
         }
         let rest = names.len();
-        if world.has_media() || of_light.contains(&None) || names.is_empty() {
+        if world.has_media() || of_source.contains(&None) || names.is_empty() {
             names.push(Self::REST.into());
         }
         let layer = |group: Option<usize>| u8::try_from(group.unwrap_or(rest)).unwrap_or(0);
-        let of_light = of_light.into_iter().map(layer).collect();
-        Ok(Self { names, of_light })
+        let mut runs: Vec<Run> = Vec::new();
+        for (end, layer) in ends.into_iter().zip(of_source.into_iter().map(layer)) {
+            match runs.last_mut() {
+                Some(run) if run.layer == layer => run.end = end,
+                _ => runs.push(Run { end, layer }),
+            }
+        }
+        Ok(Self { names, runs })
     }
 
     /// The names of the layers.
@@ -90,27 +107,30 @@ impl LightLayers {
     /// The layer of a light; `None` is the emission of media, which is in the last layer.
     #[inline]
     pub(crate) fn of(&self, light: Option<LightId>) -> usize {
-        let layer = light.and_then(|light| self.of_light.get(light.index()));
-        layer.map_or(self.names.len() - 1, |&layer| layer.into())
+        let run = light.and_then(|LightId(light)| {
+            let at = self.runs.partition_point(|run| run.end <= light);
+            self.runs.get(at)
+        });
+        run.map_or(self.names.len() - 1, |run| run.layer.into())
     }
 }
 
-/// Names of groups, and the group of each light.
+/// Names of groups, and the group of each source.
 type Groups = (Vec<String>, Vec<Option<usize>>);
 
 /// A group for each first name.
 fn by_first_name(names_of: &[[Cow<'_, str>; 2]]) -> Groups {
     let mut names: Vec<String> = Vec::new();
     let mut places = HashMap::new();
-    let of_light = names_of.iter().map(|[first, _]| {
+    let of_source = names_of.iter().map(|[first, _]| {
         let place = places.entry(first.as_ref()).or_insert_with(|| {
             names.push(first.to_string());
             names.len() - 1
         });
         Some(*place)
     });
-    let of_light = of_light.collect();
-    (names, of_light)
+    let of_source = of_source.collect();
+    (names, of_source)
 }
 
 /// The groups of these patterns.
@@ -119,7 +139,7 @@ fn by_pattern(
     groups: &[LightGroupPattern],
 ) -> Result<Groups, LightLayersError> {
     let mut names: Vec<String> = Vec::new();
-    let mut of_light = vec![None; names_of.len()];
+    let mut of_source = vec![None; names_of.len()];
     for group in groups {
         // Several patterns may make one group.
         let place = names.iter().position(|name| *name == group.name);
@@ -128,7 +148,7 @@ fn by_pattern(
             names.len() - 1
         });
         let mut is_empty = true;
-        for (layer, names) in of_light.iter_mut().zip(names_of) {
+        for (layer, names) in of_source.iter_mut().zip(names_of) {
             if names.iter().any(|name| matches(&group.pattern, name)) {
                 layer.get_or_insert(place);
                 is_empty = false;
@@ -141,7 +161,7 @@ fn by_pattern(
             return Err(LightLayersError::NoLight { group, names });
         }
     }
-    Ok((names, of_light))
+    Ok((names, of_source))
 }
 
 /// How many names an error lists.

@@ -7,6 +7,7 @@ use lights::samplers::{
 use lights::sources::{LightSet, Rgb};
 
 use crate::placed_tree::{is_mostly_placed, placed_tree};
+use crate::sampler_memory::{check_memory, check_memory_beside};
 use crate::{
     AnyLightSamplerError, CellLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler,
     SamplerKind, View, VisibilityCells, World,
@@ -42,19 +43,31 @@ impl AnyLightSampler {
     /// [placed]: lights::sources::LightSetBuilder::place_mesh
     ///
     /// # Errors
-    /// When the lights are more than ids, or more than the sampler can hold.
+    /// When the lights are more than ids, or more than the sampler or the memory can hold.
     pub fn new(kind: SamplerKind, lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
+        if kind == SamplerKind::Bvh && is_mostly_placed(lights) {
+            return Self::placed(lights);
+        }
+        check_memory(kind, lights.len())?;
         match kind {
+            SamplerKind::Uniform => Self::uniform(lights.len()),
             SamplerKind::Power => Ok(Self::Power(PowerLightSampler::new(&lights.powers())?)),
-            SamplerKind::Bvh if is_mostly_placed(lights) => Self::placed(lights),
             _ => Self::over(kind, &lights.extents()),
         }
+    }
+
+    fn uniform(lights: usize) -> Result<Self, AnyLightSamplerError> {
+        let most = u32::MAX as usize;
+        let too_many = PowerLightSamplerError::TooManyLights { most };
+        let count = u32::try_from(lights).map_err(|_| too_many)?;
+        Ok(Self::Uniform(UniformLightSampler::new(count)))
     }
 
     /// A tree of placed trees over `lights`, however few are placed.
     ///
     /// # Errors
-    /// When the lights are more than ids, or bounds are invalid.
+    /// When the lights are more than ids, bounds are invalid, or lights that are not placed, or
+    /// stretched where they are, do not fit into memory.
     pub fn placed(lights: &LightSet<Rgb>) -> Result<Self, AnyLightSamplerError> {
         placed_tree(lights).map(Self::BvhPlaced)
     }
@@ -63,17 +76,11 @@ impl AnyLightSampler {
     /// are those of the bounds.
     ///
     /// # Errors
-    /// When the lights are more than ids, or bounds are invalid.
+    /// When the lights are more than ids or than the memory holds, or bounds are invalid.
     pub fn over(kind: SamplerKind, extents: &[LightExtent]) -> Result<Self, AnyLightSamplerError> {
+        check_memory_beside(kind, extents)?;
         Ok(match kind {
-            SamplerKind::Uniform => {
-                let count = u32::try_from(extents.len()).map_err(|_| {
-                    PowerLightSamplerError::TooManyLights {
-                        most: u32::MAX as usize,
-                    }
-                })?;
-                Self::Uniform(UniformLightSampler::new(count))
-            }
+            SamplerKind::Uniform => return Self::uniform(extents.len()),
             SamplerKind::Power => {
                 let powers: Vec<f32> = extents.iter().map(power).collect();
                 Self::Power(PowerLightSampler::new(&powers)?)
@@ -102,7 +109,10 @@ impl AnyLightSampler {
     ) -> Result<Self, AnyLightSamplerError> {
         let flat = match self {
             // Cells are those of a flat tree.
-            Self::BvhPlaced(_) => Self::over(SamplerKind::Bvh, &world.lights().extents())?,
+            Self::BvhPlaced(_) => {
+                check_memory(SamplerKind::Bvh, world.lights().len())?;
+                Self::over(SamplerKind::Bvh, &world.lights().extents())?
+            }
             other => other,
         };
         match flat {

@@ -5,6 +5,8 @@ use lights::bvh::visibility::CellTableError;
 use lights::bvh::{InstancedLightBvhError, LightBvhError};
 use lights::samplers::{InstancedBvhLightSamplerError, PowerLightSamplerError};
 
+use crate::SamplerKind;
+
 /// Why lights cannot be sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -21,6 +23,17 @@ pub enum AnyLightSamplerError {
     Cells(CellTableError),
     /// Lights are not chosen by the default hierarchy: only that one has cells of visibility.
     NoCells,
+    /// The lists of a sampler do not fit into memory.
+    Memory {
+        /// Which sampler.
+        kind: SamplerKind,
+        /// Of how many lights.
+        lights: usize,
+        /// Bytes that it needs.
+        needed: u64,
+        /// Bytes that are available.
+        available: u64,
+    },
 }
 
 impl From<PowerLightSamplerError> for AnyLightSamplerError {
@@ -62,6 +75,17 @@ impl fmt::Display for AnyLightSamplerError {
             Self::Placed(error) => error.fmt(f),
             Self::Cells(error) => error.fmt(f),
             Self::NoCells => f.write_str("cells of visibility: expected the default hierarchy"),
+            Self::Memory {
+                kind,
+                lights,
+                needed,
+                available,
+            } => write!(
+                f,
+                "{kind} over {lights} lights: needs {:.1} GB of memory, {:.1} GB are available",
+                *needed as f64 * 1e-9,
+                *available as f64 * 1e-9
+            ),
         }
     }
 }

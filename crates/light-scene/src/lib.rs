@@ -54,7 +54,7 @@ pub use builtin_sky::BuiltinSky;
 pub use camera::{Camera, CameraError, Crop, Lens, Projection, ScreenWindow};
 pub use color::{Color, ColorImage, UvSet};
 pub use diagnostic::{Diagnostic, Location};
-pub use emissive_copies::MAX_EMISSIVE_COPIES;
+pub use emissive_copies::{MAX_EMISSIVE_COPIES, MAX_EMISSIVE_PRIMITIVES};
 pub use files::Files;
 pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};

@@ -6,6 +6,7 @@ use lights::sources::{
     OwnLight, RadianceAmount, Rgb,
 };
 
+use crate::emissive_copies::EmissiveCount;
 use crate::glam::{Affine3A, Vec3};
 use crate::{
     Camera, Color, Diagnostic, Image, ImageId, Instance, Material, MaterialId, Mesh, Prototype,
@@ -136,14 +137,17 @@ impl Scene {
         self.material(material).emission.is_some()
     }
 
-    /// The number of emissive triangles and quadrics of a prototype.
-    pub(crate) fn emissive_count(&self, prototype: &Prototype) -> usize {
+    /// The emissive triangles and quadrics of a prototype.
+    pub(crate) fn emissive_count(&self, prototype: &Prototype) -> EmissiveCount {
         let Prototype {
             meshes, quadrics, ..
         } = prototype;
         let meshes = meshes.iter().filter(|mesh| self.is_emissive(mesh.material));
         let quadrics = quadrics.iter().filter(|s| self.is_emissive(s.material));
-        meshes.map(|mesh| mesh.indices.len()).sum::<usize>() + quadrics.count()
+        EmissiveCount {
+            triangles: meshes.map(|mesh| mesh.indices.len()).sum(),
+            quadrics: quadrics.count(),
+        }
     }
 
     /// The number of triangles of the meshes that `counts` accepts, instances included.

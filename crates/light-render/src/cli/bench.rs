@@ -196,6 +196,7 @@ impl BenchArgs {
     fn run_scene(&self, input: &SceneInput, measurement: Measurement) -> Result<(), Failure> {
         let world = input.build(input.read_lit(false)?)?;
         input.expect_light(&world)?;
+        input.expect_few_lights(&world, "bench")?;
         let lights = world.lights().len();
         let path = &input.scene;
         let options = SceneBenchOptions {

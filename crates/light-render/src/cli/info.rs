@@ -1,6 +1,6 @@
 use std::time::Instant;
 
-use crate::choice_variance::choice_variance;
+use crate::choice_variance::{ChoiceVariance, choice_variance};
 use crate::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
 use clap::Args;
 use light_scene::Diagnostic;
@@ -41,7 +41,7 @@ struct Tree {
     depth: usize,
     bytes: usize,
     /// The relative variance of one choice; `None` where no light arrives.
-    quality: Option<f64>,
+    quality: Option<ChoiceVariance>,
     /// How little a step down the tree narrows a group.
     degradation: Option<f64>,
 }
@@ -121,7 +121,8 @@ impl InfoArgs {
                 "depth": tree.depth,
                 "bytes": tree.bytes,
                 "bytes_per_light": tree.bytes as f64 / count.max(1) as f64,
-                "quality": tree.quality,
+                "quality": tree.quality.map(|quality| quality.median),
+                "quality_samples": tree.quality.and_then(|quality| quality.samples),
                 "degradation": tree.degradation,
             },
             "bytes": {
@@ -198,10 +199,13 @@ impl InfoArgs {
             bytes.images,
             bytes.vertices
         )?;
-        if let Some(quality) = tree.quality {
+        if let Some(ChoiceVariance { median, samples }) = tree.quality {
+            let how = samples.map_or_else(String::new, |samples| {
+                format!(", estimated from {samples} choices at each")
+            });
             say!(
-                "  quality    {quality:.3}: relative variance of one choice, nothing in the way, \
-                 the median over points"
+                "  quality    {median:.3}: relative variance of one choice, nothing in the way, \
+                 the median over points{how}"
             )?;
         }
         if let Some(degradation) = tree.degradation {

@@ -87,7 +87,7 @@ enum Command {
     Compare(compare::CompareArgs),
     Completions(completions::CompletionsArgs),
     Env(env::EnvArgs),
-    Farm(farm::FarmArgs),
+    Farm(Box<farm::FarmArgs>),
     Ies(ies::IesArgs),
     Info(info::InfoArgs),
     /// Print the man page of the program and all of its commands.

@@ -102,6 +102,7 @@ impl ReportArgs {
         check_memory(&what, pixels * (PICTURE + Film::BYTES_PER_PIXEL) * PICTURES)?;
         let world = self.input.build(scene)?;
         self.input.expect_light(&world)?;
+        self.input.expect_few_lights(&world, "report")?;
         let options = self.options(&world, wanted, warnings);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)

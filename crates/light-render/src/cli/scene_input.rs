@@ -110,6 +110,20 @@ impl SceneInput {
         Err(refuse(&self.scene, nothing))
     }
 
+    /// Makes sure that each light of `world` can be looked at.
+    ///
+    /// # Errors
+    /// When there are too many; `what` looks at each.
+    pub(crate) fn expect_few_lights(&self, world: &World, what: &str) -> Result<(), Failure> {
+        let lights = world.lights().len();
+        if lights <= MOST_LIGHTS {
+            return Ok(());
+        }
+        let message =
+            format!("{what} looks at each light: expected at most {MOST_LIGHTS}, found {lights}");
+        Err(refuse(&self.scene, message))
+    }
+
     /// Makes a scene ready for rays.
     ///
     /// # Errors
@@ -119,6 +133,9 @@ impl SceneInput {
             .map_err(|error| Failure::input(Diagnostic::file(&self.scene, error.to_string())))
     }
 }
+
+/// The most lights of a scene that commands look at one by one, for some minutes.
+const MOST_LIGHTS: usize = 1 << 25;
 
 /// The scene in a file, by the ending of its name, or the one that ships under this name.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {

@@ -19,7 +19,8 @@ pub enum WorldError {
         /// The object's name.
         name: String,
     },
-    /// There are too many emissive primitives in all instances: each is a light of its own.
+    /// There are too many emissive primitives that are copied for every instance: quadrics, and
+    /// triangles of objects of one or two.
     Copies {
         /// The name of the object that exceeds the limit.
         name: String,
@@ -50,8 +51,8 @@ impl fmt::Display for WorldError {
             }
             Self::Copies { name, most } => write!(
                 f,
-                "object {name}: expected at most {most} emissive triangles and quadrics in all \
-                 instances"
+                "object {name}: expected at most {most} emissive quadrics, and triangles of objects \
+                 of one or two, in all instances"
             ),
         }
     }

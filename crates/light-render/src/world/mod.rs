@@ -81,7 +81,7 @@ impl World {
     ///
     /// # Errors
     /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there
-    /// are too many emissive primitives in all instances.
+    /// are too many lights in all instances.
     pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
         let bounds = scene.bounds();
         let objects = Objects::take(&mut scene)?.instanced;

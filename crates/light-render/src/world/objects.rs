@@ -47,6 +47,7 @@ impl Objects {
         for (prototype, transforms) in prototypes.into_iter().zip(transforms) {
             let name = prototype.name.clone();
             let (mut copied, mut instanced) = Part::split_emissive(prototype, scene);
+            let lamps = copied.take_lamps(&transforms);
             let emissive = transforms
                 .iter()
                 .map(|transform| copied.count_under(transform))
@@ -57,7 +58,6 @@ impl Objects {
                     name: name.clone(),
                     most: MAX_EMISSIVE_COPIES,
                 })?;
-            let lamps = copied.take_lamps(&transforms);
             // Lights add up where they coincide.
             let all_count = !lamps.is_empty() || instanced.has_fractional_opacity(scene);
             instanced.meshes.extend(lamps);

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 
 use super::file_loc::FileLoc;
-use crate::emissive_copies::EmissiveCopies;
+use crate::emissive_copies::{EmissiveCopies, EmissiveCount};
 use crate::text::shown;
 use crate::{Diagnostic, Prototype, PrototypeId};
 
@@ -21,8 +21,8 @@ pub(super) struct ObjectSlot {
     /// The error if it is never defined.
     pub(super) unknown: Diagnostic,
     pub(super) prototype: Option<Prototype>,
-    /// The number of its emissive triangles and quadrics, once it is defined.
-    pub(super) emissive: usize,
+    /// Its emissive triangles and quadrics, once it is defined.
+    pub(super) emissive: EmissiveCount,
     /// The number of its instances so far.
     pub(super) instances: usize,
 }
@@ -59,7 +59,7 @@ impl Objects {
         self.slots.push(ObjectSlot {
             unknown: at.diagnostic(message),
             prototype,
-            emissive: 0,
+            emissive: EmissiveCount::default(),
             instances: 0,
         });
         PrototypeId(id)

@@ -1,5 +1,5 @@
 use super::tests::read;
-use crate::MAX_EMISSIVE_COPIES;
+use crate::MAX_EMISSIVE_PRIMITIVES;
 use crate::glam::{Affine3A, Vec3};
 
 const TRIANGLE: &str = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0]";
@@ -81,12 +81,12 @@ fn misplaced_objects_give_one_clear_line() {
 }
 
 #[test]
-fn too_many_emissive_copies_are_refused_at_their_instance() {
+fn too_many_placed_lights_are_refused_at_their_instance() {
     let object = "WorldBegin ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]
         Shape \"sphere\" \"float zmax\" .5 ObjectEnd\n";
     let instance = "ObjectInstance \"lamp\"\n";
     let one = read("pbrt_lamp", &format!("{object}{instance}")).expect("a scene");
-    let most = MAX_EMISSIVE_COPIES / one.emissive_triangle_count();
+    let most = MAX_EMISSIVE_PRIMITIVES / one.emissive_triangle_count();
     let scene = read("pbrt_lamps", &format!("{object}{}", instance.repeat(most)));
     assert_eq!(
         scene.expect("a scene").instances.len(),
@@ -100,7 +100,7 @@ fn too_many_emissive_copies_are_refused_at_their_instance() {
     );
     let error = error.expect_err("too many").to_string();
     let line = format!(
-        "a.pbrt:{}: expected at most 33554432 emissive triangles",
+        "a.pbrt:{}: expected at most 4294967295 emissive triangles",
         most + 3
     );
     assert!(error.contains(&line), "{error}");
