@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use light_scene::write_atomically;
 
-use crate::farm::{FarmEngine, FarmPlan};
+use crate::farm::{FarmEngine, FarmFrames, FarmPlan, FrameNumbers};
 
 use super::failure::Failure;
 use super::output_file::refuse;
@@ -15,7 +15,8 @@ use super::scene_input::SceneInput;
 use super::stdout::say;
 use super::view_args::ViewArgs;
 
-/// Write a job for a render farm: parts of a picture, and a merge that waits for them.
+/// Write a job for a render farm: parts of a picture, or of each frame of an animation, and a merge
+/// that waits for them.
 ///
 /// Takes the flags of `lights render`. All machines see the folder and the scene under the same
 /// paths, and find the program as $LIGHTS or on their path.
@@ -27,7 +28,11 @@ pub(crate) struct FarmArgs {
     /// The folder to write the job into; its parts and the picture, picture.exr, come there too.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// How many parts, at most one a sample.
+    /// The first and the last frame of an animation, A-B: a run of # in SCENE, as in
+    /// shot.####.pbrt, stands for the number, and each frame is a picture of its own.
+    #[arg(long, value_name = "A-B")]
+    frames: Option<FrameNumbers>,
+    /// How many parts of each picture, at most one a sample.
     #[arg(long, value_name = "N")]
     parts: NonZeroU32,
     /// What runs the job: slurm, hyperqueue, or openjd.
@@ -43,17 +48,18 @@ pub(crate) struct FarmArgs {
 }
 
 impl FarmArgs {
-    /// Reads the scene, so that what is wrong with it is found here and not on every machine, and
+    /// Reads each scene, so that what is wrong with it is found here and not on every machine, and
     /// writes the job. `typed` are the arguments as they were typed.
     ///
     /// # Errors
     /// A scene that cannot be read, a part without samples, or a folder that cannot be written to.
     pub(crate) fn run(&self, typed: &ArgMatches) -> Result<(), Failure> {
         self.settings.visibility()?;
-        let scene = self.input.read()?;
-        let file = FileSettings::of(&scene);
-        let samples = self.settings.samples_of_whole("farm", file)?;
-        self.view.view(&scene)?;
+        let frames = self.frames()?;
+        let samples = match &frames {
+            None => self.samples(&self.input)?,
+            Some(frames) => self.samples_of_frames(frames)?,
+        };
         let folder = absolute(&self.output)?;
         let here = absolute(Path::new("."))?;
         let name = self.input.scene.file_stem().unwrap_or_default();
@@ -65,6 +71,13 @@ impl FarmArgs {
             self.threads,
         )
         .map_err(|error| Failure::Input(format!("farm: {error}")))?;
+        let (plan, pictures) = match frames {
+            None => (plan, "picture.exr".into()),
+            Some(frames) => {
+                let pictures = format!("picture.*.exr of the frames {frames}");
+                (plan.with_frames(frames), pictures)
+            }
+        };
         fs::create_dir_all(&self.output)
             .map_err(|error| refuse(&self.output, format!("cannot be made: {error}")))?;
         for (name, text) in self.engine.files(&plan) {
@@ -73,10 +86,52 @@ impl FarmArgs {
         }
         let file = format!("{folder}/{}", self.engine.file());
         say!(
-            "{} parts; `{}` makes {folder}/picture.exr",
+            "{} parts; `{}` makes {folder}/{pictures}",
             plan.parts(),
             self.engine.submit(&file)
         )
+    }
+}
+
+impl FarmArgs {
+    /// The frames of an animation, if that is asked for.
+    fn frames(&self) -> Result<Option<FarmFrames>, Failure> {
+        let Some(numbers) = self.frames.clone() else {
+            return Ok(None);
+        };
+        let scene = &self.input.scene;
+        let frames = FarmFrames::new(numbers, text(scene)?);
+        let wanted = "--frames: expected a run of # for the number, as in shot.####.pbrt";
+        frames.map(Some).ok_or_else(|| refuse(scene, wanted))
+    }
+
+    /// Samples a pixel of a scene, which is read.
+    fn samples(&self, input: &SceneInput) -> Result<u32, Failure> {
+        let scene = input.read()?;
+        self.view.view(&scene)?;
+        let file = FileSettings::of(&scene);
+        self.settings.samples_of_whole("farm", file)
+    }
+
+    /// Samples a pixel of all frames.
+    fn samples_of_frames(&self, frames: &FarmFrames) -> Result<u32, Failure> {
+        let mut all = None;
+        for frame in frames.numbers() {
+            let input = SceneInput {
+                scene: frames.scene(frame).into(),
+                changes: self.input.changes.clone(),
+            };
+            let samples = self.samples(&input)?;
+            let first = *all.get_or_insert(samples);
+            if samples != first {
+                let message = format!(
+                    "--frames: expected {first} samples a pixel as the first frame has, found \
+                     {samples}; --spp sets them for all"
+                );
+                return Err(refuse(&input.scene, message));
+            }
+        }
+        Ok(all.unwrap_or_default())
     }
 }
 

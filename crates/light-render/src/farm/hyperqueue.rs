@@ -8,12 +8,19 @@ pub(super) fn job(plan: &FarmPlan) -> String {
     let threads = plan.threads();
     let cpus = threads.map_or_else(|| "\"all\"".into(), |threads| threads.to_string());
     let groups = plan.groups().unwrap_or_default();
+    let frames = match plan.frames() {
+        Some(frames) => {
+            let (first, last) = frames.numbers().into_inner();
+            format!("[[frame] for frame in range({first}, {last} + 1)]")
+        }
+        None => "[[]]".into(),
+    };
     // A string of JSON is one of Python.
     let text = |text: &str| json!(text).to_string();
     format!(
         "\
 #!/usr/bin/env python3
-\"\"\"Submits the parts of a picture to HyperQueue and waits for the picture.
+\"\"\"Submits the parts of each picture to HyperQueue and waits for all of them.
 
 Needs the package `hyperqueue`, and a server that runs (`hq server start`).
 \"\"\"
@@ -22,6 +29,8 @@ from hyperqueue import Client, Job
 from hyperqueue.ffi.protocol import ResourceRequest
 
 PARTS, GROUPS, GROUP = {parts}, {groups}, {most}
+# The words that name a frame to a script.
+FRAMES = {frames}
 
 
 def job():
@@ -32,11 +41,13 @@ def job():
         words = [\"sh\", script, *map(str, numbers)]
         return job.program(words, **options)
 
-    parts = [task({part}, i, resources=machine, crash_limit=20) for i in range(PARTS)]
-    if GROUPS:
-        members = [parts[GROUP * i : GROUP * (i + 1)] for i in range(GROUPS)]
-        parts = [task({group}, i, deps=members[i]) for i in range(GROUPS)]
-    task({merge}, deps=parts)
+    for frame in FRAMES:
+        once = dict(resources=machine, crash_limit=20)
+        parts = [task({part}, i, *frame, **once) for i in range(PARTS)]
+        if GROUPS:
+            members = [parts[GROUP * i : GROUP * (i + 1)] for i in range(GROUPS)]
+            parts = [task({group}, i, *frame, deps=members[i]) for i in range(GROUPS)]
+        task({merge}, *frame, deps=parts)
     return job
 
 
@@ -48,6 +59,7 @@ if __name__ == \"__main__\":
     submit(Client())
 ",
         parts = plan.parts(),
+        frames = frames,
         most = FarmPlan::GROUP,
         name = text(&format!("lights {}", plan.name())),
         part = text(&plan.path(scripts::PART)),

@@ -1,9 +1,11 @@
-//! Jobs for render farms: a picture in parts by its samples, and the merge that waits for them.
+//! Jobs for render farms: a picture, or each frame of an animation, in parts by its samples, and the
+//! merge that waits for them.
 //!
 //! What a task does stands in three scripts that need a shell and the program alone; what is said
 //! to an engine only names them, so that every engine does the same.
 
 mod engine;
+mod frames;
 mod hyperqueue;
 mod openjd;
 mod plan;
@@ -12,4 +14,5 @@ mod shell;
 mod slurm;
 
 pub use engine::FarmEngine;
+pub use frames::{FarmFrames, FrameNumbers};
 pub use plan::{FarmPlan, FarmPlanError};

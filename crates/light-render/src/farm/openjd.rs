@@ -10,20 +10,29 @@ const NAME: usize = 128;
 
 /// A job template. It is JSON, which is YAML as well.
 pub(super) fn job(plan: &FarmPlan) -> String {
-    let run = |script: &str, words: &[&str]| {
+    let run = |script: &str, words: Vec<&str>| {
         let script = plan.path(script);
-        let words: Vec<&str> = [&["sh", &script][..], words].concat();
+        let words: Vec<&str> = ["sh", &script].into_iter().chain(words).collect();
         json!({ "actions": { "onRun": { "command": words[0], "args": words[1..] } } })
     };
-    let numbers = |name: &str, count: u32| {
-        let range = format!("0-{}", count - 1);
-        let number = json!({ "name": name, "type": "INT", "range": range });
-        json!({ "taskParameterDefinitions": [number] })
+    let number = |name: &str, first: u32, last: u32| {
+        let range = format!("{first}-{last}");
+        json!({ "name": name, "type": "INT", "range": range })
     };
+    let frame = plan.frames().map(|frames| {
+        let (first, last) = frames.numbers().into_inner();
+        number("Frame", first, last)
+    });
+    let numbers = |name: &str, count: u32| {
+        let numbers = frame.iter().cloned().chain([number(name, 0, count - 1)]);
+        json!({ "taskParameterDefinitions": numbers.collect::<Vec<_>>() })
+    };
+    let of_frame = frame.as_ref().map(|_| "{{Task.Param.Frame}}");
+    let words = |number: &'static str| [Some(number), of_frame].into_iter().flatten();
     let mut steps = vec![json!({
         "name": "Part",
         "parameterSpace": numbers("Part", plan.parts()),
-        "script": run(scripts::PART, &["{{Task.Param.Part}}"]),
+        "script": run(scripts::PART, words("{{Task.Param.Part}}").collect()),
     })];
     let mut last = "Part";
     if let Some(groups) = plan.groups() {
@@ -31,15 +40,19 @@ pub(super) fn job(plan: &FarmPlan) -> String {
             "name": "Group",
             "dependencies": [{ "dependsOn": last }],
             "parameterSpace": numbers("Group", groups),
-            "script": run(scripts::GROUP, &["{{Task.Param.Group}}"]),
+            "script": run(scripts::GROUP, words("{{Task.Param.Group}}").collect()),
         }));
         last = "Group";
     }
-    steps.push(json!({
+    let mut merge = json!({
         "name": "Merge",
         "dependencies": [{ "dependsOn": last }],
-        "script": run(scripts::MERGE, &[]),
-    }));
+        "script": run(scripts::MERGE, of_frame.into_iter().collect()),
+    });
+    if let Some(frame) = &frame {
+        merge["parameterSpace"] = json!({ "taskParameterDefinitions": [frame] });
+    }
+    steps.push(merge);
     let name: String = format!("lights {}", plan.name())
         .chars()
         .take(NAME)

@@ -3,7 +3,10 @@ use core::fmt;
 use core::num::NonZeroU32;
 use core::ops::Range;
 
-/// A picture in parts, for engines that start each part when and where they like.
+use super::FarmFrames;
+
+/// A picture in parts, or each frame of an animation, for engines that start each part when and
+/// where they like.
 ///
 /// Parts are ranges of samples: part `i` of `n` takes those from `samples * i / n` to
 /// `samples * (i + 1) / n`. Above [`GROUP`](Self::GROUP) parts, groups of them are merged first.
@@ -16,6 +19,7 @@ pub struct FarmPlan {
     samples: u32,
     parts: u32,
     threads: Option<NonZeroU32>,
+    frames: Option<FarmFrames>,
 }
 
 /// Why there is no plan.
@@ -65,10 +69,21 @@ impl FarmPlan {
             samples,
             parts: parts.get(),
             threads,
+            frames: None,
         };
         match plan.unprintable() {
             Some(word) => Err(FarmPlanError::Unprintable { word }),
             None => Ok(plan),
+        }
+    }
+
+    /// The same for each of these frames: a word of the command that is their pattern stands for the
+    /// scene.
+    #[must_use]
+    pub fn with_frames(self, frames: FarmFrames) -> Self {
+        Self {
+            frames: Some(frames),
+            ..self
         }
     }
 
@@ -123,6 +138,11 @@ impl FarmPlan {
             (before / u64::from(self.parts)) as u32
         };
         start(index)..start(index + 1)
+    }
+
+    /// The frames, if the pictures are those of an animation.
+    pub(super) const fn frames(&self) -> Option<&FarmFrames> {
+        self.frames.as_ref()
     }
 
     /// How many groups of parts are merged first; none if there are few parts.

@@ -8,12 +8,6 @@ pub(super) fn quoted(word: &str) -> String {
     }
 }
 
-/// `words` as the words of a command.
-pub(super) fn command(words: &[String]) -> String {
-    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-    words.join(" ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -24,7 +18,6 @@ mod tests {
         assert_eq!(quoted(""), "''", "nothing is a word too");
         assert_eq!(quoted("a b"), "'a b'", "a blank");
         assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'", "a quotation mark");
-        let words = ["--group".into(), "a=*".into()];
-        assert_eq!(command(&words), "--group 'a=*'", "a pattern");
+        assert_eq!(quoted("a=*"), "'a=*'", "a pattern");
     }
 }

@@ -201,7 +201,7 @@ fn engines_get_what_was_typed() {
     assert!(job.is_whole(), "as by one machine");
 }
 
-const SBATCH: &str = r#"#!/bin/sh
+pub(crate) const SBATCH: &str = r#"#!/bin/sh
 array= partition=
 while [ $# -gt 0 ]; do
     case $1 in

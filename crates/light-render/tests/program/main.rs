@@ -6,6 +6,8 @@ mod environments;
 mod extremes;
 #[cfg(unix)]
 mod farm;
+#[cfg(unix)]
+mod farm_frames;
 mod folder;
 mod help;
 mod interrupted;
