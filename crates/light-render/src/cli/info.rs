@@ -201,7 +201,9 @@ impl InfoArgs {
         )?;
         if let Some(ChoiceVariance { median, samples }) = tree.quality {
             let how = samples.map_or_else(String::new, |samples| {
-                format!(", estimated from {samples} choices at each")
+                format!(
+                    ", estimated from {samples} choices at each, too low where they miss lights"
+                )
             });
             say!(
                 "  quality    {median:.3}: relative variance of one choice, nothing in the way, \

@@ -2,10 +2,10 @@
 
 use light_render::{World, WorldError};
 use light_scene::glam::{Affine3A, Vec3};
-use light_scene::{Alpha, Color, Emission, Instance, Material};
+use light_scene::{Alpha, Color, Emission, Instance, Material, Prototype, Quadric};
 
 use super::{flattened, green, grove, world};
-use crate::support::{Shot, agree};
+use crate::support::{Shot, agree, cornell};
 
 #[test]
 fn objects_are_stored_once_lamps_among_them() {
@@ -94,19 +94,28 @@ fn impossible_objects_are_refused() {
     let flat = "object tree: expected transforms that do not make it flat";
     assert_eq!(error.as_deref(), Some(flat), "flat");
 
-    let mut scene = grove(Material {
+    // Quadrics that emit are copied for each instance.
+    let mut scene = cornell();
+    let lamp = scene.add_material(Material {
         emission: Some(Emission::one_sided(Vec3::ONE)),
         ..green()
     });
-    let instance = scene.instances[0];
-    scene.instances.resize(200_000, instance);
+    let mut chandelier = Prototype::new("chandelier", Vec::new());
+    let bulb = Quadric::sphere("bulb", lamp, Affine3A::IDENTITY);
+    chandelier.quadrics = vec![bulb; 1_000];
+    let prototype = scene.add_prototype(chandelier);
+    let instance = Instance {
+        prototype,
+        transform: Affine3A::IDENTITY,
+    };
+    scene.instances.resize(40_000, instance);
     let error = World::new(scene).err();
     assert_eq!(
         error,
         Some(WorldError::Copies {
-            name: "tree".into(),
+            name: "chandelier".into(),
             most: 1 << 25
         }),
-        "224 triangles 200,000 times"
+        "1,000 spheres 40,000 times"
     );
 }
