@@ -1,6 +1,6 @@
 //! A scene file with a billion lights: what the program does with them takes no memory for each.
 
-use std::fmt::Write;
+use core::fmt::Write;
 
 use super::folder::{Folder, assert_refused, stdout};
 
