@@ -48,7 +48,7 @@ impl<'a> Filled<'a> {
             let places = Rooms::places(at, 128);
             let cell = CoarseCell::fill(view, at, &places, &self.options, |place, light, _| {
                 *rays += 1;
-                rooms.sees(place.p, light)
+                Some(rooms.sees(place.p, light))
             });
             self.coarse.insert(at, cell);
         }
@@ -58,7 +58,7 @@ impl<'a> Filled<'a> {
             let cell =
                 self.coarse[&at].fill_fine(view, key, &places, &self.options, |place, light, _| {
                     *rays += 1;
-                    rooms.sees(place.p, light)
+                    Some(rooms.sees(place.p, light))
                 });
             self.fine.insert(key, cell);
         }
@@ -191,6 +191,54 @@ fn filling_is_a_function_of_the_key() {
     assert!(checked.factors(far).is_plain(), "far away");
 }
 
+/// A fine cell knows what the coarse cell's rays from its places have seen.
+#[test]
+fn fine_cells_learn_from_the_rays_of_their_coarse_cell() {
+    for lamps in [100, 3000] {
+        let rooms = Rooms::new(lamps, true);
+        let fill = |keeps_rays: bool| {
+            let options = FillOptions {
+                fine_rays: 16,
+                ..FillOptions::default()
+            };
+            let mut filled = Filled::new(&rooms, options);
+            for key in keys() {
+                filled.fill(key);
+                if !keeps_rays {
+                    let cell = filled.coarse.get_mut(&key.coarse()).expect("filled");
+                    *cell = cell.clone().without_rays();
+                }
+            }
+            filled.variances()
+        };
+        let [plain, coarse, with, _] = fill(true);
+        let [same_plain, same_coarse, without, _] = fill(false);
+        assert_eq!([plain, coarse], [same_plain, same_coarse], "coarse cells");
+        println!("{lamps} lamps: V {without:.3} without, {with:.3} with");
+        assert!(with < 0.98 * without, "{without} to {with}");
+    }
+}
+
+/// A third of the lamps emits nothing toward the places: no wall is in the way of that.
+#[test]
+fn lights_that_emit_nothing_hide_nothing() {
+    let rooms = Rooms::new(100, false);
+    let view = rooms.tree.view();
+    let key = keys().next().expect("a point").coarse();
+    let places = Rooms::places(key, 64);
+    let options = FillOptions::default();
+    let fill = |dark: Option<bool>| {
+        CoarseCell::fill(view, key, &places, &options, |_, light, _| {
+            match light.0 % 3 {
+                0 => dark,
+                _ => Some(true),
+            }
+        })
+    };
+    assert!(fill(None).is_plain(), "nothing is hidden");
+    assert!(!fill(Some(false)).is_plain(), "a third is hidden");
+}
+
 /// Where nothing is in the way the first rays tell so, and there are no others.
 #[test]
 fn open_places_have_plain_cells() {
@@ -222,7 +270,7 @@ fn cells_that_do_not_pay_become_plain() {
         };
         let places = Rooms::places(key, 128);
         CoarseCell::fill(view, key, &places, &options, |place, light, _| {
-            visible(place.p, light)
+            Some(visible(place.p, light))
         })
     };
     let grille = |p: Vec3, light: LightId| (p.x * 997.0 + light.0 as f32 * 0.37).fract() > -0.5;
@@ -266,7 +314,7 @@ fn nothing_to_see_is_plain() {
         panic!("no light")
     });
     assert!(dark.is_plain(), "no lights");
-    let blind = CoarseCell::fill(view, key.coarse(), &places, &options, |_, _, _| false);
+    let blind = CoarseCell::fill(view, key.coarse(), &places, &options, |_, _, _| Some(false));
     let without = blind.fill_fine(view, key, &none, &options, |_, _, _| panic!("no places"));
     assert_eq!(
         without.factors(&blind).factors(),

@@ -25,14 +25,14 @@ fn cells(rooms: &Rooms) -> (Vec<CoarseCell>, Vec<FineCell>) {
         if !coarse.iter().any(|cell| cell.key() == key.coarse()) {
             let places = Rooms::places(key.coarse(), 32);
             let is_plain = coarse.is_empty();
-            let see = |p: Vec3, light| is_plain || rooms.sees(p, light);
+            let see = |p: Vec3, light| Some(is_plain || rooms.sees(p, light));
             let (view, key) = (rooms.tree.view(), key.coarse());
             let cell = CoarseCell::fill(view, key, &places, &options, |at, l, _| see(at.p, l));
             coarse.push(cell);
         }
         let of = coarse.last().expect("just made");
         let places = Rooms::places(key, 16);
-        let visible = |at: &LightSampleContext, light, _| rooms.sees(at.p, light);
+        let visible = |at: &LightSampleContext, light, _| Some(rooms.sees(at.p, light));
         fine.push(of.fill_fine(rooms.tree.view(), key, &places, &options, visible));
     }
     (coarse, fine)

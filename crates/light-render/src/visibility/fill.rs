@@ -96,8 +96,7 @@ pub(super) fn fill_cell(
         let pixels = sightings.iter().step_by(stride);
         pixels.filter_map(|s| place(world, view, s.pixel)).collect()
     };
-    let visible =
-        |place: &Place, light: LightId, u: Vec2| place.sees(world, light, u) == Some(true);
+    let visible = |place: &Place, light: LightId, u: Vec2| place.sees(world, light, u);
     let rays = rays_of(cell.len());
     let at = places(cell, COARSE_PLACES);
     let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &rays, visible);
@@ -113,7 +112,7 @@ pub(super) fn fill_cell(
             coarse.fill_fine(tree, part[0].fine, &at, &rays, visible)
         });
     let fine = fine.collect();
-    Some((coarse, fine))
+    Some((coarse.without_rays(), fine))
 }
 
 /// How many rays at most fill a cell that so many pixels show, and its fine cells.

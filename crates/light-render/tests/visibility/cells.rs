@@ -30,16 +30,15 @@ fn the_same_for_any_number_of_threads_and_any_part_of_the_picture() {
     assert!(cells.bytes() > 1000, "{} bytes", cells.bytes());
 }
 
-/// Rays that fill cells leave the large primitive that they start on. Two or three cells of the open
-/// field are chance, 7 to 12 KB; where a fiftieth of the rays hit what they start on, cells take
-/// 83 KB there.
+/// Rays that fill cells leave the large primitive that they start on. There is hardly a cell in the
+/// open field; where a fiftieth of the rays hit what they start on, cells take 83 KB there.
 #[test]
 fn an_open_field_has_hardly_any_cells() {
     let [open, rooms] = [OcclusionKind::Open, OcclusionKind::Rooms].map(|kind| {
         let stage = stage(kind);
         stage.measured(&stage.view, 2, cells).bytes()
     });
-    assert!(5 * open < rooms, "{open} bytes against {rooms} of rooms");
+    assert!(10 * open < rooms, "{open} bytes against {rooms} of rooms");
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::visibility::fill::gain::Gain;
 use crate::visibility::fill::learn::{Learnt, learn};
 use crate::visibility::fill::mean_importance::mean_importance;
 use crate::visibility::fill::options::FillOptions;
-use crate::visibility::fill::ray_log::RayLog;
+use crate::visibility::fill::ray_log::{CoarseRays, RayLog};
 use crate::visibility::fill::rays::Rays;
 use crate::visibility::fill::share_code::encode_share;
 
@@ -28,6 +28,7 @@ pub struct CoarseCell {
     pub(super) factors: Vec<[u8; WIDTH]>,
     /// The visible share of each child's lights, in 255ths.
     pub(super) seen: Vec<[u8; WIDTH]>,
+    pub(super) rays: CoarseRays,
 }
 
 impl CoarseCell {
@@ -35,8 +36,10 @@ impl CoarseCell {
     /// holds more for the ray.
     ///
     /// `visible(place, light, u)` returns whether `place` sees the point of `light` that `u` of the
-    /// unit square chooses; a light that emits nothing toward `place` counts as not seen. The
-    /// number of calls is at most that of `options`. The same arguments and the same results of
+    /// unit square chooses, and `None` if nothing is emitted from there toward `place`: that counts
+    /// as not seen, but nothing is in the way. The number of calls is at most that of `options`.
+    /// The cell keeps 16 bytes a ray for its fine cells: see
+    /// [`without_rays`](Self::without_rays). The same arguments and the same results of
     /// `visible` give the same bytes on every machine: random numbers come from the key, and all
     /// sums have a fixed order. The measurements used 128 places in a coarse cell and 16 in a fine
     /// one.
@@ -52,7 +55,7 @@ impl CoarseCell {
         key: CellKey,
         places: &[P],
         options: &FillOptions,
-        visible: impl FnMut(&P, LightId, Vec2) -> bool,
+        visible: impl FnMut(&P, LightId, Vec2) -> Option<bool>,
     ) -> Self {
         let mut rays = Rays {
             tree,
@@ -62,8 +65,7 @@ impl CoarseCell {
             log: RayLog::default(),
         };
         rays.by_cuts(0, 0..options.first_rays);
-        let sent = rays.log.rays().len();
-        if sent == 0 || rays.log.seen() as f32 >= options.plain_share * sent as f32 {
+        if rays.log.is_open(options.plain_share) {
             return Self::plain(key);
         }
         rays.by_cuts(0, options.first_rays..options.exploring_rays);
@@ -84,7 +86,12 @@ impl CoarseCell {
                 return Self::plain(key);
             }
         }
-        Self::learnt(tree, key, places, options, &rays.log)
+        let cell = Self::learnt(tree, key, places, options, &rays.log);
+        let fine = |place: &P| CellKey::fine(place.borrow(), key.size());
+        Self {
+            rays: CoarseRays::new(rays.log, places.iter().map(fine).collect()),
+            ..cell
+        }
     }
 
     /// A plain cell: nothing blocks its rays, or it has no rays.
@@ -95,6 +102,7 @@ impl CoarseCell {
             shape: Vec::new(),
             factors: Vec::new(),
             seen: Vec::new(),
+            rays: CoarseRays::NONE,
         }
     }
 
@@ -115,6 +123,17 @@ impl CoarseCell {
             factors: factors(&shape, &mean, &shares, options.floor),
             seen: visibility.iter().map(|v| v.map(encode_share)).collect(),
             shape,
+            rays: CoarseRays::NONE,
+        }
+    }
+
+    /// The same cell without the rays that filled it, for use when its fine cells are filled: fine
+    /// cells made from it learn from their own rays alone.
+    #[must_use]
+    pub fn without_rays(self) -> Self {
+        Self {
+            rays: CoarseRays::NONE,
+            ..self
         }
     }
 

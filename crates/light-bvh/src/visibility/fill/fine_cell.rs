@@ -14,7 +14,7 @@ use crate::visibility::fill::coarse_cell::CoarseCell;
 use crate::visibility::fill::counts::NodeCounts;
 use crate::visibility::fill::mean_importance::mean_importance;
 use crate::visibility::fill::options::FillOptions;
-use crate::visibility::fill::ray_log::RayLog;
+use crate::visibility::fill::ray_log::{Ray, RayLog};
 use crate::visibility::fill::rays::Rays;
 use crate::visibility::fill::share_code::decode_share;
 
@@ -30,8 +30,9 @@ impl CoarseCell {
     /// The fine cell of `key` in this one, by rays from `places` in it. Without places, or rays, it
     /// has the factors of this cell; in a plain cell it is plain, and no ray is sent.
     ///
-    /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). The
-    /// rays go to the lights whose visibility this cell leaves open.
+    /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). Rays
+    /// of this cell from places in the fine one count for it. Its own go to the lights whose
+    /// visibility those leave open.
     #[must_use]
     pub fn fill_fine<P: Borrow<LightSampleContext>>(
         &self,
@@ -39,7 +40,7 @@ impl CoarseCell {
         key: CellKey,
         places: &[P],
         options: &FillOptions,
-        visible: impl FnMut(&P, LightId, Vec2) -> bool,
+        visible: impl FnMut(&P, LightId, Vec2) -> Option<bool>,
     ) -> FineCell {
         let without_factors = FineCell {
             key,
@@ -50,11 +51,9 @@ impl CoarseCell {
         }
         let nodes = copied_nodes(&tree, &self.shape).unwrap_or_default();
         let mean = mean_importance(&tree, &nodes[..self.shape.len()], places);
-        let known: Vec<_> = self
-            .seen
-            .iter()
-            .map(|codes| codes.map(decode_share))
-            .collect();
+        let mut counts = alloc::vec![NodeCounts::default(); self.shape.len()];
+        add(&mut counts, &self.shape, self.rays.of(key));
+        let known = self.shares(&counts);
         // Rays go where their results are least certain, not where the light is.
         let weights: Vec<_> = known.iter().map(|shares| shares.map(ray_weight)).collect();
         let ray_factors = factors(&self.shape, &mean, &weights, options.floor);
@@ -70,11 +69,21 @@ impl CoarseCell {
         if rays.log.rays().is_empty() {
             return without_factors;
         }
-        let shares = updated_roots(&self.shape, known, &rays.log);
+        add(&mut counts, &self.shape, rays.log.rays().iter().copied());
+        let shares = self.shares(&counts);
+        let shares: Vec<_> = shares.iter().map(|shares| shares.map(sqrt)).collect();
         FineCell {
             key,
             factors: factors(&self.shape, &mean, &shares, options.floor),
         }
+    }
+
+    /// The visible share of each closed child, from that of this cell and the rays of a fine one.
+    fn shares(&self, counts: &[NodeCounts]) -> Vec<[f32; WIDTH]> {
+        let of_node = |(known, counts): (&[u8; WIDTH], &NodeCounts)| {
+            core::array::from_fn(|child| counts[child].visibility(decode_share(known[child])))
+        };
+        self.seen.iter().zip(counts).map(of_node).collect()
     }
 }
 
@@ -102,16 +111,9 @@ fn ray_weight(visibility: f32) -> f32 {
     sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
 }
 
-/// The roots of the visible share of each closed child, from the shares `known` before these rays
-/// and their results.
-fn updated_roots(
-    shape: &[CopiedNode],
-    mut known: Vec<[f32; WIDTH]>,
-    log: &RayLog,
-) -> Vec<[f32; WIDTH]> {
-    let mut counts = alloc::vec![NodeCounts::default(); shape.len()];
-    for ray in log.rays() {
-        // A ray counts for the deepest child on its path that the cell knows.
+/// Adds each ray to the deepest child on its path that the cell knows.
+fn add(counts: &mut [NodeCounts], shape: &[CopiedNode], rays: impl Iterator<Item = Ray>) {
+    for ray in rays {
         let (mut place, mut level) = (0, 0);
         let mut child = ray.child(level);
         while let Some(copy) = shape[place].copy_of(child) {
@@ -120,10 +122,4 @@ fn updated_roots(
         }
         counts[place][child].add(ray.is_seen());
     }
-    for (known, counts) in known.iter_mut().zip(counts) {
-        for (known, counts) in known.iter_mut().zip(counts) {
-            *known = sqrt(counts.visibility(*known));
-        }
-    }
-    known
 }

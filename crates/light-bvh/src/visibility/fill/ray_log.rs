@@ -4,18 +4,20 @@ use light_bounds::LightId;
 
 use crate::node::wide_node::{MAX_DEPTH, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
+use crate::visibility::cell_key::CellKey;
 use crate::visibility::way::Way;
 
 /// Bits of a child's number.
 const CHILD_BITS: usize = 4;
 
 const _: () = assert!(1 << CHILD_BITS == WIDTH, "a child in so many bits");
-const _: () = assert!(CHILD_BITS * MAX_DEPTH < 128, "a bit is left");
+const _: () = assert!(CHILD_BITS * MAX_DEPTH <= 96, "32 bits are left");
 
-/// A ray: the path of the light that it was sent to, and whether that was seen.
+/// A ray: the place that it was sent from, the path of its light, and whether that was seen.
 ///
-/// The root's child is in the highest bits, the lowest one says whether it was seen.
-#[derive(Clone, Copy, Debug)]
+/// The root's child is in the highest bits, the lowest one says whether it was seen, and the 31
+/// above that hold the place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Ray(u128);
 
 impl Ray {
@@ -28,21 +30,41 @@ impl Ray {
     pub(super) const fn is_seen(self) -> bool {
         self.0 & 1 == 1
     }
+
+    /// The number of the place.
+    const fn place(self) -> usize {
+        (self.0 >> 1) as usize & 0x7fff_ffff
+    }
 }
 
 /// The rays of a cell, in the order in which they were sent.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RayLog {
     rays: Vec<Ray>,
+    dark: usize,
+}
+
+/// The rays that filled a coarse cell, and the fine cell of each of their places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct CoarseRays {
+    rays: Vec<Ray>,
+    places: Vec<CellKey>,
 }
 
 impl RayLog {
-    /// Adds a ray to a light of the tree.
-    pub(super) fn push(&mut self, tree: &LightBvhRef<'_>, light: LightId, is_seen: bool) {
+    /// Adds a ray from a place to a light of the tree; `None` if the light emits nothing toward
+    /// it.
+    pub(super) fn push(
+        &mut self,
+        tree: &LightBvhRef<'_>,
+        (place, light): (u32, LightId),
+        is_seen: Option<bool>,
+    ) {
         let Some(way) = Way::of(tree, light) else {
             return;
         };
-        let mut bits = u128::from(is_seen);
+        self.dark += usize::from(is_seen.is_none());
+        let mut bits = u128::from(place & 0x7fff_ffff) << 1 | u128::from(is_seen == Some(true));
         for (level, (_, child)) in way.down().enumerate() {
             bits |= (child as u128) << (128 - CHILD_BITS * (level + 1));
         }
@@ -53,8 +75,29 @@ impl RayLog {
         &self.rays
     }
 
-    /// How many of the rays were not blocked.
-    pub(super) fn seen(&self) -> usize {
-        self.rays.iter().filter(|ray| ray.is_seen()).count()
+    /// Whether so large a share of the lights that emit toward their places is seen.
+    pub(super) fn is_open(&self, share: f32) -> bool {
+        let seen = self.rays.iter().filter(|ray| ray.is_seen()).count();
+        seen as f32 >= share * (self.rays.len() - self.dark) as f32
+    }
+}
+
+impl CoarseRays {
+    /// No rays.
+    pub(super) const NONE: Self = Self {
+        rays: Vec::new(),
+        places: Vec::new(),
+    };
+
+    /// The rays of this log from `places`, each in the fine cell of its key.
+    pub(super) fn new(log: RayLog, places: Vec<CellKey>) -> Self {
+        let rays = log.rays;
+        Self { rays, places }
+    }
+
+    /// Those from places in a fine cell.
+    pub(super) fn of(&self, fine: CellKey) -> impl Iterator<Item = Ray> {
+        let is_own = move |ray: &Ray| self.places.get(ray.place()) == Some(&fine);
+        self.rays.iter().copied().filter(is_own)
     }
 }

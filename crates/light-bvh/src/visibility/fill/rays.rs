@@ -23,7 +23,8 @@ use crate::visibility::hash::mix;
 /// `[Roberts2018]`, the sequence `R2`.
 const STEPS: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
 
-/// What rays are sent from and to. `visible` says whether a place sees a point of a light.
+/// What rays are sent from and to. `visible` says whether a place sees a point of a light, `None` if
+/// nothing is emitted toward it.
 pub(super) struct Rays<'a, P, F> {
     pub(super) tree: LightBvhRef<'a>,
     pub(super) places: &'a [P],
@@ -35,7 +36,7 @@ pub(super) struct Rays<'a, P, F> {
 /// The numbers of a ray.
 struct Numbers {
     /// Which place.
-    place: usize,
+    place: u32,
     /// Chooses the light.
     u: u64,
     /// Chooses its point.
@@ -45,13 +46,13 @@ struct Numbers {
 impl<P, F> Rays<'_, P, F>
 where
     P: Borrow<LightSampleContext>,
-    F: FnMut(&P, LightId, Vec2) -> bool,
+    F: FnMut(&P, LightId, Vec2) -> Option<bool>,
 {
     /// The rays of these numbers to lights that cuts of the tree choose: those of each place
     /// together, so that it makes one cut.
     pub(super) fn by_cuts(&mut self, stage: u64, range: Range<u32>) {
         let mut rays: Vec<(usize, u32)> = range
-            .map(|ray| (self.numbers(stage, ray).place, ray))
+            .map(|ray| (self.numbers(stage, ray).place as usize, ray))
             .collect();
         rays.sort_unstable();
         for of_place in rays.chunk_by(|a, b| a.0 == b.0) {
@@ -77,7 +78,7 @@ where
     ) {
         for ray in 0..count {
             let numbers = self.numbers(stage, ray);
-            let Some(place) = self.places.get(numbers.place) else {
+            let Some(place) = self.places.get(numbers.place as usize) else {
                 return;
             };
             let choice = self.tree.in_cell(cell).sample(place.borrow(), numbers.u);
@@ -91,8 +92,8 @@ where
     fn send(&mut self, place: &P, choice: Option<SampledLight>, numbers: &Numbers) -> Option<bool> {
         let light = choice?.light;
         let is_seen = (self.visible)(place, light, numbers.point);
-        self.log.push(&self.tree, light, is_seen);
-        Some(is_seen)
+        self.log.push(&self.tree, (numbers.place, light), is_seen);
+        Some(is_seen == Some(true))
     }
 
     /// The numbers of one ray of a stage: places and lights evenly together, points at random.
@@ -106,7 +107,7 @@ where
         let random = mix(seed ^ mix(u64::from(ray) + 2));
         let (place, _) = fraction::choose(self.places.len() as u32, place);
         Numbers {
-            place: place as usize,
+            place,
             u,
             point: Vec2::new(fraction::to_f32(random), fraction::to_f32(random << 32)),
         }

@@ -74,11 +74,11 @@ fn rays_keep_their_ways_and_what_they_saw() {
     let view = tree.view();
     let mut log = RayLog::default();
     for light in ids() {
-        log.push(&view, light, light.0 % 3 == 0);
+        log.push(&view, (light.0 % 7, light), Some(light.0 % 3 == 0));
     }
-    log.push(&view, LightId(u32::MAX), true);
+    log.push(&view, (0, LightId(u32::MAX)), Some(true));
     assert_eq!(log.rays().len(), usize::from(LAMPS), "known lights alone");
-    assert_eq!(log.seen(), usize::from(LAMPS) / 3, "every third");
+    assert!(log.is_open(0.333) && !log.is_open(0.334), "every third");
     for (light, ray) in ids().zip(log.rays()) {
         assert_eq!(ray.is_seen(), light.0 % 3 == 0, "{light:?}");
         let way = Way::of(&view, light).expect("a light of the tree");
@@ -107,7 +107,7 @@ fn what_is_learnt_is_what_rays_saw() {
     let view = tree.view();
     let mut log = RayLog::default();
     for light in ids() {
-        log.push(&view, light, (200..300).contains(&light.0));
+        log.push(&view, (0, light), Some((200..300).contains(&light.0)));
     }
     let learnt = learn(&view, &log);
     assert!(learnt.shape.len() > 2, "{:?}", learnt.shape);
