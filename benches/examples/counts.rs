@@ -189,7 +189,7 @@ fn cell(tree: &LightBvh) -> CoarseCell {
     let key = CellKey::fine(&places[0], 1.0);
     let options = FillOptions::default();
     CoarseCell::fill(tree.view(), key, &places, &options, |_, light, _| {
-        light.0 % 2 == 0
+        Some(light.0 % 2 == 0)
     })
 }
 
