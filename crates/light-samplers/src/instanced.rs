@@ -128,12 +128,21 @@ impl InstancedBvhLightSampler {
 impl LightSampler for InstancedBvhLightSampler {
     #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
-        self.choice_at(ctx).sample(u)
+        if self.infinite.is_empty() {
+            numbered(&self.tree, self.tree.sample(ctx, u)?)
+        } else {
+            self.choice_at(ctx).sample(u)
+        }
     }
 
     #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
-        self.choice_at(ctx).pmf(light)
+        if self.infinite.is_empty() {
+            let placed = self.placed_light(light);
+            placed.map_or(0.0, |light| self.tree.pmf(ctx, light))
+        } else {
+            self.choice_at(ctx).pmf(light)
+        }
     }
 
     #[inline]

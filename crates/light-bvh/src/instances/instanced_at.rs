@@ -1,19 +1,22 @@
-use light_bounds::{LightGroups, LightId, LightSampleContext};
+use light_bounds::{LightId, LightSampleContext};
 use light_math::float::positive_product;
 
 use crate::importance::context_receiver::ContextReceiver;
 use crate::instances::instanced_bvh::InstancedLightBvh;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
-use crate::instances::placed_receiver::PlacedContext;
+use crate::instances::placed_receiver::PlacedReceiver;
 use crate::query::bvh_at::LightBvhAt;
 use crate::query::bvh_ref::LightBvhRef;
+use crate::query::into_receiver::InGroups;
 
 /// A tree of trees as one context sees it: the root is evaluated once for all queries.
+///
+/// The probabilities have the bits of [`InstancedLightBvh::sample`] and
+/// [`InstancedLightBvh::pmf`].
 #[derive(Clone, Copy, Debug)]
 pub struct InstancedLightBvhAt<'a> {
     tree: &'a InstancedLightBvh,
-    groups: LightGroups,
-    receiver: ContextReceiver,
+    receiver: InGroups<ContextReceiver>,
     top: LightBvhAt<'a>,
 }
 
@@ -22,30 +25,54 @@ impl InstancedLightBvh {
     #[inline]
     #[must_use]
     pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledPlacedLight> {
-        self.at(ctx).sample(u)
+        let receiver = ctx.into();
+        let placed = self.top().view().sample(&receiver, u)?;
+        let (tree, inside) = self.in_prototype(placed.light.0, &receiver)?;
+        let chosen = tree.sample(&inside, placed.u)?;
+        Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
     #[inline]
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: PlacedLight) -> f32 {
-        self.at(ctx).pmf(light)
+        let receiver = ctx.into();
+        let Some((tree, inside)) = self.in_prototype(light.placement, &receiver) else {
+            return 0.0;
+        };
+        let placed = self.top().view().pmf(&receiver, LightId(light.placement));
+        positive_product(placed, tree.pmf(&inside, light.light))
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
     #[inline]
     #[must_use]
     pub fn at(&self, ctx: &LightSampleContext) -> InstancedLightBvhAt<'_> {
+        let receiver = ctx.into();
         InstancedLightBvhAt {
             tree: self,
-            groups: ctx.groups,
-            receiver: ContextReceiver::from(ctx),
-            top: self.top().view().at(ctx),
+            receiver,
+            top: self.top().view().at(&receiver),
         }
+    }
+
+    /// The tree of a placement's prototype, and the receiver in its frame.
+    #[inline]
+    fn in_prototype(
+        &self,
+        placement: u32,
+        receiver: &InGroups<ContextReceiver>,
+    ) -> Option<(LightBvhRef<'_>, InGroups<PlacedReceiver>)> {
+        let (frame, prototype) = self.placed(placement)?;
+        let inside = InGroups {
+            receiver: frame.receiver(&receiver.receiver, prototype),
+            groups: receiver.groups,
+        };
+        Some((prototype.tree().view(), inside))
     }
 }
 
-impl<'a> InstancedLightBvhAt<'a> {
+impl InstancedLightBvhAt<'_> {
     /// About the irradiance, or in a medium the fluence, by all lights of a tree of power 1; 0 only
     /// if none of them can contribute.
     #[inline]
@@ -59,8 +86,8 @@ impl<'a> InstancedLightBvhAt<'a> {
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledPlacedLight> {
         let placed = self.top.sample(u)?;
-        let (tree, receiver) = self.in_prototype(placed.light.0)?;
-        let chosen = tree.sample(receiver, placed.u)?;
+        let (tree, inside) = self.tree.in_prototype(placed.light.0, &self.receiver)?;
+        let chosen = tree.sample(&inside, placed.u)?;
         Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
@@ -68,21 +95,11 @@ impl<'a> InstancedLightBvhAt<'a> {
     #[inline]
     #[must_use]
     pub fn pmf(&self, light: PlacedLight) -> f32 {
-        let Some((tree, receiver)) = self.in_prototype(light.placement) else {
+        let inside = self.tree.in_prototype(light.placement, &self.receiver);
+        let Some((tree, inside)) = inside else {
             return 0.0;
         };
         let placed = self.top.pmf(LightId(light.placement));
-        positive_product(placed, tree.pmf(receiver, light.light))
-    }
-
-    /// The tree of a placement's prototype, and the receiver in its frame.
-    #[inline]
-    fn in_prototype(&self, placement: u32) -> Option<(LightBvhRef<'a>, PlacedContext)> {
-        let (frame, prototype) = self.tree.placed(placement)?;
-        let receiver = PlacedContext {
-            receiver: frame.receiver(&self.receiver, prototype),
-            groups: self.groups,
-        };
-        Some((prototype.tree().view(), receiver))
+        positive_product(placed, tree.pmf(&inside, light.light))
     }
 }

@@ -1,11 +1,10 @@
-use light_bounds::LightGroups;
 use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, ROUND_OFF, dist_sq};
 use crate::importance::context_receiver::{AnyKind, ContextReceiver, with_kind};
 use crate::importance::receiver::{NoReceiver, Receiver};
-use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query};
+use crate::query::into_receiver::{KeptReceiver, Query};
 
 /// A receiver in the frame of a prototype, into which it was moved with round-off.
 #[derive(Clone, Copy, Debug)]
@@ -43,27 +42,6 @@ impl KeptReceiver for PlacedReceiver {
         } else {
             with_kind!(self.receiver, receiver => query.run(&Widened { receiver, error }))
         }
-    }
-}
-
-/// The same for the lights of some groups.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlacedContext {
-    pub(crate) receiver: PlacedReceiver,
-    pub(crate) groups: LightGroups,
-}
-
-impl IntoReceiver for PlacedContext {
-    type Kept = PlacedReceiver;
-
-    #[inline(always)]
-    fn keep(self) -> PlacedReceiver {
-        self.receiver
-    }
-
-    #[inline(always)]
-    fn groups(self) -> LightGroups {
-        self.groups
     }
 }
 

@@ -79,6 +79,40 @@ impl IntoReceiver for &LightSampleContext {
     }
 }
 
+/// A receiver that asks for the lights of some groups.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InGroups<R> {
+    pub(crate) receiver: R,
+    pub(crate) groups: LightGroups,
+}
+
+#[cfg(feature = "alloc")]
+impl From<&LightSampleContext> for InGroups<ContextReceiver> {
+    #[inline(always)]
+    fn from(ctx: &LightSampleContext) -> Self {
+        Self {
+            receiver: ctx.keep(),
+            groups: ctx.groups(),
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<R: KeptReceiver> IntoReceiver for &InGroups<R> {
+    type Kept = R;
+
+    #[inline(always)]
+    fn keep(self) -> R {
+        self.receiver
+    }
+
+    #[inline(always)]
+    fn groups(self) -> LightGroups {
+        self.groups
+    }
+}
+
 /// A query and for whom it is run.
 #[cfg_attr(test, derive(Clone, Copy))]
 pub(crate) struct QueryFor<'a, R, Q>(pub(crate) &'a R, pub(crate) Q);
