@@ -6,17 +6,20 @@
 //! been told to forget the file, which only its administrator may; `out_of_core variance COUNT`
 //! compares V with that of a tree built in memory.
 
+use core::num::NonZeroUsize;
 use std::fs::{self, File};
 use std::hint::black_box;
 use std::io::{self, BufReader, BufWriter, Cursor, Read, Seek, Write};
 use std::path::Path;
 use std::time::Instant;
 
+use benches::exact_variance::{flat_variance, summary};
+use benches::peak_memory::peak_memory;
 use light_render::bench::CpuTimer;
 use light_testkit::Rng;
 use light_testkit::light_sets::{SetLight, SetPoint};
 use lights::bounds::{LightExtent, LightSampleContext};
-use lights::bvh::out_of_core::{BuildStage, LightChunks, OutOfCoreBuild};
+use lights::bvh::out_of_core::{BuildStage, LightChunks, OutOfCoreBuild, SliceChunks};
 use lights::bvh::{LightBvh, LightBvhRef, StoredLightBvh};
 use lights::glam::Vec3;
 use memmap2::{Mmap, UncheckedAdvice};
@@ -147,16 +150,9 @@ fn build(lights: &Path, tree: &Path, lights_at_once: usize) -> Result<()> {
          {} at most in memory",
         divided - counted,
         built - divided,
-        peak()
+        peak_memory()
     );
     Ok(())
-}
-
-/// The largest resident size of this process, as Linux says it.
-fn peak() -> String {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    peak.map_or_else(|| "an unknown amount".into(), |kb| kb.trim().into())
 }
 
 #[expect(unsafe_code, reason = "a mapped file changes when others write to it")]
@@ -231,7 +227,8 @@ fn variance(count: usize) -> Result<()> {
     fs::create_dir_all(&scratch)?;
     let mut bytes = Cursor::new(Vec::new());
     let build = OutOfCoreBuild::new(&scratch).with_lights_at_once(count / 100);
-    build.write(&mut All(&extents, 0), &mut bytes, |_, _| {})?;
+    let mut chunks = SliceChunks::new(&extents, NonZeroUsize::new(1 << 16).ok_or("none")?);
+    build.write(&mut chunks, &mut bytes, |_, _| {})?;
     fs::remove_dir(&scratch)?;
     let [ours, all] = [
         LightBvh::from_bytes(bytes.get_ref())?,
@@ -244,50 +241,15 @@ fn variance(count: usize) -> Result<()> {
         })
         .collect();
     for (name, tree) in [("out of core", ours), ("in memory", all)] {
-        let mut values: Vec<f64> = points.iter().map(|p| v(&lights, &tree, p)).collect();
-        values.sort_by(f64::total_cmp);
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let values = points
+            .iter()
+            .filter_map(|p| flat_variance(&lights, &tree, p));
         println!(
-            "{name}: V mean {mean:.3}, median {:.3}, largest {:.2}; {:.1} bytes a light, depth {}",
-            values[values.len() / 2],
-            values[values.len() - 1],
+            "{name}: V {}; {:.1} bytes a light, depth {}",
+            summary(values.collect()),
             tree.bytes() as f64 / count as f64,
             tree.depth()
         );
     }
     Ok(())
-}
-
-/// The exact relative variance of one choice.
-fn v(lights: &[SetLight], tree: &LightBvh, point: &SetPoint) -> f64 {
-    let ctx = LightSampleContext::surface(point.p, point.n, point.n);
-    let mut pmfs = vec![0.0; lights.len()];
-    tree.view()
-        .for_each_pmf(&ctx, |light, pmf| pmfs[light.index()] = f64::from(pmf));
-    let (mut squares, mut sum) = (0.0, 0.0);
-    for (light, pmf) in lights.iter().zip(pmfs) {
-        let gives = light.contribution(point);
-        if gives > 0.0 {
-            squares += gives * gives / pmf;
-            sum += gives;
-        }
-    }
-    squares / (sum * sum) - 1.0
-}
-
-/// Lights in memory, as if they were not.
-struct All<'a>(&'a [LightExtent], usize);
-
-impl LightChunks for All<'_> {
-    fn next_chunk(&mut self, chunk: &mut Vec<LightExtent>) -> io::Result<()> {
-        let rest = &self.0[self.1..];
-        chunk.extend_from_slice(&rest[..rest.len().min(1 << 16)]);
-        self.1 += chunk.len();
-        Ok(())
-    }
-
-    fn rewind(&mut self) -> io::Result<()> {
-        self.1 = 0;
-        Ok(())
-    }
 }

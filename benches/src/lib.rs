@@ -1,7 +1,11 @@
 //! What the benches in `benches/`, the counts in `examples/counts.rs` and the tables of the pages
 //! share: queries, measuring times, and where tables are written.
 
+pub mod city;
+pub mod exact_variance;
 pub mod page;
+pub mod peak_memory;
+pub mod thread_time;
 
 use std::time::Duration;
 

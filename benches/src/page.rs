@@ -26,6 +26,24 @@ pub fn write_table(page: &str, command: &str, table: &str) -> Result<(), String>
     fs::write(&path, text).map_err(|e| format!("{page}: {e}"))
 }
 
+/// The table that a command of xtask made, of a page given by its path from the root.
+///
+/// # Errors
+/// A page that cannot be read, or that has no place for the table.
+pub fn read_table(page: &str, command: &str) -> Result<String, String> {
+    let text = fs::read_to_string(root().join(page)).map_err(|e| format!("{page}: {e}"))?;
+    let table = table_in(&text, command)
+        .ok_or_else(|| format!("{page}: no place for the table of cargo xtask {command}"))?;
+    Ok(table.to_owned())
+}
+
+/// The table between the marks of a command; none without marks.
+fn table_in<'a>(page: &'a str, command: &str) -> Option<&'a str> {
+    let (_, rest) = page.split_once(&format!("<!-- cargo xtask {command} -->"))?;
+    let (table, _) = rest.split_once(END)?;
+    Some(table.trim())
+}
+
 /// The page with another table between the marks of a command; none without marks.
 fn replaced(page: &str, command: &str, table: &str) -> Option<String> {
     let begin = format!("<!-- cargo xtask {command} -->");
@@ -45,6 +63,7 @@ mod tests {
         let page = replaced(&page, "bench --table refits", "new\n").expect("marks");
         let expected = format!("a\n{begin}\n\nnew\n\n{END}\nb\n{END}\n");
         assert_eq!(page, expected, "the rest stays");
+        assert_eq!(table_in(&page, "bench --table refits"), Some("new"), "it");
         assert_eq!(replaced("a", "bench --table refits", "new\n"), None, "none");
     }
 }

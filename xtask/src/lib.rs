@@ -85,8 +85,10 @@ usage: cargo xtask [COMMAND]
   ptx                         make the CUDA kernels, gpu/ptx/kernels.ptx, again
   rust-gpu [--write]          compare the places of the core that rust-gpu does not take with
                               docs/rust-gpu.md, or write them there
-  scaling [--quick | LIGHTS]  measure how the costs of light samplers grow with the lights, to so
-                              many (default: 10000000), for docs/light-bvh.md
+  scaling [--quick | LIGHTS | placed | workers]
+                              measure how the costs of light samplers grow with the lights, to so
+                              many (default: 10000000, and 10^9 that are placed), for
+                              docs/light-bvh.md, and what farms render, for docs/farm.md
                               (--quick: to 10000, roughly, printed only)
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
                               take very many samples and compare each with its query

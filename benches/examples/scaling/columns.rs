@@ -7,8 +7,39 @@ use light_render::plot::PlotSeries;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub(super) lights: usize,
-    pub(super) sampler: SamplerKind,
+    pub(super) sampler: Measured,
     pub(super) costs: Costs,
+}
+
+/// A sampler, and how the lights are that it chooses among.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measured {
+    /// One by one.
+    Flat(SamplerKind),
+    /// Stored once in houses that are placed, chosen by a tree of placed trees.
+    Placed,
+}
+
+impl Measured {
+    /// All that are measured, in the order of their rows.
+    pub(super) const ALL: [Self; 5] = [
+        Self::Flat(SamplerKind::Bvh),
+        Self::Flat(SamplerKind::BvhReference),
+        Self::Flat(SamplerKind::Power),
+        Self::Flat(SamplerKind::Uniform),
+        Self::Placed,
+    ];
+
+    /// What tables and legends call it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Flat(SamplerKind::Bvh) => "default tree",
+            Self::Flat(SamplerKind::BvhReference) => "reference tree",
+            Self::Flat(SamplerKind::Power) => "by power",
+            Self::Flat(other) => other.name(),
+            Self::Placed => "placed trees",
+        }
+    }
 }
 
 /// The costs of a sampler: processor time of one thread in nanoseconds, and memory.
@@ -75,15 +106,9 @@ pub(super) const PLOTS: [Plot; 4] = [
 impl Plot {
     /// A line a sampler and column, of those that have points.
     pub(super) fn series(&self, rows: &[Row]) -> Vec<PlotSeries> {
-        let mut samplers: Vec<SamplerKind> = Vec::new();
-        for row in rows {
-            if !samplers.contains(&row.sampler) {
-                samplers.push(row.sampler);
-            }
-        }
-        let lines = samplers.iter().flat_map(|&sampler| {
+        let lines = Measured::ALL.into_iter().flat_map(|sampler| {
             self.columns.iter().map(move |(column, cost)| PlotSeries {
-                name: format!("{}, {column}", name(sampler)),
+                name: format!("{}, {column}", sampler.name()),
                 points: rows
                     .iter()
                     .filter(|row| row.sampler == sampler)
@@ -92,16 +117,6 @@ impl Plot {
             })
         });
         lines.filter(|line| !line.points.is_empty()).collect()
-    }
-}
-
-/// What tables and legends call a sampler.
-fn name(sampler: SamplerKind) -> &'static str {
-    match sampler {
-        SamplerKind::Bvh => "default tree",
-        SamplerKind::BvhReference => "reference tree",
-        SamplerKind::Power => "by power",
-        other => other.name(),
     }
 }
 
@@ -119,7 +134,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             lights => format!("10^{}", lights.ilog10()),
         };
         last = row.lights;
-        table += &format!("| {lights} | {} |", name(row.sampler));
+        table += &format!("| {lights} | {} |", row.sampler.name());
         for (_, cost) in COLUMNS {
             match cost(&row.costs) {
                 Some(cost) => table += &format!(" {} |", figure(cost)),
@@ -129,6 +144,46 @@ pub(super) fn table(rows: &[Row]) -> String {
         table.push('\n');
     }
     table
+}
+
+/// The rows of a table that [`table`] has made, with the digits that it shows; what is none is left
+/// out.
+pub(super) fn rows_of(table: &str) -> Vec<Row> {
+    let mut lights = 0;
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [_, size, sampler, figures @ ..] = &cells[..] else {
+            return None;
+        };
+        if let Some(power) = size.strip_prefix("10^") {
+            lights = 10_usize.checked_pow(power.parse().ok()?)?;
+        }
+        let mut all = Measured::ALL.into_iter();
+        let sampler = all.find(|measured| measured.name() == *sampler)?;
+        let figure = |k: usize| figures.get(k)?.parse().ok();
+        let costs = Costs {
+            build: figure(0),
+            refit: figure(1),
+            sample: figure(2),
+            pmf: figure(3),
+            bytes: figure(4),
+        };
+        Some(Row {
+            lights,
+            sampler,
+            costs,
+        })
+    };
+    table.lines().filter_map(row).collect()
+}
+
+/// Rows in the order of a table, later ones in place of earlier ones of the same thing.
+pub(super) fn in_order(mut rows: Vec<Row>) -> Vec<Row> {
+    let order = |sampler| Measured::ALL.iter().position(|&other| other == sampler);
+    rows.reverse();
+    rows.sort_by_key(|row| (row.lights, order(row.sampler)));
+    rows.dedup_by_key(|row| (row.lights, row.sampler));
+    rows
 }
 
 /// About three digits.
@@ -153,7 +208,7 @@ mod tests {
         };
         let row = |lights| Row {
             lights,
-            sampler: SamplerKind::Bvh,
+            sampler: Measured::Flat(SamplerKind::Bvh),
             costs,
         };
         let rows = [row(100), row(1000)];
@@ -174,5 +229,29 @@ mod tests {
             [[100.0, 123.4], [1000.0, 123.4]],
             "builds"
         );
+    }
+
+    #[test]
+    fn a_table_is_read_back() {
+        let row = |lights, sampler, build: f64| Row {
+            lights,
+            sampler,
+            costs: Costs {
+                build: (build > 0.0).then_some(build),
+                sample: Some(4e-7),
+                pmf: Some(1234.0),
+                ..Costs::default()
+            },
+        };
+        let all = |lights| Measured::ALL.map(|sampler| row(lights, sampler, 12.5));
+        let mut rows = [all(100), all(1000)].concat();
+        rows[3].costs.build = None;
+        assert_eq!(rows_of(&table(&rows)), rows, "each figure");
+        let newer = row(100, Measured::Placed, 7.5);
+        let largest = row(10_000, Measured::Placed, 0.0);
+        let mixed = [rows.clone(), vec![largest.clone(), newer.clone()]].concat();
+        rows[4] = newer;
+        rows.push(largest);
+        assert_eq!(in_order(mixed), rows, "the newer one, and the largest last");
     }
 }

@@ -1,22 +1,34 @@
-//! Measures how the costs of light samplers grow with the lights, for `docs/light-bvh.md`:
-//! `cargo xtask scaling [--quick | LIGHTS]`.
+//! Measures how the costs of light samplers grow with the lights, for `docs/light-bvh.md`, and the
+//! throughput of a farm with the workers, for `docs/farm.md`:
+//! `cargo xtask scaling [--quick | LIGHTS | placed | workers]`.
 
 use std::fs;
 use std::io::{IsTerminal, stderr};
 use std::process::ExitCode;
 
-use benches::page::{root, write_table};
+use benches::page::{read_table, root, write_table};
 use light_render::{available_memory, plot};
 
 mod columns;
 mod measure;
-mod thread_time;
+mod placed;
+mod workers;
 
-use columns::Row;
+use columns::{Measured, Row};
 use measure::Effort;
+use workers::Job;
 
 /// The page that the table is on.
 const PAGE: &str = "docs/light-bvh.md";
+
+/// The page that says what farms render.
+const FARM_PAGE: &str = "docs/farm.md";
+
+/// The plot of that page.
+const FARM_PLOT: &str = "docs/images/scaling-workers.svg";
+
+/// Lights of the largest city of placed houses.
+const LARGEST_PLACED: usize = 1_000_000_000;
 
 /// Lights of the largest set, if the command does not say.
 const LARGEST: usize = 10_000_000;
@@ -33,8 +45,12 @@ const BYTES_A_LIGHT: u64 = 288;
 enum Request {
     /// The table is printed.
     Quick,
-    /// Sets of up to so many lights, into the page.
+    /// Sets of up to so many lights, cities of placed lights and the workers, into the pages.
     UpTo(usize),
+    /// Cities of placed lights alone, into the page.
+    Placed,
+    /// The workers alone, into the page.
+    Workers,
 }
 
 fn main() -> ExitCode {
@@ -52,13 +68,15 @@ fn request(arguments: &[String]) -> Result<Request, String> {
     match arguments {
         [] => Ok(Request::UpTo(LARGEST)),
         [flag] if flag == "--quick" => Ok(Request::Quick),
+        [part] if part == "placed" => Ok(Request::Placed),
+        [part] if part == "workers" => Ok(Request::Workers),
         [lights] => match lights.parse() {
             Ok(lights) if (100..=1_000_000_000).contains(&lights) => Ok(Request::UpTo(lights)),
             _ => Err(format!(
-                "{lights}: expected 100 to 1000000000 lights, or --quick"
+                "{lights}: expected 100 to 1000000000 lights, placed, workers, or --quick"
             )),
         },
-        _ => Err("usage: cargo xtask scaling [--quick | LIGHTS]".into()),
+        _ => Err("usage: cargo xtask scaling [--quick | LIGHTS | placed | workers]".into()),
     }
 }
 
@@ -67,27 +85,67 @@ fn request(arguments: &[String]) -> Result<Request, String> {
 /// # Errors
 /// Too little memory, a light that a sampler refuses, or a file that cannot be written.
 fn run(request: Request) -> Result<(), String> {
-    let (largest, effort) = match request {
-        Request::Quick => (QUICK, Effort::QUICK),
-        Request::UpTo(lights) => (lights, Effort::FULL),
+    let (largest, largest_placed, effort) = match request {
+        Request::Quick => (Some(QUICK), Some(QUICK), Effort::QUICK),
+        Request::UpTo(lights) => (Some(lights), Some(LARGEST_PLACED), Effort::FULL),
+        Request::Placed => (None, Some(LARGEST_PLACED), Effort::FULL),
+        Request::Workers => (None, None, Effort::FULL),
     };
-    fits(largest, available_memory())?;
+    fits(largest.unwrap_or_default(), available_memory())?;
     let mut rows = Vec::new();
-    for lights in powers_of_ten(largest) {
-        let progress = |what: &str| {
-            if stderr().is_terminal() {
-                eprintln!("{lights} lights: {what}");
-            }
-        };
-        rows.extend(measure::measure(lights, &effort, progress)?);
-        // After each size, for the last one may take an hour on a busy machine.
-        if request != Request::Quick {
-            write_plots(&rows)?;
-            write_table(PAGE, "scaling", &columns::table(&rows))?;
-        }
+    if request == Request::Placed {
+        rows = columns::rows_of(&read_table(PAGE, "scaling")?);
+        rows.retain(|row| row.sampler != Measured::Placed);
     }
-    print!("{}", columns::table(&rows));
+    for lights in powers_of_ten(largest.unwrap_or_default()) {
+        rows.extend(measure::measure(lights, &effort, |what| {
+            say(&format!("{lights} lights: {what}"));
+        })?);
+        keep(request, &mut rows)?;
+    }
+    for lights in powers_of_ten(largest_placed.unwrap_or_default()) {
+        say(&format!("{lights} placed lights"));
+        rows.push(placed::measure(lights, &effort)?);
+        keep(request, &mut rows)?;
+    }
+    if !rows.is_empty() {
+        print!("{}", columns::table(&columns::in_order(rows)));
+    }
+    if request == Request::Placed {
+        return Ok(());
+    }
+    let job = if request == Request::Quick {
+        Job::QUICK
+    } else {
+        Job::FULL
+    };
+    let throughput = workers::measure(job, say)?;
+    print!("{}", workers::table(&throughput));
+    if request != Request::Quick {
+        let series = workers::series(&throughput);
+        let svg = plot::log_plot_file(&series, "workers", "million samples a second");
+        fs::write(root().join(FARM_PLOT), svg).map_err(|e| format!("{FARM_PLOT}: {e}"))?;
+        write_table(FARM_PAGE, "scaling", &workers::table(&throughput))?;
+    }
     Ok(())
+}
+
+/// Tells a user who waits what is measured.
+fn say(what: &str) {
+    if stderr().is_terminal() {
+        eprintln!("{what}");
+    }
+}
+
+/// Writes what was measured so far: after each size, for the last one may take an hour on a busy
+/// machine.
+fn keep(request: Request, rows: &mut Vec<Row>) -> Result<(), String> {
+    *rows = columns::in_order(core::mem::take(rows));
+    if request == Request::Quick {
+        return Ok(());
+    }
+    write_plots(rows)?;
+    write_table(PAGE, "scaling", &columns::table(rows))
 }
 
 /// Whether sets of so many lights can be measured in so much memory.
@@ -137,6 +195,8 @@ mod tests {
         let of = |text: &str| request(&[text.to_owned()]);
         assert_eq!(of("--quick"), Ok(Request::Quick), "a flag");
         assert_eq!(of("1000"), Ok(Request::UpTo(1000)), "a size");
+        assert_eq!(of("placed"), Ok(Request::Placed), "a part");
+        assert_eq!(of("workers"), Ok(Request::Workers), "a part");
         for wrong in ["99", "-1", "1e6", "10000000000", "fast"] {
             let error = of(wrong).expect_err(wrong);
             assert!(error.starts_with(&format!("{wrong}: expected")), "{error}");

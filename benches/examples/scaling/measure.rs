@@ -6,10 +6,10 @@ use light_render::{AnyLightSampler, SamplerKind};
 use light_sets::{BenchSet, SetKind};
 use light_testkit::Rng;
 use lights::bounds::{LightExtent, LightId, LightSampleContext};
-use lights::samplers::LightSampler as _;
+use lights::samplers::LightSampler;
 
-use super::columns::{Costs, Row};
-use super::thread_time::{ThreadTimer, median, seconds_a_call};
+use super::columns::{Costs, Measured, Row};
+use benches::thread_time::{ThreadTimer, median, seconds_a_call};
 
 /// The samplers, in the order of their rows.
 const SAMPLERS: [SamplerKind; 4] = [
@@ -29,9 +29,9 @@ const SEED: u64 = 1;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
     /// Times that the median is of, at most.
-    rounds: u32,
+    pub(super) rounds: u32,
     /// Seconds of processor time that one of them takes at least.
-    window: f64,
+    pub(super) window: f64,
     /// Seconds after which a build or refit has no further round.
     enough: f64,
 }
@@ -167,31 +167,10 @@ impl Candidate {
         result
     }
 
-    /// Every context once a call, each time with another random number.
     fn query(&mut self, contexts: &[LightSampleContext], window: f64, round: u32) {
-        let mut rng = Rng::new(100 + u64::from(round));
-        let calls = contexts.len() as f64;
-        let sampler = &self.sampler;
-        let samples = seconds_a_call(window, || {
-            for ctx in contexts {
-                black_box(sampler.sample(ctx, rng.u64()));
-            }
-        });
-        self.samples.push(samples / calls);
-        let chosen: Vec<(&LightSampleContext, LightId)> = contexts
-            .iter()
-            .cycle()
-            .take(16 * contexts.len())
-            .filter_map(|ctx| Some((ctx, sampler.sample(ctx, rng.u64())?.light)))
-            .collect();
-        if !chosen.is_empty() {
-            let pmfs = seconds_a_call(window, || {
-                for (ctx, light) in &chosen {
-                    black_box(sampler.pmf(ctx, *light));
-                }
-            });
-            self.pmfs.push(pmfs / chosen.len() as f64);
-        }
+        let (sample, pmf) = seconds_a_query(&self.sampler, contexts, window, round);
+        self.samples.push(sample);
+        self.pmfs.extend(pmf);
     }
 
     fn row(&self, lights: usize) -> Row {
@@ -200,7 +179,7 @@ impl Candidate {
         let a_light = |seconds: &[f64]| Some(nanoseconds(seconds)? / count);
         Row {
             lights,
-            sampler: self.kind,
+            sampler: Measured::Flat(self.kind),
             costs: Costs {
                 build: a_light(&self.builds).filter(|_| self.has_tree()),
                 refit: a_light(&self.refits),
@@ -210,6 +189,38 @@ impl Candidate {
             },
         }
     }
+}
+
+/// Seconds of a sample and of a pmf: every context once a call, each time with another random
+/// number. No pmf where no light can be chosen.
+pub(super) fn seconds_a_query(
+    sampler: &impl LightSampler,
+    contexts: &[LightSampleContext],
+    window: f64,
+    round: u32,
+) -> (f64, Option<f64>) {
+    let mut rng = Rng::new(100 + u64::from(round));
+    let calls = contexts.len() as f64;
+    let samples = seconds_a_call(window, || {
+        for ctx in contexts {
+            black_box(sampler.sample(ctx, rng.u64()));
+        }
+    });
+    let chosen: Vec<(&LightSampleContext, LightId)> = contexts
+        .iter()
+        .cycle()
+        .take(16 * contexts.len())
+        .filter_map(|ctx| Some((ctx, sampler.sample(ctx, rng.u64())?.light)))
+        .collect();
+    let pmfs = (!chosen.is_empty()).then(|| {
+        let pmfs = seconds_a_call(window, || {
+            for (ctx, light) in &chosen {
+                black_box(sampler.pmf(ctx, *light));
+            }
+        });
+        pmfs / chosen.len() as f64
+    });
+    (samples / calls, pmfs)
 }
 
 #[cfg(test)]
@@ -230,14 +241,17 @@ mod tests {
     fn no_column_is_missing() {
         for lights in [100, 1000, 10_000] {
             let rows = measure(lights, &Effort::QUICK, |_| {}).expect("valid lights");
-            let samplers: Vec<SamplerKind> = rows.iter().map(|row| row.sampler).collect();
-            assert_eq!(samplers, SAMPLERS, "a row a sampler");
+            let samplers: Vec<Measured> = rows.iter().map(|row| row.sampler).collect();
+            assert_eq!(samplers, SAMPLERS.map(Measured::Flat), "a row a sampler");
             for row in rows {
                 let found = COLUMNS.iter().enumerate().filter(|(_, (_, cost))| {
                     cost(&row.costs).is_some_and(|x| x > 0.0 && x.is_finite())
                 });
                 let found: Vec<usize> = found.map(|(i, _)| i).collect();
-                assert_eq!(found, titles(row.sampler), "{row:?}");
+                let Measured::Flat(kind) = row.sampler else {
+                    panic!("{row:?} is placed");
+                };
+                assert_eq!(found, titles(kind), "{row:?}");
             }
         }
     }

@@ -8,7 +8,7 @@ mod slurm;
 
 use crate::steps::{Outcome, Steps, cargo, root, run};
 
-use job::Job;
+use job::{Job, Pictures};
 
 /// Adds a step for each engine.
 pub fn add_steps(steps: &mut Steps) {
@@ -28,25 +28,28 @@ pub fn add_steps(steps: &mut Steps) {
         return;
     }
     let folder = root().join("target/farm");
-    steps.run("farm by Open Job Description", || {
-        let job = Job::new(&folder, "openjd")?;
-        match python::open_job_description(&job) {
-            Ok(()) => job.check(),
-            Err(why) => why.outcome(),
-        }
-    });
-    steps.run("farm by HyperQueue", || {
-        let job = Job::new(&folder, "hyperqueue")?;
-        match python::hyperqueue(&job) {
-            Ok(()) => job.check(),
-            Err(why) => why.outcome(),
-        }
-    });
-    steps.run("farm by Slurm", || {
-        let job = Job::new(&folder, "slurm")?;
-        match slurm::slurm(&job) {
-            Ok(()) => job.check(),
-            Err(why) => why.outcome(),
-        }
-    });
+    for pictures in [Pictures::One, Pictures::Frames] {
+        let what = pictures.name();
+        steps.run(&format!("{what} by Open Job Description"), || {
+            let job = Job::new(&folder, "openjd", pictures)?;
+            match python::open_job_description(&job) {
+                Ok(()) => job.check(),
+                Err(why) => why.outcome(),
+            }
+        });
+        steps.run(&format!("{what} by HyperQueue"), || {
+            let job = Job::new(&folder, "hyperqueue", pictures)?;
+            match python::hyperqueue(&job) {
+                Ok(()) => job.check(),
+                Err(why) => why.outcome(),
+            }
+        });
+        steps.run(&format!("{what} by Slurm"), || {
+            let job = Job::new(&folder, "slurm", pictures)?;
+            match slurm::slurm(&job) {
+                Ok(()) => job.check(),
+                Err(why) => why.outcome(),
+            }
+        });
+    }
 }

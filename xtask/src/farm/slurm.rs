@@ -35,10 +35,10 @@ pub(super) fn slurm(job: &Job) -> Result<(), NoPicture> {
     let is_done = || {
         // A job may just have ended.
         let _ = output(&mut start_now);
-        job.file("picture.exr").exists()
+        job.is_done()
     };
     wait("the picture", is_done).map_err(failed)?;
-    if job.starts_of_waiting_part() < 2 {
+    if !job.was_started_again() {
         let why = "slurm: the part on the lost machine was not started again";
         return Err(NoPicture::Failed(why.into()));
     }
@@ -97,7 +97,7 @@ impl Cluster {
         };
         let host = output(&mut Command::new("hostname")).map_err(missing)?;
         let cluster = Self {
-            folder: job.folder().join("slurm"),
+            folder: job.folder().join("daemons"),
             programs,
             host: host.trim().to_owned(),
         };

@@ -6,13 +6,15 @@ use std::time::Instant;
 /// Counts the seconds that this thread runs, where the system reports them (Linux); wall-clock time
 /// elsewhere. Other threads may end meanwhile, which a count of all threads does not survive.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ThreadTimer {
+pub struct ThreadTimer {
     start: Instant,
     before: Option<f64>,
 }
 
 impl ThreadTimer {
-    pub(super) fn start() -> Self {
+    /// Starts now.
+    #[must_use]
+    pub fn start() -> Self {
         Self {
             start: Instant::now(),
             before: thread_seconds(),
@@ -20,7 +22,8 @@ impl ThreadTimer {
     }
 
     /// Seconds since the start, to a few milliseconds.
-    pub(super) fn seconds(&self) -> f64 {
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
         match (self.before, thread_seconds()) {
             (Some(before), Some(now)) => now - before,
             _ => self.start.elapsed().as_secs_f64(),
@@ -36,7 +39,8 @@ fn thread_seconds() -> Option<f64> {
 
 /// The middle of an odd number of values, the higher one of the two in the middle otherwise; `None`
 /// without values.
-pub(super) fn median(values: &[f64]) -> Option<f64> {
+#[must_use]
+pub fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()
@@ -44,7 +48,7 @@ pub(super) fn median(values: &[f64]) -> Option<f64> {
 
 /// Seconds of processor time that one call takes: calls are repeated, twice as often each time,
 /// until they take at least `window` seconds together.
-pub(super) fn seconds_a_call(window: f64, mut call: impl FnMut()) -> f64 {
+pub fn seconds_a_call(window: f64, mut call: impl FnMut()) -> f64 {
     let mut calls = 1_u32;
     loop {
         let timer = ThreadTimer::start();
