@@ -70,8 +70,8 @@ pub fn bench_tables(names: &[String]) -> StepResult {
     step(bench_example("bench_tables", names))
 }
 
-/// `cargo xtask scaling [--quick | LIGHTS]`: measures how costs grow with the lights, for
-/// `docs/light-bvh.md`.
+/// `cargo xtask scaling [--quick | LIGHTS | placed | workers]`: measures how costs grow with the
+/// lights, for `docs/light-bvh.md`, and with the workers of a farm, for `docs/farm.md`.
 ///
 /// # Errors
 /// The command line, when the lights do not fit the memory or a file cannot be written.

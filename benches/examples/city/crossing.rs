@@ -1,11 +1,11 @@
 //! From how many placed lights on a tree of placed trees is the better choice.
 
 use std::hint::black_box;
+use std::time::Instant;
 
 use benches::city::{KINDS, city, context, extents, house, places, receiver, streets};
 use benches::exact_variance::{flat_variance, placed_variance, summary};
 use benches::thread_time::{median, seconds_a_call};
-use light_render::bench::CpuTimer;
 use light_testkit::Rng;
 use light_testkit::light_sets::SetLight;
 use lights::bounds::{LightExtent, LightSampleContext};
@@ -38,14 +38,14 @@ pub(crate) fn compare() {
 }
 
 fn row(houses: usize, lights: usize) {
-    let placed_build = CpuTimer::start();
+    let placed_build = Instant::now();
     let placed = city(houses, lights, &mut Rng::new(1));
-    let placed_build = placed_build.seconds() * 1e3;
+    let placed_build = placed_build.elapsed().as_secs_f64() * 1e3;
     let all = all_lights(houses, lights);
     let extents: Vec<LightExtent> = extents(&all);
-    let flat_build = CpuTimer::start();
+    let flat_build = Instant::now();
     let flat = LightBvh::build(&extents).expect("valid lights");
-    let flat_build = flat_build.seconds() * 1e3;
+    let flat_build = flat_build.elapsed().as_secs_f64() * 1e3;
     let mut rng = Rng::new(3);
     let points: Vec<_> = (0..CALLS)
         .map(|_| receiver(&mut rng, streets(houses)))
