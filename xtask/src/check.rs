@@ -1,8 +1,10 @@
 //! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
 
+use std::ffi::OsStr;
+
 use crate::arrows;
 use crate::circles;
-use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set};
+use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set, together};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 
@@ -30,13 +32,14 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     });
     if tests == WorkspaceTests::Here {
         steps.run("tests of the workspace", || {
-            passes(&["test", "--workspace", "--quiet"])
+            passes(["test", "--workspace", "--quiet"])
         });
     }
     steps.run("tests with software floats", || {
-        let mut sets = SOFTWARE_FLOATS.iter();
-        sets.try_fold(Outcome::Passed, |_, set| {
-            passes(&[&["test", "--quiet"], &set.arguments()[..]].concat())
+        let mut groups = SOFTWARE_FLOATS.iter();
+        groups.try_fold(Outcome::Passed, |_, group| {
+            let test = ["test", "--quiet"].map(str::to_owned);
+            passes(test.into_iter().chain(together(group)))
         })
     });
     steps.run("documentation", || {
@@ -50,11 +53,11 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
 const OTHER_WORKSPACES: [&str; 4] = ["embedded", "fuzz", "gpu/ptx", "gpu/wgsl"];
 
 fn format() -> StepResult {
-    passes(&["fmt", "--all", "--check"])?;
+    passes(["fmt", "--all", "--check"])?;
     let mut others = OTHER_WORKSPACES.iter();
     others.try_fold(Outcome::Passed, |_, folder| {
         let manifest = format!("{folder}/Cargo.toml");
-        passes(&["fmt", "--all", "--check", "--manifest-path", &manifest])
+        passes(["fmt", "--all", "--check", "--manifest-path", &manifest])
     })
 }
 
@@ -79,7 +82,7 @@ fn lints(selection: &[&str]) -> Result<(), String> {
     run(&mut cargo(arguments))
 }
 
-fn passes(arguments: &[&str]) -> StepResult {
+fn passes<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> StepResult {
     run(&mut cargo(arguments)).map(|()| Outcome::Passed)
 }
 

@@ -99,16 +99,34 @@ pub fn for_each_set(
 }
 
 /// The sets whose tests run a second time, without std: float functions in software, the same bits
-/// on every machine.
-pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
-    alloc("light-math", "libm,alloc"),
-    core("light-bounds", "libm"),
-    alloc("light-bvh", "libm,alloc"),
-    alloc("light-samplers", "libm,alloc"),
-    alloc("light-sources", "libm,alloc"),
-    alloc("light-media", "libm,alloc"),
-    alloc("light-photometry", "libm,alloc"),
+/// on every machine. Those of a group are built and tested together: the test dependencies of
+/// `light-samplers` turn on std in what they use.
+pub const SOFTWARE_FLOATS: [&[FeatureSet]; 2] = [
+    &[
+        alloc("light-math", "libm,alloc"),
+        core("light-bounds", "libm"),
+        alloc("light-bvh", "libm,alloc"),
+        alloc("light-sources", "libm,alloc"),
+        alloc("light-media", "libm,alloc"),
+        alloc("light-photometry", "libm,alloc"),
+    ],
+    &[alloc("light-samplers", "libm,alloc")],
 ];
+
+/// The arguments of cargo that choose these sets together, each of another package.
+#[must_use]
+pub fn together(sets: &[FeatureSet]) -> Vec<String> {
+    let packages = sets.iter().flat_map(|set| ["--package", set.package]);
+    let features = sets.iter().flat_map(|set| {
+        let of_package = |feature| format!("{}/{feature}", set.package);
+        set.features.split(',').map(of_package)
+    });
+    let features: Vec<String> = features.collect();
+    let mut arguments: Vec<String> = packages.map(str::to_owned).collect();
+    arguments.extend(["--no-default-features".into(), "--features".into()]);
+    arguments.push(features.join(","));
+    arguments
+}
 
 const fn core(package: &'static str, features: &'static str) -> FeatureSet {
     FeatureSet {
@@ -147,6 +165,14 @@ mod tests {
         let table = table.split("\n[").next().unwrap_or_default();
         let names = table.lines().filter_map(|line| line.split_once(" = "));
         names.map(|(name, _)| name.trim().to_owned()).collect()
+    }
+
+    #[test]
+    fn sets_are_chosen_together() {
+        let sets = [core("a", "libm"), alloc("b", "libm,alloc")];
+        let expected = "--package a --package b --no-default-features --features \
+                        a/libm,b/libm,b/alloc";
+        assert_eq!(together(&sets).join(" "), expected, "one call");
     }
 
     #[test]
