@@ -68,9 +68,19 @@ pub const fn streets(houses: usize) -> usize {
 /// If 2^28 placements do not suffice.
 #[must_use]
 pub fn city(houses: usize, lights: usize, rng: &mut Rng) -> InstancedLightBvh {
-    let kinds: Vec<_> = (0..KINDS).map(|_| prototype(&house(lights, rng))).collect();
-    let placements: Vec<_> = places(houses, rng).map(Place::placement).collect();
+    let (kinds, placements) = placed_houses(houses, lights, rng);
     InstancedLightBvh::build(kinds, &placements).expect("a city")
+}
+
+/// What a [`city`] is built from: a house of each kind, and where houses are.
+#[must_use]
+pub fn placed_houses(
+    houses: usize,
+    lights: usize,
+    rng: &mut Rng,
+) -> (Vec<LightPrototype>, Vec<Placement>) {
+    let kinds = (0..KINDS).map(|_| prototype(&house(lights, rng))).collect();
+    (kinds, places(houses, rng).map(Place::placement).collect())
 }
 
 /// Where a house is.

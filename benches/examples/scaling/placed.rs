@@ -1,8 +1,9 @@
 //! The costs of a tree of placed trees over one city.
 
-use benches::city::{KINDS, Place, city, context, house, places, receiver, streets};
+use benches::city::{Place, city, context, placed_houses, places, receiver, streets};
 use light_testkit::Rng;
 use lights::bounds::LightSampleContext;
+use lights::bvh::{InstancedLightBvh, Placement};
 use lights::samplers::InstancedBvhLightSampler;
 
 use super::columns::{Costs, Measured, Row};
@@ -32,11 +33,13 @@ pub(super) fn measure(lights: usize, effort: &Effort) -> Result<Row, String> {
                 core::hint::black_box(city(houses, in_house, &mut Rng::new(1)));
             }));
         }
-        let tree = city(houses, in_house, &mut Rng::new(1));
+        let (kinds, placed) = placed_houses(houses, in_house, &mut Rng::new(1));
+        // A refit keeps the kinds.
         let moved: Vec<_> = places(houses, &mut Rng::new(2))
-            .zip(tree_kinds(houses, in_house))
+            .zip(placed.iter().map(Placement::prototype))
             .map(|(place, kind)| Place { kind, ..place }.placement())
             .collect();
+        let tree = InstancedLightBvh::build(kinds, &placed).map_err(|e| e.to_string())?;
         let mut sampler = InstancedBvhLightSampler::new(tree, &[]).map_err(|e| e.to_string())?;
         let bytes = sampler.tree().bytes();
         let contexts = contexts(houses);
@@ -78,14 +81,6 @@ fn contexts(houses: usize) -> Vec<LightSampleContext> {
     (0..RECEIVERS)
         .map(|_| context(&receiver(&mut rng, across)))
         .collect()
-}
-
-/// The kinds of the houses of a city, which a refit keeps.
-fn tree_kinds(houses: usize, in_house: usize) -> Vec<u32> {
-    let mut rng = Rng::new(1);
-    // The city draws its houses first.
-    (0..KINDS).for_each(|_| drop(house(in_house, &mut rng)));
-    places(houses, &mut rng).map(|place| place.kind).collect()
 }
 
 #[cfg(test)]
