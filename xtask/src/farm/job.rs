@@ -182,9 +182,14 @@ impl Job {
         self.starts_of_waiting_parts() > 0
     }
 
+    /// A file that parts 2 write a line to when they start.
+    pub(super) fn starts(&self) -> PathBuf {
+        self.folder.join("marks/starts")
+    }
+
     /// How often parts 2 were started.
     fn starts_of_waiting_parts(&self) -> usize {
-        let starts = fs::read_to_string(self.folder.join("marks/starts"));
+        let starts = fs::read_to_string(self.starts());
         starts.map_or(0, |starts| starts.lines().count())
     }
 

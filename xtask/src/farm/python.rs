@@ -24,21 +24,11 @@ pub(super) fn open_job_description(job: &Job) -> Result<(), NoPicture> {
     ran.map(drop).map_err(NoPicture::Failed)
 }
 
-/// A server and two workers on this machine, for the program in the first argument.
-const LOCAL_CLUSTER: &str = "\
-import runpy
-import sys
+/// A server and workers on this machine, one of which is lost.
+const LOCAL_CLUSTER: &str = include_str!("local_cluster.py");
 
-from hyperqueue.cluster import LocalCluster, WorkerConfig
-
-job = runpy.run_path(sys.argv[1])
-with LocalCluster() as cluster:
-    for _ in range(2):
-        cluster.start_worker(WorkerConfig(cores=1))
-    job['submit'](cluster.client())
-";
-
-/// Runs the job on a server and workers of its own.
+/// Runs the job on a server and workers of its own. A worker is lost while it renders part 2, and
+/// another one takes its place.
 ///
 /// # Errors
 /// Why there is no picture.
@@ -47,10 +37,15 @@ pub(super) fn hyperqueue(job: &Job) -> Result<(), NoPicture> {
     let cluster = job.folder().join("local_cluster.py");
     fs::write(&cluster, LOCAL_CLUSTER).map_err(|e| NoPicture::Failed(e.to_string()))?;
     let mut command = Command::new(program);
-    command.arg(cluster).arg(job.file("submit.py"));
-    command.current_dir(job.folder());
-    let ran = output_within(LIMIT, job.with_program(&mut command));
-    ran.map(drop).map_err(NoPicture::Failed)
+    let files = [cluster, job.file("submit.py"), job.starts()];
+    command.args(files).current_dir(job.folder());
+    output_within(LIMIT, job.with_program(&mut command)).map_err(NoPicture::Failed)?;
+    if job.was_started_again() {
+        Ok(())
+    } else {
+        let why = "hyperqueue: the part on the lost worker was not started again";
+        Err(NoPicture::Failed(why.into()))
+    }
 }
 
 /// The program `name` of an environment with `package`, which is made if it is not there.
