@@ -6,7 +6,7 @@ use crate::arrows;
 use crate::circles;
 use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set, together};
 use crate::references;
-use crate::steps::{Outcome, StepResult, Steps, cargo, run};
+use crate::steps::{Outcome, StepResult, Steps, cargo, output, run};
 
 /// Who runs `cargo test --workspace`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,13 +35,7 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
             passes(["test", "--workspace", "--quiet"])
         });
     }
-    steps.run("tests with software floats", || {
-        let mut groups = SOFTWARE_FLOATS.iter();
-        groups.try_fold(Outcome::Passed, |_, group| {
-            let test = ["test", "--quiet"].map(str::to_owned);
-            passes(test.into_iter().chain(together(group)))
-        })
-    });
+    steps.run("tests with software floats", software_floats);
     steps.run("documentation", || {
         documents(&["--workspace"])?;
         documents_libraries(&["--all-features"])?;
@@ -59,6 +53,25 @@ fn format() -> StepResult {
         let manifest = format!("{folder}/Cargo.toml");
         passes(["fmt", "--all", "--check", "--manifest-path", &manifest])
     })
+}
+
+/// The tests of the crates that work without std, without it.
+fn software_floats() -> StepResult {
+    let sets = together(SOFTWARE_FLOATS);
+    let mut tree = cargo([
+        "tree",
+        "--edges",
+        "features,normal,dev",
+        "--invert",
+        "light-math",
+    ]);
+    if output(tree.args(&sets))?.contains("light-math feature \"std\"") {
+        return Err(
+            "a test dependency turns on std of light-math: cargo tree --edges features".into(),
+        );
+    }
+    let mut test = cargo(["test", "--quiet"]);
+    run(test.args(&sets)).map(|()| Outcome::Passed)
 }
 
 /// Documents the crates that have feature sets, with the same features each.

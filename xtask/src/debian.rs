@@ -126,13 +126,14 @@ impl Toolchain {
         command
     }
 
-    /// A build for `target` that makes the standard libraries it needs first: without alloc where
-    /// none is promised.
+    /// `cargo check` or another command for `target` that makes the standard libraries it needs
+    /// first: without alloc where none is promised.
     #[must_use]
-    pub fn cargo_build(&self, target: &str, needs: Needs) -> Command {
+    pub fn cargo_for(&self, target: &str, needs: Needs, command_words: &[&str]) -> Command {
         let mut command = self.cargo();
         command
-            .args(["build", "--release", "--target", target])
+            .args(command_words)
+            .args(["--target", target])
             .arg(if needs == Needs::Core {
                 "-Zbuild-std=core"
             } else {

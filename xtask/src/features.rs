@@ -99,18 +99,15 @@ pub fn for_each_set(
 }
 
 /// The sets whose tests run a second time, without std: float functions in software, the same bits
-/// on every machine. Those of a group are built and tested together: the test dependencies of
-/// `light-samplers` turn on std in what they use.
-pub const SOFTWARE_FLOATS: [&[FeatureSet]; 2] = [
-    &[
-        alloc("light-math", "libm,alloc"),
-        core("light-bounds", "libm"),
-        alloc("light-bvh", "libm,alloc"),
-        alloc("light-sources", "libm,alloc"),
-        alloc("light-media", "libm,alloc"),
-        alloc("light-photometry", "libm,alloc"),
-    ],
-    &[alloc("light-samplers", "libm,alloc")],
+/// on every machine. They are built and tested together.
+pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
+    alloc("light-math", "libm,alloc"),
+    core("light-bounds", "libm"),
+    alloc("light-bvh", "libm,alloc"),
+    alloc("light-samplers", "libm,alloc"),
+    alloc("light-sources", "libm,alloc"),
+    alloc("light-media", "libm,alloc"),
+    alloc("light-photometry", "libm,alloc"),
 ];
 
 /// The arguments of cargo that choose these sets together, each of another package.

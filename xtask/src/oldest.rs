@@ -41,7 +41,7 @@ fn rustup() -> Command {
 fn check_all(cargo: &dyn Fn() -> Command) -> StepResult {
     let check = |arguments: &[&str]| {
         let mut command = cargo();
-        command.args(["check", "--quiet", "--lib", "--target-dir"]);
+        command.args(["check", "--release", "--quiet", "--lib", "--target-dir"]);
         run(command.arg(root().join("target/oldest")).args(arguments))
     };
     for_each_set(|_| true, |set| check(&set.arguments()))?;

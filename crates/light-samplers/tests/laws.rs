@@ -9,7 +9,7 @@ use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, GroupedLightSampler, LightChoices, LightSampler,
     PowerLightSampler, ReferenceBvhLightSampler, UniformLightSampler,
 };
-use light_testkit::{SamplerCase, built_out_of_core, stored};
+use light_testkit::{SamplerCase, stored};
 
 #[path = "support/asked.rs"]
 mod asked;
@@ -60,11 +60,6 @@ light_testkit::sampler_laws! {
     /// The default hierarchy in bytes, refitted before.
     mod bvh_stored {
         |set| stored(&refitted(set))
-    }
-
-    /// The default hierarchy, built with at most seven lights in memory.
-    mod bvh_out_of_core {
-        |set| built_out_of_core(&set.extents(), 7)
     }
 
     /// The default hierarchy of two groups, of which contexts ask for one.

@@ -73,4 +73,4 @@ pub use rng::Rng;
 pub use sampler_case::SamplerCase;
 pub use significance::{FAMILY_ERROR, PROGRAMS, SIGNIFICANCE, TESTS_PER_PROGRAM, tests_taken};
 #[cfg(feature = "stored")]
-pub use stored_tree::{built_out_of_core, stored};
+pub use stored_tree::{in_bytes, stored};
