@@ -126,14 +126,13 @@ impl Toolchain {
         command
     }
 
-    /// `cargo check` or another command for `target` that makes the standard libraries it needs
-    /// first: without alloc where none is promised.
+    /// A build for `target` that makes the standard libraries it needs first: without alloc where
+    /// none is promised.
     #[must_use]
-    pub fn cargo_for(&self, target: &str, needs: Needs, command_words: &[&str]) -> Command {
+    pub fn cargo_build(&self, target: &str, needs: Needs) -> Command {
         let mut command = self.cargo();
         command
-            .args(command_words)
-            .args(["--target", target])
+            .args(["build", "--release", "--target", target])
             .arg(if needs == Needs::Core {
                 "-Zbuild-std=core"
             } else {

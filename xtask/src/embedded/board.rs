@@ -95,7 +95,6 @@ impl Builder {
 
     /// A build for the board.
     pub(super) fn cargo_build(&self) -> Command {
-        const BUILD: [&str; 2] = ["build", "--release"];
         let target = self.board.target;
         // Names of this form say the crate of every function.
         let mut flags = "-Csymbol-mangling-version=v0".to_owned();
@@ -103,8 +102,8 @@ impl Builder {
             flags += &format!(" -Clinker={}", linker.display());
         }
         let mut command = match &self.toolchain {
-            Some(toolchain) => toolchain.cargo_for(target, Needs::Core, &BUILD),
-            None => cargo(BUILD.iter().chain(&["--target", target])),
+            Some(toolchain) => toolchain.cargo_build(target, Needs::Core),
+            None => cargo(["build", "--release", "--target", target]),
         };
         command.env("RUSTFLAGS", flags);
         command

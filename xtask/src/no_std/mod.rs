@@ -20,17 +20,16 @@ pub fn add_steps(steps: &mut Steps) {
         probe::check,
     );
     steps.run(
-        &format!("each crate compiles for {TARGET}"),
+        &format!("each crate builds for {TARGET}"),
         check_bare_target,
     );
 }
 
-/// Checks every set without std for the bare target, with the installed toolchain or with Debian's;
-/// `cargo xtask embedded` builds and runs.
+/// Builds every set without std for the bare target, with the installed toolchain or with Debian's.
 fn check_bare_target() -> StepResult {
     if is_installed(TARGET)? {
         println!("    with the installed target");
-        return check_all(&|_| cargo(["check", "--release", "--target", TARGET]));
+        return build_all(&|_| cargo(["build", "--target", TARGET]));
     }
     match Toolchain::with_sources() {
         Ok(toolchain) => {
@@ -38,7 +37,7 @@ fn check_bare_target() -> StepResult {
                 "    with Debian's toolchain in {}",
                 toolchain.folder().display()
             );
-            check_all(&|needs| toolchain.cargo_for(TARGET, needs, &["check", "--release"]))
+            build_all(&|needs| toolchain.cargo_build(TARGET, needs))
         }
         Err(reason) => Ok(Outcome::Skipped(format!(
             "no target (rustup target add {TARGET}) and no toolchain from Debian ({reason})"
@@ -57,10 +56,10 @@ pub fn is_installed(target: &str) -> Result<bool, String> {
     Ok(libraries.is_dir())
 }
 
-fn check_all(check: &dyn Fn(Needs) -> Command) -> StepResult {
+fn build_all(build: &dyn Fn(Needs) -> Command) -> StepResult {
     let without_std = |set: &FeatureSet| set.needs != Needs::Std;
     for_each_set(without_std, |set| {
-        let mut command = check(set.needs);
+        let mut command = build(set.needs);
         command
             .args(["--quiet", "--lib", "--target-dir"])
             .arg(root().join("target/bare"));
