@@ -1,7 +1,5 @@
 //! `cargo xtask`: the checks that every change passes, with the stable toolchain alone.
 
-use std::ffi::OsStr;
-
 use crate::arrows;
 use crate::circles;
 use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set, together};
@@ -32,7 +30,7 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     });
     if tests == WorkspaceTests::Here {
         steps.run("tests of the workspace", || {
-            passes(["test", "--workspace", "--quiet"])
+            passes(&["test", "--workspace", "--quiet"])
         });
     }
     steps.run("tests with software floats", software_floats);
@@ -47,17 +45,17 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
 const OTHER_WORKSPACES: [&str; 4] = ["embedded", "fuzz", "gpu/ptx", "gpu/wgsl"];
 
 fn format() -> StepResult {
-    passes(["fmt", "--all", "--check"])?;
+    passes(&["fmt", "--all", "--check"])?;
     let mut others = OTHER_WORKSPACES.iter();
     others.try_fold(Outcome::Passed, |_, folder| {
         let manifest = format!("{folder}/Cargo.toml");
-        passes(["fmt", "--all", "--check", "--manifest-path", &manifest])
+        passes(&["fmt", "--all", "--check", "--manifest-path", &manifest])
     })
 }
 
 /// The tests of the crates that work without std, without it.
 fn software_floats() -> StepResult {
-    let sets = together(SOFTWARE_FLOATS);
+    let selection = together(SOFTWARE_FLOATS);
     let mut tree = cargo([
         "tree",
         "--edges",
@@ -65,13 +63,13 @@ fn software_floats() -> StepResult {
         "--invert",
         "light-math",
     ]);
-    if output(tree.args(&sets))?.contains("light-math feature \"std\"") {
+    if output(tree.args(&selection))?.contains("light-math feature \"std\"") {
         return Err(
             "a test dependency turns on std of light-math: cargo tree --edges features".into(),
         );
     }
     let mut test = cargo(["test", "--quiet"]);
-    run(test.args(&sets)).map(|()| Outcome::Passed)
+    run(test.args(&selection)).map(|()| Outcome::Passed)
 }
 
 /// Documents the crates that have feature sets, with the same features each.
@@ -95,7 +93,7 @@ fn lints(selection: &[&str]) -> Result<(), String> {
     run(&mut cargo(arguments))
 }
 
-fn passes<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> StepResult {
+fn passes(arguments: &[&str]) -> StepResult {
     run(&mut cargo(arguments)).map(|()| Outcome::Passed)
 }
 

@@ -193,9 +193,17 @@ impl Job {
         starts.map_or(0, |starts| starts.lines().count())
     }
 
-    /// Whether a part 2 was started more than once.
-    pub(super) fn was_started_again(&self) -> bool {
-        self.starts_of_waiting_parts() > self.whole.len()
+    /// Whether a part 2, whose machine was lost, was started more than once.
+    ///
+    /// # Errors
+    /// That it was not.
+    pub(super) fn was_started_again(&self) -> Result<(), NoPicture> {
+        if self.starts_of_waiting_parts() > self.whole.len() {
+            return Ok(());
+        }
+        let engine = self.engine;
+        let why = format!("{engine}: the part on the lost machine was not started again");
+        Err(NoPicture::Failed(why))
     }
 
     /// Whether all pictures are there.

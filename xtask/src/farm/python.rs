@@ -24,9 +24,6 @@ pub(super) fn open_job_description(job: &Job) -> Result<(), NoPicture> {
     ran.map(drop).map_err(NoPicture::Failed)
 }
 
-/// A server and workers on this machine, one of which is lost.
-const LOCAL_CLUSTER: &str = include_str!("local_cluster.py");
-
 /// Runs the job on a server and workers of its own. A worker is lost while it renders part 2, and
 /// another one takes its place.
 ///
@@ -34,18 +31,12 @@ const LOCAL_CLUSTER: &str = include_str!("local_cluster.py");
 /// Why there is no picture.
 pub(super) fn hyperqueue(job: &Job) -> Result<(), NoPicture> {
     let program = environment("hyperqueue==0.27.0", "python")?;
-    let cluster = job.folder().join("local_cluster.py");
-    fs::write(&cluster, LOCAL_CLUSTER).map_err(|e| NoPicture::Failed(e.to_string()))?;
+    let cluster = root().join("xtask/src/farm/local_cluster.py");
     let mut command = Command::new(program);
     let files = [cluster, job.file("submit.py"), job.starts()];
     command.args(files).current_dir(job.folder());
     output_within(LIMIT, job.with_program(&mut command)).map_err(NoPicture::Failed)?;
-    if job.was_started_again() {
-        Ok(())
-    } else {
-        let why = "hyperqueue: the part on the lost worker was not started again";
-        Err(NoPicture::Failed(why.into()))
-    }
+    job.was_started_again()
 }
 
 /// The program `name` of an environment with `package`, which is made if it is not there.
