@@ -86,17 +86,14 @@ impl BvhLightSampler {
 }
 
 impl LightSampler for BvhLightSampler {
-    #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         self.view().sample(ctx, u)
     }
 
-    #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         self.view().pmf(ctx, light)
     }
 
-    #[inline]
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         self.view().choices_at(ctx, count)
     }

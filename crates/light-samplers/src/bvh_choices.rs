@@ -107,7 +107,6 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
         }
     }
 
-    #[inline]
     pub(crate) fn sample(&self, u: u64) -> Option<SampledLight> {
         if self.infinite.is_empty() {
             return self.tree.sample(u);
@@ -122,7 +121,6 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
         }
     }
 
-    #[inline]
     pub(crate) fn pmf(&self, light: LightId) -> f32 {
         if self.infinite.is_empty() {
             return self.tree.pmf(light);

@@ -71,7 +71,6 @@ impl<'a> BvhLightSamplerRef<'a> {
     }
 
     /// [`LightSampler::at`], for as long as the memory is borrowed.
-    #[inline]
     #[must_use]
     pub(crate) fn choices_at(&self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         if count < FEWEST_OF_CUT {
@@ -109,7 +108,6 @@ impl<'a> BvhLightSamplerRef<'a> {
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[inline]
     pub fn set_at(&self, ctx: &LightSampleContext, count: u32, choices: &mut LightChoices<'a>) {
         if count < FEWEST_OF_CUT {
             *choices = self.choices_at(ctx, count);
@@ -147,7 +145,6 @@ impl<'a> BvhLightSamplerRef<'a> {
 }
 
 impl LightSampler for BvhLightSamplerRef<'_> {
-    #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         if self.is_tree_alone() {
             self.tree.sample(ctx, u)
@@ -156,7 +153,6 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         }
     }
 
-    #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         if self.is_tree_alone() {
             self.tree.pmf(ctx, light)
@@ -165,7 +161,6 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         }
     }
 
-    #[inline]
     fn at<'b>(&'b self, ctx: &LightSampleContext, count: u32) -> LightChoices<'b> {
         self.choices_at(ctx, count)
     }

@@ -126,7 +126,6 @@ impl InstancedBvhLightSampler {
 }
 
 impl LightSampler for InstancedBvhLightSampler {
-    #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         if self.infinite.is_empty() {
             numbered(&self.tree, self.tree.sample(ctx, u)?)
@@ -135,7 +134,6 @@ impl LightSampler for InstancedBvhLightSampler {
         }
     }
 
-    #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         if self.infinite.is_empty() {
             let placed = self.placed_light(light);
@@ -145,7 +143,6 @@ impl LightSampler for InstancedBvhLightSampler {
         }
     }
 
-    #[inline]
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
         LightChoices::in_placements(self.choice_at(ctx), count)
     }

@@ -224,7 +224,6 @@ impl<'a> LightChoices<'a> {
     }
 
     /// One light that may light the context; `None` means that this choice contributes nothing.
-    #[inline]
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledLight> {
         match &self.kind {
@@ -240,7 +239,6 @@ impl<'a> LightChoices<'a> {
     /// Probability that one of the choices is `light`, on average over them, with the same bits as
     /// that of a sample. Multiple importance sampling sets [`count`](Self::count) times this, times
     /// the density of the light, against the density of one sample of another strategy.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
         match &self.kind {

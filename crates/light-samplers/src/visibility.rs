@@ -36,7 +36,6 @@ impl<'a, V: VisibilityCache + ?Sized> VisibilityLightSampler<'a, V> {
     /// Several candidates for one shadow ray undo the gain of the factors, because the brightest is
     /// the likeliest to be tested, visible or not: make one choice where visibility is known, or
     /// trace a ray to each.
-    #[inline]
     #[must_use]
     pub fn choices(&self, ctx: &LightSampleContext, known: u32, unknown: u32) -> LightChoices<'a> {
         match self.cache.factors(ctx) {
@@ -54,7 +53,6 @@ impl<'a, V: VisibilityCache + ?Sized> VisibilityLightSampler<'a, V> {
 }
 
 impl<V: VisibilityCache + ?Sized> LightSampler for VisibilityLightSampler<'_, V> {
-    #[inline]
     fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledLight> {
         match self.choice_at(ctx) {
             Some(choice) => choice.sample(u),
@@ -62,7 +60,6 @@ impl<V: VisibilityCache + ?Sized> LightSampler for VisibilityLightSampler<'_, V>
         }
     }
 
-    #[inline]
     fn pmf(&self, ctx: &LightSampleContext, light: LightId) -> f32 {
         match self.choice_at(ctx) {
             Some(choice) => choice.pmf(light),
@@ -70,7 +67,6 @@ impl<V: VisibilityCache + ?Sized> LightSampler for VisibilityLightSampler<'_, V>
         }
     }
 
-    #[inline]
     fn at<'b>(&'b self, ctx: &LightSampleContext, count: u32) -> LightChoices<'b> {
         self.choices(ctx, count, count)
     }

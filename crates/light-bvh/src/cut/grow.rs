@@ -22,7 +22,6 @@ pub(crate) const MAX_REVISION: f32 = 16.0;
 
 impl<'a> LightBvhRef<'a> {
     /// A cut through the tree for `receiver`, for several choices there.
-    #[inline]
     #[must_use]
     pub fn cut<A: IntoReceiver>(&self, receiver: A, detail: CutDetail) -> LightCut<'a, A::Kept> {
         let mut cut = LightCut {
@@ -38,7 +37,6 @@ impl<'a> LightBvhRef<'a> {
 impl<'a, R: KeptReceiver> LightCut<'a, R> {
     /// Makes this the [cut](LightBvhRef::cut) through `tree` for `receiver`, in place: its 2 KB are
     /// not moved.
-    #[inline]
     pub fn set<A>(&mut self, tree: &LightBvhRef<'a>, receiver: A, detail: CutDetail)
     where
         A: IntoReceiver<Kept = R>,

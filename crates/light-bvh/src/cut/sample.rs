@@ -14,14 +14,12 @@ use crate::simd::dispatch;
 impl<R: KeptReceiver> LightCut<'_, R> {
     /// One light that may light the receiver; `None` if no light in the tree can. For `k` lights,
     /// call it with `u` of [each of `k` strata](light_math::fraction::stratum).
-    #[inline]
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledLight> {
         dispatch(QueryFor(&self.receiver, Sample { cut: self, u }))
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
         dispatch(QueryFor(&self.receiver, Probability { cut: self, light }))

@@ -22,7 +22,6 @@ pub struct InstancedLightBvhAt<'a> {
 
 impl InstancedLightBvh {
     /// One light that may light `ctx`; `None` if this choice contributes nothing.
-    #[inline]
     #[must_use]
     pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledPlacedLight> {
         let receiver = ctx.into();
@@ -33,7 +32,6 @@ impl InstancedLightBvh {
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: PlacedLight) -> f32 {
         let receiver = ctx.into();
@@ -45,7 +43,6 @@ impl InstancedLightBvh {
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
-    #[inline]
     #[must_use]
     pub fn at(&self, ctx: &LightSampleContext) -> InstancedLightBvhAt<'_> {
         let receiver = ctx.into();
@@ -82,7 +79,6 @@ impl InstancedLightBvhAt<'_> {
     }
 
     /// One light that may light the context; `None` if this choice contributes nothing.
-    #[inline]
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledPlacedLight> {
         let placed = self.top.sample(u)?;
@@ -92,7 +88,6 @@ impl InstancedLightBvhAt<'_> {
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, light: PlacedLight) -> f32 {
         let inside = self.tree.in_prototype(light.placement, &self.receiver);

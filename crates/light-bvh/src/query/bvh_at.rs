@@ -20,7 +20,6 @@ pub struct LightBvhAt<'a, R = ContextReceiver> {
 
 impl<'a> LightBvhRef<'a> {
     /// The tree as `receiver` sees it.
-    #[inline]
     #[must_use]
     pub fn at<A: IntoReceiver>(&self, receiver: A) -> LightBvhAt<'a, A::Kept> {
         let tree = self.wanting(receiver.groups());
@@ -44,14 +43,12 @@ impl<R: KeptReceiver> LightBvhAt<'_, R> {
     }
 
     /// One light that may light the receiver; `None` if no light in the tree can.
-    #[inline]
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledLight> {
         dispatch(QueryFor(&self.receiver, FromRoot { at: self, u }))
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
         dispatch(QueryFor(&self.receiver, ToRoot { at: self, light }))

@@ -11,7 +11,6 @@ use crate::simd::dispatch;
 /// a [`Receiver`](crate::Receiver). `u` is a [fraction](light_math::fraction) of 2^64.
 impl LightBvhRef<'_> {
     /// One light that may light `receiver`; `None` if no light in the tree can.
-    #[inline]
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
         let tree = &self.wanting(receiver.groups());
@@ -19,7 +18,6 @@ impl LightBvhRef<'_> {
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, receiver: impl IntoReceiver, light: LightId) -> f32 {
         let tree = &self.wanting(receiver.groups());

@@ -21,7 +21,6 @@ pub struct LightBvhInCellAt<'a, R = ContextReceiver> {
 
 impl<'a> LightBvhInCell<'a> {
     /// The tree as `receiver` sees it.
-    #[inline]
     #[must_use]
     pub fn at<A: IntoReceiver>(&self, receiver: A) -> LightBvhInCellAt<'a, A::Kept> {
         let within = self.wanting(receiver);
@@ -46,14 +45,12 @@ impl<R: KeptReceiver> LightBvhInCellAt<'_, R> {
     }
 
     /// One light that may light the receiver; `None` if no light in the tree can.
-    #[inline]
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledLight> {
         dispatch(QueryFor(&self.receiver, FromRoot { at: self, u }))
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, light: LightId) -> f32 {
         dispatch(QueryFor(&self.receiver, AlongWay { at: self, light }))

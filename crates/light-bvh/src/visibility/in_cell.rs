@@ -33,7 +33,6 @@ impl<'a> LightBvhRef<'a> {
 impl LightBvhInCell<'_> {
     /// One light that may light `receiver`; `None` if no light in the tree can. `u` is a
     /// [fraction](light_math::fraction) of 2^64.
-    #[inline]
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
         let within = &self.wanting(receiver);
@@ -41,7 +40,6 @@ impl LightBvhInCell<'_> {
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
-    #[inline]
     #[must_use]
     pub fn pmf(&self, receiver: impl IntoReceiver, light: LightId) -> f32 {
         let within = &self.wanting(receiver);
