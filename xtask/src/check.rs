@@ -26,7 +26,13 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
         lints(&["--workspace", "--all-targets"]).map(|()| Outcome::Passed)
     });
     steps.run("lints of each feature set", || {
-        for_each_set(|_| true, |set| lints(&set.arguments()))
+        for_each_set(
+            |_| true,
+            |set| {
+                let target = format!("target/lints/{}", set.needs.folder());
+                lints(&[&set.arguments()[..], &["--target-dir", &target]].concat())
+            },
+        )
     });
     if tests == WorkspaceTests::Here {
         steps.run("tests of the workspace", || {

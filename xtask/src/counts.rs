@@ -3,9 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::num::NonZero;
+use std::path::Path;
 use std::process::Command;
+use std::thread;
 
-use crate::steps::{Outcome, StepResult, cargo, is_there, output, root, run};
+use crate::steps::{Outcome, StepResult, cargo, is_there, output, root, run, side_by_side};
 
 /// What is written down, one `NAME COUNT` a line.
 const WRITTEN: &str = "benches/counts.txt";
@@ -41,23 +44,37 @@ fn measure() -> Result<Counts, String> {
     ))?;
     let program = root().join("target/release/examples/counts");
     let names = output(&mut Command::new(&program))?;
-    let mut counts = Counts::new();
-    for (name, calls) in names.lines().filter_map(|line| line.split_once(' ')) {
-        let mut valgrind = Command::new("valgrind");
-        valgrind
-            .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-            .arg(format!("--toggle-collect=*counts::count_{name}*"))
-            .arg(&program)
-            .arg(name);
-        let report = output(&mut valgrind)?;
-        let total = collected(&report).ok_or(format!("{name}: callgrind counted nothing"))?;
-        let calls: u64 = calls
-            .parse()
-            .map_err(|_| format!("{name}: not a number: {calls}"))?;
-        println!("    {name}: {} instructions", total / calls);
-        counts.insert(name.to_owned(), total / calls);
-    }
-    Ok(counts)
+    let names: Vec<(&str, &str)> = (names.lines())
+        .filter_map(|line| line.split_once(' '))
+        .collect();
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    let parts: Vec<_> = names.chunks(names.len().div_ceil(cores).max(1)).collect();
+    let counts = side_by_side(&parts, |part| -> Result<Counts, String> {
+        part.iter().map(|name| count(&program, *name)).collect()
+    });
+    counts
+        .into_iter()
+        .try_fold(Counts::new(), |mut all, of_part| {
+            all.extend(of_part?);
+            Ok(all)
+        })
+}
+
+/// A name, and its instructions a call.
+fn count(program: &Path, (name, calls): (&str, &str)) -> Result<(String, u64), String> {
+    let mut valgrind = Command::new("valgrind");
+    valgrind
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(format!("--toggle-collect=*counts::count_{name}*"))
+        .arg(program)
+        .arg(name);
+    let report = output(&mut valgrind)?;
+    let total = collected(&report).ok_or(format!("{name}: callgrind counted nothing"))?;
+    let calls: u64 = calls
+        .parse()
+        .map_err(|_| format!("{name}: not a number: {calls}"))?;
+    println!("    {name}: {} instructions", total / calls);
+    Ok((name.to_owned(), total / calls))
 }
 
 /// The number in callgrind's line `==1== Collected : 123`.

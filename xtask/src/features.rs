@@ -1,6 +1,6 @@
 //! The feature sets that are checked: the one list of them.
 
-use crate::steps::{Outcome, StepResult};
+use crate::steps::{Outcome, StepResult, side_by_side};
 
 /// What a feature set expects of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +11,21 @@ pub enum Needs {
     Alloc,
     /// An operating system.
     Std,
+}
+
+impl Needs {
+    /// All of them.
+    const ALL: [Self; 3] = [Self::Core, Self::Alloc, Self::Std];
+
+    /// The name of the folder for what is built with sets of this kind.
+    #[must_use]
+    pub const fn folder(self) -> &'static str {
+        match self {
+            Self::Core => "core",
+            Self::Alloc => "alloc",
+            Self::Std => "std",
+        }
+    }
 }
 
 /// Features of one library crate, its default ones off.
@@ -78,19 +93,25 @@ pub const FEATURE_SETS: &[FeatureSet] = &[
 
 /// Runs `check` for the sets that `select` chooses, all of them, whatever fails.
 ///
+/// Sets of different [needs](Needs) run side by side: a set is a chain of crates, which cargo
+/// compiles one after the other. So `check` must build in a target folder for each of them.
+///
 /// # Errors
 /// What failed, one line a set.
 pub fn for_each_set(
-    select: impl Fn(&FeatureSet) -> bool,
-    check: impl Fn(&FeatureSet) -> Result<(), String>,
+    select: impl Fn(&FeatureSet) -> bool + Sync,
+    check: impl Fn(&FeatureSet) -> Result<(), String> + Sync,
 ) -> StepResult {
-    let sets = FEATURE_SETS.iter().filter(|set| select(set));
-    let errors: Vec<String> = sets
-        .filter_map(|set| {
-            let error = check(set).err()?;
-            Some(format!("{} with {}: {error}", set.package, set.features))
-        })
-        .collect();
+    let errors_of = |needs| -> Vec<String> {
+        let sets = FEATURE_SETS.iter().filter(|set| set.needs == needs);
+        sets.filter(|set| select(set))
+            .filter_map(|set| {
+                let error = check(set).err()?;
+                Some(format!("{} with {}: {error}", set.package, set.features))
+            })
+            .collect()
+    };
+    let errors = side_by_side(&Needs::ALL, |&needs| errors_of(needs)).concat();
     if errors.is_empty() {
         Ok(Outcome::Passed)
     } else {

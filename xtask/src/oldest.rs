@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use crate::debian::Toolchain;
-use crate::features::for_each_set;
+use crate::features::{Needs, for_each_set};
 use crate::steps::{Outcome, StepResult, Steps, output, root, run};
 
 /// The oldest compiler, as the workspace states it.
@@ -38,12 +38,13 @@ fn rustup() -> Command {
     command
 }
 
-fn check_all(cargo: &dyn Fn() -> Command) -> StepResult {
-    let check = |arguments: &[&str]| {
+fn check_all(cargo: &(dyn Fn() -> Command + Sync)) -> StepResult {
+    let check = |needs: Needs, arguments: &[&str]| {
         let mut command = cargo();
         command.args(["check", "--release", "--quiet", "--lib", "--target-dir"]);
-        run(command.arg(root().join("target/oldest")).args(arguments))
+        let folder = root().join("target/oldest").join(needs.folder());
+        run(command.arg(folder).args(arguments))
     };
-    for_each_set(|_| true, |set| check(&set.arguments()))?;
-    check(&["--package", "light-scene"]).map(|()| Outcome::Passed)
+    for_each_set(|_| true, |set| check(set.needs, &set.arguments()))?;
+    check(Needs::Std, &["--package", "light-scene"]).map(|()| Outcome::Passed)
 }

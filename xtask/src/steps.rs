@@ -186,6 +186,19 @@ fn text_of(command: &Command, out: &Output) -> Result<String, String> {
     Err(format!("{}\n{tail}", command_line(command)))
 }
 
+/// The results of `work` on each item, in their order, each on a thread of its own.
+pub fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    thread::scope(|scope| {
+        let threads: Vec<_> = (items.iter())
+            .map(|item| scope.spawn(|| work(item)))
+            .collect();
+        let results = threads.into_iter().map(thread::ScopedJoinHandle::join);
+        results
+            .map(|result| result.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
+}
+
 /// Whether a program answers to `--version`.
 #[must_use]
 pub fn is_there(program: &str) -> bool {

@@ -12,7 +12,8 @@ pub(super) fn check() -> StepResult {
 }
 
 fn link(set: &FeatureSet) -> Result<(), String> {
-    let folder = root().join("target/no-std").join(set.package);
+    let of_needs = root().join("target/no-std").join(set.needs.folder());
+    let folder = of_needs.join(set.package);
     let write = |file: &str, text: &str| {
         let path = folder.join(file);
         fs::create_dir_all(path.parent().unwrap_or(&folder))
@@ -26,7 +27,7 @@ fn link(set: &FeatureSet) -> Result<(), String> {
     build
         .arg(folder.join("Cargo.toml"))
         .arg("--target-dir")
-        .arg(root().join("target/no-std/target"));
+        .arg(of_needs.join("target"));
     run(&mut build)
 }
 
