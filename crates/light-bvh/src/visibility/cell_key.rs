@@ -68,6 +68,23 @@ impl CellKey {
         }
     }
 
+    /// The three fine cells of the same facing that share a wall with the cell of `ctx` and are
+    /// nearest to it on each axis, the nearest one first; `coarse_size` as in [`fine`](Self::fine).
+    #[must_use]
+    pub fn nearest_neighbours(ctx: &LightSampleContext, coarse_size: f32) -> [Self; 3] {
+        let own = Self::fine(ctx, coarse_size);
+        let at = ctx.p * power_of_two(FINE_BITS - nearest_level(coarse_size)) + OFFSET;
+        let from_middle = (at.to_array()).map(|at| at - floor(at) - 0.5);
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&a, &b| f32::total_cmp(&from_middle[b].abs(), &from_middle[a].abs()));
+        axes.map(|axis| {
+            let mut neighbour = own;
+            let step = if from_middle[axis] < 0.0 { -1 } else { 1 };
+            neighbour.at[axis] = neighbour.at[axis].saturating_add(step);
+            neighbour
+        })
+    }
+
     /// The coarse cell that holds this one; itself if it is coarse.
     #[inline]
     #[must_use]
@@ -247,6 +264,30 @@ mod tests {
         let fog = CellKey::fine(&LightSampleContext::medium(Vec3::ONE), 1.0);
         assert_eq!(fog.facing(), None, "fog");
         assert_eq!(fog.coarse().facing(), None, "coarse fog");
+    }
+
+    #[test]
+    fn neighbours_lie_behind_the_nearest_walls() {
+        for i in 0..1000u16 {
+            let t = f32::from(i);
+            let p = Vec3::new(t * 0.37 - 70.0, t * 7.0 % 5.0 - 2.0, t * 3.1 % 11.0 - 6.0);
+            let ctx = LightSampleContext::surface(p, Vec3::Y, Vec3::Y);
+            let own = CellKey::fine(&ctx, 1.0);
+            let distance = |key: CellKey| {
+                let bounds = key.bounds();
+                let beyond = (bounds.min - p).max(p - bounds.max);
+                beyond.max_element()
+            };
+            let near = CellKey::nearest_neighbours(&ctx, 1.0);
+            let distances = near.map(distance);
+            assert!(distances.is_sorted(), "{p}: {distances:?}");
+            for key in near {
+                let steps = [0, 1, 2].map(|axis| key.at[axis].abs_diff(own.at[axis]));
+                assert_eq!(steps.iter().sum::<u32>(), 1, "{p}: shares a wall");
+                assert!(distance(key) <= 0.0626, "{p}: within half of a cell");
+                assert_eq!(key.facing(), own.facing(), "{p}: faces the same side");
+            }
+        }
     }
 
     #[test]

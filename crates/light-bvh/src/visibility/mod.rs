@@ -12,7 +12,7 @@
 //! groups whose visibility the rays of the coarse cell leave open. Random numbers depend on the key only:
 //! every thread that fills a cell makes the same bytes. Where nothing blocks the rays, a cell
 //! becomes plain after 48 of them. A [`CellTable`] holds all cells in flat slices; [`CellTableRef`]
-//! looks them up without an allocator.
+//! looks them up without an allocator, and finds the nearest fine cell where a place has none.
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] {

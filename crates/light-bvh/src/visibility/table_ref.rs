@@ -1,3 +1,4 @@
+use light_bounds::LightSampleContext;
 use light_math::fraction;
 
 use crate::node::wide_node::WIDTH;
@@ -99,6 +100,25 @@ impl<'a> CellTableRef<'a> {
     pub fn factors(&self, key: CellKey) -> CellFactors<'a> {
         let found = self.find(key).or_else(|| self.find(key.coarse()));
         found.unwrap_or(CellFactors::PLAIN)
+    }
+
+    /// The factors at `ctx`: those of its fine cell; of the first of its
+    /// [nearest neighbours](CellKey::nearest_neighbours) that is in the table if its own is not;
+    /// of its coarse cell then. None where its coarse cell is not in the table.
+    #[inline]
+    #[must_use]
+    pub fn nearest_factors(&self, ctx: &LightSampleContext, coarse_size: f32) -> CellFactors<'a> {
+        let key = CellKey::fine(ctx, coarse_size);
+        if let Some(own) = self.find(key) {
+            return own;
+        }
+        let Some(coarse) = self.find(key.coarse()) else {
+            return CellFactors::PLAIN;
+        };
+        let near = CellKey::nearest_neighbours(ctx, coarse_size);
+        near.iter()
+            .find_map(|key| self.find(*key))
+            .unwrap_or(coarse)
     }
 
     /// Bytes of all arrays.

@@ -16,6 +16,8 @@ pub enum ChoiceKind {
     Cut,
     /// The published hierarchy.
     Reference,
+    /// The default hierarchy with the cells of visibility of the view, one choice.
+    Cells,
     /// In proportion to the unoccluded contribution of each light.
     Unoccluded,
     /// In proportion to the probability of the default hierarchy times the root of the share of the
@@ -51,10 +53,11 @@ pub struct SceneVariance {
 
 impl ChoiceKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Tree,
         Self::Cut,
         Self::Reference,
+        Self::Cells,
         Self::Unoccluded,
         Self::TreeAndVisibility,
         Self::Best,
@@ -67,6 +70,7 @@ impl ChoiceKind {
             Self::Tree => "tree",
             Self::Cut => "cut of two",
             Self::Reference => "reference tree",
+            Self::Cells => "cells",
             Self::Unoccluded => "exact irradiance",
             Self::TreeAndVisibility => "tree x root of visibility",
             Self::Best => "ceiling",
@@ -92,16 +96,27 @@ pub fn scene_variance(
     seed: u32,
 ) -> Result<SceneVariance, AnyLightSamplerError> {
     let tree = AnyLightSampler::new(SamplerKind::Bvh, world.lights())?;
-    let reference = AnyLightSampler::new(SamplerKind::BvhReference, world.lights())?;
+    let samplers = Samplers {
+        reference: AnyLightSampler::new(SamplerKind::BvhReference, world.lights())?,
+        cells: tree.clone().in_cells(world, view, 2)?,
+        tree,
+    };
     let receivers = receivers(world, view, seed);
     let at_each: Vec<AtReceiver> = receivers
         .par_iter()
         .map(|receiver| {
             let lights = receiver.moments(world, &points(strata.max(1), receiver.key));
-            AtReceiver::new(&receiver.ctx, &lights, &tree, &reference)
+            AtReceiver::new(&receiver.ctx, &lights, &samplers)
         })
         .collect();
     Ok(SceneVariance::over(&at_each))
+}
+
+/// The hierarchies that are compared.
+struct Samplers {
+    tree: AnyLightSampler,
+    reference: AnyLightSampler,
+    cells: AnyLightSampler,
 }
 
 /// The variances at one receiver, in the order of [`ChoiceKind::ALL`].
@@ -114,9 +129,13 @@ impl AtReceiver {
     fn new(
         ctx: &LightSampleContext,
         lights: &[(LightId, LightMoments)],
-        tree: &AnyLightSampler,
-        reference: &AnyLightSampler,
+        samplers: &Samplers,
     ) -> Self {
+        let Samplers {
+            tree,
+            reference,
+            cells,
+        } = samplers;
         let moments: Vec<LightMoments> = lights.iter().map(|(_, light)| *light).collect();
         let by = |pmf: &dyn Fn(LightId) -> f32| {
             VarianceSplit::of(
@@ -135,6 +154,7 @@ impl AtReceiver {
             ChoiceKind::Tree => by(&|id| tree.pmf(ctx, id)),
             ChoiceKind::Cut => by(&|id| cut.pmf(id)),
             ChoiceKind::Reference => by(&|id| reference.pmf(ctx, id)),
+            ChoiceKind::Cells => by(&|id| cells.pmf(ctx, id)),
             ChoiceKind::Unoccluded => {
                 VarianceSplit::in_proportion(&moments, |light| light.unoccluded)
             }

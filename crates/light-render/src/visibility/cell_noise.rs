@@ -49,7 +49,7 @@ impl CellNoise {
         let count = (cell.len() / PIXELS_PER_MEASURED).clamp(1, PIXELS);
         let weight = 1.0 / count as f64;
         for sighting in measured(cell, count) {
-            let of_point = |i| at_point(world, view, lights, sighting.pixel, i);
+            let of_point = |i| at_point(world, view, lights, sighting.point.pixel, i);
             let [a, b] = [of_point(0), of_point(1)];
             noise.mean += 0.5 * weight * (a.arriving + b.arriving);
             // Half the square of the difference, without the noise of either.
@@ -95,7 +95,7 @@ pub(super) fn gain(
     for sighting in measured(cell, PIXELS.min(cell.len())) {
         let own = fine.iter().find(|fine| fine.key() == sighting.fine);
         let factors = own.map_or(coarse.factors(), |own| own.factors(coarse));
-        let Some(vertex) = vertex(world, view, sighting.pixel, Vec2::splat(0.5)) else {
+        let Some(vertex) = vertex(world, view, sighting.point.pixel, sighting.point.at()) else {
             continue;
         };
         let ctx = vertex.context(world);
@@ -107,7 +107,7 @@ pub(super) fn gain(
             single => single,
         };
         let choices = [guided, choices_of(single, lights, &ctx)];
-        let stream = stream(view, sighting.pixel, 2);
+        let stream = stream(view, sighting.point.pixel, 2);
         let moments = vertex.moments(world, &ctx, &choices, &stream, (0, COMPARED));
         let [first, second, two] = moments.variances();
         in_cell += first;

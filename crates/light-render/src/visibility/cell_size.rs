@@ -29,6 +29,12 @@ impl CellSize {
 
     #[inline]
     pub(super) fn fine_key(&self, ctx: &LightSampleContext) -> CellKey {
-        CellKey::fine(ctx, self.fixed + self.edge * ctx.p.distance(self.camera))
+        CellKey::fine(ctx, self.coarse_edge(ctx))
+    }
+
+    /// The edge of the coarse cell at `ctx`, to the nearest power of two.
+    #[inline]
+    pub(super) fn coarse_edge(&self, ctx: &LightSampleContext) -> f32 {
+        self.fixed + self.edge * ctx.p.distance(self.camera)
     }
 }

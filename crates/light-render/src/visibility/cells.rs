@@ -5,11 +5,12 @@ use lights::samplers::{BvhLightSampler, VisibilityCache};
 use super::cell_size::CellSize;
 use super::census::Sighting;
 use super::fill::Filled;
+use super::film_point::FilmPoint;
 use super::{ChoiceEstimates, census, fill, paying_cells};
 use crate::{View, World};
 
 /// Pixels of the largest picture that is measured for cells nobody asked for, so that they take
-/// less than 2 GB.
+/// less than 3.1 GB.
 const MOST_PIXELS: usize = 1 << 21;
 
 /// Which lights are seen from the surfaces that a camera sees, in cells of space: pure functions of
@@ -23,13 +24,14 @@ pub struct VisibilityCells {
 }
 
 impl VisibilityCells {
-    /// Bytes that filling takes at most for each pixel of the whole picture: a sighting, and the
-    /// largest cells that so few pixels may have, while the table of all is made of them.
+    /// Bytes that filling takes at most for each pixel of the whole picture: the points that the
+    /// census looks at, and the largest cells that so few pixels may have, while the table of all
+    /// is made of them.
     pub(crate) const MAX_BYTES_PER_PIXEL: u64 = {
         const KEY: usize = 32;
         let coarse = (KEY + MAX_COPIED_NODES * 36) / fill::FEWEST_OF_COARSE;
         let fine = (KEY + MAX_COPIED_NODES * 16) / fill::FEWEST_OF_FINE;
-        (size_of::<Sighting>() + 2 * (coarse + fine)) as u64
+        census::MAX_BYTES_PER_PIXEL + 2 * (coarse + fine) as u64
     };
 
     /// The cells of what `view` shows of `world`, for the lights of `sampler`, on the threads of
@@ -69,19 +71,19 @@ impl VisibilityCells {
         let sightings = census::take(world, measured, &size);
         let cells: Vec<&[Sighting]> = sightings.chunk_by(|a, b| a.coarse == b.coarse).collect();
         let mut filled = paying_cells::fill_paying(world, measured, lights, &cells, estimates);
-        filled.pixels = filled.pixels * view.pixels() / measured.pixels();
+        filled.quarters = filled.quarters * view.pixels() / measured.pixels();
         Self::of(size, filled)
     }
 
     fn of(size: CellSize, filled: Filled) -> Result<Self, CellTableError> {
-        let Filled { cells, pixels } = filled;
+        let Filled { cells, quarters } = filled;
         let (coarse, fine): (Vec<_>, Vec<_>) = cells.into_iter().unzip();
         let fine: Vec<_> = fine.into_iter().flatten().collect();
         let table = CellTable::new(&coarse, &fine)?;
         Ok(Self {
             size,
             table,
-            pixels,
+            pixels: quarters / FilmPoint::QUARTERS,
         })
     }
 
@@ -99,8 +101,8 @@ impl VisibilityCells {
         [coarse, keys.len() - coarse]
     }
 
-    /// How many pixels of the whole picture show a surface in such a cell, by the ray through their
-    /// middle.
+    /// How many pixels of the whole picture show a surface in such a cell, by the rays of the
+    /// census.
     #[must_use]
     pub const fn pixels(&self) -> usize {
         self.pixels
@@ -119,7 +121,10 @@ impl VisibilityCache for VisibilityCells {
         if self.is_plain() || ctx.ns().is_none() {
             return None;
         }
-        let cell = self.table.view().factors(self.size.fine_key(ctx));
+        let cell = self
+            .table
+            .view()
+            .nearest_factors(ctx, self.size.coarse_edge(ctx));
         (!cell.is_plain()).then_some(cell)
     }
 }

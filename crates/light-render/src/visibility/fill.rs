@@ -4,14 +4,15 @@ use lights::glam::Vec2;
 use lights::samplers::BvhLightSampler;
 use rayon::prelude::*;
 
-use super::census::{Place, Sighting, place};
+use super::census::{Place, Sighting, pixels, place, quarters};
+use super::film_point::FilmPoint;
 use crate::{View, World};
 
 /// Coarse cells that fewer pixels show are plain.
 pub(super) const FEWEST_OF_COARSE: usize = 4;
 
-/// Fine cells that fewer pixels show have the factors of their coarse cell.
-pub(super) const FEWEST_OF_FINE: usize = 2;
+/// Fine cells that fewer pixels show have no factors of their own.
+pub(super) const FEWEST_OF_FINE: usize = 1;
 
 /// Places of a coarse cell, at most.
 const COARSE_PLACES: usize = 128;
@@ -41,8 +42,8 @@ pub(super) type Cell = (CoarseCell, Vec<FineCell>);
 pub(super) struct Filled {
     /// In the order of their keys.
     pub(super) cells: Vec<Cell>,
-    /// How many pixels show a surface in one of them.
-    pub(super) pixels: usize,
+    /// How many quarters of pixels show a surface in one of them.
+    pub(super) quarters: usize,
 }
 
 impl Filled {
@@ -54,7 +55,7 @@ impl Filled {
         for (sightings, cell) in all {
             if let Some(cell) = cell {
                 filled.cells.push(cell);
-                filled.pixels += sightings.len();
+                filled.quarters += quarters(sightings);
             }
         }
         filled
@@ -73,8 +74,8 @@ pub(super) fn fill(
         .map(|cell| fill_cell(world, view, lights, cell))
         .collect();
     let filled = Filled::from_cells(cells.iter().zip(filled));
-    let pixels: usize = cells.iter().map(|cell| cell.len()).sum();
-    if (filled.pixels as f32) < LEAST_KNOWN_SHARE * pixels as f32 {
+    let all: usize = cells.iter().map(|cell| quarters(cell)).sum();
+    if (filled.quarters as f32) < LEAST_KNOWN_SHARE * all as f32 {
         return Filled::default();
     }
     filled
@@ -87,36 +88,48 @@ pub(super) fn fill_cell(
     lights: &BvhLightSampler,
     cell: &[Sighting],
 ) -> Option<Cell> {
-    if cell.len() < FEWEST_OF_COARSE {
+    if quarters(cell) < FilmPoint::QUARTERS * FEWEST_OF_COARSE {
         return None;
     }
     let tree = lights.tree().view();
-    let places = |sightings: &[Sighting], most| -> Vec<Place> {
-        let stride = sightings.len().div_ceil(most);
-        let pixels = sightings.iter().step_by(stride);
-        pixels.filter_map(|s| place(world, view, s.pixel)).collect()
-    };
     let visible = |place: &Place, light: LightId, u: Vec2| place.sees(world, light, u);
-    let rays = rays_of(cell.len());
-    let at = places(cell, COARSE_PLACES);
+    let rays = rays_of(pixels(cell));
+    let at = places(world, view, cell, COARSE_PLACES);
     let coarse = CoarseCell::fill(tree, cell[0].coarse, &at, &rays, visible);
     if coarse.factors().is_plain() {
         return None;
     }
     let parts = cell.chunk_by(|a, b| a.fine == b.fine);
     let fine = parts
-        .filter(|part| part.len() >= FEWEST_OF_FINE)
+        .filter(|part| quarters(part) >= FilmPoint::QUARTERS * FEWEST_OF_FINE)
         .map(|part| {
-            let rays = rays_of(part.len());
-            let at = places(part, FINE_PLACES);
+            let rays = rays_of(pixels(part));
+            let at = places(world, view, part, FINE_PLACES);
             coarse.fill_fine(tree, part[0].fine, &at, &rays, visible)
         });
     let fine = fine.collect();
     Some((coarse.without_rays(), fine))
 }
 
+/// At most so many places of a cell, each for an equal share of the pixels that show it.
+fn places(world: &World, view: &View, sightings: &[Sighting], most: usize) -> Vec<Place> {
+    let stride = quarters(sightings).div_ceil(most);
+    let (mut before, mut places) = (0, Vec::new());
+    for sighting in sightings {
+        let end = before + sighting.point.quarters();
+        // The multiples of `stride` from `before` on.
+        let count = end.div_ceil(stride) - before.div_ceil(stride);
+        before = end;
+        if count > 0 {
+            let place = place(world, view, sighting.point);
+            places.extend(core::iter::repeat_n(place, count).flatten());
+        }
+    }
+    places
+}
+
 /// How many rays at most fill a cell that so many pixels show, and its fine cells.
-pub(super) fn rays_of_cell(pixels: usize) -> u32 {
+pub(super) fn rays_of_cell(pixels: f32) -> u32 {
     let FillOptions {
         first_rays,
         exploring_rays,
@@ -128,7 +141,7 @@ pub(super) fn rays_of_cell(pixels: usize) -> u32 {
 }
 
 /// How many rays a cell is filled by that so many pixels show.
-fn rays_of(pixels: usize) -> FillOptions {
+fn rays_of(pixels: f32) -> FillOptions {
     let all = FillOptions::default();
     FillOptions {
         exploring_rays: at_most(all.exploring_rays, EXPLORING_RAYS_PER_PIXEL, pixels),
@@ -144,6 +157,6 @@ fn rays_of(pixels: usize) -> FillOptions {
     clippy::cast_sign_loss,
     reason = "at most `most`"
 )]
-fn at_most(most: u32, per_pixel: f32, pixels: usize) -> u32 {
-    (per_pixel * pixels as f32).min(most as f32) as u32
+fn at_most(most: u32, per_pixel: f32, pixels: f32) -> u32 {
+    (per_pixel * pixels).min(most as f32) as u32
 }

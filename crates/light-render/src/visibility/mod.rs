@@ -8,6 +8,7 @@ mod census;
 mod choice_estimates;
 mod choice_plan;
 mod fill;
+mod film_point;
 mod measured_vertex;
 mod paying_cells;
 mod pixel_moments;

@@ -3,9 +3,10 @@ use rayon::prelude::*;
 
 use super::ChoiceEstimates;
 use super::cell_noise::{CellNoise, gain};
-use super::census::Sighting;
+use super::census::{self, Sighting};
 use super::choice_plan::ChoicePlan;
 use super::fill::{Cell, FEWEST_OF_COARSE, Filled, fill_cell, rays_of_cell};
+use super::film_point::FilmPoint;
 use crate::{View, World};
 
 /// The samples a pixel that a picture is taken to have. Not those of the picture: parts of it do
@@ -57,7 +58,7 @@ pub(super) fn fill_paying(
     let plan = estimates.best();
     let pixels = pixels_of(cells);
     let cells: Vec<&[Sighting]> = (cells.iter().copied())
-        .filter(|cell| cell.len() >= FEWEST_OF_COARSE)
+        .filter(|cell| census::quarters(cell) >= FilmPoint::QUARTERS * FEWEST_OF_COARSE)
         .collect();
     let cells = &cells[..];
     let noise = PictureNoise::of(world, view, lights, cells, plan);
@@ -104,7 +105,12 @@ pub(super) fn fill_paying(
 
 /// How many pixels show one of these cells.
 fn pixels_of(cells: &[&[Sighting]]) -> f64 {
-    cells.iter().map(|cell| cell.len() as f64).sum()
+    cells.iter().map(|cell| pixels_of_cell(cell)).sum()
+}
+
+/// How many pixels show this cell.
+fn pixels_of_cell(cell: &[Sighting]) -> f64 {
+    f64::from(census::pixels(cell))
 }
 
 /// The noise of a picture by one sample a pixel, before any cell is filled.
@@ -129,7 +135,7 @@ impl PictureNoise {
             .map(|cell| CellNoise::of(world, view, lights, cell))
             .collect();
         // One after the other: the sums do not depend on the threads.
-        let all = || cells.iter().map(|cell| cell.len() as f64).zip(&noises);
+        let all = || cells.iter().map(|cell| pixels_of_cell(cell)).zip(&noises);
         let light: f64 = all().map(|(pixels, noise)| pixels * noise.mean).sum();
         let floor = 0.1 * light / pixels_of(cells);
         let relative = |pixels: f64, noise: &CellNoise, variance: f64| {
@@ -186,9 +192,9 @@ impl PictureNoise {
         let plan = estimates.best();
         let known = pixels_of(cells);
         // Few samples tell little of a single cell: half of its noise is that of its neighbours.
-        let noise = |i: usize| 0.5 * (self.cells[i] / self.all + cells[i].len() as f64 / known);
+        let noise = |i: usize| 0.5 * (self.cells[i] / self.all + pixels_of_cell(cells[i]) / known);
         let ray = RAY_COST / estimates.vertices();
-        let rays = |i: usize| ray * f64::from(rays_of_cell(cells[i].len()));
+        let rays = |i: usize| ray * f64::from(rays_of_cell(census::pixels(cells[i])));
         let mut order: Vec<(f64, usize)> =
             (0..cells.len()).map(|i| (noise(i) / rays(i), i)).collect();
         order.sort_by(|(a, i), (b, j)| b.total_cmp(a).then(i.cmp(j)));
@@ -199,7 +205,7 @@ impl PictureNoise {
         let (mut best, mut count) = (plain / LEAST_GAIN, 0);
         for (i, &(_, cell)) in (1..).zip(&order) {
             error -= gained * noise(cell);
-            time += rays(cell) + slower * cells[cell].len() as f64;
+            time += rays(cell) + slower * pixels_of_cell(cells[cell]);
             if error * time < best {
                 (best, count) = (error * time, i);
             }
