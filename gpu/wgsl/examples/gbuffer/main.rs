@@ -1,13 +1,15 @@
 //! A canal by night, lit by its 20,000 lights in a compute pass:
-//! `cargo run --release --example gbuffer -- [FRAMES [PICTURE.png]]`.
+//! `cargo run --release --example gbuffer -- [FRAMES [PICTURE.png]]`, or `-- --window`.
 //!
 //! The G-buffer (place, normal, albedo and emission of each pixel) is traced on the CPU. A frame
 //! adds one light to each pixel, without its shadow, and every surface is matt: both are for the
 //! renderer that takes the shaders. The CPU lights the same pixels from the same random numbers,
-//! and the program fails where the two pictures differ. It opens no window, and says so.
+//! and the program fails where the two pictures differ. With `--window` it shows the picture of
+//! ever more frames instead.
 
 mod lit;
 mod pixels;
+mod window;
 
 use core::f32::consts::PI;
 use std::path::Path;
@@ -33,15 +35,17 @@ const OFF: f64 = 0.01;
 const ERROR: f32 = 1e-3;
 
 fn main() -> Result<()> {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args().skip(1).peekable();
+    let (lights, pixels) = pixels(SIZE)?;
+    if arguments.next_if_eq("--window").is_some() {
+        let picture = |frames| Ok(shown(&by_the_gpu(&lights, &pixels, frames)?));
+        return window::show(SIZE, picture);
+    }
     let frames: u32 = arguments.next().map_or(Ok(16), |n| n.parse())?;
     let picture = arguments.next();
-    let (lights, pixels) = pixels(SIZE)?;
     let start = std::time::Instant::now();
-    let sums = lit::lit(&lights, &pixels, frames)?;
+    let theirs = by_the_gpu(&lights, &pixels, frames)?;
     let seconds = start.elapsed().as_secs_f64();
-    let theirs: Vec<Vec3> =
-        sums.chunks_exact(4).map(|sum| Vec3::new(sum[0], sum[1], sum[2]) / sum[3]).collect();
     let ours = by_the_cpu(&lights, &pixels, frames)?;
     let differs = |(a, b): &(&Vec3, &Vec3)| a.distance(**b) > ERROR * b.length();
     let off = theirs.iter().zip(&ours).filter(differs).count() as f64 / ours.len() as f64;
@@ -54,16 +58,26 @@ fn main() -> Result<()> {
         100.0 * (1.0 - off)
     );
     println!("relMSE against the CPU {:.1e}", rel_mse(&theirs, &ours));
-    println!("no window is opened; PICTURE.png as second argument writes the picture");
+    println!("PICTURE.png as second argument writes the picture; --window alone shows it");
     if let Some(path) = picture {
-        let shown = theirs.iter().map(|l| (8.0 * *l) / (1.0 + 8.0 * *l));
-        let image = Image::new(width, height, shown.collect())?;
+        let image = Image::new(width, height, shown(&theirs))?;
         light_scene::write_image(Path::new(&path), &image)?;
     }
     if off > OFF || !(bias.abs() < ERROR) {
         return Err("the two pictures differ".into());
     }
     Ok(())
+}
+
+/// The colours that a screen shows.
+fn shown(picture: &[Vec3]) -> Vec<Vec3> {
+    picture.iter().map(|l| (8.0 * *l) / (1.0 + 8.0 * *l)).collect()
+}
+
+/// The picture of so many frames by the shaders.
+fn by_the_gpu(lights: &LightSet<Rgb>, pixels: &[[f32; 16]], frames: u32) -> Result<Vec<Vec3>> {
+    let sums = lit::lit(lights, pixels, frames)?;
+    Ok(sums.chunks_exact(4).map(|sum| Vec3::new(sum[0], sum[1], sum[2]) / sum[3]).collect())
 }
 
 /// The mean over pixels and channels of the squared difference over the squared reference plus a
