@@ -76,7 +76,10 @@ impl CellKey {
         let at = ctx.p * power_of_two(FINE_BITS - nearest_level(coarse_size)) + OFFSET;
         let from_middle = (at.to_array()).map(|at| at - floor(at) - 0.5);
         let mut axes = [0, 1, 2];
-        axes.sort_by(|&a, &b| f32::total_cmp(&from_middle[b].abs(), &from_middle[a].abs()));
+        axes.sort_unstable_by(|&a, &b| {
+            let nearer = f32::total_cmp(&from_middle[b].abs(), &from_middle[a].abs());
+            nearer.then(a.cmp(&b))
+        });
         axes.map(|axis| {
             let mut neighbour = own;
             let step = if from_middle[axis] < 0.0 { -1 } else { 1 };
