@@ -24,22 +24,23 @@ impl InstancedLightBvh {
     /// One light that may light `ctx`; `None` if this choice contributes nothing.
     #[must_use]
     pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledPlacedLight> {
-        let receiver = ctx.into();
-        let placed = self.top().view().sample(&receiver, u)?;
-        let (tree, inside) = self.in_prototype(placed.light.0, &receiver)?;
-        let chosen = tree.sample(&inside, placed.u)?;
+        let InGroups { receiver, groups } = &ctx.into();
+        let placed = self.top().view().sample_for(receiver, *groups, u)?;
+        let (tree, inside) = self.in_prototype(placed.light.0, receiver)?;
+        let chosen = tree.sample_for(&inside, *groups, placed.u)?;
         Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: PlacedLight) -> f32 {
-        let receiver = ctx.into();
-        let Some((tree, inside)) = self.in_prototype(light.placement, &receiver) else {
+        let InGroups { receiver, groups } = &ctx.into();
+        let Some((tree, inside)) = self.in_prototype(light.placement, receiver) else {
             return 0.0;
         };
-        let placed = self.top().view().pmf(&receiver, LightId(light.placement));
-        positive_product(placed, tree.pmf(&inside, light.light))
+        let top = self.top().view();
+        let placed = top.pmf_for(receiver, *groups, LightId(light.placement));
+        positive_product(placed, tree.pmf_for(&inside, *groups, light.light))
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
@@ -58,13 +59,10 @@ impl InstancedLightBvh {
     fn in_prototype(
         &self,
         placement: u32,
-        receiver: &InGroups<ContextReceiver>,
-    ) -> Option<(LightBvhRef<'_>, InGroups<PlacedReceiver>)> {
+        receiver: &ContextReceiver,
+    ) -> Option<(LightBvhRef<'_>, PlacedReceiver)> {
         let (frame, prototype) = self.placed(placement)?;
-        let inside = InGroups {
-            receiver: frame.receiver(&receiver.receiver, prototype),
-            groups: receiver.groups,
-        };
+        let inside = frame.receiver(receiver, prototype);
         Some((prototype.tree().view(), inside))
     }
 }
@@ -81,20 +79,21 @@ impl InstancedLightBvhAt<'_> {
     /// One light that may light the context; `None` if this choice contributes nothing.
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledPlacedLight> {
+        let InGroups { receiver, groups } = &self.receiver;
         let placed = self.top.sample(u)?;
-        let (tree, inside) = self.tree.in_prototype(placed.light.0, &self.receiver)?;
-        let chosen = tree.sample(&inside, placed.u)?;
+        let (tree, inside) = self.tree.in_prototype(placed.light.0, receiver)?;
+        let chosen = tree.sample_for(&inside, *groups, placed.u)?;
         Some(SampledPlacedLight::of(&placed, &chosen))
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, light: PlacedLight) -> f32 {
-        let inside = self.tree.in_prototype(light.placement, &self.receiver);
-        let Some((tree, inside)) = inside else {
+        let InGroups { receiver, groups } = &self.receiver;
+        let Some((tree, inside)) = self.tree.in_prototype(light.placement, receiver) else {
             return 0.0;
         };
         let placed = self.top.pmf(LightId(light.placement));
-        positive_product(placed, tree.pmf(&inside, light.light))
+        positive_product(placed, tree.pmf_for(&inside, *groups, light.light))
     }
 }

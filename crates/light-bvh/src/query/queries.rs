@@ -1,10 +1,10 @@
-use light_bounds::{LightId, SampledLight};
+use light_bounds::{LightGroups, LightId, SampledLight};
 
 use crate::importance::receiver::NoReceiver;
 use crate::query::ascent::Ascent;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::descent::Descent;
-use crate::query::into_receiver::{IntoReceiver, QueryFor};
+use crate::query::into_receiver::{IntoReceiver, KeptReceiver, QueryFor};
 use crate::simd::dispatch;
 
 /// A `receiver` is a reference to a [`LightSampleContext`](light_bounds::LightSampleContext), or to
@@ -13,15 +13,37 @@ impl LightBvhRef<'_> {
     /// One light that may light `receiver`; `None` if no light in the tree can.
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
-        let tree = &self.wanting(receiver.groups());
-        dispatch(QueryFor(&receiver.keep(), Descent { tree, u }))
+        self.sample_for(&receiver.keep(), receiver.groups(), u)
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, receiver: impl IntoReceiver, light: LightId) -> f32 {
-        let tree = &self.wanting(receiver.groups());
-        dispatch(QueryFor(&receiver.keep(), Ascent { tree, light }))
+        self.pmf_for(&receiver.keep(), receiver.groups(), light)
+    }
+
+    /// [`sample`](Self::sample) of the lights in some groups.
+    #[inline(always)]
+    pub(crate) fn sample_for<R: KeptReceiver>(
+        &self,
+        receiver: &R,
+        groups: LightGroups,
+        u: u64,
+    ) -> Option<SampledLight> {
+        let tree = &self.wanting(groups);
+        dispatch(QueryFor(receiver, Descent { tree, u }))
+    }
+
+    /// [`pmf`](Self::pmf) of the lights in some groups.
+    #[inline(always)]
+    pub(crate) fn pmf_for<R: KeptReceiver>(
+        &self,
+        receiver: &R,
+        groups: LightGroups,
+        light: LightId,
+    ) -> f32 {
+        let tree = &self.wanting(groups);
+        dispatch(QueryFor(receiver, Ascent { tree, light }))
     }
 
     /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is
