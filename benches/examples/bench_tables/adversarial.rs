@@ -5,12 +5,14 @@ use light_sets::SetKind;
 
 use super::measure::{figure, measure, options, set};
 
-const SETS: [SetKind; 5] = [
+const SETS: [SetKind; 7] = [
     SetKind::OnePoint,
     SetKind::Line,
     SetKind::Nested,
     SetKind::LargeWorld,
     SetKind::Magnitudes,
+    SetKind::TwinPlaces,
+    SetKind::FarLamp,
 ];
 
 const LIGHTS: u32 = 1_000_000;

@@ -17,6 +17,9 @@ const WORLD: f32 = 10_000.0;
 const TOWN: f32 = 40.0;
 const LIGHT: f32 = 0.01;
 
+/// Side of a place of lamps.
+const PLACE: f32 = 30.0;
+
 impl BenchSet {
     /// Points and spots at one place, with points all around it and every 64th there.
     pub(super) fn one_point(r: &mut Random, n: usize) -> Self {
@@ -123,6 +126,65 @@ impl BenchSet {
             }),
         }
     }
+
+    /// Panels and spots that shine down in two places, in turn, with points on the ground of both.
+    pub(super) fn twin_places(r: &mut Random, n: usize) -> Self {
+        let distance = 10.0 * PLACE * r.log_uniform(1.0);
+        let away = r.direction() * distance;
+        let mut middles = [Vec3::ZERO, away].into_iter().cycle();
+        let mut middle = || middles.next().unwrap_or_default();
+        Self {
+            lights: repeat(n, || lamp(r, middle(), n)),
+            points: repeat(POINTS, || SetPoint {
+                p: middle() + on_ground(r),
+                n: Vec3::Z,
+            }),
+        }
+    }
+
+    /// Panels and spots that shine down in one place, with points on its ground, and one point
+    /// light far above the horizon.
+    pub(super) fn far_lamp(r: &mut Random, n: usize) -> Self {
+        let distance = 1000.0 * PLACE;
+        let mut lights = repeat(n, || lamp(r, Vec3::ZERO, n));
+        // About the mean irradiance of the others.
+        let intensity = 3.0 * n as f32 / (PLACE * PLACE) * distance * distance;
+        let p = (r.direction() + 2.0 * Vec3::Z).normalize() * distance;
+        if let Some(last) = lights.last_mut() {
+            *last = SetLight::Point { p, intensity };
+        }
+        Self {
+            lights,
+            points: repeat(POINTS, || SetPoint {
+                p: on_ground(r),
+                n: Vec3::Z,
+            }),
+        }
+    }
+}
+
+/// A panel or a spot that shines down into a place about `middle`, as one of so many.
+fn lamp(r: &mut Random, middle: Vec3, n: usize) -> SetLight {
+    let high = Vec3::new(0.0, 0.0, 2.8 + 0.4 * r.unit());
+    let p = middle + on_ground(r) + high;
+    let power = r.log_uniform(1.5);
+    if r.unit() < 0.5 {
+        let size = 0.3 * PLACE / float::sqrt(n as f32);
+        return r.triangle(p, Vec3::NEG_Z, size, power, false);
+    }
+    let cone_deg = 15.0 + 45.0 * r.unit();
+    SetLight::Spot {
+        p,
+        target: p + Vec3::NEG_Z,
+        intensity: power,
+        cone_deg,
+        delta_deg: cone_deg * (0.1 + 0.4 * r.unit()),
+    }
+}
+
+/// A point of a place about the origin, on its ground.
+fn on_ground(r: &mut Random) -> Vec3 {
+    (r.square() - 0.5).extend(0.0) * PLACE
 }
 
 /// One point light to two spots in any direction.

@@ -36,14 +36,18 @@ pub enum SetKind {
     LargeWorld,
     /// Points with coordinates from 1e-20 to 1e18.
     Magnitudes,
+    /// Lamps in two places that are 10 to 100 times as far from each other as they are wide.
+    TwinPlaces,
+    /// Lamps in one place, and a point 1,000 times as far away that gives as much as all of them.
+    FarLamp,
     /// A place of the given family.
     Place(Family),
 }
 
 impl SetKind {
     /// The kinds that are no places, in the order of the tables: four that are like scenes, and
-    /// five that are adversarial.
-    const PLAIN: [Self; 9] = [
+    /// seven that are adversarial.
+    const PLAIN: [Self; 11] = [
         Self::Uniform,
         Self::Clusters,
         Self::Spots,
@@ -53,6 +57,8 @@ impl SetKind {
         Self::Nested,
         Self::LargeWorld,
         Self::Magnitudes,
+        Self::TwinPlaces,
+        Self::FarLamp,
     ];
 
     /// The kind's name on the command line.
@@ -68,6 +74,8 @@ impl SetKind {
             Self::Nested => "nested",
             Self::LargeWorld => "large-world",
             Self::Magnitudes => "magnitudes",
+            Self::TwinPlaces => "twin-places",
+            Self::FarLamp => "far-lamp",
             Self::Place(family) => family.name(),
         }
     }
@@ -90,6 +98,8 @@ impl SetKind {
             Self::Nested => 6,
             Self::LargeWorld => 7,
             Self::Magnitudes => 8,
+            Self::TwinPlaces => 9,
+            Self::FarLamp => 10,
             Self::Place(family) => 16 + family as u64,
         }
     }
@@ -162,6 +172,8 @@ impl BenchSet {
             SetKind::Nested => Self::nested(r, n),
             SetKind::LargeWorld => Self::large_world(r, n),
             SetKind::Magnitudes => Self::magnitudes(r, n),
+            SetKind::TwinPlaces => Self::twin_places(r, n),
+            SetKind::FarLamp => Self::far_lamp(r, n),
             SetKind::Place(family) => family.generate(r, n),
         }
     }

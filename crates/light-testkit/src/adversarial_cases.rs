@@ -16,6 +16,8 @@ impl SamplerCase {
             Self::generated(SetKind::Nested, n, 5),
             Self::generated(SetKind::LargeWorld, n, 6),
             Self::generated(SetKind::Magnitudes, n, 7),
+            Self::generated(SetKind::TwinPlaces, n, 8),
+            Self::generated(SetKind::FarLamp, n, 8),
             Self::some_without_power(n),
             Self::none_with_power(n),
             Self::one_huge(n),

@@ -114,6 +114,10 @@ impl SplitGroup for BinnedSplit<'_> {
         self.clusters.len() > 1
     }
 
+    fn size(&self) -> f32 {
+        self.bounds.diagonal().max_element()
+    }
+
     fn cost(&self) -> f32 {
         self.cost
     }

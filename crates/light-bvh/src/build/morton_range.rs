@@ -63,12 +63,17 @@ impl SplitGroup for MortonRange<'_> {
         self.entries.len() > 1
     }
 
-    /// Power times the side of the smallest cell that holds the lights.
-    fn cost(&self) -> f32 {
+    /// The side of the smallest cell that holds the lights.
+    fn size(&self) -> f32 {
         const THIRDS: [f32; 3] = [1.0, 1.259_921, 1.587_401];
         let bits = top_bit(self.entries).map_or(0, |bit| bit + 1);
         let side = (1u32 << (bits / 3)) as f32 * THIRDS[bits as usize % 3];
-        power(self.entries) * side * self.cell.max(f32::MIN_POSITIVE)
+        side * self.cell.max(f32::MIN_POSITIVE)
+    }
+
+    /// Power times size.
+    fn cost(&self) -> f32 {
+        power(self.entries) * self.size()
     }
 
     fn split(mut self) -> (Self, Self) {

@@ -1,6 +1,13 @@
 use crate::build::split_group::SplitGroup;
 use crate::node::wide_node::WIDTH;
 
+/// A smaller part of the size of a node is not split there: it would be 8 codes of the node wide,
+/// too few to tell its lights apart. A node of its own describes it in codes of its own size.
+const LEAST_SIZE: f32 = 8.0 / 255.0;
+
+/// The gain of a group that stays whole.
+const NOT_TO_SPLIT: f32 = -1.0;
+
 /// The groups that become the children of a node.
 pub(crate) struct NodeChildren<G> {
     /// Neighbours are next to each other.
@@ -29,7 +36,19 @@ impl<G: SplitGroup> NodeChildren<G> {
             count: 1,
             singles: 0,
         };
-        children.gains[0] = gain(&whole, depth_limited);
+        let least_size = if depth_limited {
+            0.0
+        } else {
+            LEAST_SIZE * whole.size()
+        };
+        let gain = |group: &G| {
+            if group.size() < least_size {
+                NOT_TO_SPLIT
+            } else {
+                gain(group, depth_limited)
+            }
+        };
+        children.gains[0] = gain(&whole);
         children.groups[0] = Some(whole);
         while let Some(index) = children.best_to_split() {
             let Some(group) = children.groups[index].take() else {
@@ -42,8 +61,8 @@ impl<G: SplitGroup> NodeChildren<G> {
             };
             children.groups[index + 1..=children.count].rotate_right(1);
             children.gains[index + 1..=children.count].rotate_right(1);
-            children.gains[index] = gain(&left, depth_limited);
-            children.gains[index + 1] = gain(&right, depth_limited);
+            children.gains[index] = gain(&left);
+            children.gains[index + 1] = gain(&right);
             children.groups[index] = Some(left);
             children.groups[index + 1] = Some(right);
             children.count += 1;
@@ -135,7 +154,7 @@ impl<G: SplitGroup> NodeChildren<G> {
 /// it is not to be split.
 fn gain<G: SplitGroup>(group: &G, depth_limited: bool) -> f32 {
     if group.lights() <= WIDTH || !group.is_divisible() {
-        -1.0
+        NOT_TO_SPLIT
     } else if depth_limited {
         group.lights() as f32
     } else {
