@@ -161,3 +161,48 @@ fn gain<G: SplitGroup>(group: &G, depth_limited: bool) -> f32 {
         group.cost().max(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use light_bounds::{LightBounds, LightExtent};
+    use light_math::Aabb;
+    use light_math::glam::Vec3;
+
+    use crate::{BuildMode, LightBvh, LightBvhOptions};
+
+    /// Two places of points, 1,000 times as far apart as they are wide: in the codes of the root
+    /// all of a place is one position.
+    #[test]
+    fn a_group_too_small_for_the_codes_of_its_node_has_a_node_of_its_own() {
+        let places = |apart: f32| {
+            let point = move |i: u16| {
+                let [x, y, z] = [7, 11, 13].map(|step| f32::from(i * step % 64) / 64.0);
+                let p = Vec3::new(x + apart * f32::from(i % 2), y, z);
+                LightExtent::Bounded(LightBounds {
+                    bounds: Aabb::from_point(p),
+                    w: Vec3::Z,
+                    phi: 1.0,
+                    cos_theta_o: -1.0,
+                    cos_theta_e: 0.0,
+                    two_sided: false,
+                })
+            };
+            (0..400).map(point).collect::<Vec<_>>()
+        };
+        for mode in [BuildMode::Binned, BuildMode::Morton] {
+            let options = LightBvhOptions {
+                mode,
+                ..LightBvhOptions::default()
+            };
+            let root = |apart| {
+                let tree = LightBvh::build_with(&places(apart), &options);
+                tree.expect("valid lights").nodes[0]
+            };
+            let [near, far] = [root(4.0), root(1000.0)];
+            assert_eq!((near.count, near.inner), (16, 16), "{mode:?}: near");
+            assert_eq!((far.count, far.inner), (2, 2), "{mode:?}: far");
+        }
+    }
+}
