@@ -36,18 +36,8 @@ impl<G: SplitGroup> NodeChildren<G> {
             count: 1,
             singles: 0,
         };
-        let least_size = if depth_limited {
-            0.0
-        } else {
-            LEAST_SIZE * whole.size()
-        };
-        let gain = |group: &G| {
-            if group.size() < least_size {
-                NOT_TO_SPLIT
-            } else {
-                gain(group, depth_limited)
-            }
-        };
+        let least_size = LEAST_SIZE * whole.size();
+        let gain = |group: &G| gain(group, depth_limited, least_size);
         children.gains[0] = gain(&whole);
         children.groups[0] = Some(whole);
         while let Some(index) = children.best_to_split() {
@@ -152,11 +142,13 @@ impl<G: SplitGroup> NodeChildren<G> {
 
 /// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if
 /// it is not to be split.
-fn gain<G: SplitGroup>(group: &G, depth_limited: bool) -> f32 {
+fn gain<G: SplitGroup>(group: &G, depth_limited: bool, least_size: f32) -> f32 {
     if group.lights() <= WIDTH || !group.is_divisible() {
         NOT_TO_SPLIT
     } else if depth_limited {
         group.lights() as f32
+    } else if group.size() < least_size {
+        NOT_TO_SPLIT
     } else {
         group.cost().max(0.0)
     }

@@ -6,7 +6,7 @@ pub(crate) trait SplitGroup: Sized + Send {
     /// Whether they can be split.
     fn is_divisible(&self) -> bool;
 
-    /// The longest side of the box of their positions.
+    /// About the longest side of the box of their positions.
     fn size(&self) -> f32;
 
     /// What splitting them may gain.
