@@ -54,3 +54,19 @@ fn committed_kernels_are_rounded_as_on_a_cpu() {
     let entries = text.matches(".visible .entry light_").count();
     assert_eq!(entries, 5, "sample, pmf, cut, sample_li, decode");
 }
+
+/// The codes of children are bytes: loaded one by one they take most of the time of a GPU.
+#[test]
+fn committed_kernels_load_children_by_words() {
+    let text = fs::read_to_string(kernels()).expect("kernels");
+    let loads = |width: &str| {
+        text.lines()
+            .filter(|l| l.contains(width) && l.contains("\tld."))
+            .count()
+    };
+    let (bytes, words) = (loads("8 \t"), loads("b32 \t"));
+    assert!(
+        bytes < 60 && words > 1000,
+        "{bytes} loads of bytes, {words} of words"
+    );
+}

@@ -124,22 +124,29 @@ impl Default for LightCut<'_> {
         Self {
             tree: LightBvhRef::new(&[], &[], &[]),
             receiver: ContextReceiver::Medium(MediumReceiver::ORIGIN),
-            grown: CutNodes::NONE,
+            grown: CutNodes::none(),
         }
     }
 }
 
 impl CutNodes {
-    /// No node.
-    pub(crate) const NONE: Self = Self {
-        nodes: [0; MAX_NODES + WIDTH],
-        weights: [[0.0; WIDTH]; MAX_NODES],
-        totals: [0.0; MAX_NODES],
-        ends: [PARTS; MAX_NODES],
-        sum: 0.0,
-        count: 0,
-        inv_unit: 1.0,
-    };
+    /// No node; of the numbers of other nodes nothing is read.
+    ///
+    /// Stored number by number: a constant would be copied, on a GPU byte by byte.
+    #[inline(always)]
+    pub(crate) const fn none() -> Self {
+        let mut none = Self {
+            nodes: [1; MAX_NODES + WIDTH],
+            weights: [[1.0; WIDTH]; MAX_NODES],
+            totals: [1.0; MAX_NODES],
+            ends: [PARTS; MAX_NODES],
+            sum: 0.0,
+            count: 0,
+            inv_unit: 1.0,
+        };
+        none.clear();
+        none
+    }
 
     /// No node any more; of the others nothing is read.
     #[inline(always)]

@@ -2,6 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::lane_math::LaneMask;
+use crate::node::child_codes::ChildCodes;
 use crate::node::sheet_code::SheetCode;
 use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
@@ -104,51 +105,55 @@ impl NodeFrame {
         self.origin.abs().element_sum() + reach * self.inv_unit < 4096.0
     }
 
-    /// Child `k` of the node.
+    /// The child of these codes, of a node that has `sheets` or none.
     #[inline(always)]
-    pub(crate) fn child(&self, node: &WideNode, k: usize) -> ChildView {
+    pub(crate) fn child(&self, codes: &ChildCodes, sheets: bool) -> ChildView {
         let Self { origin, code, .. } = *self;
         let mean = [
-            origin.x + code * f32::from(node.mean[0][k]),
-            origin.y + code * f32::from(node.mean[1][k]),
-            origin.z + code * f32::from(node.mean[2][k]),
+            origin.x + code * f32::from(codes.mean[0]),
+            origin.y + code * f32::from(codes.mean[1]),
+            origin.z + code * f32::from(codes.mean[2]),
         ];
         let extent = [
-            code * f32::from(node.extent[0][k]),
-            code * f32::from(node.extent[1][k]),
-            code * f32::from(node.extent[2][k]),
+            code * f32::from(codes.extent[0]),
+            code * f32::from(codes.extent[1]),
+            code * f32::from(codes.extent[2]),
         ];
         let dist_sq = dist_sq(mean, extent, DISTANCE);
         let dist = float::sqrt(dist_sq);
-        let offset = i32::from(node.offset[k]);
+        let offset = i32::from(codes.offset);
         let both_sides = LaneMask::when(offset == i32::from(BOTH_SIDES));
-        let spread = SpreadCode(node.spread[k]);
-        ChildView {
+        let spread = SpreadCode(codes.spread);
+        let mut child = ChildView {
             mean,
             extent,
             dist,
             dist_sq,
             slack: ROUND_OFF * dist,
             axis: [
-                f32::from(node.axis[0][k]),
-                f32::from(node.axis[1][k]),
-                f32::from(node.axis[2][k]),
+                f32::from(codes.axis[0]),
+                f32::from(codes.axis[1]),
+                f32::from(codes.axis[2]),
             ],
             offset: both_sides.clear(offset as f32),
             spread: spread.value(),
             soft: spread.soft(),
             step: spread.step(),
             both_sides,
-            power: decode_power(node.power[k]),
+            power: decode_power(codes.power),
             sheet: None,
+        };
+        if sheets {
+            child.set_sheet();
         }
+        child
     }
 }
 
 impl ChildView {
     /// Sets how the child lies: one of a node that has sheets.
     #[inline(always)]
-    pub(crate) fn set_sheet(&mut self) {
+    fn set_sheet(&mut self) {
         let is_sheet = self.is_ramp_group().and(LaneMask::when(self.offset > 0.0));
         self.sheet = Some(Sheet {
             is_sheet,

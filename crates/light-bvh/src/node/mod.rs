@@ -1,5 +1,6 @@
 //! The record of the default tree: its layout, the moments that it holds, and their codes.
 
+pub(crate) mod child_codes;
 #[cfg(feature = "alloc")]
 pub(crate) mod children_soa;
 #[cfg(feature = "alloc")]

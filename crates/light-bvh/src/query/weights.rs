@@ -17,6 +17,10 @@ pub(crate) const LEAST_TOTAL: f32 = 1e-10;
 /// low. Chosen by V: see `docs/light-bvh.md`.
 pub(crate) const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
+/// Whether the codes of four children are loaded at once. A GPU does not compute children side by
+/// side, and each of its loads costs the same, of a byte or a word.
+const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
+
 /// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights {
@@ -126,13 +130,21 @@ impl Weights {
         mut note: impl FnMut(usize, &ChildView),
     ) -> Self {
         let mut lanes = [0.0; WIDTH];
-        for (k, weight) in lanes.iter_mut().enumerate() {
-            let mut child = frame.child(node, k);
-            if sheets {
-                child.set_sheet();
+        if READS_WORDS {
+            for (quarter, lanes) in lanes.chunks_exact_mut(4).enumerate() {
+                let four = node.four_children(quarter);
+                for (j, weight) in lanes.iter_mut().enumerate() {
+                    let child = frame.child(&four.child_codes(j), sheets);
+                    *weight = receiver.weigh(&child, frame.inv_unit);
+                    note(4 * quarter + j, &child);
+                }
             }
-            *weight = receiver.weigh(&child, frame.inv_unit);
-            note(k, &child);
+        } else {
+            for (k, weight) in lanes.iter_mut().enumerate() {
+                let child = frame.child(&node.child_codes(k), sheets);
+                *weight = receiver.weigh(&child, frame.inv_unit);
+                note(k, &child);
+            }
         }
         let least = total(lanes) * LEAST_SHARE;
         for weight in &mut lanes {

@@ -79,7 +79,8 @@ macro_rules! of_a_tree {
                 // SAFETY: as promised by the caller; i is within both arrays.
                 unsafe {
                     let tree = tree(nodes, node_count, order, order_count, slots, slot_count);
-                    *answers.add(i as usize) = $query(&tree, &*queries.add(i as usize));
+                    let (query, answer) = (&*queries.add(i as usize), &mut *answers.add(i as usize));
+                    $query(&tree, query, answer);
                 }
             }
         }

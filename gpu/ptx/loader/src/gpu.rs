@@ -18,7 +18,7 @@ use crate::work::{Kernel, Work};
 const PTX: &str = include_str!("../../kernels.ptx");
 
 /// Threads of a block: kernels hold many registers.
-const BLOCK: u32 = 128;
+const BLOCK: u32 = 64;
 
 /// Launches that are timed together.
 const LAUNCHES: u32 = 16;
@@ -157,7 +157,7 @@ impl Gpu {
         launch.arg(&mut answers).arg(&all);
         // SAFETY: the arguments are those that the kernel declares, and the arrays as long as said.
         unsafe { launch.launch(blocks(count)) }?;
-        Ok(self.stream.memcpy_dtov(&answers)?)
+        self.stream.memcpy_dtov(&answers)
     }
 
     fn tree(&self, tree: &LightBvhRef<'_>) -> Answered<Tree> {

@@ -8,6 +8,9 @@ use light_bvh::LightBvhRef;
 
 use crate::work::{Kernel, Work};
 
+/// About how many queries a thread is timed by.
+const TIMED: usize = 1 << 15;
+
 /// The cores of this machine.
 pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
@@ -32,7 +35,8 @@ pub fn answers(kernel: Kernel, tree: &LightBvhRef<'_>, work: &Work) -> Vec<u32> 
 
 /// Millions of queries a second by so many threads.
 pub fn rate(kernel: Kernel, tree: &LightBvhRef<'_>, work: &Work, threads: usize) -> f64 {
-    let queries = &work.queries[..work.queries.len().min(1 << 17)];
+    let step = work.queries.len().div_ceil(TIMED);
+    let queries: &Vec<_> = &work.queries.iter().step_by(step.max(1)).collect();
     let start = Instant::now();
     thread::scope(|scope| {
         for _ in 0..threads {

@@ -9,6 +9,7 @@ mod work;
 
 use std::process::ExitCode;
 
+use light_ptx_queries::Receiver;
 use light_sets::{BenchSet, SetKind};
 
 use gpu::Gpu;
@@ -72,8 +73,31 @@ fn check(gpu: &Gpu, count: u32) -> Result<usize> {
             let [one, all] = [1, host::cores()].map(|n| host::rate(kernel, &bvh.view(), &work, n));
             let rate = gpu.rate(kernel, &bvh.view(), &work)?;
             let name = kernel.name;
-            println!("| {size} | {name} | {rate:.1} | {one:.3} | {all:.3} |");
+            println!("| {size} | {name} | {rate:.0} | {one:.2} | {all:.1} |");
         }
     }
+    println!();
+    kinds(gpu, count)?;
     Ok(unlike)
+}
+
+/// How many samples a second receivers of one kind take, in two orders.
+fn kinds(gpu: &Gpu, count: u32) -> Result<()> {
+    println!("| lights | `light_sample` of one kind | GPU, M/s | near points behind each other |");
+    println!("| ---: | --- | ---: | ---: |");
+    for size in SIZES {
+        let set = BenchSet::generate(SetKind::Uniform, size, 1);
+        let bvh = work::tree(&set)?;
+        let print = |name: &str, work: Work| -> Result<()> {
+            let any_order = gpu.rate(work::SAMPLE, &bvh.view(), &work)?;
+            let in_order = gpu.rate(work::SAMPLE, &bvh.view(), &work.in_order_of_places())?;
+            println!("| {size} | {name} | {any_order:.0} | {in_order:.0} |");
+            Ok(())
+        };
+        for kind in Receiver::ALL {
+            print(&format!("{kind:?}"), Work::by(&set, count, &[kind]))?;
+        }
+        print("the five in turn", Work::by(&set, count, &Receiver::ALL))?;
+    }
+    Ok(())
 }

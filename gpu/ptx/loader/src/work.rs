@@ -19,22 +19,25 @@ pub struct Kernel {
     pub host: Answer,
 }
 
+/// A light of a tree.
+pub const SAMPLE: Kernel = Kernel {
+    name: "light_sample",
+    words: size_of::<Chosen>() / 4,
+    host: |tree, query, answer| sample(tree, query, cast_mut(answer)),
+};
+
 /// All of them.
 pub const KERNELS: [Kernel; 3] = [
-    Kernel {
-        name: "light_sample",
-        words: size_of::<Chosen>() / 4,
-        host: |tree, query, answer| copy(&sample(tree, query), answer),
-    },
+    SAMPLE,
     Kernel {
         name: "light_pmf",
         words: 1,
-        host: |tree, query, answer| answer[0] = pmf(tree, query).to_bits(),
+        host: |tree, query, answer| pmf(tree, query, cast_mut(answer)),
     },
     Kernel {
         name: "light_sample_by_cut",
         words: size_of::<Choices>() / 4,
-        host: |tree, query, answer| copy(&sample_by_cut(tree, query), answer),
+        host: |tree, query, answer| sample_by_cut(tree, query, cast_mut(answer)),
     },
 ];
 
@@ -44,14 +47,22 @@ pub struct Work {
 }
 
 impl Work {
-    /// At the points of a set, of each kind of receiver in turn.
+    /// At the points of a set, a fifth of each kind of receivers, one kind behind the other: a
+    /// warp with all of them computes as long as five.
     pub fn new(set: &BenchSet, count: u32) -> Self {
+        let mut work = Self::by(set, count, &Receiver::ALL);
+        work.queries.sort_by_key(|query| query.kind);
+        work
+    }
+
+    /// At the points of a set, of each of these kinds of receivers in turn.
+    pub fn by(set: &BenchSet, count: u32, kinds: &[Receiver]) -> Self {
         let mut random = Random(1);
         let lights = set.lights.len() as u32;
         let query = |i: u32| {
             let mut point = || &set.points[random.bits() as usize % set.points.len()];
             let (at, other) = (point(), point());
-            let kind = Receiver::ALL[i as usize % Receiver::ALL.len()];
+            let kind = kinds[i as usize % kinds.len()];
             let n = match kind {
                 Receiver::Segment => other.p - at.p,
                 _ => at.n,
@@ -61,6 +72,13 @@ impl Work {
         Self {
             queries: (0..count).map(query).collect(),
         }
+    }
+
+    /// The same queries, those of near points behind each other, as the pixels of a picture are.
+    pub fn in_order_of_places(mut self) -> Self {
+        let cell = |query: &Query| query.p.map(|x| (16.0 * x).floor() as i32);
+        self.queries.sort_by_key(cell);
+        self
     }
 }
 
@@ -102,14 +120,16 @@ pub fn about_lights(count: u32) -> Vec<Query> {
     (0..count).map(query).collect()
 }
 
-fn copy<T: bytemuck::NoUninit>(answer: &T, words: &mut [u32]) {
-    words.copy_from_slice(bytemuck::cast_slice(core::slice::from_ref(answer)));
+/// Words as the answer that they hold.
+fn cast_mut<T: bytemuck::AnyBitPattern + bytemuck::NoUninit>(words: &mut [u32]) -> &mut T {
+    &mut bytemuck::cast_slice_mut(words)[0]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use light_ptx_queries::{Choices, arrive};
+    use bytemuck::Zeroable;
+    use light_ptx_queries::arrive;
     use light_sets::SetKind;
 
     /// A comparison of nothing with nothing would hold.
@@ -133,20 +153,22 @@ mod tests {
         let bvh = tree(&set).expect("a tree");
         let mut chosen_once = 0;
         for mut query in Work::new(&set, 500).queries {
-            let (chosen, choices) = (
-                sample(&bvh.view(), &query),
-                sample_by_cut(&bvh.view(), &query),
-            );
+            let (mut chosen, mut choices) = (Chosen::zeroed(), Choices::zeroed());
+            sample(&bvh.view(), &query, &mut chosen);
+            sample_by_cut(&bvh.view(), &query, &mut choices);
             // Nothing was chosen where nothing can contribute.
             if chosen.pmf == 0.0 || choices.chosen[2].pmf == 0.0 {
                 continue;
             }
             chosen_once += 1;
             query.other = chosen.light;
-            assert_eq!(pmf(&bvh.view(), &query), chosen.pmf, "{query:?}");
+            let mut found = 0.0;
+            pmf(&bvh.view(), &query, &mut found);
+            assert_eq!(found, chosen.pmf, "{query:?}");
             query.other = choices.chosen[2].light;
-            let Choices { other, .. } = sample_by_cut(&bvh.view(), &query);
-            assert_eq!(other, choices.chosen[2].pmf, "{query:?}");
+            let expected = choices.chosen[2].pmf;
+            sample_by_cut(&bvh.view(), &query, &mut choices);
+            assert_eq!(choices.other, expected, "{query:?}");
         }
         assert!(chosen_once > 300, "{chosen_once} of 500");
     }

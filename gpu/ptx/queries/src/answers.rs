@@ -1,6 +1,6 @@
 use bytemuck::{Pod, Zeroable};
 use light_bounds::SampledLight;
-use light_bvh::{CutDetail, LightBvhRef};
+use light_bvh::{CutDetail, LightBvhRef, LightCut};
 use light_math::OctahedralVector;
 use light_math::fraction::stratum;
 
@@ -47,29 +47,28 @@ pub struct Arrived {
 
 /// A light of the tree.
 #[inline]
-#[must_use]
-pub fn sample(tree: &LightBvhRef<'_>, query: &Query) -> Chosen {
-    tree.sample(&query.context(), query.u()).into()
+pub fn sample(tree: &LightBvhRef<'_>, query: &Query, answer: &mut Chosen) {
+    *answer = tree.sample(&query.context(), query.u()).into();
 }
 
 /// The probability of the query's other light.
 #[inline]
-#[must_use]
-pub fn pmf(tree: &LightBvhRef<'_>, query: &Query) -> f32 {
-    tree.pmf(&query.context(), query.other())
+pub fn pmf(tree: &LightBvhRef<'_>, query: &Query, answer: &mut f32) {
+    *answer = tree.pmf(&query.context(), query.other());
 }
 
 /// Four lights of the tree, by one cut.
+///
+/// Cut and answer are made in place: a GPU moves what is larger than some registers byte by byte.
 #[inline]
-#[must_use]
-pub fn sample_by_cut(tree: &LightBvhRef<'_>, query: &Query) -> Choices {
-    let cut = tree.cut(&query.context(), CutDetail::default());
-    let mut choices = Choices::zeroed();
-    for (i, chosen) in (0..).zip(&mut choices.chosen) {
+pub fn sample_by_cut(tree: &LightBvhRef<'_>, query: &Query, answer: &mut Choices) {
+    let mut cut = LightCut::default();
+    cut.set(tree, &query.context(), CutDetail::default());
+    for (i, chosen) in (0..).zip(&mut answer.chosen) {
         *chosen = cut.sample(stratum(i, 4, query.u())).into();
     }
-    choices.other = cut.pmf(query.other());
-    choices
+    answer.other = cut.pmf(query.other());
+    answer.unused = [0; 3];
 }
 
 /// What arrives from a light.
