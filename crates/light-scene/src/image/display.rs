@@ -9,7 +9,7 @@ use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageR
 
 use super::broken_texels::BrokenTexels;
 use super::checked::checked;
-use super::{Image, ImageFile, srgb};
+use super::{Image, ImageFile};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
 
@@ -38,12 +38,16 @@ pub fn write_png(path: &Path, image: &Image) -> Result<(), Diagnostic> {
 /// # Errors
 /// When the image cannot be encoded.
 pub fn encode_png(path: &Path, image: &Image) -> Result<Vec<u8>, Diagnostic> {
-    let channels = image.texels().iter().flat_map(Vec3::to_array);
-    let encoded: Vec<u8> = channels.map(srgb::encode_byte).collect();
+    let encoded = image.to_srgb();
     let mut bytes = Vec::new();
     let encoder = PngEncoder::new(&mut bytes);
     let (width, height) = (image.width(), image.height());
-    let written = encoder.write_image(&encoded, width, height, ExtendedColorType::Rgb8);
+    let written = encoder.write_image(
+        encoded.as_flattened(),
+        width,
+        height,
+        ExtendedColorType::Rgb8,
+    );
     written.map_err(|error| Diagnostic::file(path, format!("cannot be written: {error}")))?;
     Ok(bytes)
 }

@@ -3,6 +3,7 @@ use core::fmt;
 
 use lights::sources::{self as sources, Channels};
 
+use super::srgb::encode_byte;
 use crate::glam::{DVec3, Vec3};
 
 /// A linear RGB image in memory, row 0 on top.
@@ -69,6 +70,16 @@ impl Image {
     #[must_use]
     pub fn into_texels(self) -> Vec<Vec3> {
         self.texels
+    }
+
+    /// The texels as a screen shows them: bytes of sRGB, clamped; NaN becomes black.
+    ///
+    /// # Source
+    /// IEC 61966-2-1.
+    #[must_use]
+    pub fn to_srgb(&self) -> Vec<[u8; 3]> {
+        let texels = self.texels.iter();
+        texels.map(|t| t.to_array().map(encode_byte)).collect()
     }
 
     /// The mean of all texels.

@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1).peekable();
     let (lights, pixels) = pixels(SIZE)?;
     if arguments.next_if_eq("--window").is_some() {
-        let picture = |frames| Ok(shown(&by_the_gpu(&lights, &pixels, frames)?));
+        let picture = |frames| shown(&by_the_gpu(&lights, &pixels, frames)?);
         return window::show(SIZE, picture);
     }
     let frames: u32 = arguments.next().map_or(Ok(16), |n| n.parse())?;
@@ -60,8 +60,7 @@ fn main() -> Result<()> {
     println!("relMSE against the CPU {:.1e}", rel_mse(&theirs, &ours));
     println!("PICTURE.png as second argument writes the picture; --window alone shows it");
     if let Some(path) = picture {
-        let image = Image::new(width, height, shown(&theirs))?;
-        light_scene::write_image(Path::new(&path), &image)?;
+        light_scene::write_image(Path::new(&path), &shown(&theirs)?)?;
     }
     if off > OFF || !(bias.abs() < ERROR) {
         return Err("the two pictures differ".into());
@@ -69,9 +68,11 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The colours that a screen shows.
-fn shown(picture: &[Vec3]) -> Vec<Vec3> {
-    picture.iter().map(|l| (8.0 * *l) / (1.0 + 8.0 * *l)).collect()
+/// The picture as bright as a screen shows it.
+fn shown(picture: &[Vec3]) -> Result<Image> {
+    let [width, height] = SIZE;
+    let texels = picture.iter().map(|l| (8.0 * *l) / (1.0 + 8.0 * *l)).collect();
+    Ok(Image::new(width, height, texels)?)
 }
 
 /// The picture of so many frames by the shaders.

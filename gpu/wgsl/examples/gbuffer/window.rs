@@ -2,7 +2,7 @@
 
 use core::error::Error;
 
-use light_math::glam::Vec3;
+use light_scene::Image;
 use minifb::{Key, Scale, Window, WindowOptions};
 
 /// Shows a picture of `width` columns and `height` rows, of 1 frame, then of twice as many again
@@ -13,7 +13,7 @@ use minifb::{Key, Scale, Window, WindowOptions};
 /// Where there is no display, or what `picture` returns.
 pub fn show(
     [width, height]: [u32; 2],
-    picture: impl Fn(u32) -> Result<Vec<Vec3>, Box<dyn Error>>,
+    picture: impl Fn(u32) -> Result<Image, Box<dyn Error>>,
 ) -> Result<(), Box<dyn Error>> {
     let size = [width as usize, height as usize];
     let options = WindowOptions { scale: Scale::X2, ..WindowOptions::default() };
@@ -23,8 +23,9 @@ pub fn show(
     let mut frames = 1;
     while window.is_open() && !window.is_key_down(Key::Escape) {
         if frames <= MOST_FRAMES {
-            let shown = picture(frames)?;
-            let words: Vec<u32> = shown.iter().map(|&color| word(color)).collect();
+            let shown = picture(frames)?.to_srgb();
+            let word = |[r, g, b]: [u8; 3]| u32::from_be_bytes([0, r, g, b]);
+            let words: Vec<u32> = shown.into_iter().map(word).collect();
             window.set_title(&format!("gbuffer: {frames} frames"));
             window.update_with_buffer(&words, size[0], size[1])?;
             frames *= 2;
@@ -37,17 +38,3 @@ pub fn show(
 
 /// After so many frames the picture stays as it is.
 const MOST_FRAMES: u32 = 1 << 12;
-
-/// A colour of the screen in sRGB, as 0RGB.
-fn word(color: Vec3) -> u32 {
-    let encode = |linear: f32| {
-        let linear = linear.clamp(0.0, 1.0);
-        let encoded = if linear <= 0.003_130_8 {
-            12.92 * linear
-        } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        };
-        (255.0 * encoded + 0.5) as u32
-    };
-    color.to_array().into_iter().fold(0, |word, channel| word << 8 | encode(channel))
-}
