@@ -24,6 +24,7 @@ const ROOMS: [(&str, &[&str]); 4] = [
             "light-bvh/src/importance",
             "light-bvh/src/query",
             "light-bvh/src/cut",
+            "light-bvh/src/node/child_codes.rs",
             "light-bvh/src/node/wide_node.rs",
             "light-bvh/src/node/light_emission.rs",
             "light-bvh/src/lane_math.rs",
@@ -274,6 +275,11 @@ mod tests {
             found("let x: f32 = dynamic(statics);").is_empty(),
             "nothing"
         );
+    }
+
+    #[test]
+    fn the_page_lists_the_places() {
+        assert_eq!(rust_gpu(&[]), Ok(Outcome::Passed), "{PAGE}");
     }
 
     #[test]
