@@ -17,6 +17,9 @@ const TARGET_CPU: &str = "sm_75";
 /// Architectures that they are assembled for.
 const ARCHITECTURES: [&str; 2] = [TARGET_CPU, "sm_90"];
 
+/// Kernels are made by Rust 1.96 or newer.
+const LEAST_MINOR: u32 = 96;
+
 /// The assembler: NVIDIA's wheel on PyPI.
 const ASSEMBLER: &str = "nvidia-cuda-nvcc-cu12==12.9.86";
 
@@ -34,7 +37,11 @@ pub fn add_steps(steps: &mut Steps) {
 /// # Errors
 /// When they do not build.
 pub fn remake() -> StepResult {
-    let tools = Toolchain::with_sources().and_then(|rust| Ok((linker(&rust)?, rust)));
+    let tools = Toolchain::with_sources().and_then(|rust| {
+        let version = output(rust.rustc().arg("-vV"))?;
+        is_recent(&version)?;
+        Ok((linker(&rust, &version)?, rust))
+    });
     let (linker, rust) = match tools {
         Ok(tools) => tools,
         Err(reason) => {
@@ -88,9 +95,27 @@ struct Linker {
     libraries: String,
 }
 
-/// Builds the linker from the compiler's sources, unless it is there.
-fn linker(rust: &Toolchain) -> Result<Linker, String> {
-    let version = output(rust.rustc().arg("-vV"))?;
+/// Whether the compiler of this `version` has the options of the kernels; otherwise where a newer
+/// one is.
+fn is_recent(version: &str) -> Result<(), String> {
+    let release = (version.lines())
+        .find_map(|line| line.strip_prefix("release: 1."))
+        .ok_or("the compiler does not tell its version")?;
+    let minor = release
+        .split('.')
+        .next()
+        .and_then(|n| n.parse::<u32>().ok());
+    if minor < Some(LEAST_MINOR) {
+        return Err(format!(
+            "Debian's lists have Rust 1.{release}, and the kernels need 1.{LEAST_MINOR}: \
+             `apt-get update`, and remove target/debian-rust"
+        ));
+    }
+    Ok(())
+}
+
+/// Builds the linker from the compiler's sources, unless it is there; `version` is the compiler's.
+fn linker(rust: &Toolchain, version: &str) -> Result<Linker, String> {
     let llvm = version
         .lines()
         .find_map(|line| line.strip_prefix("LLVM version: "));

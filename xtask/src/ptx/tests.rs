@@ -18,6 +18,17 @@ fn operations_say_how_they_round() {
     }
 }
 
+#[test]
+fn an_older_compiler_is_refused_by_name() {
+    let version = |release| format!("rustc 1.x\nrelease: {release}\nLLVM version: 19.1.7\n");
+    assert_eq!(is_recent(&version("1.96.0")), Ok(()));
+    let fault = is_recent(&version("1.85.0")).expect_err("older");
+    assert!(
+        fault.contains("Rust 1.85.0") && fault.contains("apt-get update"),
+        "{fault}"
+    );
+}
+
 const REPORT: &str = "\
 ptxas info    : Compiling entry function 'light_sample' for 'sm_75'
 ptxas info    : Function properties for light_sample
