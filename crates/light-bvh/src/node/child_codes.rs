@@ -82,12 +82,14 @@ const fn word(row: &[u8; WIDTH], k: usize) -> u32 {
 }
 
 #[inline(always)]
+#[expect(clippy::cast_sign_loss, reason = "the same bits")]
 const fn signed_word(row: &[i8; WIDTH], k: usize) -> u32 {
     let [a, b, c, d] = [row[k], row[k + 1], row[k + 2], row[k + 3]];
     u32::from_le_bytes([a as u8, b as u8, c as u8, d as u8])
 }
 
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the low byte")]
 const fn byte(word: u32, k: usize) -> u8 {
     (word >> (8 * k)) as u8
 }
