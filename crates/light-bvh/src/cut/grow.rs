@@ -27,7 +27,7 @@ impl<'a> LightBvhRef<'a> {
         let mut cut = LightCut {
             tree: self.wanting(receiver.groups()),
             receiver: receiver.keep(),
-            grown: CutNodes::none(),
+            grown: CutNodes::NONE,
         };
         cut.grow(detail);
         cut

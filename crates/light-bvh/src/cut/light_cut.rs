@@ -124,18 +124,25 @@ impl Default for LightCut<'_> {
         Self {
             tree: LightBvhRef::new(&[], &[], &[]),
             receiver: ContextReceiver::Medium(MediumReceiver::ORIGIN),
-            grown: CutNodes::none(),
+            grown: if cfg!(target_arch = "nvptx64") {
+                CutNodes::none()
+            } else {
+                CutNodes::NONE
+            },
         }
     }
 }
 
 impl CutNodes {
-    /// No node; of the numbers of other nodes nothing is read.
-    ///
-    /// Stored number by number: a constant would be copied, on a GPU byte by byte.
+    /// No node.
+    pub(crate) const NONE: Self = Self::none();
+
+    /// The same. Where it is not a constant it is stored number by number: a GPU would copy a
+    /// constant byte by byte, and others take a second place on the stack for it.
     #[inline(always)]
     pub(crate) const fn none() -> Self {
         let mut none = Self {
+            // Of all but the first nothing is read.
             nodes: [1; MAX_NODES + WIDTH],
             weights: [[1.0; WIDTH]; MAX_NODES],
             totals: [1.0; MAX_NODES],
