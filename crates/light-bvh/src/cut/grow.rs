@@ -27,7 +27,7 @@ impl<'a> LightBvhRef<'a> {
         let mut cut = LightCut {
             tree: self.wanting(receiver.groups()),
             receiver: receiver.keep(),
-            grown: CutNodes::NONE,
+            grown: CutNodes::none(),
         };
         cut.grow(detail);
         cut

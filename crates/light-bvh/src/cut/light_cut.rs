@@ -124,23 +124,28 @@ impl Default for LightCut<'_> {
         Self {
             tree: LightBvhRef::new(&[], &[], &[]),
             receiver: ContextReceiver::Medium(MediumReceiver::ORIGIN),
-            grown: if cfg!(target_arch = "nvptx64") {
-                CutNodes::none()
-            } else {
-                CutNodes::NONE
-            },
+            grown: CutNodes::none(),
         }
     }
 }
 
 impl CutNodes {
-    /// No node.
-    pub(crate) const NONE: Self = Self::none();
+    const NONE: Self = Self::stored();
 
-    /// The same. Where it is not a constant it is stored number by number: a GPU would copy a
-    /// constant byte by byte, and others take a second place on the stack for it.
+    /// No node. A GPU would copy the constant byte by byte, and others take a second place on the
+    /// stack for what is stored number by number.
     #[inline(always)]
     pub(crate) const fn none() -> Self {
+        if cfg!(target_arch = "nvptx64") {
+            Self::stored()
+        } else {
+            Self::NONE
+        }
+    }
+
+    /// No node, stored number by number.
+    #[inline(always)]
+    const fn stored() -> Self {
         let mut none = Self {
             // Of all but the first nothing is read.
             nodes: [1; MAX_NODES + WIDTH],

@@ -88,7 +88,7 @@ mod tests {
 
     /// Nodes of a cut of the given sums of weights.
     fn cut(totals: &[f32]) -> CutNodes {
-        let mut cut = CutNodes::NONE;
+        let mut cut = CutNodes::none();
         cut.totals[..totals.len()].copy_from_slice(totals);
         cut.sum = totals.iter().sum();
         cut.count = totals.len();
