@@ -9,6 +9,7 @@ mod work;
 
 use std::process::ExitCode;
 
+use light_bvh::LightBvh;
 use light_ptx_queries::Receiver;
 use light_sets::{BenchSet, SetKind};
 
@@ -21,7 +22,7 @@ const NO_DEVICE: u8 = 77;
 /// Numbers of lights of the trees.
 const SIZES: [usize; 3] = [100, 10_000, 1_000_000];
 
-type Result<T> = core::result::Result<T, Box<dyn core::error::Error>>;
+type Result<T, E = Box<dyn core::error::Error>> = core::result::Result<T, E>;
 
 fn main() -> ExitCode {
     let count = match std::env::args().nth(1).map_or(Ok(1 << 20), |n| n.parse()) {
@@ -64,10 +65,11 @@ fn check(gpu: &Gpu, count: u32) -> Result<usize> {
         host::cores()
     );
     println!("| ---: | --- | ---: | ---: | ---: |");
-    for size in SIZES {
-        let set = BenchSet::generate(SetKind::Uniform, size, 1);
-        let bvh = work::tree(&set)?;
-        let work = Work::new(&set, count);
+    let sets = SIZES.map(|size| BenchSet::generate(SetKind::Uniform, size, 1));
+    let trees: Vec<LightBvh> = sets.iter().map(work::tree).collect::<Result<_, _>>()?;
+    for (set, bvh) in sets.iter().zip(&trees) {
+        let size = set.lights.len();
+        let work = Work::new(set, count);
         for kernel in work::KERNELS {
             unlike += gpu.unlike_choices(kernel, &bvh.view(), &work)?;
             let [one, all] = [1, host::cores()].map(|n| host::rate(kernel, &bvh.view(), &work, n));
@@ -76,28 +78,27 @@ fn check(gpu: &Gpu, count: u32) -> Result<usize> {
             println!("| {size} | {name} | {rate:.0} | {one:.2} | {all:.1} |");
         }
     }
-    println!();
-    kinds(gpu, count)?;
+    println!(
+        "\n| lights | `light_sample` of one kind | GPU, M/s | near points behind each other |"
+    );
+    println!("| ---: | --- | ---: | ---: |");
+    for (set, bvh) in sets.iter().zip(&trees) {
+        kinds(gpu, set, bvh, count)?;
+    }
     Ok(unlike)
 }
 
-/// How many samples a second receivers of one kind take, in two orders.
-fn kinds(gpu: &Gpu, count: u32) -> Result<()> {
-    println!("| lights | `light_sample` of one kind | GPU, M/s | near points behind each other |");
-    println!("| ---: | --- | ---: | ---: |");
-    for size in SIZES {
-        let set = BenchSet::generate(SetKind::Uniform, size, 1);
-        let bvh = work::tree(&set)?;
-        let print = |name: &str, work: Work| -> Result<()> {
-            let any_order = gpu.rate(work::SAMPLE, &bvh.view(), &work)?;
-            let in_order = gpu.rate(work::SAMPLE, &bvh.view(), &work.in_order_of_places())?;
-            println!("| {size} | {name} | {any_order:.0} | {in_order:.0} |");
-            Ok(())
-        };
-        for kind in Receiver::ALL {
-            print(&format!("{kind:?}"), Work::by(&set, count, &[kind]))?;
-        }
-        print("the five in turn", Work::by(&set, count, &Receiver::ALL))?;
+/// Prints how many samples a second receivers of one kind take, in two orders.
+fn kinds(gpu: &Gpu, set: &BenchSet, bvh: &LightBvh, count: u32) -> Result<()> {
+    let print = |name: &str, work: Work| -> Result<()> {
+        let any_order = gpu.rate(work::SAMPLE, &bvh.view(), &work)?;
+        let in_order = gpu.rate(work::SAMPLE, &bvh.view(), &work.in_order_of_places())?;
+        let size = set.lights.len();
+        println!("| {size} | {name} | {any_order:.0} | {in_order:.0} |");
+        Ok(())
+    };
+    for kind in Receiver::ALL {
+        print(&format!("{kind:?}"), Work::by(set, count, &[kind]))?;
     }
-    Ok(())
+    print("the five in turn", Work::by(set, count, &Receiver::ALL))
 }
