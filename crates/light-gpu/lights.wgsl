@@ -1942,10 +1942,13 @@ fn light_spherical_rectangle(
     ey: vec3<f32>,
     p: vec3<f32>,
 ) -> LightSphericalRectangle {
-    let size = vec2<f32>(length(ex), length(ey));
-    let x = ex / size.x;
-    let y = ey / size.y;
-    let d = corner - p;
+    // In a unit near the largest length: no product of four overflows or vanishes.
+    let farthest = max(abs(corner - p), max(abs(ex), abs(ey)));
+    let scale = light_inverse_power_of_two(max(max(farthest.x, farthest.y), farthest.z));
+    let d = (corner - p) * scale;
+    let size = vec2<f32>(length(ex * scale), length(ey * scale));
+    let x = (ex * scale) / size.x;
+    let y = (ey * scale) / size.y;
     let height = abs(dot(d, cross(x, y)));
     var seen = LightSphericalRectangle(vec2<f32>(dot(d, x), dot(d, y)), size, height, 0.0);
     if height > 0.0 {

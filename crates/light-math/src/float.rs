@@ -188,9 +188,35 @@ pub const fn next_down(x: f32) -> f32 {
     -next_up(-x)
 }
 
+/// `1 - x` for `x` of `[0, 1]`, rounded down: a cosine that is rounded up excludes a part of its
+/// cone.
+#[inline]
+#[must_use]
+pub const fn one_minus_rounded_down(x: f32) -> f32 {
+    let nearest = 1.0 - x;
+    // The distance of a float from 1 is exact down to 1/2.
+    if 1.0 - nearest < x {
+        next_down(nearest)
+    } else {
+        nearest
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_minus_something_small_is_not_rounded_up() {
+        for x in [0.0, 1e-30, 1e-9, 2.9e-8, 3.1e-8, 1e-5, 0.3, 0.5, 0.7, 1.0] {
+            let rounded = f64::from(one_minus_rounded_down(x));
+            let below = (1.0 - f64::from(x)) - rounded;
+            assert!(
+                (0.0..=f64::from(f32::EPSILON)).contains(&below),
+                "{x}: {below}"
+            );
+        }
+    }
 
     #[test]
     fn products_of_positive_numbers_are_positive() {

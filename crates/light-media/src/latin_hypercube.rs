@@ -58,7 +58,8 @@ impl LatinHypercube {
 /// next power of two, repeated until the value falls below `n`.
 #[expect(clippy::cast_possible_truncation, reason = "a remainder below n")]
 fn permute(i: u32, n: u32, key: u32) -> u32 {
-    let mask = n.next_power_of_two().wrapping_sub(1);
+    // Of the bits that the largest number has; none for n = 1.
+    let mask = u32::MAX.checked_shr((n - 1).leading_zeros()).unwrap_or(0);
     let half_width = (mask.count_ones() / 2).max(1);
     let mut x = i;
     loop {
@@ -145,6 +146,15 @@ mod tests {
             places.sort_unstable();
             places.dedup();
             assert_eq!(places.len(), 64, "seed {seed}");
+        }
+    }
+
+    /// Above 2^31 there is no next power of two.
+    #[test]
+    fn the_largest_cubes_have_points() {
+        for n in [1 << 31, (1 << 31) + 1, u32::MAX] {
+            let cube = LatinHypercube::new(n, 17);
+            assert_ne!(cube.point::<2>(0), cube.point::<2>(n - 1), "{n}");
         }
     }
 

@@ -1,7 +1,7 @@
 use crate::emission::VolumeLight;
 use crate::in_scattering::{ScatteringPoint, Visibility, VolumeIntegrator};
 use crate::latin_hypercube::LatinHypercube;
-use crate::medium::Medium;
+use crate::medium::{Coefficients, Medium};
 use crate::ray::{Ray, Span};
 use crate::step_size::StepSize;
 use crate::transmittance;
@@ -13,8 +13,11 @@ use light_math::{float, fraction};
 use light_samplers::LightSampler;
 use light_sources::{ColorModel, Light, Radiance};
 
-/// Optical thickness beyond which the ray is cut off: the transmittance there is below 1e-8.
+/// Optical thickness at which an unbounded ray is first tried to be cut off.
 const OPAQUE: f32 = 20.0;
+
+/// Where less than this share of the light at the start of an unbounded ray arrives, it is cut off.
+const CUT_OFF: f32 = 1e-8;
 
 impl<C, M, S, V> VolumeIntegrator<'_, C, M, S, V>
 where
@@ -115,25 +118,44 @@ where
 
     /// The part of a ray in the medium before the cut-off, and the transmittance along it.
     fn reach(&self, ray: &Ray, whole: Span, through: C::Radiance) -> (Span, TruncatedExponential) {
-        let (part, rate) = if whole.t1.is_finite() {
-            let thickness = -float::ln(through.average().max(f32::MIN_POSITIVE));
-            (whole, thickness / whole.length())
+        if whole.t1.is_finite() {
+            let dying = falling_to(through.average(), whole.length());
+            return (whole, dying);
+        }
+        let farthest = self.step.length() * StepSize::MAX_STEPS as f32;
+        let start = self.medium.coefficients(ray.at(whole.t0), self.wavelengths);
+        let rate = start.sigma_t().average();
+        let mut length = if rate > 0.0 {
+            farthest.min(OPAQUE / rate)
         } else {
-            let rate = self
-                .medium
-                .coefficients(ray.at(whole.t0), self.wavelengths)
-                .sigma_t()
-                .average();
-            let farthest = self.step.length() * StepSize::MAX_STEPS as f32;
-            let length = if rate > 0.0 {
-                farthest.min(OPAQUE / rate)
-            } else {
-                farthest
-            };
-            let t1 = whole.t0 + length;
-            (Span { t1, ..whole }, rate)
+            farthest
         };
-        (part, TruncatedExponential::new(rate, part.length()))
+        loop {
+            let t1 = whole.t0 + length;
+            let part = Span { t1, ..whole };
+            let arriving = self.arriving_from_end(ray, part, &start);
+            // One colour may reach much farther than all of them do on average. Not a number, where
+            // nothing shines at the start, ends the search.
+            if !(arriving > CUT_OFF) || length == farthest {
+                return (part, falling_to(arriving, part.length()));
+            }
+            length = farthest.min(2.0 * length);
+        }
+    }
+
+    /// How much of what is emitted and scattered at the end of a span arrives, relative to what is
+    /// at its start.
+    fn arriving_from_end(&self, ray: &Ray, span: Span, start: &Coefficients<C::Radiance>) -> f32 {
+        let thickness = self.medium.optical_thickness(ray, span, self.wavelengths);
+        let (end, thickness) = match thickness {
+            Some(thickness) => (
+                self.medium.coefficients(ray.at(span.t1), self.wavelengths),
+                thickness,
+            ),
+            None => (*start, start.sigma_t() * span.length()),
+        };
+        let arriving = transmittance::attenuation(thickness) * (end.sigma_s + end.emission);
+        arriving.average() / (start.sigma_s + start.emission).average()
     }
 
     /// The equiangular distribution along the ray about a light; `None` for lights at infinity.
@@ -141,4 +163,10 @@ where
         let to_light: Vec3 = self.lights.get(light)?.bounds()?.centroid() - ray.o;
         Equiangular::new(to_light, ray.d, part.t0, part.t1)
     }
+}
+
+/// The distances up to `length` with a density that falls to the share `left`.
+fn falling_to(left: f32, length: f32) -> TruncatedExponential {
+    let thickness = -float::ln(left.clamp(f32::MIN_POSITIVE, 1.0));
+    TruncatedExponential::new(thickness / length, length)
 }

@@ -1,6 +1,7 @@
 use crate::ray::{Ray, Span};
 use light_math::Aabb;
-use light_math::glam::{Affine3A, Quat, Vec3};
+use light_math::float::inverse_power_of_two;
+use light_math::glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
 
 /// The region of a medium: a box in its own space, or unbounded, where the scene encloses it by
 /// shapes or not at all.
@@ -44,10 +45,7 @@ impl Region {
         if bounds.is_empty() || !bounds.is_finite() {
             return Err(RegionError::Bounds);
         }
-        let from_scene = to_scene.inverse();
-        if !to_scene.is_finite() || !from_scene.is_finite() {
-            return Err(RegionError::Transform);
-        }
+        let from_scene = inverse(&to_scene).ok_or(RegionError::Transform)?;
         Ok(Self {
             from_scene,
             bounds: Some(bounds),
@@ -130,6 +128,21 @@ impl Region {
             Some(bounds) => slabs(bounds, &self.local_ray(ray), span),
         }
     }
+}
+
+/// The inverse of a transform; `None` where one of both is not finite.
+fn inverse(transform: &Affine3A) -> Option<Affine3A> {
+    let m = transform.matrix3;
+    // Each axis in a unit of its own, so that the determinant of a large or small scale is a number.
+    let unit = |axis: Vec3A| inverse_power_of_two(axis.abs().max_element());
+    let units = Vec3A::new(unit(m.x_axis), unit(m.y_axis), unit(m.z_axis));
+    let even = Mat3A::from_cols(m.x_axis * units.x, m.y_axis * units.y, m.z_axis * units.z);
+    let matrix3 = Mat3A::from_diagonal(units.into()) * even.inverse();
+    let inverse = Affine3A {
+        matrix3,
+        translation: -(matrix3 * transform.translation),
+    };
+    (transform.is_finite() && inverse.is_finite()).then_some(inverse)
 }
 
 /// The part of `span` inside `bounds`, by the slab method; a ray parallel to a face counts as
@@ -224,6 +237,26 @@ mod tests {
             let local = region.local_ray(&ray);
             assert!(!(local.o.is_finite() && local.d.is_finite()), "{local:?}");
             assert_eq!(region.clip(&ray, ALL), None, "{local:?}");
+        }
+    }
+
+    #[test]
+    fn regions_of_any_size_are_as_large_as_they_are() {
+        for size in [1e-18, 1e-13, 1.0, 7e12, 1e18] {
+            let cube = Aabb::new(Vec3::splat(-0.5), Vec3::splat(0.5));
+            let scale = Affine3A::from_scale(Vec3::splat(size));
+            let of_box = Aabb::new(cube.min * size, cube.max * size);
+            for region in [
+                Region::new(cube, scale),
+                Region::unit_cube(of_box, Affine3A::IDENTITY),
+            ] {
+                let region = region.expect("a box");
+                assert!(region.contains(Vec3::splat(0.49 * size)), "{size}: inside");
+                assert!(
+                    !region.contains(Vec3::splat(0.51 * size)),
+                    "{size}: outside"
+                );
+            }
         }
     }
 

@@ -34,7 +34,8 @@ impl StepSize {
         self.0
     }
 
-    /// `span` in equal steps no longer than this one.
+    /// `span` in equal steps no longer than this one; a bounded span that would need more than
+    /// [`MAX_STEPS`](Self::MAX_STEPS) is divided into as many.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -43,18 +44,15 @@ impl StepSize {
     )]
     pub fn march(self, span: Span) -> March {
         let wanted = light_math::float::ceil(span.length() / self.0).max(1.0);
-        if wanted <= Self::MAX_STEPS as f32 {
-            March {
-                t0: span.t0,
-                step: span.length() / wanted,
-                n: wanted as u32,
-            }
-        } else {
-            March {
-                t0: span.t0,
-                step: self.0,
-                n: Self::MAX_STEPS,
-            }
+        let n = wanted.min(Self::MAX_STEPS as f32);
+        March {
+            t0: span.t0,
+            step: if span.t1.is_finite() {
+                span.length() / n
+            } else {
+                self.0
+            },
+            n: n as u32,
         }
     }
 }
@@ -101,6 +99,19 @@ mod tests {
             .march(Span { t0: 1.0, t1: 2.0 });
         assert_eq!((march.n, march.step), (4, 0.25), "four quarters");
         assert_eq!(march.segment(3), Span { t0: 1.75, t1: 2.0 }, "the last one");
+    }
+
+    #[test]
+    fn a_long_span_gets_longer_steps() {
+        let march = StepSize::new(1.0).expect("positive").march(Span {
+            t0: 0.0,
+            t1: 131_072.0,
+        });
+        assert_eq!(
+            (march.n, march.step),
+            (StepSize::MAX_STEPS, 2.0),
+            "all of it"
+        );
     }
 
     #[test]

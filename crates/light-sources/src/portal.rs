@@ -25,6 +25,10 @@ pub(crate) struct Portal {
 /// Tolerance of the cosines of the angles between the sides: files write few digits.
 const TOLERANCE: f32 = 1e-3;
 
+/// How far the last corner may be from where the others put it, over the longest side: coordinates
+/// of three decimals move it so far.
+const CLOSURE: f32 = 4e-3;
+
 /// The largest angle below a right angle.
 const UPRIGHT: f32 = f32::from_bits(FRAC_PI_2.to_bits() - 1);
 
@@ -36,9 +40,12 @@ impl Portal {
         let y = (p1 - p0).try_normalize()?;
         let (opposite_x, opposite_y) = ((p2 - p1).try_normalize()?, (p2 - p3).try_normalize()?);
         let is_parallel = |a: Vec3, b: Vec3| (a.dot(b) - 1.0).abs() <= TOLERANCE;
+        let gap = ((p2 - p1) - (p3 - p0)).length();
+        let closes = gap <= CLOSURE * p0.distance(p3).max(p0.distance(p1));
         if !(is_parallel(x, opposite_x)
             && is_parallel(y, opposite_y)
-            && x.dot(y).abs() <= TOLERANCE)
+            && x.dot(y).abs() <= TOLERANCE
+            && closes)
         {
             return None;
         }
@@ -157,6 +164,13 @@ mod tests {
             Portal::new([p0, p1, p2 + Vec3::Z, p3]).is_none(),
             "not planar"
         );
+        // By 1 part in 40 of the side, an angle of less than two degrees.
+        for off in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let p2 = p2 + off * (0.025 * p0.distance(p3));
+            assert!(Portal::new([p0, p1, p2, p3]).is_none(), "off by {off}");
+        }
+        let rounded = SQUARE.map(|p| (p * 1e3).round() * 1e-3 + Vec3::X * 4e-4);
+        assert!(Portal::new(rounded).is_some(), "three decimals");
         assert!(Portal::new([p0; 4]).is_none(), "a point");
         assert!(Portal::new([p0, p1, Vec3::NAN, p3]).is_none(), "NaN");
         assert!(Portal::new([p0, p2, p1, p3]).is_none(), "crossed");

@@ -2,6 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use crate::glam::{Affine3A, Mat3, Vec3};
+use light_math::float::sqrt;
 
 /// A transform that keeps lengths: a rotation or a reflection, then a translation. It takes light
 /// space to scene space.
@@ -83,6 +84,17 @@ impl RigidTransform {
     #[must_use]
     pub fn vector(&self, v: Vec3) -> Vec3 {
         self.linear * v
+    }
+
+    /// How far a circle of radius 1 about the light's axis reaches along each axis of the scene,
+    /// rounded up.
+    #[must_use]
+    pub(crate) fn circle_reach(&self) -> Vec3 {
+        let Mat3 { x_axis, y_axis, .. } = self.linear;
+        // The axis itself does not tell: next to 1 its components have lost what is left for the
+        // circle.
+        let reach = (x_axis * x_axis + y_axis * y_axis).map(sqrt);
+        reach * (1.0 + 4.0 * f32::EPSILON)
     }
 
     /// Takes a point from scene space to light space.

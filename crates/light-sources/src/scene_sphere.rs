@@ -17,7 +17,9 @@ pub struct SceneSphere {
 pub enum SceneSphereError {
     /// The centre has a component that is not a finite number.
     Center,
-    /// The radius is not a finite number above 0: the scene is empty, a single point, or unbounded.
+    /// The radius is not a finite number above 0, or so large or small that single precision has no
+    /// number for the area of its disk or for one over it: the scene is empty, a single point, or
+    /// unbounded.
     Radius,
 }
 
@@ -25,15 +27,17 @@ impl SceneSphere {
     /// The sphere with the given centre and radius, in scene units.
     ///
     /// # Errors
-    /// When the centre is not finite or the radius not finite and positive.
+    /// When the centre is not finite, or the radius not finite and positive, of about 1e-19 to 1e19.
     pub fn new(center: Vec3, radius: f32) -> Result<Self, SceneSphereError> {
         if !center.is_finite() {
             return Err(SceneSphereError::Center);
         }
-        if !(radius > 0.0 && radius.is_finite()) {
+        let sphere = Self { center, radius };
+        let area = sphere.disk_area();
+        if !(radius > 0.0 && area.is_finite() && (1.0 / area).is_finite()) {
             return Err(SceneSphereError::Radius);
         }
-        Ok(Self { center, radius })
+        Ok(sphere)
     }
 
     /// The sphere through the corners of the scene's box.
@@ -103,11 +107,10 @@ mod tests {
             Err(SceneSphereError::Center),
             "NaN"
         );
-        assert_eq!(
-            SceneSphere::new(Vec3::ZERO, f32::NAN),
-            Err(SceneSphereError::Radius),
-            "NaN"
-        );
+        for radius in [f32::NAN, -1.0, 2e19, 1e-20, f32::MAX] {
+            let sphere = SceneSphere::new(Vec3::ZERO, radius);
+            assert_eq!(sphere, Err(SceneSphereError::Radius), "{radius}");
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::scaled_emission::ScaledEmission;
 use crate::spot_desc::{SpotLightDesc, SpotLightError};
 use light_bounds::LightBounds;
 use light_math::Aabb;
-use light_math::float::{cos, safe_sqrt, sin, sin_cos};
+use light_math::float::{cos, one_minus_rounded_down, safe_sqrt, sin, sin_cos};
 use light_math::warp::{smoothstep, uniform_cone};
 
 /// A point light that emits into a cone with a smooth rim.
@@ -177,12 +177,10 @@ fn one_minus_cos(angle: f32) -> f32 {
 /// cone.
 fn cos_rounded_down(angle: f32) -> f32 {
     const NARROW: f32 = 1e-3;
-    let nearest = cos(angle);
-    // Next to 1 floats lie half an epsilon apart, and their distance from 1 is exact.
-    if angle < NARROW && 1.0 - nearest < one_minus_cos(angle) {
-        nearest - 0.5 * f32::EPSILON
+    if angle < NARROW {
+        one_minus_rounded_down(one_minus_cos(angle))
     } else {
-        nearest
+        cos(angle)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::scaled_emission::{EmissionError, ScaledEmission};
 use crate::scene_sphere::SceneSphere;
 use crate::sun_desc::{SunAmount, SunLightDesc};
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
-use light_math::float::sin;
+use light_math::float::{one_minus_rounded_down, sin};
 use light_math::warp::uniform_cone;
 use light_math::{DirectionCone, Frame, direction};
 
@@ -155,7 +155,7 @@ impl<C: ColorModel> Light<C> for SunLight<C> {
     }
 
     fn extent(&self) -> LightExtent {
-        let cos_theta = 1.0 - self.one_minus_cos_theta;
+        let cos_theta = one_minus_rounded_down(self.one_minus_cos_theta);
         LightExtent::Infinite(InfiniteBounds {
             fluence: self.radiance.maximum() * self.solid_angle(),
             mean: self.frame.z * (0.5 * (1.0 + cos_theta)),
@@ -249,6 +249,32 @@ mod tests {
                 assert!(!sun.contains(beside.normalize()), "{diameter}: beside");
                 assert!(!sun.contains(-sun.frame.z), "{diameter}: opposite");
             }
+        }
+    }
+
+    /// However small it is: a sampler asks the cone whether the sun is above a horizon.
+    #[test]
+    fn the_cone_holds_all_of_the_disk() {
+        for diameter in [1e-10, 1e-5, 4.8e-4, 1e-3, 2e-3, 0.0093, 0.5, PI] {
+            let sun = SunLight::<Rgb>::new(
+                SunLightDesc {
+                    direction: Vec3::Y,
+                    angular_diameter: diameter,
+                    emission: Vec3::ONE,
+                    amount: SunAmount::Radiance(RadianceAmount::default()),
+                },
+                SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"),
+            );
+            let LightExtent::Infinite(bounds) = sun.expect("a sun").extent() else {
+                unreachable!("a sun is infinite");
+            };
+            let cos = f64::from(bounds.cone.cos_theta);
+            let one_minus_cos = 2.0 * (0.25 * f64::from(diameter)).sin().powi(2);
+            // Sines of half angles are rounded to a few parts in 10^7.
+            assert!(
+                1.0 - cos >= one_minus_cos * (1.0 - 1e-6),
+                "{diameter}: {cos}"
+            );
         }
     }
 

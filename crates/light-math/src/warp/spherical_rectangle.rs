@@ -1,6 +1,6 @@
 //! Directions toward a rectangle, uniform in solid angle.
 
-use crate::float::{atan2, sin, sqrt};
+use crate::float::{atan2, inverse_power_of_two, sin, sqrt};
 use glam::{Vec2, Vec3};
 
 /// A rectangle projected to the unit sphere around a point.
@@ -17,7 +17,7 @@ use glam::{Vec2, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalRectangle {
     /// Lower corner in the frame of the rectangle, with the point as origin, and lengths of the
-    /// edges.
+    /// edges, in a unit near the largest of all lengths.
     low: Vec2,
     size: Vec2,
     /// Distance of the point from the plane.
@@ -30,9 +30,14 @@ impl SphericalRectangle {
     /// none if it covers no solid angle there.
     #[must_use]
     pub fn new(corner: Vec3, ex: Vec3, ey: Vec3, p: Vec3) -> Option<Self> {
+        let d = corner - p;
+        // All results are ratios: in a unit near the largest length no product of four overflows,
+        // and none vanishes that is not small beside the others.
+        let largest = d.abs().max(ex.abs()).max(ey.abs()).max_element();
+        let scale = inverse_power_of_two(largest);
+        let (d, ex, ey) = (d * scale, ex * scale, ey * scale);
         let size = Vec2::new(ex.length(), ey.length());
         let (x, y) = (ex / size.x, ey / size.y);
-        let d = corner - p;
         let low = Vec2::new(d.dot(x), d.dot(y));
         let height = d.dot(x.cross(y)).abs();
         let mut this = Self {

@@ -86,3 +86,26 @@ fn rectangles_at_the_ends_of_the_range_are_sampled_within() {
     }
     assert!(seen > 200, "{seen} rectangles");
 }
+
+/// A scene in another unit of length has the same solid angles and the same places: to the bit, for
+/// units that are powers of two.
+#[test]
+fn rectangles_are_sampled_alike_in_every_unit() {
+    let seen = |unit: f32| {
+        let corner = Vec3::new(-0.4, -0.3, 0.3) * unit;
+        let edges = [Vec3::X * unit, Vec3::Y * (0.8 * unit)];
+        SphericalRectangle::new(corner, edges[0], edges[1], Vec3::ZERO).expect("it is seen")
+    };
+    let plain = seen(1.0);
+    for exponent in (-60..=60).step_by(4) {
+        let scaled = seen(2.0f32.powi(exponent));
+        assert_eq!(scaled.solid_angle(), plain.solid_angle(), "2^{exponent}");
+        let mut rng = Rng::new(58);
+        for _ in 0..50 {
+            let u = rng.vec2();
+            let at = scaled.sample(u);
+            assert_eq!(at, plain.sample(u), "{u}, 2^{exponent}");
+            assert_eq!(scaled.invert(at), plain.invert(at), "{u}, 2^{exponent}");
+        }
+    }
+}

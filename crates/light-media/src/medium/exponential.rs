@@ -3,8 +3,8 @@ use super::{Coefficients, Majorants, Medium, Substance};
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};
 use crate::region::Region;
-use light_math::float;
 use light_math::glam::Vec3;
+use light_math::{direction, float};
 use light_sources::ColorModel;
 
 /// A medium with exponential falloff: density 1 up to a base height, above it
@@ -53,7 +53,7 @@ impl<C: ColorModel> ExponentialHeight<C> {
         if !base.is_finite() {
             return Err(ExponentialHeightError::Base);
         }
-        let up = up.try_normalize().ok_or(ExponentialHeightError::Up)?;
+        let up = direction(up).ok_or(ExponentialHeightError::Up)?.normalize();
         if !(falloff >= 0.0 && falloff.is_finite()) {
             return Err(ExponentialHeightError::Falloff);
         }

@@ -39,9 +39,12 @@ impl PhaseFunction for HenyeyGreenstein {
     #[inline]
     fn value(&self, cos_theta: f32) -> f32 {
         let g = self.g;
-        // 1 + g^2 - 2 g cos, written so that it does not cancel for g and cos near 1.
-        let denominator = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cos_theta);
-        (1.0 - g * g) / (4.0 * PI * denominator * float::safe_sqrt(denominator))
+        // 1 + g^2 - 2 g cos, written so that it does not cancel where it is smallest: for a
+        // direction straight forward or, where g is negative, straight back.
+        let narrow = 1.0 - g.abs();
+        let from_peak = (1.0 - cos_theta * g.signum()).max(0.0);
+        let denominator = narrow * narrow + 2.0 * g.abs() * from_peak;
+        (narrow * (1.0 + g.abs())) / (4.0 * PI * denominator * float::sqrt(denominator))
     }
 
     #[inline]
@@ -69,6 +72,28 @@ mod tests {
                 Err(AsymmetryError::OutOfRange),
                 "{g}"
             );
+        }
+    }
+
+    /// Also a little beyond a cosine of 1, as a product of two unit vectors may be.
+    #[test]
+    fn peaks_are_as_high_forward_as_back() {
+        for g in [0.5, 0.999, 0.9999, 1.0 - f32::EPSILON] {
+            // (1 - g^2) / (4 pi (1 - g)^3).
+            let peak =
+                f64::from(1.0 + g) / (4.0 * core::f64::consts::PI * f64::from(1.0 - g).powi(2));
+            for (g, cos) in [
+                (g, 1.0),
+                (-g, -1.0),
+                (g, 1.0 + f32::EPSILON),
+                (-g, -1.000_000_1),
+            ] {
+                let value = HenyeyGreenstein::new(g).expect("in range").value(cos);
+                assert!(
+                    (f64::from(value) / peak - 1.0).abs() < 1e-5,
+                    "{g}, {cos}: {value}, {peak}"
+                );
+            }
         }
     }
 

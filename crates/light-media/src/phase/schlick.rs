@@ -25,9 +25,11 @@ impl Schlick {
     /// The approximation of Henyey-Greenstein of mean cosine `g`: `k = 1.55 g - 0.55 g^3`.
     ///
     /// # Errors
-    /// `g` does not lie strictly between -1 and 1.
+    /// `g` does not lie strictly between -1 and 1, or is above 0.938 or below -0.938, where that `k`
+    /// does not lie between them.
     pub fn from_asymmetry(g: f32) -> Result<Self, AsymmetryError> {
-        check_asymmetry(g).and_then(|g| Self::new(1.55 * g - 0.55 * g * g * g))
+        let g = check_asymmetry(g)?;
+        Self::new(1.55 * g - 0.55 * g * g * g).map_err(|_| AsymmetryError::NoApproximation)
     }
 }
 
@@ -43,5 +45,24 @@ impl PhaseFunction for Schlick {
     fn sample_cos(&self, u: f32) -> f32 {
         let x = 2.0 * u - 1.0;
         ((x + self.k) / (1.0 + self.k * x)).clamp(-1.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_narrowest_peaks_are_refused_by_name() {
+        for g in [0.938, -0.938, 0.0] {
+            assert!(Schlick::from_asymmetry(g).is_ok(), "{g}");
+        }
+        for (g, error) in [
+            (0.94, AsymmetryError::NoApproximation),
+            (-0.999, AsymmetryError::NoApproximation),
+            (1.0, AsymmetryError::OutOfRange),
+        ] {
+            assert_eq!(Schlick::from_asymmetry(g), Err(error), "{g}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
-use light_media::{Homogeneous, Region, Span, StepSize, VolumeIntegrator};
+use light_media::{Homogeneous, Region, Span, StepSize, Substance, VolumeIntegrator};
 use light_samplers::PowerLightSampler;
 use light_sources::{
     DistantLightDesc, IrradianceAmount, LightDesc, LightSetBuilder, Rgb, SceneSphere,
@@ -88,6 +88,22 @@ fn rays_without_end_see_all_of_the_light() {
     let truth = truth(0.5, 1.5);
     let margin = found.margin(truth) + 1e-4 * truth;
     assert!((found.mean - truth).abs() <= margin, "{found:?}, {truth}");
+}
+
+/// A fog through which one colour is seen a hundred times farther than the others: all of it counts.
+#[test]
+fn rays_without_end_see_each_colour_as_far_as_it_reaches() {
+    let sigma_a = Vec3::new(0.01, 3.0, 1.0);
+    let medium = Homogeneous {
+        substance: Substance::new(sigma_a, Vec3::ZERO, Vec3::ONE).expect("valid"),
+        ..medium(0.0, 0.0, 0.0)
+    };
+    let endless = Span {
+        t0: 0.0,
+        t1: f32::INFINITY,
+    };
+    let found = estimate(&medium, &TWO, &[0.5, 0.5], endless, 1 << 10, Some(4));
+    assert!(found.agrees_with(1.0), "{found:?}");
 }
 
 /// Points where the medium is seen have the density of what is seen of it: a glowing medium has no

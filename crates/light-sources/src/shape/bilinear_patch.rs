@@ -74,6 +74,17 @@ impl BilinearPatch {
         CORNERS.map(|uv| self.point(uv))
     }
 
+    /// The patch in another unit of length, for rays only: its area stays as it is.
+    pub(super) fn scaled(&self, scale: f32) -> Self {
+        Self {
+            p00: self.p00 * scale,
+            du: self.du * scale,
+            dv: self.dv * scale,
+            duv: self.duv * scale,
+            ..*self
+        }
+    }
+
     fn point(&self, uv: Vec2) -> Vec3 {
         self.p00 + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
     }

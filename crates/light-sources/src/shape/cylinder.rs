@@ -152,9 +152,8 @@ impl Shape for Cylinder {
     }
 
     fn bounds(&self) -> Aabb {
-        let axis = self.transform.axis();
-        let rim = (Vec3::ONE - axis * axis).max(Vec3::ZERO).map(sqrt) * self.radius;
-        let reach = rim + axis.abs() * (0.5 * self.length);
+        let rim = self.transform.circle_reach() * self.radius;
+        let reach = rim + self.transform.axis().abs() * (0.5 * self.length);
         Aabb {
             min: self.transform.origin() - reach,
             max: self.transform.origin() + reach,

@@ -107,8 +107,7 @@ impl Shape for Disk {
 
     fn bounds(&self) -> Aabb {
         // Extent of the rim along each axis of the scene.
-        let n = self.transform.axis();
-        let reach = (Vec3::ONE - n * n).max(Vec3::ZERO).map(sqrt) * self.radius;
+        let reach = self.transform.circle_reach() * self.radius;
         Aabb {
             min: self.transform.origin() - reach,
             max: self.transform.origin() + reach,

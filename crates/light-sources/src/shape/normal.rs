@@ -3,20 +3,27 @@
 use crate::glam::Vec3;
 use light_math::float::sqrt;
 
-/// The length of a normal, as an area; also where that is so small that its square loses digits.
+/// The length of a normal, as an area; also where that is so small that its square loses digits, or
+/// so large that it overflows.
 #[inline]
 pub(super) fn normal_length(normal: Vec3) -> f32 {
     let length_sq = normal.length_squared();
-    if length_sq >= f32::MIN_POSITIVE {
+    if has_digits(length_sq) {
         sqrt(length_sq)
     } else {
-        tiny_length(normal)
+        extreme_length(normal)
     }
 }
 
-/// Divided by the largest component first, so that no square vanishes.
+/// Whether a squared length is neither so small that it loses digits, nor infinite.
+#[inline]
+pub(super) fn has_digits(length_sq: f32) -> bool {
+    (f32::MIN_POSITIVE..=f32::MAX).contains(&length_sq)
+}
+
+/// Divided by the largest component first, so that no square vanishes or overflows.
 #[cold]
-pub(super) fn tiny_length(v: Vec3) -> f32 {
+pub(super) fn extreme_length(v: Vec3) -> f32 {
     let largest = v.abs().max_element();
     if largest > 0.0 {
         largest * (v / largest).length()
@@ -26,10 +33,11 @@ pub(super) fn tiny_length(v: Vec3) -> f32 {
 }
 
 /// The unit vector along a normal; also where that is so short, as of a tiny surface, that its
-/// square loses digits.
+/// square loses digits, or so long that it overflows.
 #[inline]
 pub(super) fn unit_normal(normal: Vec3) -> Option<Vec3> {
-    if normal.length_squared() >= f32::MIN_POSITIVE {
+    let length_sq = normal.length_squared();
+    if has_digits(length_sq) {
         normal.try_normalize()
     } else {
         light_math::direction(normal)

@@ -1,7 +1,7 @@
 use super::BilinearPatch;
 use super::rounding::hit_slack;
 use crate::glam::{Vec2, Vec3};
-use light_math::float::sqrt;
+use light_math::float::{inverse_power_of_two, sqrt};
 
 impl BilinearPatch {
     /// Parameters and distance of the ray's first meeting with the patch.
@@ -12,6 +12,17 @@ impl BilinearPatch {
     /// # Source
     /// `[Reshetov2019]`, section 8.2; a hair outside of the edges counts.
     pub(super) fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec2, f32)> {
+        let lengths = [self.p00 - origin, self.du, self.dv, self.duv];
+        let farthest = lengths
+            .map(Vec3::abs)
+            .into_iter()
+            .fold(Vec3::ZERO, Vec3::max);
+        let scale = inverse_power_of_two(farthest.max_element());
+        let (uv, t) = self.scaled(scale).meet(origin * scale, direction)?;
+        Some((uv, t / scale))
+    }
+
+    fn meet(&self, origin: Vec3, direction: Vec3) -> Option<(Vec2, f32)> {
         let from = self.p00 - origin;
         let cross_dv = direction.cross(self.dv);
         let cross_duv = direction.cross(self.duv);

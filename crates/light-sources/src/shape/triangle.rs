@@ -1,4 +1,4 @@
-use super::normal::{normal_length, unit_normal};
+use super::normal::{has_digits, normal_length, unit_normal};
 use super::receiver_cosine::ReceiverCosine;
 use super::rounding::{is_within_rounding, met_by};
 use super::solid_angle::{SMALL, area_to_solid_angle};
@@ -81,7 +81,7 @@ impl Triangle {
     fn normal_and_inv_area(&self) -> Option<(Vec3, f32)> {
         let normal = self.scaled_normal();
         let scale = 1.0 / normal_length(normal);
-        let n = if normal.length_squared() >= f32::MIN_POSITIVE {
+        let n = if has_digits(normal.length_squared()) {
             normal * scale
         } else {
             light_math::direction(normal)?

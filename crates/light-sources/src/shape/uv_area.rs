@@ -1,5 +1,5 @@
 #[cfg(feature = "alloc")]
-use super::normal::tiny_length;
+use super::normal::{extreme_length, has_digits};
 use crate::glam::{Vec2, Vec3};
 
 /// The distribution of the area of a shape over its surface parameters (u, v).
@@ -38,10 +38,10 @@ impl UvDensity {
             Self::Length([n, du, dv]) => {
                 let n = n.as_dvec3() + du.as_dvec3() * uv.x + dv.as_dvec3() * uv.y;
                 let length_sq = n.length_squared() as f32;
-                let length = if length_sq >= f32::MIN_POSITIVE {
+                let length = if has_digits(length_sq) {
                     sqrt(length_sq)
                 } else {
-                    tiny_length(n.as_vec3())
+                    extreme_length(n.as_vec3())
                 };
                 length.into()
             }
