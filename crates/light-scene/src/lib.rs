@@ -60,7 +60,8 @@ pub use gltf::read_gltf;
 pub use ids::{ImageId, MaterialId, PrototypeId};
 pub use image::{
     ChannelFile, Image, ImageError, ImageFile, encode_png, parse_exr, parse_image,
-    read_environment, read_image, write_exr, write_exr_half, write_image, write_png,
+    read_environment, read_image, read_signed_image, write_exr, write_exr_half, write_image,
+    write_png,
 };
 pub use instance::{Instance, Prototype};
 pub use light_set::{LightSetError, LightSetProblem, read_light_set, write_light_set};

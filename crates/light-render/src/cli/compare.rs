@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{Comparison, Flip, difference};
 use clap::Args;
-use light_scene::{Diagnostic, Image, read_image, write_image};
+use light_scene::{Diagnostic, Image, read_signed_image, write_image};
 use serde_json::json;
 
 use super::arguments::not_negative;
@@ -127,7 +127,7 @@ impl FlipMeans {
 }
 
 fn read(path: &Path) -> Result<Image, Failure> {
-    read_image(path)
+    read_signed_image(path)
         .map(|file| file.image)
         .map_err(Failure::input)
 }

@@ -3,7 +3,7 @@ use core::time::Duration;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use light_scene::{Diagnostic, read_image, write_atomically};
+use light_scene::{Diagnostic, read_signed_image, write_atomically};
 
 use crate::integrator::{Estimator, Integrator, PathSettings};
 use crate::report::{Reference, ReferenceSource, ReportOptions, SceneReport};
@@ -143,7 +143,7 @@ impl ReportArgs {
         let Some(path) = &self.reference else {
             return Ok(None);
         };
-        let image = read_image(path).map_err(Failure::input)?.image;
+        let image = read_signed_image(path).map_err(Failure::input)?.image;
         let (width, height) = view.crop().size();
         if (image.width(), image.height()) != (width, height) {
             let message = format!(

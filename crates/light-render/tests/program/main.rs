@@ -24,6 +24,9 @@ mod watched;
 use std::fs;
 use std::path::Path;
 
+use light_scene::glam::Vec3;
+use light_scene::{Image, write_image};
+
 use folder::{Folder, LIT, SMALL, UNLIT, assert_refused, lights, stdout};
 
 #[test]
@@ -63,6 +66,18 @@ fn renders_reports_and_compares() {
         (&figures["flip_ldr"], &figures["flip_hdr"]),
         (&0.0.into(), &0.0.into()),
         "{same}"
+    );
+    let [black, negative] = ["black.exr", "negative.exr"].map(|name| folder.path(name));
+    for (path, value) in [(&black, 0.0), (&negative, -2.0)] {
+        let image = Image::new(2, 2, vec![Vec3::splat(value); 4]).expect("texels");
+        write_image(Path::new(path), &image).expect("a file");
+    }
+    let signed = stdout(&["compare", &negative, &black, "--json"]);
+    let figures: serde_json::Value = serde_json::from_str(&signed).expect("one line of JSON");
+    assert_eq!(
+        (&figures["mse"], &figures["bias"][1]),
+        (&4.0.into(), &(-2.0).into()),
+        "{signed}"
     );
     let diff = folder.path("d.png");
     let other = lights(&["compare", &png, &a, "--max-relmse", "1e-9", "--diff", &diff]);

@@ -5,8 +5,8 @@ use super::{Image, ImageFile};
 use crate::Diagnostic;
 use crate::glam::Vec3;
 
-/// The image, if its texels can be light: NaN and infinities become what `broken` says, negative
-/// channels become 0; one warning counts both.
+/// The image, if its texels are numbers: NaN, infinities and negative channels become what `broken`
+/// says; one warning counts what is changed.
 pub(super) fn checked(
     path: &Path,
     [width, height]: [usize; 2],
@@ -25,7 +25,7 @@ pub(super) fn checked(
     });
     let mut negative = 0usize;
     for texel in &mut texels {
-        if texel.min_element() < 0.0 {
+        if broken != BrokenTexels::KeepNegative && texel.min_element() < 0.0 {
             negative += 1;
             *texel = texel.max(Vec3::ZERO);
         }
@@ -88,6 +88,18 @@ mod tests {
         let warning = file.warning.expect("a warning").to_string();
         let expected = "a.exr: 2 of 3 texels were negative and were clamped to 0";
         assert_eq!(warning, expected, "one warning");
+    }
+
+    #[test]
+    fn negative_texels_stay_where_pictures_are_compared() {
+        let path = Path::new("a.exr");
+        let texels = vec![Vec3::new(-1.0, 2.0, -3.0), Vec3::ONE];
+        let file = checked(path, [2, 1], texels.clone(), BrokenTexels::KeepNegative);
+        let file = file.expect("an image");
+        assert_eq!(file.image.texels(), texels, "as they are");
+        assert_eq!(file.warning, None, "nothing is changed");
+        let broken = checked(path, [1, 1], vec![Vec3::NAN], BrokenTexels::KeepNegative);
+        assert!(broken.is_err(), "no number");
     }
 
     #[test]

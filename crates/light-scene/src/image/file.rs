@@ -12,7 +12,7 @@ use crate::{Diagnostic, Files};
 pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .pfm, .png, .tga or .jpg";
 
 /// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, `.pfm`, or
-/// `.png`, `.tga`, `.jpg`, `.jpeg` (sRGB, made linear).
+/// `.png`, `.tga`, `.jpg`, `.jpeg` (sRGB, made linear). Negative texels become 0, with a warning.
 ///
 /// # Errors
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or
@@ -20,6 +20,16 @@ pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .pfm, .png, .tga or .jpg";
 pub fn read_image(path: &Path) -> Result<ImageFile, Diagnostic> {
     expect_image_name(path)?;
     parse_image(path, &Files::DISK.read(path)?)
+}
+
+/// As [`read_image`], with negative texels as they are in the file: what pictures are compared by.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn read_signed_image(path: &Path) -> Result<ImageFile, Diagnostic> {
+    expect_image_name(path)?;
+    let bytes = Files::DISK.read(path)?;
+    parse_with(path, &bytes, Encoding::Srgb, BrokenTexels::KeepNegative)
 }
 
 /// Makes sure that the ending of a name is that of an image.

@@ -22,7 +22,7 @@ pub(crate) use file::{
     IMAGE_ENDINGS, expect_image_name, is_image_name, parse_encoded, parse_opacity,
     read_environment_from,
 };
-pub use file::{parse_image, read_environment, read_image, write_image};
+pub use file::{parse_image, read_environment, read_image, read_signed_image, write_image};
 pub use image_file::ImageFile;
 pub use openexr::{parse_exr, write_exr, write_exr_half};
 pub use rgb_image::{Image, ImageError};
