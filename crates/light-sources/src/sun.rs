@@ -202,25 +202,34 @@ mod tests {
         direction: Vec3,
         angular_diameter: f32,
         amount: SunAmount,
-    ) -> Result<f32, SunLightError> {
+    ) -> Result<SunLight<Rgb>, SunLightError> {
         let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
-        let desc = SunLightDesc::<Rgb> {
+        let desc = SunLightDesc {
             direction,
             angular_diameter,
             emission: Vec3::ONE,
             amount,
         };
-        SunLight::new(desc, scene).map(|sun| sun.radiance.maximum())
+        SunLight::new(desc, scene)
+    }
+
+    /// Of radiance 1.
+    fn disk(direction: Vec3, angular_diameter: f32) -> SunLight<Rgb> {
+        let amount = SunAmount::Radiance(RadianceAmount::default());
+        sun(direction, angular_diameter, amount).expect("a sun")
     }
 
     #[test]
     fn irradiance_fixes_the_radiance() {
         let amount = SunAmount::Irradiance(IrradianceAmount::Radiometric(1.0));
         // Half of the sky of radiance 1 / pi.
-        let radiance = sun(Vec3::Y, PI, amount).expect("a sun");
+        let radiance = sun(Vec3::Y, PI, amount).expect("a sun").radiance.maximum();
         assert!((radiance * PI - 1.0).abs() < 1e-6, "{radiance}");
         // A disk of 0.0093 covers 6.793e-5 sr, all of which face the plane.
-        let radiance = sun(Vec3::Y, 0.0093, amount).expect("a sun");
+        let radiance = sun(Vec3::Y, 0.0093, amount)
+            .expect("a sun")
+            .radiance
+            .maximum();
         assert!((radiance * 6.7929e-5 - 1.0).abs() < 1e-4, "{radiance}");
     }
 
@@ -229,16 +238,7 @@ mod tests {
     fn the_rim_is_met() {
         for diameter in [1e-4, 0.0093, 0.5] {
             for x in [Vec3::new(0.3, 0.8, -0.2), Vec3::new(1.0, 2.0, 3.0), Vec3::Y] {
-                let sun = SunLight::<Rgb>::new(
-                    SunLightDesc {
-                        direction: x,
-                        angular_diameter: diameter,
-                        emission: Vec3::ONE,
-                        amount: SunAmount::Radiance(RadianceAmount::default()),
-                    },
-                    SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"),
-                )
-                .expect("a sun");
+                let sun = disk(x, diameter);
                 for i in 0..64u8 {
                     let u = Vec2::new(light_math::float::ONE_MINUS_EPSILON, f32::from(i) / 64.0);
                     assert!(sun.contains(sun.sample(u)), "{diameter}, {x}, {u}");
@@ -256,16 +256,7 @@ mod tests {
     #[test]
     fn the_cone_holds_all_of_the_disk() {
         for diameter in [1e-10, 1e-5, 4.8e-4, 1e-3, 2e-3, 0.0093, 0.5, PI] {
-            let sun = SunLight::<Rgb>::new(
-                SunLightDesc {
-                    direction: Vec3::Y,
-                    angular_diameter: diameter,
-                    emission: Vec3::ONE,
-                    amount: SunAmount::Radiance(RadianceAmount::default()),
-                },
-                SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"),
-            );
-            let LightExtent::Infinite(bounds) = sun.expect("a sun").extent() else {
+            let LightExtent::Infinite(bounds) = disk(Vec3::Y, diameter).extent() else {
                 unreachable!("a sun is infinite");
             };
             let cos = f64::from(bounds.cone.cos_theta);

@@ -22,6 +22,7 @@ impl BilinearPatch {
         Some((uv, t / scale))
     }
 
+    /// The same in a unit of length in which no product overflows or vanishes.
     fn meet(&self, origin: Vec3, direction: Vec3) -> Option<(Vec2, f32)> {
         let from = self.p00 - origin;
         let cross_dv = direction.cross(self.dv);
