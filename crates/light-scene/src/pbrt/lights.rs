@@ -1,21 +1,19 @@
-use core::f32::consts::{FRAC_1_PI, PI};
+use core::f32::consts::PI;
 
 use lights::math::spectrum::photometric::{K_M, Lumen};
 use lights::math::spectrum::rec709_luminance;
 use lights::sources::{
     Channels, DistantLightDesc, EnvironmentMap, Image, ImageError, ImageInfiniteLightDesc,
     IntensityAmount, IrradianceAmount, LightDesc, MediumInterface, PointLightDesc,
-    PortalInfiniteLightDesc, ProjectionLightDesc, RadianceAmount, SpotLightDesc, TextureMapping,
+    PortalInfiniteLightDesc, ProjectionLightDesc, RadianceAmount, SpotLightDesc,
     UniformInfiniteLightDesc,
 };
 
 use super::file_loc::Typed;
-use super::image_key::ImageKey;
-use super::state::{AreaLight, FLATTENED, Reader};
+use super::state::{FLATTENED, Reader};
+use crate::Diagnostic;
 use crate::glam::{Affine3A, Quat, Vec3};
 use crate::image::read_environment_from;
-use crate::scene_light::scaled;
-use crate::{Color, ColorImage, Diagnostic};
 
 impl Reader {
     pub(super) fn light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -162,41 +160,6 @@ impl Reader {
         }))
     }
 
-    pub(super) fn area_light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
-        let Typed {
-            at,
-            kind,
-            parameters,
-        } = typed;
-        if kind != "diffuse" {
-            let what = format!("AreaLightSource \"{kind}\"");
-            self.warn(*at, &what, "was taken as diffuse");
-        }
-        if is_dark(typed) {
-            let what = format!("AreaLightSource \"{kind}\"");
-            self.warn(*at, &what, DARK);
-            parameters.accept_all();
-            self.state.area_light = None;
-            return Ok(());
-        }
-        let scale = Vec3::splat(parameters.amount_or("scale", 1.0));
-        let radiance = match parameters.string("filename") {
-            // An image without repetition.
-            Some(file) => Color::Image(ColorImage {
-                scale,
-                mapping: TextureMapping::default(),
-                ..ColorImage::new(self.image(*at, ImageKey::colors(self.resolve(file)))?)
-            }),
-            None => scaled(Color::Constant(self.emission(typed, "L")), scale),
-        };
-        self.state.area_light = Some(AreaLight {
-            radiance,
-            two_sided: parameters.is_true("twosided", false),
-            power: parameters.positive("power"),
-        });
-        Ok(())
-    }
-
     /// The colour of a light, white by default.
     pub(super) fn emission(&mut self, typed: &Typed<'_>, name: &str) -> Vec3 {
         let emission = typed.parameters.emission(name);
@@ -226,10 +189,10 @@ impl Reader {
 }
 
 /// What is said of a light whose colour is black.
-const DARK: &str = "gives no light and was left out";
+pub(super) const DARK: &str = "gives no light and was left out";
 
 /// Whether the file gives a light no other colour than black.
-fn is_dark(typed: &Typed<'_>) -> bool {
+pub(super) fn is_dark(typed: &Typed<'_>) -> bool {
     let parameters = &typed.parameters;
     let name = match typed.kind.as_str() {
         "point" | "spot" | "goniometric" => "I",
@@ -275,11 +238,4 @@ fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
 
 pub(super) fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
     rec709_luminance(typed.parameters.emission(name).unwrap_or(Vec3::ONE))
-}
-
-/// The scale of an emitting surface that gives its stated power.
-pub(super) fn area_scale(light: &AreaLight, mean: Vec3, area: f32) -> f32 {
-    let sides = if light.two_sided { 2.0 } else { 1.0 };
-    let factor = |power: f32| power * FRAC_1_PI / (area * sides * rec709_luminance(mean));
-    light.power.map_or(1.0, factor)
 }

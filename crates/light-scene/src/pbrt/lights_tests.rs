@@ -1,15 +1,16 @@
 use core::f32::consts::PI;
 use std::path::Path;
 
+use lights::math::spectrum::rec709_luminance;
 use lights::sources::{EnvironmentMap, IntensityAmount, LightDesc, RadianceAmount, Rgb};
 
 use super::parse_pbrt;
 use crate::glam::Vec3;
 use crate::image::tests::png;
-use crate::{Diagnostic, Files};
+use crate::{Diagnostic, Files, Scene};
 
-/// The light of a file beside a white image.
-fn light(text: &str) -> LightDesc<Rgb> {
+/// The scene of a file beside a white image.
+fn scene(text: &str) -> Scene {
     fn read_sibling(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         assert_eq!(path, Path::new("white.png"), "the image");
         Ok(png(image::GrayImage::from_pixel(
@@ -18,10 +19,26 @@ fn light(text: &str) -> LightDesc<Rgb> {
             image::Luma([255]),
         )))
     }
-    let text = format!("WorldBegin LightSource {text}");
+    let text = format!("WorldBegin {text}");
     let scene = parse_pbrt(Path::new("a"), &text, Files::new(&read_sibling)).expect("a scene");
     assert_eq!(scene.warnings, [], "{text}");
-    scene.lights[0].clone()
+    scene
+}
+
+fn light(text: &str) -> LightDesc<Rgb> {
+    scene(&format!("LightSource {text}")).lights[0].clone()
+}
+
+/// The power in W of a triangle of area 1/2 that emits.
+fn area_power(light: &str) -> f32 {
+    let text = format!(
+        "AreaLightSource \"diffuse\" {light} \
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]"
+    );
+    let scene = scene(&text);
+    let emission = scene.material(scene.meshes[0].material).emission;
+    let mean = scene.mean(&emission.expect("a lamp").radiance);
+    0.5 * PI * rec709_luminance(mean)
 }
 
 fn scale(amount: RadianceAmount) -> f32 {
@@ -92,4 +109,12 @@ fn projections_have_the_power_that_is_asked_for() {
         (power.0 / 683.0 - 6.0).abs() < 1e-3,
         "{power:?}: six watts of green light"
     );
+}
+
+#[test]
+fn a_scale_multiplies_the_power_of_an_area_light() {
+    for color in ["\"rgb L\" [1 1 1]", "\"string filename\" \"white.png\""] {
+        let power = area_power(&format!("{color} \"float power\" 20 \"float scale\" 3"));
+        assert!((power - 60.0).abs() < 1e-3, "{color}: {power} W");
+    }
 }

@@ -1,5 +1,6 @@
 //! pbrt-v4 scene files.
 
+mod area_lights;
 mod attribute_target;
 mod attributes;
 #[cfg(test)]

@@ -1,5 +1,5 @@
+use super::area_lights::area_scale;
 use super::file_loc::Typed;
-use super::lights::area_scale;
 use super::loop_subdivision::loop_subdivision;
 use super::meshes::{bilinear_mesh, check, triangle_mesh};
 use super::ply::read_ply;
@@ -96,8 +96,7 @@ impl Reader {
         let Some(light) = self.state.area_light else {
             return material;
         };
-        let mean = self.scene.mean(&light.radiance);
-        let scale = area_scale(&light, mean, area());
+        let scale = area_scale(&light, area());
         let emission = Emission {
             radiance: scaled(light.radiance, Vec3::splat(scale)),
             sides: if light.two_sided {

@@ -91,8 +91,9 @@ pub(super) struct State {
 pub(super) struct AreaLight {
     pub(super) radiance: Color,
     pub(super) two_sided: bool,
-    /// Power in W that decides the scale, if the file states one.
-    pub(super) power: Option<f32>,
+    /// The factor of the radiance that gives one side of a surface of area 1 the stated power, if
+    /// the file states one.
+    pub(super) of_unit_area: Option<f32>,
 }
 
 impl State {
