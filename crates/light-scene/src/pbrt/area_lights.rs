@@ -5,7 +5,7 @@ use lights::sources::TextureMapping;
 
 use super::file_loc::Typed;
 use super::image_key::ImageKey;
-use super::lights::{DARK, is_dark};
+use super::lights::{DARK, is_dark, stated_luminance};
 use super::state::{AreaLight, Reader};
 use crate::glam::Vec3;
 use crate::scene_light::scaled;
@@ -39,7 +39,10 @@ impl Reader {
         };
         // A scale multiplies the power, as in pbrt.
         let of_unit_area = parameters.positive("power").map(|power| {
-            let luminance = rec709_luminance(self.scene.mean(&color));
+            let luminance = match color {
+                Color::Image(_) => rec709_luminance(self.scene.mean(&color)),
+                Color::Constant(_) => stated_luminance(typed, "L"),
+            };
             power / (PI * luminance)
         });
         self.state.area_light = Some(AreaLight {

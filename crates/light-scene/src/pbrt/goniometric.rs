@@ -6,7 +6,7 @@ use lights::math::spectrum::rec709_luminance;
 use lights::sources::{Channels, GoniometricLightDesc, Image, IntensityAmount, LightDesc, Rgb};
 
 use super::file_loc::Typed;
-use super::lights::luminance;
+use super::lights::stated_luminance;
 use super::state::Reader;
 use crate::glam::{Affine3A, Mat3A, Vec3};
 use crate::text::text_of;
@@ -50,7 +50,7 @@ impl Reader {
         let distribution = distribution.map_err(|error| typed.at.diagnostic(error.to_string()))?;
         let scale = match typed.parameters.positive("power") {
             Some(power) => {
-                scale * power / (4.0 * PI * distribution.mean().x * luminance(typed, "I"))
+                scale * power / (4.0 * PI * distribution.mean().x * stated_luminance(typed, "I"))
             }
             None => scale,
         };

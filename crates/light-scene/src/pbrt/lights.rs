@@ -10,6 +10,7 @@ use lights::sources::{
 };
 
 use super::file_loc::Typed;
+use super::parameter::ParameterType;
 use super::state::{FLATTENED, Reader};
 use crate::Diagnostic;
 use crate::glam::{Affine3A, Quat, Vec3};
@@ -223,7 +224,7 @@ fn one_color(color: Vec3) -> Result<Image, ImageError> {
 fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
     let power = typed.parameters.positive("power");
     power.map_or(scale, |power| {
-        scale * power / (solid_angle * luminance(typed, "I"))
+        scale * power / (solid_angle * stated_luminance(typed, "I"))
     })
 }
 
@@ -232,10 +233,16 @@ fn with_power(typed: &Typed<'_>, scale: f32, solid_angle: f32) -> f32 {
 fn with_illuminance(typed: &Typed<'_>, scale: f32, of_one: f32) -> f32 {
     let asked = typed.parameters.positive("illuminance");
     asked.map_or(scale, |asked| {
-        scale * asked / (of_one * luminance(typed, "L"))
+        scale * asked / (of_one * stated_luminance(typed, "L"))
     })
 }
 
-pub(super) fn luminance(typed: &Typed<'_>, name: &str) -> f32 {
-    rec709_luminance(typed.parameters.emission(name).unwrap_or(Vec3::ONE))
+/// The luminance of a light's colour that stated powers and illuminances are for. As in pbrt it is
+/// 1, and an RGB multiplies them; only of a spectrum that has no RGB it is more.
+pub(super) fn stated_luminance(typed: &Typed<'_>, name: &str) -> f32 {
+    let parameters = &typed.parameters;
+    if parameters.kind(name) == Some(ParameterType::Rgb) {
+        return 1.0;
+    }
+    rec709_luminance(parameters.emission(name).unwrap_or(Vec3::ONE))
 }

@@ -1,4 +1,4 @@
-use core::f32::consts::PI;
+use core::f32::consts::{PI, TAU};
 use std::path::Path;
 
 use lights::math::spectrum::rec709_luminance;
@@ -51,7 +51,7 @@ fn scale(amount: RadianceAmount) -> f32 {
 #[test]
 fn skies_give_the_illuminance_that_is_asked_for() {
     let LightDesc::UniformInfinite(sky) =
-        light("\"infinite\" \"rgb L\" [2 2 2] \"float illuminance\" 10")
+        light("\"infinite\" \"rgb L\" [2 2 2] \"float illuminance\" 5")
     else {
         panic!("a sky of one colour");
     };
@@ -116,5 +116,33 @@ fn a_scale_multiplies_the_power_of_an_area_light() {
     for color in ["\"rgb L\" [1 1 1]", "\"string filename\" \"white.png\""] {
         let power = area_power(&format!("{color} \"float power\" 20 \"float scale\" 3"));
         assert!((power - 60.0).abs() < 1e-3, "{color}: {power} W");
+    }
+}
+
+/// pbrt divides by the luminance of the illuminant alone, by which an RGB is multiplied.
+#[test]
+fn an_rgb_multiplies_stated_powers_and_illuminances() {
+    let emission = |text: &str| match light(text) {
+        LightDesc::Point(light) => light.emission * 4.0 * PI,
+        LightDesc::Spot(light) => light.emission * TAU * (1.0 - light.angle.cos()),
+        LightDesc::Distant(light) => light.emission,
+        LightDesc::UniformInfinite(light) => light.emission * PI,
+        other => panic!("not {other:?}"),
+    };
+    for stated in [
+        "\"point\" \"float power\" 7 \"rgb I\"",
+        "\"spot\" \"float conedeltaangle\" 0 \"float power\" 7 \"rgb I\"",
+        "\"distant\" \"float illuminance\" 7 \"rgb L\"",
+        "\"infinite\" \"float illuminance\" 7 \"rgb L\"",
+    ] {
+        let found = emission(&format!("{stated} [3 2 1]"));
+        let expected = Vec3::new(21.0, 14.0, 7.0);
+        assert!(found.abs_diff_eq(expected, 1e-3), "{stated}: {found}");
+    }
+    let white = area_power("\"rgb L\" [3 3 3] \"float power\" 7");
+    assert!((white - 21.0).abs() < 1e-3, "{white} W");
+    for color in ["\"blackbody L\" 3000", "\"spectrum L\" \"stdillum-A\""] {
+        let power = area_power(&format!("{color} \"float power\" 7"));
+        assert!((power - 7.0).abs() < 1e-3, "{color}: {power} W");
     }
 }
