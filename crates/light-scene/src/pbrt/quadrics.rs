@@ -106,9 +106,10 @@ impl Reader {
         is_even && (is_found || !(lets_light_pass || typed.parameters.has("alpha")))
     }
 
-    /// In pbrt a mirroring transform swaps front and back of quadrics, but not of meshes.
+    /// In pbrt a mirroring transform swaps front and back of quadrics that rays meet, but neither of
+    /// meshes nor of the points that light samples take.
     pub(super) fn turns_quadrics_over(&self) -> bool {
-        self.state.reversed ^ self.mirrors()
+        self.state.reversed ^ (self.mirrors() && self.state.area_light.is_none())
     }
 }
 

@@ -103,6 +103,28 @@ fn whole_disks_and_cylinders_are_no_triangles() {
 }
 
 #[test]
+fn a_mirrored_lamp_shines_where_it_does_unmirrored() {
+    let lamp = |text: &str| scene(&format!("AreaLightSource \"diffuse\" Scale -1 1 1 {text}"));
+    for shape in ["\"sphere\"", "\"disk\"", "\"cylinder\""] {
+        let front = |text: &str| lamp(&format!("{text} Shape {shape}")).quadrics[0].front;
+        assert_eq!(front(""), QuadricFront::Outside, "{shape}");
+        assert_eq!(
+            front("ReverseOrientation"),
+            QuadricFront::Inside,
+            "{shape}, reversed"
+        );
+        let part = &lamp(&format!("Shape {shape} \"float phimax\" 90")).meshes[0];
+        let [a, b, c] = part.triangle(0);
+        let outward = match shape {
+            "\"disk\"" => Vec3::Z,
+            _ => (a + b + c).with_z(0.0),
+        };
+        let normal = (b - a).cross(c - a);
+        assert!(normal.dot(outward) > 0.0, "{shape} in part: {normal}");
+    }
+}
+
+#[test]
 fn stretched_quadrics_are_objects_in_one_place() {
     let ellipse = scene(
         "ObjectBegin \"a\" Shape \"sphere\" ObjectEnd ObjectInstance \"a\" ReverseOrientation \
