@@ -118,3 +118,22 @@ fn integrators_say_how_long_paths_are() {
     let expected = "Integrator \"mlt\" was taken as the program's own path tracer";
     assert_eq!(warning, expected, "named");
 }
+
+#[test]
+fn a_film_without_a_camera_has_its_size() {
+    let film = "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 48";
+    let ball = "WorldBegin Translate 5 0 0 Shape \"sphere\"";
+    let read = |text: &str| read("pbrt_film", text).expect("a scene");
+    let bare = read(ball);
+    assert_eq!(bare.camera, None, "no film");
+    let expected = Camera {
+        resolution: Some([64, 48]),
+        ..bare.camera_or_default()
+    };
+    let filmed = read(&format!("{film} {ball}"));
+    assert_eq!(
+        filmed.camera,
+        Some(expected),
+        "the view that it has without"
+    );
+}

@@ -207,15 +207,17 @@ impl Reader {
         if let Some(unclosed) = unclosed.or(transform) {
             return Err(unclosed);
         }
-        self.scene.camera = self.camera.map(|camera| Camera {
-            resolution: self.resolution,
-            crop: self.crop,
-            ..camera
-        });
         self.finish_materials()?;
         self.warn_unused_attributes();
         self.scene.media = self.finished_media()?;
         self.scene.prototypes = self.finished_objects()?;
+        // A film without a camera is that of the program's own.
+        let own = || self.resolution.map(|_| self.scene.camera_or_default());
+        self.scene.camera = self.camera.or_else(own).map(|camera| Camera {
+            resolution: self.resolution,
+            crop: self.crop,
+            ..camera
+        });
         self.count_warnings();
         Ok(self.scene)
     }
