@@ -43,3 +43,38 @@ pub fn is_scene_name(path: &Path) -> bool {
 fn ending(path: &Path) -> Option<&str> {
     path.extension()?.to_str()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    /// The bytes of a file of `testdata/three_formats`, behind a byte order mark if it is a text.
+    fn read_marked(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("testdata/three_formats");
+        let mut bytes = fs::read(folder.join(path)).expect("a file");
+        if matches!(ending(path), Some("obj" | "mtl" | "pbrt" | "gltf" | "ply")) {
+            bytes.splice(..0, *b"\xef\xbb\xbf");
+        }
+        Ok(bytes)
+    }
+
+    #[test]
+    fn texts_may_begin_with_a_byte_order_mark() {
+        for name in ["room.obj", "room.pbrt", "room.gltf"] {
+            let path = Path::new(name);
+            let marked = read_marked(path).expect("bytes");
+            let scene = parse_scene(path, &marked, Files::new(&read_marked));
+            let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(scene.warnings, [], "{name}");
+            assert!(scene.emissive_triangle_count() > 0, "{name}: its materials");
+        }
+        let ply = "\u{feff}ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n\
+                   property float y\nproperty float z\nelement face 1\n\
+                   property list uchar int vertex_indices\nend_header\n\
+                   0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+        let mesh = crate::parse_ply(Path::new("a.ply"), ply.as_bytes());
+        assert_eq!(mesh.map(|mesh| mesh.indices.len()), Ok(1));
+    }
+}

@@ -13,14 +13,23 @@ use crate::{Diagnostic, Location};
 
 /// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
-    let text = String::from_utf8(read_bytes(path)?);
+    let mut bytes = read_bytes(path)?;
+    bytes.drain(..bytes.len() - without_mark(&bytes).len());
+    let text = String::from_utf8(bytes);
     Ok(text.unwrap_or_else(|error| text_of(error.as_bytes()).into_owned()))
 }
 
-/// Bytes as text; those that are not UTF-8 become replacement characters.
+/// Bytes as text without its byte order mark; those that are not UTF-8 become replacement
+/// characters.
 pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    let bytes = without_mark(bytes);
     // Most files are valid, which is checked much faster than what is not is found.
     core::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed)
+}
+
+/// The bytes of a text without the byte order mark that some programs write before it.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The bytes of a file.
@@ -213,6 +222,17 @@ mod tests {
             assert_eq!(line.0, number, "the first line's number");
             assert_eq!(line.1, text, "the text");
         }
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_a_text() {
+        assert_eq!(text_of(b"\xef\xbb\xbfv 1"), "v 1");
+        assert_eq!(text_of(b"\xef\xbb\xbfv\xff"), "v\u{fffd}", "not UTF-8");
+        assert_eq!(text_of("v\u{feff}".as_bytes()), "v\u{feff}", "elsewhere");
+        let folder = crate::test_folder::TestFolder::new("byte_order_mark");
+        let path = folder.path("a.ies");
+        fs::write(&path, "\u{feff}IESNA").expect("written");
+        assert_eq!(read_text(&path).as_deref(), Ok("IESNA"));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::Diagnostic;
+use crate::text::without_mark;
 
 /// A document.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub(super) struct Document {
 
 impl Document {
     pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Self, Diagnostic> {
-        let root = serde_json::from_slice(json);
+        let root = serde_json::from_slice(without_mark(json));
         let root = root.map_err(|error| {
             Diagnostic::file(path, format!("expected a document of JSON: {error}"))
         })?;

@@ -12,6 +12,7 @@ use super::item::Item;
 use super::reader::Reader;
 use crate::glam::{Affine3A, Mat3A, Quat, Vec3};
 use crate::luminaire::read_next_to;
+use crate::text::text_of;
 use crate::{Diagnostic, goniometric_light};
 
 /// Texels per side of the map of a measured luminaire.
@@ -58,7 +59,7 @@ impl<'a> Reader<'a> {
                 view.bytes().to_vec()
             }
         };
-        let text = String::from_utf8_lossy(&bytes);
+        let text = text_of(&bytes);
         let luminaire = parse_lm63(&text, |name| {
             read_next_to(self.document.path(), name, self.buffers.files())
         });

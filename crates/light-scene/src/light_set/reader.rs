@@ -6,7 +6,7 @@ use glam::Vec3;
 use light_sets::{BenchSet, SetLight, SetPoint};
 
 use super::error::{LightSetError, LightSetProblem};
-use crate::text::read_all;
+use crate::text::{read_all, without_mark};
 
 /// The set in the files `lights` and `points`.
 ///
@@ -28,9 +28,10 @@ fn read_records<T>(
         line,
         problem,
     };
-    let text = read_all(path)
-        .and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other))
-        .map_err(|e| error(0, LightSetProblem::Io(e)))?;
+    let refuse = |e| error(0, LightSetProblem::Io(e));
+    let bytes = read_all(path).map_err(refuse)?;
+    let text = core::str::from_utf8(without_mark(&bytes));
+    let text = text.map_err(|e| refuse(io::Error::other(e)))?;
     let records: Vec<T> = text
         .lines()
         .enumerate()
@@ -187,6 +188,11 @@ mod tests {
             matches!(parse_point("0 0 0 0 0 2"), Err(P::NotUnit)),
             "normal"
         );
+        let folder = crate::test_folder::TestFolder::new("light_set_mark");
+        let marked = folder.path("a.lights");
+        std::fs::write(&marked, "\u{feff}point 1 2 3 4\n").expect("written");
+        let read = read_records(&marked, parse_light).expect("after the mark");
+        assert_eq!(read.len(), 1, "a byte order mark is passed over");
         let missing = Path::new("no/such.lights");
         let error = read_light_set(missing, missing).expect_err("no file");
         assert!(matches!(error.problem, P::Io(_)), "missing file");

@@ -12,7 +12,7 @@ use self::element::{Element, Format, Property};
 use super::included::Included;
 use crate::glam::{Vec2, Vec3};
 use crate::gunzip::gunzipped;
-use crate::text::shown;
+use crate::text::{shown, without_mark};
 use crate::{Diagnostic, Files, MaterialId, Mesh, polygon};
 
 /// Reads a PLY file's vertices and faces, and counts its bytes if they are compressed.
@@ -46,7 +46,7 @@ fn parse_unpacked(path: &Path, bytes: &[u8]) -> Result<Mesh, Diagnostic> {
     let mut body = Body {
         path,
         bytes,
-        at: 0,
+        at: bytes.len() - without_mark(bytes).len(),
         format: Format::Text,
     };
     let elements = body.header()?;
