@@ -32,6 +32,8 @@ pub enum LightSetProblem {
     BadFlag,
     /// A radiance or intensity is negative.
     NegativeEmission,
+    /// The power is more than a single-precision number holds.
+    Power,
     /// The cone is not within 0 and 180 degrees, or its soft edge is wider than the cone.
     BadCone,
     /// A normal is not of unit length.
@@ -61,6 +63,7 @@ impl fmt::Display for LightSetProblem {
             Self::NegativeEmission => {
                 f.write_str("expected a radiance or intensity that is not negative")
             }
+            Self::Power => f.write_str("expected a light of finite power"),
             Self::BadCone => {
                 f.write_str("expected 0 < cone_deg <= 180 and 0 <= delta_deg <= cone_deg")
             }

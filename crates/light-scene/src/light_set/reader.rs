@@ -1,3 +1,4 @@
+use core::f64::consts::PI;
 use core::str::{FromStr, SplitWhitespace};
 use std::io;
 use std::path::Path;
@@ -14,7 +15,7 @@ use crate::text::{read_all, without_mark};
 /// [`LightSetError`] with the file and line of the first record that is wrong.
 pub fn read_light_set(lights: &Path, points: &Path) -> Result<BenchSet, LightSetError> {
     Ok(BenchSet {
-        lights: read_records(lights, parse_light)?,
+        lights: read_records(lights, |line| of_finite_power(parse_light(line)?))?,
         points: read_records(points, parse_point)?,
     })
 }
@@ -41,6 +42,28 @@ fn read_records<T>(
         return Err(error(0, LightSetProblem::Empty));
     }
     Ok(records)
+}
+
+fn of_finite_power(light: SetLight) -> Result<SetLight, LightSetProblem> {
+    // Of a spot its cone is a part of this.
+    let power = match light {
+        SetLight::Triangle {
+            vertices,
+            radiance,
+            two_sided,
+        } => {
+            let [a, b, c] = vertices.map(Vec3::as_dvec3);
+            let sides = if two_sided { 2.0 } else { 1.0 };
+            PI * f64::from(radiance) * sides * 0.5 * (b - a).cross(c - a).length()
+        }
+        SetLight::Point { intensity, .. } | SetLight::Spot { intensity, .. } => {
+            4.0 * PI * f64::from(intensity)
+        }
+    };
+    if !(power <= f64::from(f32::MAX)) {
+        return Err(LightSetProblem::Power);
+    }
+    Ok(light)
 }
 
 fn parse_light(line: &str) -> Result<SetLight, LightSetProblem> {
@@ -188,12 +211,19 @@ mod tests {
             matches!(parse_point("0 0 0 0 0 2"), Err(P::NotUnit)),
             "normal"
         );
+        let missing = Path::new("no/such.lights");
         let folder = crate::test_folder::TestFolder::new("light_set_mark");
         let marked = folder.path("a.lights");
         std::fs::write(&marked, "\u{feff}point 1 2 3 4\n").expect("written");
         let read = read_records(&marked, parse_light).expect("after the mark");
         assert_eq!(read.len(), 1, "a byte order mark is passed over");
-        let missing = Path::new("no/such.lights");
+        std::fs::write(&marked, "point 1 2 3 4\npoint 1 2 3 3e38\n").expect("written");
+        let error = read_light_set(&marked, missing).expect_err("too bright");
+        let expected = format!("{}:2: expected a light of finite power", marked.display());
+        assert_eq!(error.to_string(), expected);
+        let huge = parse_light("tri 0 0 0 1e20 0 0 0 1e20 0 1 0").expect("a triangle");
+        assert!(matches!(of_finite_power(huge), Err(P::Power)), "area");
+
         let error = read_light_set(missing, missing).expect_err("no file");
         assert!(matches!(error.problem, P::Io(_)), "missing file");
         assert!(
