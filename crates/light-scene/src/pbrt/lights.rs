@@ -10,6 +10,7 @@ use lights::sources::{
 };
 
 use super::file_loc::Typed;
+use super::light_check;
 use super::parameter::ParameterType;
 use super::state::{FLATTENED, Reader};
 use crate::Diagnostic;
@@ -97,6 +98,9 @@ impl Reader {
                 return Ok(());
             }
         };
+        if let Some(message) = light_check::fault(&light) {
+            return Err(at.diagnostic(message));
+        }
         self.scene.lights.push(light);
         Ok(())
     }

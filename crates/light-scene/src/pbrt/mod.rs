@@ -24,6 +24,7 @@ mod includes;
 mod leniency_tests;
 #[cfg(test)]
 mod lenient_files_tests;
+mod light_check;
 mod lights;
 #[cfg(test)]
 mod lights_tests;

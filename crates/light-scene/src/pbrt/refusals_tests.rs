@@ -108,6 +108,23 @@ fn broken_files_give_one_clear_line() {
         ),
         ("Shape \"trianglemesh\"", "a.pbrt:1: expected \"point3 P\""),
         (
+            "WorldBegin\nLightSource \"point\" \"rgb I\" [1e38 1e38 1e38]",
+            "a.pbrt:2: expected a light of finite power",
+        ),
+        (
+            "WorldBegin\nLightSource \"distant\" \"float illuminance\" 3e38 \"float scale\" 2",
+            "a.pbrt:2: distant light, emission: must be finite and not negative",
+        ),
+        (
+            "WorldBegin\nAreaLightSource \"diffuse\" \"float power\" 3e38\n\
+             Shape \"disk\" \"float radius\" 1e-3",
+            "a.pbrt:3: expected a light of finite power",
+        ),
+        (
+            "WorldBegin\nLightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 2 1 0 0 1 0]",
+            "a.pbrt:2: portal infinite light, portal: must be a planar rectangle with an area",
+        ),
+        (
             "Shape \"trianglemesh\" \"point3 P\" [0 0 0]",
             "a.pbrt:1: expected \"integer indices\" from 0 on",
         ),

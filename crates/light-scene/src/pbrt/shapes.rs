@@ -1,5 +1,8 @@
+use core::f32::consts::TAU;
+
 use super::area_lights::area_scale;
 use super::file_loc::Typed;
+use super::light_check::fault_of_power;
 use super::loop_subdivision::loop_subdivision;
 use super::meshes::{bilinear_mesh, check, triangle_mesh};
 use super::ply::read_ply;
@@ -87,18 +90,28 @@ impl Reader {
     ) -> MaterialId {
         let material = self.material();
         let material = self.with_media(material);
-        let material = self.with_light(material, area);
+        let material = self.with_light(material, typed, area);
         self.with_alpha(material, typed)
     }
 
     /// The material with the emission of the current area light; the same material without one.
-    fn with_light(&mut self, material: MaterialId, area: impl FnOnce() -> f32) -> MaterialId {
+    fn with_light(
+        &mut self,
+        material: MaterialId,
+        typed: &Typed<'_>,
+        area: impl FnOnce() -> f32,
+    ) -> MaterialId {
         let Some(light) = self.state.area_light else {
             return material;
         };
-        let scale = area_scale(&light, area());
+        let area = area();
+        let radiance = scaled(light.radiance, Vec3::splat(area_scale(&light, area)));
+        let exitance = self.scene.mean(&radiance).max_element() * TAU;
+        if let Some(message) = fault_of_power(exitance * area) {
+            typed.parameters.refuse_at(typed.at.line, message);
+        }
         let emission = Emission {
-            radiance: scaled(light.radiance, Vec3::splat(scale)),
+            radiance,
             sides: if light.two_sided {
                 EmissionSides::Both
             } else {
