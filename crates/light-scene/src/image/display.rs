@@ -9,6 +9,7 @@ use ::image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, ImageR
 
 use super::broken_texels::BrokenTexels;
 use super::checked::checked;
+use super::cut_off::in_words;
 use super::{Image, ImageFile};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
@@ -73,5 +74,6 @@ pub(super) fn decode(
     what: &str,
 ) -> Result<DynamicImage, Diagnostic> {
     let decoded = ImageReader::with_format(Cursor::new(bytes), format).decode();
-    decoded.map_err(|error| Diagnostic::file(path, format!("expected {what}: {error}")))
+    decoded
+        .map_err(|error| Diagnostic::file(path, format!("expected {what}: {}", in_words(&error))))
 }

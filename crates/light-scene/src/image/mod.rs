@@ -3,6 +3,7 @@
 mod broken_texels;
 mod channels;
 mod checked;
+mod cut_off;
 mod display;
 mod encoded;
 mod file;

@@ -10,6 +10,7 @@ use exr::prelude::{
 
 use super::broken_texels::BrokenTexels;
 use super::checked::checked;
+use super::cut_off::in_words;
 use super::{Image, ImageFile, primaries};
 use crate::glam::Vec3;
 use crate::{Diagnostic, write_atomically};
@@ -172,7 +173,7 @@ fn write<T: IntoSample>(
 pub(super) fn message(error: &Error) -> String {
     match error {
         Error::NotSupported(what) => format!("this kind of OpenEXR file is not supported: {what}"),
-        Error::Invalid(what) => format!("expected an OpenEXR file: {what}"),
-        other => format!("expected an OpenEXR file: {other}"),
+        Error::Invalid(what) => format!("expected an OpenEXR file: {}", in_words(what)),
+        other => format!("expected an OpenEXR file: {}", in_words(other)),
     }
 }

@@ -1,0 +1,57 @@
+use core::fmt::Display;
+
+/// What decoders say of a file whose end is missing.
+const OF_DECODERS: [&str; 5] = [
+    "reference to missing bytes",
+    "unexpected end of file",
+    "failed to fill whole buffer",
+    "EOF in header",
+    "Not enough bytes",
+];
+
+/// The error of a decoder; of a file that was cut off, what is missing.
+pub(super) fn in_words(error: &impl Display) -> String {
+    let message = error.to_string();
+    if OF_DECODERS.iter().any(|words| message.contains(words)) {
+        return "the end of the file is missing".to_owned();
+    }
+    message
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use ::image::RgbImage;
+
+    use crate::glam::Vec3;
+    use crate::test_folder::TestFolder;
+    use crate::{Image, parse_image, write_image};
+
+    #[test]
+    fn files_that_were_cut_off_say_so() {
+        let folder = TestFolder::new("cut_off");
+        let texels = (0..256).map(|n: u16| Vec3::splat(f32::from(n) / 255.0));
+        let picture = Image::new(16, 16, texels.collect()).expect("an image");
+        let [exr, hdr, png] = ["a.exr", "a.hdr", "a.png"].map(|name| folder.path(name));
+        for path in [&exr, &hdr, &png] {
+            write_image(path, &picture).expect("written");
+        }
+        let [jpg, tga] = ["a.jpg", "a.tga"].map(|name| folder.path(name));
+        for path in [&jpg, &tga] {
+            let noise =
+                |x, y| ::image::Rgb([x * 37 % 256, y * 91 % 256, x * y % 256].map(|n| n as u8));
+            RgbImage::from_fn(16, 16, noise)
+                .save(path)
+                .expect("written");
+        }
+        for path in [exr, hdr, png, jpg, tga] {
+            let bytes = fs::read(&path).expect("read");
+            let cut = &bytes[..bytes.len() / 2];
+            let error = parse_image(Path::new(&path), cut).expect_err("half a file");
+            let expected = " file: the end of the file is missing";
+            assert!(error.message.ends_with(expected), "{error}");
+        }
+    }
+}
