@@ -49,6 +49,7 @@ impl SceneDigest {
             lights,
             // They say nothing about the picture, as long as it has no layers.
             light_names: _,
+            has_black_lights: _,
             media,
             // The view knows it, with what the command line changes.
             camera: _,

@@ -9,18 +9,9 @@ use lights::sources::{
 use crate::emissive_copies::EmissiveCount;
 use crate::glam::{Affine3A, Vec3};
 use crate::{
-    Camera, Color, Diagnostic, Image, ImageId, Instance, Material, MaterialId, Mesh, Prototype,
-    PrototypeId, Quadric,
+    Camera, Color, Diagnostic, Image, ImageId, Instance, Material, MaterialId, Mesh, NamedMedium,
+    Prototype, PrototypeId, Quadric,
 };
-
-/// A medium of a scene: fog, smoke, a flame. Its constructors have checked it.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct NamedMedium {
-    /// The name in the file.
-    pub name: String,
-    /// What it is.
-    pub medium: AnyMedium<Rgb>,
-}
 
 /// The content of a scene file, in the user's units: geometry, materials, lights, media, camera.
 ///
@@ -46,6 +37,9 @@ pub struct Scene {
     /// The names of these lights in the file, in their order; empty for a light without one, as for
     /// lights beyond the end.
     pub light_names: Vec<String>,
+    /// Whether the file has lights that are black, which the reader left out: the scene is dark on
+    /// purpose if it has no others.
+    pub has_black_lights: bool,
     /// Media; materials and lights name them by position.
     pub media: Vec<NamedMedium>,
     /// The camera, if the file has one.

@@ -6,8 +6,8 @@ use crate::glam::Vec3;
 use crate::{Color, Scene};
 
 impl Scene {
-    /// Whether anything in it gives light: a light of its list, a material of a mesh or a sphere
-    /// that emits, or a medium, which may glow.
+    /// Whether it has lights: a light of its list, a material of a mesh or a sphere that emits, a
+    /// medium, which may glow, or black lights in the file.
     #[must_use]
     pub fn is_lit(&self) -> bool {
         let meshes = self.prototypes.iter().map(|prototype| &prototype.meshes);
@@ -16,7 +16,8 @@ impl Scene {
         let quadrics = quadrics.chain([&self.quadrics]).flatten();
         let materials = meshes.map(|mesh| mesh.material);
         let mut used = materials.chain(quadrics.map(|sphere| sphere.material));
-        !self.lights.is_empty() || !self.media.is_empty() || used.any(|id| self.is_emissive(id))
+        let is_listed = !self.lights.is_empty() || self.has_black_lights;
+        is_listed || !self.media.is_empty() || used.any(|id| self.is_emissive(id))
     }
 
     /// Removes all skies and suns, as [`LightDesc::is_sky`](lights::sources::LightDesc::is_sky)
@@ -128,5 +129,7 @@ mod tests {
         assert!(scene.is_lit(), "by the lamp");
         scene.meshes.clear();
         assert!(!scene.is_lit(), "a material alone gives no light");
+        scene.has_black_lights = true;
+        assert!(scene.is_lit(), "as dark as the file wants it");
     }
 }

@@ -25,6 +25,7 @@ impl Reader {
         if is_dark(typed) {
             let what = format!("AreaLightSource \"{kind}\"");
             self.warn(*at, &what, DARK);
+            self.scene.has_black_lights = true;
             parameters.accept_all();
             self.state.area_light = None;
             return Ok(());

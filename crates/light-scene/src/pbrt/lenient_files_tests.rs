@@ -147,6 +147,11 @@ fn lights_of_no_light_are_left_out() {
     let lamp = format!("WorldBegin AreaLightSource \"diffuse\" \"rgb L\" [ 0 0 0 ] {TRIANGLE}");
     let scene = read(&lamp).expect("a scene");
     assert_eq!(scene.emissive_triangle_count(), 0, "a surface alone");
+    assert!(scene.is_lit(), "dark on purpose: no sky replaces the light");
+    let black = format!("WorldBegin LightSource \"point\" \"rgb I\" [ 0 0 0 ] {TRIANGLE}");
+    assert!(read(&black).expect("a scene").is_lit(), "as this one");
+    let unlit = read(&format!("WorldBegin {TRIANGLE}")).expect("a scene");
+    assert!(!unlit.is_lit(), "a scene without lights");
     let expected = "AreaLightSource \"diffuse\" gives no light and was left out";
     assert_eq!(warnings(&lamp), [expected], "named");
 }

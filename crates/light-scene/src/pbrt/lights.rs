@@ -38,6 +38,7 @@ impl Reader {
         if is_dark(typed) {
             let what = format!("LightSource \"{kind}\"");
             self.warn(at, &what, DARK);
+            self.scene.has_black_lights = true;
             parameters.accept_all();
             return Ok(());
         }

@@ -32,8 +32,11 @@ fn by_daylight(reflectance: impl Spectrum) -> Option<Vec3> {
     rgb.is_finite().then(|| rgb.max(Vec3::ZERO))
 }
 
-/// The colour of a light of this spectrum, of luminance 1.
+/// The colour of a light of this spectrum, of luminance 1 unless it is black.
 pub(super) fn emission(pairs: &[f32]) -> Option<Vec3> {
+    if pairs.iter().skip(1).step_by(2).all(|&value| value == 0.0) {
+        return piecewise(pairs).map(|_| Vec3::ZERO);
+    }
     of_luminance_one(&piecewise(pairs)?)
 }
 
@@ -118,5 +121,7 @@ mod tests {
         let white = blackbody_share(6500.0).expect("a temperature");
         assert!(white.min_element() > 0.7, "{white}");
         assert_eq!(reflectance(&[1.0]), None, "no pair");
+        let black = emission(&[400.0, 0.0, 700.0, 0.0]);
+        assert_eq!(black, Some(Vec3::ZERO), "no light, not white");
     }
 }
