@@ -31,6 +31,9 @@ impl<'a> Reader<'a> {
                 .extension("KHR_lights_punctual")?
                 .unwrap_or(root.clone());
             let (_, light) = extension.require("light")?.target_in(&owner, "lights")?;
+            if light.get("range")?.is_some() {
+                self.warn(&light, "`range` was ignored: light goes on for ever");
+            }
             let light = punctual(&light, node, transform)?;
             self.scene.add_named_light(node.name(), light);
         }
@@ -92,8 +95,6 @@ fn punctual(
     node: &Item<'_>,
     transform: &Affine3A,
 ) -> Result<LightDesc<Rgb>, Diagnostic> {
-    // The range limit of real-time renderers.
-    light.get("range")?;
     let emission = color(light)? * (light.amount_or("intensity", 1.0)? / K_M);
     let media = MediumInterface::default();
     let kind = light.require("type")?;

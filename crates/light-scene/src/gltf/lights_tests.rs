@@ -21,8 +21,12 @@ fn punctual_lights_in_candela_and_lux_emit_along_minus_z() {
     )
     .expect("a scene");
     let warnings: Vec<_> = scene.warnings.iter().map(|w| w.message.as_str()).collect();
-    let unused = ["accessors: was ignored", "bufferViews: was ignored"];
-    assert_eq!(warnings, unused, "nothing else");
+    let expected = [
+        "extensions.KHR_lights_punctual.lights[0]: `range` was ignored: light goes on for ever",
+        "accessors: was ignored",
+        "bufferViews: was ignored",
+    ];
+    assert_eq!(warnings, expected, "nothing else");
     assert_eq!(scene.light_names, ["bulb", "", ""], "of the nodes");
     let [
         LightDesc::Point(point),

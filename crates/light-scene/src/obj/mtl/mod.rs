@@ -139,6 +139,10 @@ impl Cleaner for Library {
             let message = format!("expected `newmtl NAME` before `{}`", shown(keyword));
             return Err(line.diagnostic(message));
         };
+        if parameter::is_cut(keyword, &line) {
+            let message = format!("`{keyword}` above 1 was taken as 1");
+            self.warnings.add(line.diagnostic(message));
+        }
         if let Some((map, _)) = MAPS.into_iter().find(|(map, _)| *map == keyword) {
             place.maps.insert(map, line.number_in_file());
             line.rest("a file name")?;

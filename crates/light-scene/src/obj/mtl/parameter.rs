@@ -25,6 +25,12 @@ pub(super) fn written(keyword: &str, line: &mut Line<'_>) -> Result<Option<Strin
     }))
 }
 
+/// Whether a parameter that is a share is above 1, which [`written`] makes of it.
+pub(super) fn is_cut(keyword: &str, line: &Line<'_>) -> bool {
+    let is_share = matches!(keyword, "Kd" | "Ks" | "d" | "Tr" | "Pr" | "Pm");
+    is_share && color(&mut line.clone()).is_ok_and(|share| share.max_element() > 1.0)
+}
+
 fn of_color(Vec3 { x, y, z }: Vec3) -> String {
     format!("{x} {y} {z}")
 }
