@@ -109,6 +109,30 @@ fn mixtures_hold_their_parts() {
 }
 
 #[test]
+fn no_mixture_is_made_of_itself() {
+    let of = |parts: &[(&str, &str)]| {
+        let named = parts.iter().map(|(name, part)| {
+            format!(
+                "MakeNamedMaterial \"{name}\" \"string type\" \"mix\" \
+                 \"string materials\" [\"{part}\" \"{part}\"]\n"
+            )
+        });
+        let text = format!("WorldBegin\n{}", named.collect::<String>());
+        read("pbrt_cycle", &text).map(|_| ())
+    };
+    let error = |line: usize, name: &str| {
+        let what = "not to be made of itself";
+        Err(format!(
+            "a.pbrt:{line}: expected the mixture \"{name}\" {what}"
+        ))
+    };
+    assert_eq!(of(&[("a", "a")]), error(2, "a"));
+    assert_eq!(of(&[("a", "b"), ("b", "a")]), error(2, "b"));
+    let last = [("a", "c"), ("b", "a"), ("c", "b")];
+    assert_eq!(of(&last), error(2, "c"), "by way of another");
+}
+
+#[test]
 fn coated_metals_have_two_layers() {
     let of = |parameters: &str| {
         let text = format!(

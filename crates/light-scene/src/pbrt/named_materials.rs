@@ -1,4 +1,4 @@
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::file_loc::FileLoc;
 use super::state::Reader;
@@ -37,14 +37,16 @@ impl Reader {
             Some((id, first_use)) => {
                 self.materials.awaited_ids.remove(&id);
                 let uses_later = match self.scene.material(described).surface {
-                    Surface::Mix { materials, .. } => materials.into_iter().any(|part| part > id),
+                    Surface::Mix { materials, .. } => materials.into_iter().any(|part| part >= id),
                     _ => false,
                 };
                 if uses_later {
-                    let message = format!(
-                        "expected the mixture \"{}\" to be described before its use",
-                        shown(&name)
-                    );
+                    let what = if self.is_made_of(described, id) {
+                        "not to be made of itself"
+                    } else {
+                        "to be described before its use"
+                    };
+                    let message = format!("expected the mixture \"{}\" {what}", shown(&name));
                     return Err(Diagnostic {
                         message,
                         ..first_use
@@ -61,6 +63,25 @@ impl Reader {
         };
         self.materials.by_name.insert(name, id);
         Ok(())
+    }
+
+    /// Whether `part` is in a mixture, or in one that is in it.
+    fn is_made_of(&self, mixture: MaterialId, part: MaterialId) -> bool {
+        let described: HashMap<_, _> = self.materials.twins.iter().copied().collect();
+        let mut seen = HashSet::new();
+        let mut open = vec![mixture];
+        while let Some(id) = open.pop() {
+            if id == part {
+                return true;
+            }
+            if seen.insert(id) {
+                open.extend(described.get(&id));
+                if let Surface::Mix { materials, .. } = self.scene.material(id).surface {
+                    open.extend(materials);
+                }
+            }
+        }
+        false
     }
 
     /// A material with the surface of another one, changed otherwise.
