@@ -77,6 +77,11 @@ pub enum MeshLightError {
         /// Index of the triangle.
         triangle: usize,
     },
+    /// A triangle of `indices` is so large that its area is no finite number.
+    Area {
+        /// Index of the triangle.
+        triangle: usize,
+    },
     /// The length of `uvs` is not the number of vertices.
     UvCount,
     /// One of `uvs` is not finite.
@@ -116,6 +121,9 @@ impl<C: ColorModel> MeshLight<C> {
             let triangles = desc.indices.iter();
             triangles.map(|vertices| triangle(&desc.positions, uvs, vertices))
         };
+        if let Some(triangle) = triangles().position(|triangle| !triangle.area().is_finite()) {
+            return Err(MeshLightError::Area { triangle });
+        }
         let texture = SurfaceTexture::new(&desc.emission);
         let means = texture.as_ref().map(|texture| {
             let mut known = MeanCache::default();
@@ -226,6 +234,9 @@ impl fmt::Display for MeshLightError {
                     f,
                     "indices: triangle {triangle} names a vertex that is not there"
                 )
+            }
+            Self::Area { triangle } => {
+                write!(f, "indices: triangle {triangle} must have a finite area")
             }
             Self::UvCount => f.write_str("uvs: there must be one a vertex"),
             Self::Uv { vertex } => write!(f, "uvs: that of vertex {vertex} is not finite"),

@@ -55,6 +55,16 @@ fn refuses_nonsense_by_field() {
         "index"
     );
     let desc = MeshLightDesc {
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::X * 1e20, Vec3::Y * 1e20].into(),
+        indices: [[0, 1, 2], [0, 3, 4]].into(),
+        ..square()
+    };
+    assert_eq!(
+        error(desc),
+        Some(MeshLightError::Area { triangle: 1 }),
+        "too large"
+    );
+    let desc = MeshLightDesc {
         indices: MeshIndices::Consecutive(2),
         ..square()
     };
