@@ -1,5 +1,6 @@
 use core::ops::ControlFlow;
 use core::time::Duration;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -61,7 +62,8 @@ impl CheckpointArgs {
         let Some(path) = &self.checkpoint else {
             return Ok(());
         };
-        if path.extension().is_none_or(|ending| ending != "exr") {
+        let has_ending = |own: &OsStr| own.eq_ignore_ascii_case("exr");
+        if !path.extension().is_some_and(has_ending) {
             return Err(refuse(path, "expected a file name that ends in .exr"));
         }
         expect_another(path, outputs, "--output for --checkpoint")?;

@@ -35,15 +35,17 @@ impl OutputImage {
     /// # Errors
     /// When the name ends otherwise than in .exr or .png, or the folder cannot be written to.
     pub(crate) fn new(path: &Path, precision: Precision) -> Result<Self, Failure> {
-        let format = match path.extension().and_then(|ending| ending.to_str()) {
-            Some("exr") => Format::Exr(precision),
-            Some("png") => Format::Png,
-            _ => {
-                return Err(refuse(
-                    path,
-                    "expected a file name that ends in .exr or .png",
-                ));
-            }
+        let has_ending = |ending| {
+            path.extension()
+                .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+        };
+        let format = if has_ending("exr") {
+            Format::Exr(precision)
+        } else if has_ending("png") {
+            Format::Png
+        } else {
+            let message = "expected a file name that ends in .exr or .png";
+            return Err(refuse(path, message));
         };
         expect_writable(path)?;
         Ok(Self {
@@ -135,4 +137,18 @@ fn channels(prefix: &str, texels: &[Vec3]) -> Vec<(String, Vec<f32>)> {
 pub(crate) fn shown(image: &Image, tone_map: &ToneMap) -> Result<Image, Failure> {
     let texels = image.texels().iter().map(|&t| tone_map.apply(t)).collect();
     Image::new(image.width(), image.height(), texels).map_err(Failure::input)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_are_matched_without_case() {
+        let folder = std::env::temp_dir();
+        let image = |name: &str| OutputImage::new(&folder.join(name), Precision::Single);
+        assert!(image("a.EXR").is_ok_and(|image| image.has_layers()));
+        assert!(image("a.Png").is_ok_and(|image| !image.has_layers()));
+        assert!(image("a.exr.jpg").is_err(), "another kind");
+    }
 }
