@@ -41,7 +41,7 @@ mod tests {
         let [jpg, tga] = ["a.jpg", "a.tga"].map(|name| folder.path(name));
         for path in [&jpg, &tga] {
             let noise =
-                |x, y| ::image::Rgb([x * 37 % 256, y * 91 % 256, x * y % 256].map(|n| n as u8));
+                |x, y| ::image::Rgb([x * 37, y * 91, x * y].map(|n: u32| n.to_le_bytes()[0]));
             RgbImage::from_fn(16, 16, noise)
                 .save(path)
                 .expect("written");
