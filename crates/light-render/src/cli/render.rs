@@ -91,8 +91,9 @@ impl RenderArgs {
         self.say_samples(file);
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let digest = SceneDigest::new(&scene).map_err(Failure::input)?;
+        let may_be_dark = scene.has_black_lights;
         let world = self.input.build(scene)?;
-        if !world.has_media() {
+        if !(may_be_dark || world.has_media()) {
             self.input.expect_light(&world)?;
         }
         self.doubt(|| doubts::of_lamps(&inventory(world.lights())));

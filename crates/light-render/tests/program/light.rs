@@ -52,6 +52,23 @@ fn scenes_without_light_get_a_sky_and_say_so() {
 }
 
 #[test]
+fn scenes_of_black_lights_stay_black() {
+    let folder = Folder::new("black_lights");
+    let scene = folder.file(
+        "a.pbrt",
+        "Camera \"perspective\" WorldBegin LightSource \"point\" \"rgb I\" [ 0 0 0 ]
+         Translate 0 0 3 Shape \"sphere\"",
+    );
+    let out = folder.path("a.exr");
+    for sampler in ["bvh", "uniform", "power"] {
+        let said = words(&["render", &scene, "-o", &out, "--light-sampler", sampler]);
+        assert!(said.contains("gives no light"), "{said}");
+        assert!(!said.contains("sky `"), "{said}");
+        assert_eq!(mean(&out), Vec3::ZERO, "{sampler}");
+    }
+}
+
+#[test]
 fn skies_replace_those_of_the_scene() {
     let folder = Folder::new("skies");
     let scene = folder.file(
