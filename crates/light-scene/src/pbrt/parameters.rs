@@ -276,12 +276,8 @@ impl Parameters {
         }
     }
 
-    /// Refuses the directive, at this line of its file.
-    pub(super) fn refuse_at(&self, line: usize, message: String) {
-        self.keep(&self.path, line, message);
-    }
-
-    fn keep(&self, path: &Path, line: usize, message: String) {
+    /// Refuses the directive, at this line of a file.
+    pub(super) fn keep(&self, path: &Path, line: usize, message: String) {
         let mut fault = self.fault.borrow_mut();
         fault.get_or_insert_with(|| Diagnostic::at(path, Location::Line(line), message));
     }

@@ -108,7 +108,8 @@ impl Reader {
         let radiance = scaled(light.radiance, Vec3::splat(area_scale(&light, area)));
         let exitance = self.scene.mean(&radiance).max_element() * TAU;
         if let Some(message) = fault_of_power(exitance * area) {
-            typed.parameters.refuse_at(typed.at.line, message);
+            let at = typed.at;
+            typed.parameters.keep(at.path, at.line, message);
         }
         let emission = Emission {
             radiance,
