@@ -12,7 +12,7 @@ use super::failure::Failure;
 use super::output_file::refuse;
 use super::render_settings::{FileSettings, SettingsArgs};
 use super::scene_input::SceneInput;
-use super::stdout::say;
+use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
 
 /// Write a job for a render farm: parts of a picture, or of each frame of an animation, and a merge
@@ -55,6 +55,9 @@ impl FarmArgs {
     /// A scene that cannot be read, a part without samples, or a folder that cannot be written to.
     pub(crate) fn run(&self, typed: &ArgMatches) -> Result<(), Failure> {
         self.settings.visibility()?;
+        if let Some(note) = self.settings.visibility_note() {
+            complain(format_args!("{note}"));
+        }
         let frames = self.frames()?;
         let samples = match &frames {
             None => self.samples(&self.input)?,

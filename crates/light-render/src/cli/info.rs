@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::failure::Failure;
 use super::render_settings::DEFAULT_DEPTH;
 use super::scene_input::SceneInput;
-use super::stdout::say;
+use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
 use super::visibility::VisibilityName;
 use super::visible::Visible;
@@ -24,7 +24,7 @@ pub(crate) struct InfoArgs {
     input: SceneInput,
     /// Measure the share of light that arrives at what the scene's camera sees and how noisy choices
     /// of lights are there, or fill the cells of visibility for it, as `lights render --visibility`
-    /// does, and show what was found.
+    /// does, and show what was found; pilot is the same as share.
     #[arg(long, value_enum, default_value_t = VisibilityName::Off)]
     visibility: VisibilityName,
     /// Print one line of JSON.
@@ -52,6 +52,9 @@ impl InfoArgs {
     /// # Errors
     /// Bad input.
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        if let Some(note) = self.visibility.note() {
+            complain(format_args!("{note}"));
+        }
         let mut scene = self.input.read()?;
         let warnings = core::mem::take(&mut scene.warnings);
         let max_depth = scene.max_depth.unwrap_or(DEFAULT_DEPTH);

@@ -80,6 +80,9 @@ impl RenderArgs {
     /// Reads the scene, and makes ready all that the picture depends on.
     fn prepare(&self, stamps: &mut Option<FileStamps>) -> Result<PreparedPicture, Failure> {
         let visibility = self.settings.visibility()?;
+        if let Some(note) = self.settings.visibility_note().filter(|_| !self.quiet) {
+            complain(format_args!("{note}"));
+        }
         self.checkpoint.expect_place(&self.output)?;
         let scene = self.input.read_lit(self.quiet)?;
         if self.live.watch {

@@ -83,6 +83,7 @@ pub(crate) struct SettingsArgs {
     /// much is hidden, and cells of space are filled where they save time (share); or what all
     /// cells know for what the camera sees of surfaces (cells). Without it share, but off with
     /// --light-samples, with samplers that are not bvh or bvh-morton, and for single scattering.
+    /// A pilot picture is not made: pilot is the same as no --visibility, and a line says so.
     #[arg(long, value_enum)]
     visibility: Option<VisibilityName>,
     /// How light is found: by light samples, by material samples, or by both, weighted.
@@ -121,10 +122,14 @@ impl SettingsArgs {
             Some(VisibilityName::Off) => Visibility::Off,
             Some(VisibilityName::Share) => Visibility::Share,
             Some(VisibilityName::Cells) => Visibility::Cells,
-            None if is_usable && self.light_samples.is_none() && !self.is_single_scattering() => {
-                Visibility::Share
+            Some(VisibilityName::Pilot) | None => {
+                let is_free = self.light_samples.is_none() && !self.is_single_scattering();
+                if is_usable && is_free {
+                    Visibility::Share
+                } else {
+                    Visibility::Off
+                }
             }
-            None => Visibility::Off,
         };
         if visibility == Visibility::Off || is_usable {
             return Ok(visibility);
@@ -134,6 +139,11 @@ impl SettingsArgs {
             visibility.name(),
             self.light_sampler
         )))
+    }
+
+    /// What to say of --visibility.
+    pub(crate) fn visibility_note(&self) -> Option<&'static str> {
+        self.visibility.and_then(VisibilityName::note)
     }
 
     /// Whether lights are chosen for rays as a whole: all of them count.

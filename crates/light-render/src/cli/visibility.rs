@@ -12,6 +12,20 @@ pub(super) enum VisibilityName {
     Off,
     Share,
     Cells,
+    Pilot,
+}
+
+impl VisibilityName {
+    /// What to say of a name that does not do what it says.
+    pub(super) const fn note(self) -> Option<&'static str> {
+        match self {
+            Self::Pilot => Some(
+                "--visibility pilot: no pilot picture is made, lights are chosen as by default; \
+                 docs/occlusion.md says why",
+            ),
+            Self::Off | Self::Share | Self::Cells => None,
+        }
+    }
 }
 
 /// What measuring or filling took.

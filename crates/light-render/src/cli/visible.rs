@@ -41,7 +41,7 @@ impl Visible {
                 let with = with_visibility(sampler, Visibility::Cells, world, view, max_depth)?;
                 Self::Cells(Cells::of(with, view))
             }
-            VisibilityName::Off | VisibilityName::Share => {
+            VisibilityName::Off | VisibilityName::Share | VisibilityName::Pilot => {
                 let estimates = |lights| ChoiceEstimates::new(world, view, lights, max_depth);
                 let estimates = sampler.hierarchy().and_then(estimates);
                 let with = with_visibility(sampler, Visibility::Share, world, view, max_depth)?;

@@ -28,7 +28,7 @@ const VALUES: [&str; 18] = [
 ];
 
 /// Flags that take one of some words, and these.
-const NAMED: [(&str, &[&str]); 1] = [("--visibility", &["off", "share", "cells"])];
+const NAMED: [(&str, &[&str]); 1] = [("--visibility", &["off", "share", "cells", "pilot"])];
 
 /// A command, what it needs to work, and pairs of flags and values that keep it short.
 struct Case {
@@ -200,7 +200,7 @@ fn no_value_of_any_flag_breaks_the_program() {
             }
         }
     }
-    assert_eq!(works.len(), 9, "render, farm and info by three words each");
+    assert_eq!(works.len(), 12, "render, farm and info by four words each");
     for run in &works {
         let words: Vec<&str> = run.iter().map(String::as_str).collect();
         watch(&folder.0, &words).assert_works(&run.join(" "));

@@ -27,6 +27,7 @@ fn help_has_examples_values_and_exit_codes() {
         "single-scattering-classic",
         "mis",
         "cells",
+        "pilot",
         "groups",
         "clear-noon",
         "reinhard",

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::folder::{Folder, assert_refused, stdout};
+use crate::folder::{Folder, assert_refused, lights, stdout};
 
 /// A small picture of direct light.
 const SMALL: [&str; 6] = ["--width", "72", "--height", "48", "--max-depth", "2"];
@@ -164,4 +164,32 @@ fn info_says_what_is_known_of_visibility() {
     assert!(text.contains("  cells "), "{text}");
     let text = stdout(&["info", "cornell-box"]);
     assert!(!text.contains("visibility"), "nothing is filled: {text}");
+}
+
+/// Choices never learnt from a picture before the picture; the name stays, and says so.
+#[test]
+fn a_pilot_is_the_default_and_one_line_says_so() {
+    let folder = Folder::new("pilot");
+    let render = |name: &str, how: &[&str]| {
+        let out = folder.path(name);
+        let args = ["render", "rooms", "-o", &out, "--spp", "2"];
+        let output = lights(&[&args, &SMALL[..], how].concat());
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(0), "{how:?}: {said}");
+        (fs::read(&out).expect("a picture"), said)
+    };
+    let pilot = ["--visibility", "pilot"];
+    let (plain, _) = render("plain.exr", &[]);
+    let (named, said) = render("named.exr", &pilot);
+    assert!(named == plain, "the same picture");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    for word in ["--visibility pilot", "docs/occlusion.md"] {
+        assert!(said.contains(word), "{word} in {said}");
+    }
+    let (_, quiet) = render("quiet.exr", &[&pilot[..], &["--quiet"]].concat());
+    assert_eq!(quiet, "", "nothing is said");
+    let power = [&pilot[..], &["--light-sampler", "power"]].concat();
+    let (power, _) = render("power.exr", &power);
+    let (off, _) = render("off.exr", &["--light-sampler", "power"]);
+    assert!(power == off, "the default of other samplers");
 }
