@@ -1,3 +1,5 @@
+use core::time::Duration;
+
 use crate::{
     LightLayers, PictureIdentity, RenderSettings, SamplerKind, SceneDigest, View, Visibility, World,
 };
@@ -22,6 +24,12 @@ pub(super) struct PreparedPicture {
 }
 
 impl PreparedPicture {
+    /// Takes `time` away from the budget, if there is one.
+    pub(super) fn spend(&mut self, time: Duration) {
+        let limit = &mut self.settings.time_limit;
+        *limit = limit.map(|limit| limit.saturating_sub(time));
+    }
+
     /// Its identity, for files that hold parts of it. Takes the digest of the whole scene.
     pub(super) fn identity(&self) -> PictureIdentity {
         let Self {

@@ -54,7 +54,7 @@ impl RenderArgs {
     /// scene, and nothing is written if one changes meanwhile.
     fn run_once(&self, stamps: &mut Option<FileStamps>) -> Result<(), Failure> {
         let outputs = self.outputs()?;
-        let picture = self.prepare(stamps)?;
+        let mut picture = self.prepare(stamps)?;
         if self.skip_existing && self.is_there(&picture) {
             return Ok(());
         }
@@ -64,6 +64,7 @@ impl RenderArgs {
             .build()
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         let choice = pool.install(|| LightChoice::new(&picture))?;
+        picture.spend(choice.visibility.time);
         let made = pool.install(|| self.render(&picture, &choice, checkpoint, stamps.as_mut()))?;
         let Some(made) = made else {
             return Ok(());

@@ -52,7 +52,7 @@ pub(crate) struct RenderArgs {
     pub(super) skip_existing: bool,
     #[command(flatten)]
     pub(super) live: LiveArgs,
-    /// Print one line of JSON about the rendering.
+    /// Print one line of JSON about the rendering; `seconds` include `visibility_seconds`.
     #[arg(long)]
     pub(super) json: bool,
     /// Print nothing but results: no progress, no warnings.

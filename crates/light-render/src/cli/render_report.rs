@@ -28,7 +28,7 @@ impl RenderReport<'_> {
         json!({
             "scene": self.scene.display().to_string(),
             "sampler": self.sampler.name(),
-            "seconds": rendering.elapsed.as_secs_f64(),
+            "seconds": (self.visibility.time + rendering.elapsed).as_secs_f64(),
             "spp": rendering.film.samples(),
             "lights": self.world.lights().len(),
             "triangles": self.world.triangle_count(),
@@ -36,7 +36,7 @@ impl RenderReport<'_> {
             "ns_per_light_sample": self.sample_time.map(|time| time.as_secs_f64() * 1e9),
             "rays": rendering.rays,
             "mean": mean(&rendering.film).to_array(),
-            "visibility_seconds": self.visibility.seconds,
+            "visibility_seconds": self.visibility.time.as_secs_f64(),
             "visibility_bytes": self.visibility.bytes,
         })
     }

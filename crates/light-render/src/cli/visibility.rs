@@ -1,3 +1,4 @@
+use core::time::Duration;
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -31,7 +32,7 @@ impl VisibilityName {
 /// What measuring or filling took.
 #[derive(Debug, Default)]
 pub(super) struct VisibilityCosts {
-    pub(super) seconds: f64,
+    pub(super) time: Duration,
     pub(super) bytes: usize,
 }
 
@@ -56,7 +57,7 @@ pub(super) fn with_visibility(
             .map_err(Failure::input)?,
     };
     let costs = VisibilityCosts {
-        seconds: start.elapsed().as_secs_f64(),
+        time: start.elapsed(),
         bytes: cells(&sampler).map_or(0, VisibilityCells::bytes),
     };
     Ok((sampler, costs))

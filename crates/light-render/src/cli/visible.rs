@@ -105,7 +105,7 @@ impl Cells {
             "known_pixels": self.pixels[0],
             "pixels": self.pixels[1],
             "bytes": self.costs.bytes,
-            "seconds": self.costs.seconds,
+            "seconds": self.costs.time.as_secs_f64(),
         })
     }
 
@@ -115,7 +115,7 @@ impl Cells {
             "  cells      {coarse} coarse and {fine} fine ones know the lights of {known} of {all} \
              pixels: {} bytes, filled in {:.2} s",
             self.costs.bytes,
-            self.costs.seconds
+            self.costs.time.as_secs_f64()
         )
     }
 }

@@ -59,7 +59,9 @@ impl Reference {
             let report = |p: Progress| show(before + 0.5 * p.done, p.samples);
             render(world, view, &sampler, &settings, report).film
         };
-        let mut whole = half(seed.wrapping_add(1), u32::MAX, Some(time / 2), 0.0);
+        // Building the sampler is a part of the time.
+        let left = time.saturating_sub(start.elapsed());
+        let mut whole = half(seed.wrapping_add(1), u32::MAX, Some(left / 2), 0.0);
         let other = half(seed.wrapping_add(2), whole.samples(), None, 0.5);
         let halves = [whole.develop(), other.develop()];
         whole.add(&other);

@@ -166,6 +166,28 @@ fn info_says_what_is_known_of_visibility() {
     assert!(!text.contains("visibility"), "nothing is filled: {text}");
 }
 
+#[test]
+fn time_that_fills_cells_is_a_part_of_the_budget() {
+    let folder = Folder::new("budget");
+    let out = folder.path("out.exr");
+    let render = |how: &[&str]| -> serde_json::Value {
+        let args = ["render", "rooms", "-o", &out, "--json"];
+        let line = stdout(&[&args, &ROOMS[..], how].concat());
+        serde_json::from_str(&line).expect("one line of JSON")
+    };
+    let seconds = |report: &serde_json::Value, name: &str| report[name].as_f64().expect("a time");
+    let report = render(&["--spp", "1"]);
+    let filling = seconds(&report, "visibility_seconds");
+    assert!(seconds(&report, "seconds") > filling, "the whole: {report}");
+    // Without the cells a third of their time is enough for more samples.
+    let budget = (filling / 3.0).to_string();
+    let report = render(&["--time", &budget]);
+    assert_eq!(report["spp"], 1, "nothing is left: {report}");
+    let budget = (filling * 6.0).to_string();
+    let report = render(&["--time", &budget]);
+    assert!(report["spp"].as_u64() > Some(1), "the rest: {report}");
+}
+
 /// Choices never learnt from a picture before the picture; the name stays, and says so.
 #[test]
 fn a_pilot_is_the_default_and_one_line_says_so() {
