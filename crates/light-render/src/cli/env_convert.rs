@@ -42,7 +42,7 @@ impl ConvertArgs {
     /// # Errors
     /// Files that cannot be read or written; an input of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let Environment { image, map } = Environment::read(&self.input, self.from)?;
+        let Environment { image, map, .. } = Environment::read_aloud(&self.input, self.from)?;
         let to = self.to.map_or_else(|| other(map), SphereMap::from);
         let size = match self.height {
             Some(height) => shape(to, height),

@@ -67,7 +67,7 @@ impl MedianCutArgs {
     /// # Errors
     /// Files that cannot be read or written; an image of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let Environment { image, map } = Environment::read(&self.image, self.map)?;
+        let Environment { image, map, .. } = Environment::read_aloud(&self.image, self.map)?;
         let refuse = |message: String| Failure::input(Diagnostic::file(&self.image, message));
         let lights = MedianCut::new(image.clone(), map, self.sums.into())
             .and_then(|cut| cut.lights(self.n as usize, self.centroid.into()))

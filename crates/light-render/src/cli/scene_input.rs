@@ -3,10 +3,11 @@ use std::path::{Path, PathBuf};
 
 use crate::World;
 use clap::Args;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, is_scene_name, read_environment};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, is_scene_name};
 use lights::glam::{Affine3A, Quat, Vec3};
 
 use super::arguments::{Emit, finite};
+use super::environment::Environment;
 use super::failure::Failure;
 use super::light_args::{LightArgs, up};
 use super::output_file::refuse;
@@ -25,7 +26,7 @@ pub(crate) struct SceneInput {
 /// What is changed in a scene, for commands with an argument `scene`.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneChanges {
-    /// A lat-long environment around the scene: .exr or .hdr.
+    /// An environment around the scene: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
     #[arg(long, value_name = "IMAGE", requires = "scene")]
     pub(crate) env: Option<PathBuf>,
     /// Turn the environment so far about the upward axis, counter-clockwise as seen from above.
@@ -58,12 +59,12 @@ impl SceneInput {
         } = &self.changes;
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = env {
-            let file = read_environment(path).map_err(Failure::input)?;
-            scene.warnings.extend(file.warning);
+            let mut environment = Environment::read(path, None)?;
+            scene.warnings.extend(environment.warning.take());
             let up = up(&self.scene, &scene);
             let turn = Quat::from_axis_angle(up, env_rotate.unwrap_or(0.0).to_radians());
             let turned = Affine3A::from_quat(turn * Quat::from_rotation_arc(Vec3::Y, up));
-            scene.add_sky(&file.image, turned).map_err(Failure::input)?;
+            scene.lights.push(environment.sky(turned));
         }
         for Emit { material, radiance } in emit {
             let mut named = scene
