@@ -64,7 +64,7 @@ impl StagedFile {
         }
         let target = match kind {
             Ok(_) => fs::canonicalize(path)?,
-            Err(_) => path.to_path_buf(),
+            Err(_) => link_target(path)?,
         };
         let temporary =
             temporary_path(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
@@ -105,6 +105,25 @@ impl Drop for StagedFile {
             all.retain(|other| other != temporary);
         }
     }
+}
+
+/// Where the links at `path` lead to, though no file is there; `path` itself if it is no link.
+/// [`write_atomically`] writes there.
+///
+/// # Errors
+/// When links lead to each other without an end.
+pub fn link_target(path: &Path) -> io::Result<PathBuf> {
+    /// As many as Linux follows.
+    const MOST: usize = 40;
+    let mut path = path.to_path_buf();
+    for _ in 0..MOST {
+        let Ok(target) = fs::read_link(&path) else {
+            return Ok(path);
+        };
+        // A relative target starts in the folder of the link.
+        path = path.with_file_name("").join(target);
+    }
+    Err(io::Error::other("too many links"))
 }
 
 /// A name in the same folder that nothing else uses.
@@ -184,5 +203,30 @@ mod tests {
         let full = fs::metadata("/dev/full").expect("a device");
         assert!(full.file_type().is_char_device(), "still a device");
         assert_eq!(folder.names(), ["device", "file", "link"], "nothing else");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_files_that_are_not_there_yet() {
+        use std::os::unix::fs::symlink;
+        let folder = TestFolder::new("write_whole_dangling");
+        fs::create_dir(folder.path("real")).expect("a folder");
+        let [first, second, missing, round] =
+            ["first", "second", "missing", "round"].map(|name| folder.path(name));
+        symlink("second", &first).expect("a link");
+        symlink("real/file", &second).expect("a link");
+        write_atomically(&first, b"new").expect("written");
+        let file = folder.path("real/file");
+        assert_eq!(fs::read(&file).expect("a file"), b"new", "behind both");
+        for link in [&first, &second] {
+            let kind = fs::symlink_metadata(link).expect("a link");
+            assert!(kind.is_symlink(), "{} is still a link", link.display());
+        }
+        symlink("no-such-folder/file", &missing).expect("a link");
+        write_atomically(&missing, b"new").expect_err("no folder");
+        symlink("round", &round).expect("a link");
+        write_atomically(&round, b"new").expect_err("a link to itself");
+        let names = ["first", "missing", "real", "round", "second"];
+        assert_eq!(folder.names(), names, "nothing else");
     }
 }

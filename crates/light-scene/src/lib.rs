@@ -49,7 +49,7 @@ mod scene_light;
 mod test_folder;
 mod text;
 
-pub use atomic_file::{exit_without_outputs, write_atomically};
+pub use atomic_file::{exit_without_outputs, link_target, write_atomically};
 pub use builtin::{BuiltinScene, OcclusionKind, OcclusionScene, OcclusionSize, UnknownScene};
 pub use builtin_sky::BuiltinSky;
 pub use camera::{Camera, CameraError, Crop, Lens, Projection, ScreenWindow};
