@@ -1,5 +1,5 @@
 use core::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::SamplerKind;
 use crate::bench::{
@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::arguments::{named, threads};
 use super::failure::Failure;
 use super::memory_check::check_memory;
-use super::output_file::refuse;
+use super::output_file::{expect_another, refuse};
 use super::sampler_list::{list, samplers};
 use super::scene_input::{SceneChanges, SceneInput};
 use super::stdout::say;
@@ -163,6 +163,7 @@ impl BenchArgs {
             };
             return self.run_scene(&input, self.measurement(samplers));
         }
+        self.expect_outputs()?;
         let (name, set) = self.set()?;
         if let Some(prefix) = &self.write {
             light_scene::write_light_set(&set, prefix).map_err(Failure::input)?;
@@ -180,6 +181,23 @@ impl BenchArgs {
             let rows = bench(&name, &set, &options).map_err(Failure::input)?;
             self.print(&BenchRow::header(), &rows, BenchRow::json)
         }
+    }
+
+    /// Makes sure that --write keeps the set beside the files that are read.
+    fn expect_outputs(&self) -> Result<(), Failure> {
+        let Some(prefix) = &self.write else {
+            return Ok(());
+        };
+        let inputs: Vec<PathBuf> = self.lights.iter().chain(&self.points).cloned().collect();
+        ["lights", "points"].into_iter().try_for_each(|ending| {
+            let mut path = prefix.clone().into_os_string();
+            path.push(format!(".{ending}"));
+            expect_another(
+                Path::new(&path),
+                &inputs,
+                "--lights and --points for --write",
+            )
+        })
     }
 
     fn measurement(&self, samplers: Vec<SamplerKind>) -> Measurement {

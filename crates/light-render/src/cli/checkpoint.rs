@@ -54,6 +54,11 @@ impl CheckpointArgs {
         self.checkpoint.as_deref()
     }
 
+    /// The file that was asked for, or none, in a list.
+    pub(crate) fn file(&self) -> &[PathBuf] {
+        self.checkpoint.as_slice()
+    }
+
     /// Makes sure that a checkpoint can be written, and is none of the `outputs`.
     ///
     /// # Errors

@@ -1,3 +1,4 @@
+use core::slice::from_ref;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,7 +9,7 @@ use lights::sources::equal_area_size;
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::memory_check::check_memory;
-use super::output_file::expect_writable;
+use super::output_file::{expect_another, expect_writable};
 
 /// A texel while it is made, as light, as a picture, and in the file.
 const BYTES_PER_TEXEL: u64 = 48;
@@ -42,6 +43,7 @@ impl ConvertArgs {
     /// # Errors
     /// Files that cannot be read or written; an input of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
+        expect_another(&self.output, from_ref(&self.input), "the one that is read")?;
         let Environment { image, map, .. } = Environment::read_aloud(&self.input, self.from)?;
         let to = self.to.map_or_else(|| other(map), SphereMap::from);
         let size = match self.height {

@@ -1,3 +1,4 @@
+use core::slice::from_ref;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -8,6 +9,7 @@ use serde_json::{Value, json};
 use super::env_regions::draw_regions;
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
+use super::output_file::expect_another;
 use super::stdout::say;
 
 /// Turn an environment map into directional lights of equal energy, by median cut.
@@ -67,15 +69,18 @@ impl MedianCutArgs {
     /// # Errors
     /// Files that cannot be read or written; an image of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
+        let given = self.output.clone();
+        let picture = given.unwrap_or_else(|| default_output(&self.image));
+        expect_another(
+            &picture,
+            from_ref(&self.image),
+            "the map for the picture of regions",
+        )?;
         let Environment { image, map, .. } = Environment::read_aloud(&self.image, self.map)?;
         let refuse = |message: String| Failure::input(Diagnostic::file(&self.image, message));
         let lights = MedianCut::new(image.clone(), map, self.sums.into())
             .and_then(|cut| cut.lights(self.n as usize, self.centroid.into()))
             .map_err(|error| refuse(error.to_string()))?;
-        let picture = self
-            .output
-            .clone()
-            .unwrap_or_else(|| default_output(&self.image));
         let drawn = draw_regions(&image, map, &lights).map_err(Failure::input)?;
         write_image(&picture, &drawn).map_err(Failure::input)?;
         if self.csv {

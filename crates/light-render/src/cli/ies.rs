@@ -1,4 +1,5 @@
 use core::fmt::Write as _;
+use core::slice::from_ref;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -7,6 +8,7 @@ use light_scene::{in_luminaire, read_luminaire, write_atomically};
 use serde_json::json;
 
 use super::failure::Failure;
+use super::output_file::{expect_another, expect_ending};
 use super::stdout::say;
 
 /// Show what a photometric file (.ies, .ldt) holds: lumens, type, peak, and a polar plot.
@@ -20,7 +22,7 @@ pub(crate) struct IesArgs {
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
-    /// Write the polar plot, an SVG picture.
+    /// Write the polar plot, an SVG picture: .svg.
     #[arg(short, long, value_name = "PLOT.svg")]
     output: Option<PathBuf>,
 }
@@ -31,6 +33,10 @@ impl IesArgs {
     /// # Errors
     /// A file that cannot be read, or a plot that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        if let Some(output) = &self.output {
+            expect_another(output, from_ref(&self.file), "the one that is read")?;
+            expect_ending(output, &["svg"])?;
+        }
         let luminaire = read_luminaire(&self.file).map_err(Failure::input)?;
         if let Some(output) = &self.output {
             let plot = polar_plot(&luminaire.web);

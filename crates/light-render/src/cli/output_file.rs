@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use light_scene::Diagnostic;
+use light_scene::{Diagnostic, link_target};
 
 use super::failure::Failure;
 
@@ -38,12 +38,32 @@ pub(crate) fn expect_another(path: &Path, others: &[PathBuf], role: &str) -> Res
     Ok(())
 }
 
+/// Makes sure that the name of an output ends in one of `endings`, or in none, as devices do.
+///
+/// # Errors
+/// When it ends otherwise.
+pub(crate) fn expect_ending(path: &Path, endings: &[&str]) -> Result<(), Failure> {
+    let Some(found) = path.extension() else {
+        return Ok(());
+    };
+    if endings
+        .iter()
+        .any(|ending| found.eq_ignore_ascii_case(ending))
+    {
+        return Ok(());
+    }
+    let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+    let message = format!("expected a file name that ends in {}", endings.join(" or "));
+    Err(refuse(path, message))
+}
+
 /// The one name of a file, through all links; of one that is not there yet in the one name of its
 /// folder.
 fn resolved(path: &Path) -> PathBuf {
     if let Ok(path) = fs::canonicalize(path) {
         return path;
     }
+    let path = &link_target(path).unwrap_or_else(|_| path.to_path_buf());
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -75,5 +95,13 @@ mod tests {
         );
         assert!(!same("a.exr", "b.exr"), "another");
         assert!(!same("src/a.exr", "a.exr"), "elsewhere");
+    }
+
+    #[test]
+    fn endings_are_those_that_are_written() {
+        let is_fine = |path: &str| expect_ending(Path::new(path), &["html", "htm"]).is_ok();
+        assert!(is_fine("a.html") && is_fine("a.HTM"), "of either case");
+        assert!(is_fine("/dev/null") && is_fine("page"), "none");
+        assert!(!is_fine("a.txt") && !is_fine("a.html.txt"), "another");
     }
 }

@@ -53,6 +53,8 @@ impl RenderArgs {
     /// Renders, and writes the image. With --watch, `stamps` become those of the files of the
     /// scene, and nothing is written if one changes meanwhile.
     fn run_once(&self, stamps: &mut Option<FileStamps>) -> Result<(), Failure> {
+        self.input.expect_outputs(&self.output)?;
+        self.input.expect_outputs(self.checkpoint.file())?;
         let outputs = self.outputs()?;
         let mut picture = self.prepare(stamps)?;
         if self.skip_existing && self.is_there(&picture) {

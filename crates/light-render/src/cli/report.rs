@@ -1,4 +1,5 @@
 use core::cell::RefCell;
+use core::slice::from_ref;
 use core::time::Duration;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use crate::{AnyLightSamplerError, Film, SamplerKind, ToneMap, View, World};
 use super::arguments::{pixel, seconds, threads};
 use super::failure::Failure;
 use super::memory_check::{PICTURE, check_memory};
-use super::output_file::{expect_another, expect_writable};
+use super::output_file::{expect_another, expect_ending, expect_writable};
 use super::progress::{ProgressLine, Volume};
 use super::sampler_list::samplers;
 use super::scene_input::SceneInput;
@@ -37,7 +38,7 @@ const PICTURES: u64 = 32;
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     input: SceneInput,
-    /// The page to write.
+    /// The page to write: .html or .htm.
     #[arg(short, long, value_name = "PAGE.html")]
     output: PathBuf,
     /// Time for each picture, the building of its sampler included.
@@ -123,19 +124,11 @@ impl ReportArgs {
         say!("The page is {}.", self.output.display())
     }
 
-    /// Makes sure that the page can be written, and is none of the inputs.
+    /// Makes sure that the page can be written as one, and is none of the inputs.
     fn expect_output(&self) -> Result<(), Failure> {
-        let others = [
-            Some(&self.input.scene),
-            self.input.changes.env.as_ref(),
-            self.reference.as_ref(),
-        ];
-        let others: Vec<PathBuf> = others.into_iter().flatten().cloned().collect();
-        expect_another(
-            &self.output,
-            &others,
-            "the scene and its images for --output",
-        )?;
+        self.input.expect_outputs(from_ref(&self.output))?;
+        expect_another(&self.output, self.reference.as_slice(), "the --reference")?;
+        expect_ending(&self.output, &["html", "htm"])?;
         expect_writable(&self.output)
     }
 

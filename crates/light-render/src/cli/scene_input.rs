@@ -10,7 +10,7 @@ use super::arguments::{Emit, finite};
 use super::environment::Environment;
 use super::failure::Failure;
 use super::light_args::{LightArgs, up};
-use super::output_file::refuse;
+use super::output_file::{expect_another, refuse};
 use super::stdout::complain;
 
 /// Which scene, and what is changed in it.
@@ -97,6 +97,18 @@ impl SceneInput {
                 .for_each(|words| complain(format_args!("{words}")));
         }
         Ok(scene)
+    }
+
+    /// Makes sure that none of `outputs` is the scene or its environment.
+    ///
+    /// # Errors
+    /// When one is.
+    pub(crate) fn expect_outputs(&self, outputs: &[PathBuf]) -> Result<(), Failure> {
+        let env = self.changes.env.iter();
+        let inputs: Vec<PathBuf> = env.chain([&self.scene]).cloned().collect();
+        outputs
+            .iter()
+            .try_for_each(|path| expect_another(path, &inputs, "the scene and its images"))
     }
 
     /// Makes sure that a scene of `world` has light.

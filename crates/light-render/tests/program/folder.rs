@@ -59,6 +59,9 @@ impl Drop for Folder {
 }
 
 pub(crate) const LIT: &str = "newmtl floor\nKd .5 .5 .5\nnewmtl lamp\nKe 5 4 3\n";
+/// An .ies file.
+pub(crate) const LAMP: &str =
+    "IESNA:LM-63-2002\nTILT=NONE\n1 2000 1 3 1 1 2 0 0 0\n1 1 100\n0 60 90\n0\n5 2 0\n";
 pub(crate) const UNLIT: &str = "newmtl floor\nKd .5 .5 .5\nnewmtl lamp\nKd .5 .5 .5\n";
 
 pub(crate) fn lights(args: &[&str]) -> Output {

@@ -15,6 +15,7 @@ mod layers;
 mod light;
 mod live;
 mod outputs;
+mod overwriting;
 mod refusals;
 mod report;
 mod samplers;

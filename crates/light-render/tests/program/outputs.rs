@@ -1,61 +1,9 @@
-//! What the program writes: whole files or none, and never over what it reads.
+//! What the program writes: whole files or none.
 
 use std::fs;
 use std::path::Path;
 
-use crate::folder::{Folder, LIT, SMALL, assert_refused, stdout};
-
-#[test]
-fn an_output_is_none_of_the_inputs() {
-    let folder = Folder::new("overwrite");
-    let scene = folder.scene(LIT);
-    let [a, b, kept] = ["a.exr", "b.exr", "kept.exr"].map(|name| folder.path(name));
-    for (out, samples) in [(&a, "0..2"), (&b, "2..4")] {
-        stdout(&[
-            "render",
-            &scene,
-            "-o",
-            out,
-            "--width",
-            "8",
-            "--samples",
-            samples,
-        ]);
-    }
-    let before = fs::read(&a).expect("a part");
-    assert_refused(&["merge", &a, &b, "-o", &a], &["a.exr", "a part"]);
-    assert_refused(&["compare", &a, &b, "--diff", &b], &["b.exr", "--diff"]);
-    assert_eq!(fs::read(&a).expect("a part"), before, "as it was");
-    let other_spelling = format!(
-        "{}/../{}/kept.exr",
-        folder.0.display(),
-        folder_name(&folder)
-    );
-    for out in [&kept, &other_spelling] {
-        let render = ["render", &scene, "-o", out, "--checkpoint", &kept];
-        assert_refused(
-            &[&render, &SMALL[..]].concat(),
-            &["kept.exr", "--checkpoint"],
-        );
-    }
-    let missing = folder.path("missing/kept.exr");
-    // Before the scene is read: its file is missing too.
-    let render = [
-        "render",
-        "missing.obj",
-        "-o",
-        &kept,
-        "--checkpoint",
-        &missing,
-    ];
-    assert_refused(&render, &["missing/kept.exr", "cannot be written"]);
-    assert!(!Path::new(&kept).exists(), "nothing is rendered");
-}
-
-fn folder_name(folder: &Folder) -> String {
-    let name = folder.0.file_name().expect("a name");
-    name.to_string_lossy().into_owned()
-}
+use crate::folder::{Folder, LAMP, LIT, SMALL, assert_refused, stdout};
 
 #[test]
 fn folders_and_empty_files_are_no_files_to_read_or_write() {
@@ -191,9 +139,7 @@ mod full {
     #[test]
     fn devices_are_written_to_and_stay() {
         let folder = Folder::new("devices");
-        let ies =
-            "IESNA:LM-63-2002\nTILT=NONE\n1 2000 1 3 1 1 2 0 0 0\n1 1 100\n0 60 90\n0\n5 2 0\n";
-        let ies = folder.file("lamp.ies", ies);
+        let ies = folder.file("lamp.ies", LAMP);
         stdout(&["ies", &ies, "-o", "/dev/null"]);
         assert_refused(
             &["ies", &ies, "-o", "/dev/full"],
@@ -213,6 +159,16 @@ mod full {
             fs::symlink_metadata(&link).expect("a link").is_symlink(),
             "still"
         );
+        // As well to one that is not there yet, if its folder is.
+        let [early, nowhere] = ["early.svg", "nowhere.exr"].map(|name| folder.path(name));
+        symlink("new.svg", &early).expect("a link");
+        stdout(&["ies", &ies, "-o", &early]);
+        let new = fs::read_to_string(folder.path("new.svg")).expect("a plot");
+        assert!(new.starts_with("<svg"), "through the link");
+        symlink("no-folder/new.exr", &nowhere).expect("a link");
+        // Before the scene is read: its file is missing too.
+        let render = ["render", "missing.obj", "-o", &nowhere];
+        assert_refused(&render, &["nowhere.exr", "cannot be written"]);
     }
 
     #[test]
