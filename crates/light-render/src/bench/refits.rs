@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use super::BenchOptions;
 use super::candidate::Candidate;
 use super::query::Query;
+use super::row::known;
 use super::variance::{self, Variance};
 use crate::{AnyLightSamplerError, SamplerKind};
 
@@ -155,18 +156,20 @@ impl RefitRow {
 
 impl fmt::Display for RefitRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mean = |v: &Variance| known(v.mean, format_args!("{:.3}", v.mean));
+        let p99 = |v: &Variance| known(v.p99, format_args!("{:.2}", v.p99));
         write!(
             f,
-            "{:<11} {:>8} {:<14} {:>8.4} {:>9.3} {:>9.3} {:>9.2} {:>11.3} {:>11.2}",
+            "{:<11} {:>8} {:<14} {:>8.4} {:>9.3} {:>9} {:>9} {:>11} {:>11}",
             self.set,
             self.n_lights,
             self.sampler.name(),
             self.moved,
             self.degradation,
-            self.refitted.mean,
-            self.refitted.p99,
-            self.rebuilt.mean,
-            self.rebuilt.p99,
+            mean(&self.refitted),
+            p99(&self.refitted),
+            mean(&self.rebuilt),
+            p99(&self.rebuilt),
         )
     }
 }

@@ -63,15 +63,17 @@ impl BenchRow {
         )
     }
 
-    /// The row as one JSON object.
+    /// The row as one JSON object; V is null where no light reaches a point.
     #[must_use]
     pub fn json(&self) -> Value {
+        // A number that is none, such as NaN, is null in JSON.
         json!({
             "set": self.set,
             "n_lights": self.n_lights,
             "sampler": self.sampler.name(),
             "k": self.k,
             "v_points": self.points,
+            "lit_points": self.variance.lit_points,
             "build_ms": self.build_ms,
             "refit_ms": self.refit_ms,
             "bytes": self.bytes,
@@ -98,14 +100,16 @@ impl BenchRow {
 
 impl fmt::Display for BenchRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ceiling = |of: fn(Ceiling) -> f64| {
-            let value = self.variance.ceiling.map(of);
-            value.map_or_else(String::new, |value| format!("{value:.3}"))
+        let v = &self.variance;
+        let ceiling = |of: fn(Ceiling) -> f64| match v.ceiling.map(of) {
+            Some(value) => format!("{value:.3}"),
+            None if v.lit_points == 0 => "-".to_owned(),
+            None => String::new(),
         };
         write!(
             f,
-            "{:<11} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9.3} \
-             {:>9.3} {:>9.2} {:>9} {:>9} {:>9.1e} {:>8.4}",
+            "{:<11} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9} {:>9} \
+             {:>9} {:>9} {:>9} {:>9} {:>8.4}",
             self.set,
             self.n_lights,
             self.sampler.name(),
@@ -117,12 +121,12 @@ impl fmt::Display for BenchRow {
             self.depth,
             self.time.sample,
             self.time.pmf,
-            self.variance.mean,
-            self.variance.median,
-            self.variance.p99,
+            known(v.mean, format_args!("{:.3}", v.mean)),
+            known(v.median, format_args!("{:.3}", v.median)),
+            known(v.p99, format_args!("{:.2}", v.p99)),
             ceiling(|ceiling| ceiling.within),
             ceiling(|ceiling| ceiling.best),
-            self.variance.lost_energy,
+            known(v.lost_energy, format_args!("{:.1e}", v.lost_energy)),
             self.laws.no_light,
         )?;
         let laws = &self.laws;
@@ -134,5 +138,14 @@ impl fmt::Display for BenchRow {
             )?;
         }
         Ok(())
+    }
+}
+
+/// The words for a number of a table, or a dash where it is NaN: where no point is lit.
+pub(super) fn known(number: f64, words: fmt::Arguments<'_>) -> String {
+    if number.is_nan() {
+        "-".to_owned()
+    } else {
+        words.to_string()
     }
 }

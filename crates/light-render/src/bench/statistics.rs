@@ -1,5 +1,5 @@
 /// Mean, median, a high quantile, and the standard error of the mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Summary {
     /// Mean.
     pub(super) mean: f64,
@@ -12,10 +12,15 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// The summary of `values`; all zeros if there are none.
+    /// The summary of `values`; NaN throughout if there are none.
     pub(super) fn new(mut values: Vec<f64>) -> Self {
         if values.is_empty() {
-            return Self::default();
+            return Self {
+                mean: f64::NAN,
+                median: f64::NAN,
+                p99: f64::NAN,
+                standard_error: f64::NAN,
+            };
         }
         values.sort_by(f64::total_cmp);
         let n = values.len() as f64;
@@ -38,6 +43,10 @@ mod tests {
     fn of_a_range() {
         let s = Summary::new((0..=100).rev().map(f64::from).collect());
         assert_eq!((s.mean, s.median, s.p99), (50.0, 50.0, 99.0), "0 to 100");
-        assert_eq!(Summary::new(vec![]), Summary::default(), "nothing");
+        let none = Summary::new(vec![]);
+        assert!(
+            none.mean.is_nan() && none.p99.is_nan(),
+            "no value: {none:?}"
+        );
     }
 }

@@ -11,9 +11,12 @@ use super::variance_split::{LightMoments, VarianceSplit};
 /// Calls of `k` samples that the variance at one point is estimated from.
 const CALLS: usize = 16;
 
-/// Relative variance over the points that any light reaches.
+/// Relative variance over the points that any light reaches; all numbers are NaN where there is no
+/// such point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Variance {
+    /// How many points any light reaches.
+    pub lit_points: usize,
     /// Mean over the points.
     pub mean: f64,
     /// Median over the points.
@@ -28,8 +31,8 @@ pub struct Variance {
     pub flux_weighted: f64,
     /// Share of the contribution, mean over the points, in lights of probability 0.
     pub lost_energy: f64,
-    /// The variance that no choice can remove; `None` for several samples a call. The fields above
-    /// are the variance between lights alone.
+    /// The variance that no choice can remove; `None` for several samples a call, and where no
+    /// point is lit. The fields above are the variance between lights alone.
     pub ceiling: Option<Ceiling>,
 }
 
@@ -142,24 +145,18 @@ fn summarise(at_points: Vec<AtPoint>) -> Variance {
     let squares: f64 = lit.iter().map(|v| v.total * v.total).sum();
     let variances: f64 = lit.iter().map(|v| v.relative * v.total * v.total).sum();
     let lost: f64 = lit.iter().map(|v| v.lost).sum();
-    let count = lit.len().max(1) as f64;
+    let count = lit.len() as f64;
     let summary = Summary::new(lit.iter().map(|v| v.relative).collect());
+    let ceiling = lit.iter().map(|v| v.ceiling).sum::<Option<Ceiling>>();
     Variance {
+        lit_points: lit.len(),
         mean: summary.mean,
         median: summary.median,
         p99: summary.p99,
         standard_error: summary.standard_error,
-        flux_weighted: if squares > 0.0 {
-            variances / squares
-        } else {
-            0.0
-        },
+        flux_weighted: variances / squares,
         lost_energy: lost / count,
-        ceiling: lit
-            .iter()
-            .map(|v| v.ceiling)
-            .sum::<Option<Ceiling>>()
-            .map(|sum| sum / count),
+        ceiling: ceiling.filter(|_| !lit.is_empty()).map(|sum| sum / count),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bench;
+mod bench_args;
 mod checkpoint;
 mod compare;
 mod completions;
@@ -83,7 +84,7 @@ struct Program {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Bench(Box<bench::BenchArgs>),
+    Bench(Box<bench_args::BenchArgs>),
     Compare(compare::CompareArgs),
     Completions(completions::CompletionsArgs),
     Env(env::EnvArgs),

@@ -29,8 +29,9 @@ pub(super) struct SamplerRow {
 }
 
 impl SamplerRow {
-    /// The quantity of a choice.
+    /// The quantity of a choice, where it is known: no V is where no point is lit.
     pub(super) fn choice(&self, of: impl FnOnce(&BenchRow) -> f64) -> Option<f64> {
-        self.choices.as_ref().map(of)
+        let quantity = self.choices.as_ref().map(of);
+        quantity.filter(|quantity| !quantity.is_nan())
     }
 }

@@ -1,6 +1,7 @@
 //! The program as a process: its output, its exit status and the files that it leaves.
 
 mod bench_scene;
+mod bench_set;
 mod billion;
 mod environments;
 mod extremes;
