@@ -23,7 +23,9 @@ const OF_A_SCENE: [&str; 7] = [
 
 /// Measure light samplers side by side on the lights of a scene, or on a set of lights.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   lights bench room.obj --shadows
   lights bench chair.glb --sky clear-noon
   lights bench --generate clusters --n 100000 --samplers bvh-reference,bvh
@@ -45,7 +47,8 @@ Columns:
   V within        variance that is left within lights whichever is chosen, for lights with an area
   V best          variance of the best choice there is; --shadows shows how much of it they cause
   lost            share of the light that comes from lights that are never chosen: 0 if right
-  no light        share of choices that choose none, where bounds grow tighter on the way down")]
+  no light        share of choices that choose none, where bounds grow tighter on the way down"
+)]
 pub(crate) struct BenchArgs {
     /// The scene, whose lights are seen from points on its surfaces: an .obj, .pbrt, .gltf or .glb
     /// file, or one that ships, as for lights render.
@@ -84,7 +87,7 @@ pub(crate) struct BenchArgs {
     )]
     pub(super) n: u32,
     /// Seed of the set to make, or of the points on surfaces.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed)]
     pub(super) seed: u64,
     /// Keep the set as PREFIX.lights and PREFIX.points.
     #[arg(long, value_name = "PREFIX", conflicts_with = "scene")]
@@ -131,4 +134,10 @@ pub(crate) struct BenchArgs {
     /// One JSON object a line instead of a table.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// Any number of 64 bits.
+fn seed(text: &str) -> Result<u64, String> {
+    let seed = text.parse();
+    seed.map_err(|_| format!("expected a whole number from 0 to {}", u64::MAX))
 }

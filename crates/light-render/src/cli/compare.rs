@@ -12,11 +12,14 @@ use super::stdout::say;
 
 /// Compare an image with a reference.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   lights compare picture.exr reference.exr
   lights compare picture.exr reference.exr --max-relmse 0.01 --diff where.png
 
-Exit status: 0 done, 1 the error or the bias is above its limit, 2 bad usage or bad input.")]
+Exit status: 0 done, 1 the error or the bias is above its limit, 2 bad usage or bad input."
+)]
 pub(crate) struct CompareArgs {
     /// The image.
     image: PathBuf,

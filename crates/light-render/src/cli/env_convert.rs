@@ -19,8 +19,11 @@ const BYTES_PER_TEXEL: u64 = 48;
 /// Light is kept: each channel integrates over the sphere to what it was. PNG holds 8 bits of sRGB:
 /// brighter than 1 is cut off.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
-  lights env convert studio.hdr studio-equal-area.exr --to equal-area")]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  lights env convert studio.hdr studio-equal-area.exr --to equal-area"
+)]
 pub(crate) struct ConvertArgs {
     /// The map: .exr, .hdr or .png.
     input: PathBuf,

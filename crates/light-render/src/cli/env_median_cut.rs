@@ -18,8 +18,11 @@ use super::stdout::say;
 /// irradiance is that of a plane that faces the light; a region is its first column and row, and
 /// those behind its last.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
-  lights env median-cut studio.exr -n 64 -o regions.png")]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  lights env median-cut studio.exr -n 64 -o regions.png"
+)]
 pub(crate) struct MedianCutArgs {
     /// The map: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
     image: PathBuf,

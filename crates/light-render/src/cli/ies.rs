@@ -13,9 +13,12 @@ use super::stdout::say;
 
 /// Show what a photometric file (.ies, .ldt) holds: lumens, type, peak, and a polar plot.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   lights ies lamp.ies
-  lights ies lamp.ldt -o lamp.svg")]
+  lights ies lamp.ldt -o lamp.svg"
+)]
 pub(crate) struct IesArgs {
     /// The file: EULUMDAT if its name ends in .ldt, IESNA LM-63 otherwise.
     file: PathBuf,

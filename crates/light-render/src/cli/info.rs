@@ -16,9 +16,12 @@ use super::visible::Visible;
 
 /// Show what a scene holds: lights, bounds, the light hierarchy, what was ignored.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   lights info scene.pbrt
-  lights info car.glb --json")]
+  lights info car.glb --json"
+)]
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     input: SceneInput,

@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use clap::Args;
-use light_scene::{BuiltinSky, Scene};
+use light_scene::{BuiltinSky, Diagnostic, Scene};
 use lights::glam::Vec3;
+use lights::sources::LightDesc;
 
 use super::arguments::{named, positive};
 
@@ -37,12 +38,36 @@ impl LightArgs {
             scene.remove_skies();
             sky.add_to(scene, up(path, scene));
         }
+        self.doubt_scales(path, scene);
         if let Some(factor) = self.env_scale {
             scene.scale_skies(factor);
         }
         if let Some(factor) = self.light_scale {
             scene.scale_lamps(factor);
         }
+    }
+
+    /// Adds a warning for each scale that no light of `scene` has.
+    fn doubt_scales(&self, path: &Path, scene: &mut Scene) {
+        let has_sky = scene.lights.iter().any(LightDesc::is_sky);
+        let has_lamp = scene.lights.iter().any(|light| !light.is_sky())
+            || scene.materials.iter().any(|m| m.emission.is_some());
+        // A scene without any light gets a sky.
+        let lacks_sky = self.env_scale.is_some() && !has_sky && scene.is_lit();
+        let lacks_lamp = self.light_scale.is_some() && !has_lamp;
+        let words = [
+            (
+                lacks_sky,
+                "--env-scale has no effect: there is no sky and no sun",
+            ),
+            (
+                lacks_lamp,
+                "--light-scale has no effect: there are no lights but skies and suns",
+            ),
+        ];
+        let words = words.into_iter().filter(|(is_lacking, _)| *is_lacking);
+        let warnings = words.map(|(_, words)| Diagnostic::file(path, words));
+        scene.warnings.extend(warnings);
     }
 
     /// Lights a scene in which nothing gives light; what was done, in words.

@@ -86,6 +86,8 @@ impl RenderArgs {
         if let Some(note) = self.settings.visibility_note().filter(|_| !self.quiet) {
             complain(format_args!("{note}"));
         }
+        self.doubt(|| self.settings.step_doubt());
+        self.doubt(|| self.half_doubt());
         self.checkpoint.expect_place(&self.output)?;
         let scene = self.input.read_lit(self.quiet)?;
         if self.live.watch {

@@ -34,6 +34,19 @@ impl RenderArgs {
         Ok(outputs)
     }
 
+    /// What to say of --half where no file holds half floats.
+    pub(super) fn half_doubt(&self) -> Option<String> {
+        let is_exr = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "exr");
+        let reason = if !self.output.iter().any(is_exr) {
+            "no output is an .exr file"
+        } else if self.settings.samples.is_some() {
+            "parts hold exact sums"
+        } else {
+            return None;
+        };
+        self.half.then(|| format!("--half has no effect: {reason}"))
+    }
+
     /// Writes the picture, or the requested part of it.
     pub(super) fn write(
         &self,

@@ -147,6 +147,16 @@ impl SettingsArgs {
         self.visibility.and_then(VisibilityName::note)
     }
 
+    /// What to say of a --step that nothing takes.
+    pub(crate) fn step_doubt(&self) -> Option<String> {
+        let is_taken = matches!(
+            self.integrator,
+            Some(IntegratorName::SingleScatteringClassic)
+        );
+        let words = "--step has no effect without --integrator single-scattering-classic";
+        (self.step.is_some() && !is_taken).then(|| words.to_owned())
+    }
+
     /// Whether lights are chosen for rays as a whole: all of them count.
     const fn is_single_scattering(&self) -> bool {
         matches!(

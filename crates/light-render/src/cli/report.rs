@@ -4,7 +4,7 @@ use core::time::Duration;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use light_scene::{Diagnostic, read_signed_image, write_atomically};
+use light_scene::{Crop, Diagnostic, read_signed_image, write_atomically};
 
 use crate::integrator::{Estimator, Integrator, PathSettings};
 use crate::report::{Reference, ReferenceSource, ReportOptions, SceneReport};
@@ -35,6 +35,7 @@ const PICTURES: u64 = 32;
 /// Compare light samplers on a scene, in one self-contained HTML page: pictures and errors at equal
 /// time, convergence, variance at pixels, time, memory and lost light.
 #[derive(Args, Debug)]
+#[command(allow_negative_numbers = true)]
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     input: SceneInput,
@@ -95,6 +96,7 @@ impl ReportArgs {
             Some(_) => self.view.view(&scene)?,
             None => self.view.at_most(&scene, SIDE).view(&scene)?,
         };
+        self.expect_pixels(&view)?;
         let exposure = scene.camera.and_then(|camera| camera.exposure);
         let given = self.given_reference(&view)?;
         let (width, height) = view.crop().size();
@@ -130,6 +132,22 @@ impl ReportArgs {
         expect_another(&self.output, self.reference.as_slice(), "the --reference")?;
         expect_ending(&self.output, &["html", "htm"])?;
         expect_writable(&self.output)
+    }
+
+    /// Makes sure that the picture has each --pixel.
+    fn expect_pixels(&self, view: &View) -> Result<(), Failure> {
+        let Crop { min, max } = view.crop();
+        let is_in = |pixel: &[u32; 2]| (0..2).all(|k| (min[k]..max[k]).contains(&pixel[k]));
+        let Some([x, y]) = self.pixel.iter().find(|pixel| !is_in(pixel)) else {
+            return Ok(());
+        };
+        Err(Failure::Input(format!(
+            "--pixel {x},{y}: expected a pixel of the picture, X from {} to {} and Y from {} to {}",
+            min[0],
+            max[0] - 1,
+            min[1],
+            max[1] - 1
+        )))
     }
 
     fn given_reference(&self, view: &View) -> Result<Option<Reference>, Failure> {

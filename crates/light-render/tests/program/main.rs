@@ -15,6 +15,7 @@ mod interrupted;
 mod layers;
 mod light;
 mod live;
+mod no_effect;
 mod outputs;
 mod overwriting;
 mod refusals;
@@ -103,6 +104,13 @@ fn parts_merge_into_the_same_bytes() {
     let bytes = |path: &str| fs::read(path).expect("a picture");
     assert_eq!(bytes(&merged), bytes(&whole), "as if rendered at once");
     stdout(&["compare", &a, &whole]);
+    let later = folder.path("later.exr");
+    render(&later, "--samples", "9..10");
+    let with_gap = lights(&["merge", &later, &a, "-o", &merged]);
+    let said = String::from_utf8(with_gap.stderr).expect("text");
+    assert_eq!(with_gap.status.code(), Some(0), "allowed: {said}");
+    assert!(said.contains("warning") && said.contains("3..9"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
     assert_refused(&["merge", &a, &a, "-o", &merged], &["0..3"]);
     assert_refused(
         &["merge", &a, &whole, "-o", &merged],

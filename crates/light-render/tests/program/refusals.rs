@@ -109,6 +109,11 @@ fn nonsense_on_the_command_line_is_refused() {
         &["render", &scene, "-o", &out, "--fov", "180"],
         &["angle of view"],
     );
+    // A number below 0 is a value, not a flag.
+    let compare = ["compare", &out, &out, "--max-bias", "-1"];
+    assert_refused(&compare, &["--max-bias", "not negative"]);
+    let bench = ["bench", "--generate", "uniform", "--seed", "-1"];
+    assert_refused(&bench, &["--seed", "whole number from 0"]);
     assert_refused(&["render", &scene], &["--output"]);
     assert_refused(&["redner"], &["redner"]);
     assert_refused(&["env"], &["lights env", "convert", "median-cut"]);

@@ -212,6 +212,9 @@ fn bad_input_is_refused_before_any_work() {
     };
     refuse(&["--samplers", "best"], &["--samplers", "bvh"]);
     refuse(&["--pixel", "1"], &["--pixel", "X,Y"]);
+    for pixel in ["320,0", "0,320", "4000000000,1"] {
+        refuse(&["--pixel", pixel], &["--pixel", pixel, "X from 0 to 319"]);
+    }
     refuse(&["--time", "0"], &["--time", "above 0"]);
     refuse(&["--reference", "missing.exr"], &["missing.exr"]);
     assert_refused(
