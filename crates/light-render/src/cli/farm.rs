@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use light_scene::write_atomically;
 
-use crate::farm::{FarmEngine, FarmFrames, FarmPlan, FrameNumbers};
+use crate::farm::{FarmEngine, FarmFrames, FarmPlan, FrameNumbers, is_job_file, job_file_names};
 
 use super::failure::Failure;
 use super::output_file::refuse;
@@ -25,7 +25,8 @@ use super::view_args::ViewArgs;
 pub(crate) struct FarmArgs {
     #[command(flatten)]
     input: SceneInput,
-    /// The folder to write the job into; its parts and the picture, picture.exr, come there too.
+    /// The folder to write the job into, in place of an older job; its parts and the picture,
+    /// picture.exr, come there too.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// The first and the last frame of an animation, A-B: a run of # in SCENE, as in
@@ -83,10 +84,7 @@ impl FarmArgs {
         };
         fs::create_dir_all(&self.output)
             .map_err(|error| refuse(&self.output, format!("cannot be made: {error}")))?;
-        for (name, text) in self.engine.files(&plan) {
-            let path = self.output.join(name);
-            write_atomically(&path, text.as_bytes()).map_err(Failure::input)?;
-        }
+        self.write(&self.engine.files(&plan))?;
         let file = format!("{folder}/{}", self.engine.file());
         say!(
             "{} parts; `{}` makes {folder}/{pictures}",
@@ -97,6 +95,29 @@ impl FarmArgs {
 }
 
 impl FarmArgs {
+    /// Writes the files of the job in place of those of an older job. Files that are of no job stay.
+    fn write(&self, files: &[(&'static str, String)]) -> Result<(), Failure> {
+        let path = |name: &str| self.output.join(name);
+        let is_of_job = |name: &str| fs::read(path(name)).map(|text| is_job_file(name, &text));
+        for (name, _) in files {
+            if path(name).exists() && !is_of_job(name).unwrap_or(false) {
+                let message = "was not written by `lights farm`: expected another folder";
+                return Err(refuse(&path(name), message));
+            }
+        }
+        for (name, text) in files {
+            write_atomically(&path(name), text.as_bytes()).map_err(Failure::input)?;
+        }
+        let is_new = |name: &&str| files.iter().any(|(new, _)| new == name);
+        for name in job_file_names().filter(|name| !is_new(name)) {
+            if is_of_job(name).unwrap_or(false) {
+                let removed = fs::remove_file(path(name));
+                removed.map_err(|e| refuse(&path(name), format!("cannot be removed: {e}")))?;
+            }
+        }
+        Ok(())
+    }
+
     /// The frames of an animation, if that is asked for.
     fn frames(&self) -> Result<Option<FarmFrames>, Failure> {
         let Some(numbers) = self.frames.clone() else {

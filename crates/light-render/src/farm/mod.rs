@@ -7,6 +7,7 @@
 mod engine;
 mod frames;
 mod hyperqueue;
+mod job_file;
 mod openjd;
 mod plan;
 mod scripts;
@@ -14,5 +15,7 @@ mod shell;
 mod slurm;
 
 pub use engine::FarmEngine;
+pub(crate) use job_file::{is_job_file, job_file_names};
+
 pub use frames::{FarmFrames, FrameNumbers};
 pub use plan::{FarmPlan, FarmPlanError};

@@ -7,6 +7,7 @@ mod environments;
 mod extremes;
 #[cfg(unix)]
 mod farm;
+mod farm_folder;
 #[cfg(unix)]
 mod farm_frames;
 mod folder;
