@@ -18,7 +18,7 @@ use crate::query::into_receiver::IntoReceiver;
 /// The default light hierarchy: chooses one of many lights about in proportion to its irradiance.
 ///
 /// Sixteen children a node, each described by moments of its lights: the expected irradiance
-/// instead of a bound of it, and zero only where no light can contribute. 26 to 28 bytes a light
+/// instead of a bound of it, and zero only where no light can contribute. 24 to 29 bytes a light
 /// from ten thousand lights on.
 #[derive(Clone, Debug, Default)]
 pub struct LightBvh {

@@ -9,8 +9,8 @@ use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
 /// The default: chooses about in proportion to the irradiance that each light would give without
 /// occlusion.
 ///
-/// Lights at infinity are weighed by their own estimated irradiance against that of the tree. 26 to
-/// 28 bytes a light; a query evaluates a node of sixteen children a level, and every light at
+/// Lights at infinity are weighed by their own estimated irradiance against that of the tree. 24 to
+/// 29 bytes a light; a query evaluates a node of sixteen children a level, and every light at
 /// infinity.
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {

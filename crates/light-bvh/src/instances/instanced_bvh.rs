@@ -22,7 +22,7 @@ use crate::parallel::table;
 /// The leaves of the upper tree are placements of prototypes, each with a rotation, one scale and a
 /// translation. A node of it knows the moments of the placed groups as a node of [`LightBvh`] knows
 /// those of lights, and a choice goes on from a leaf to the root of a prototype, with the receiver
-/// in the frame of that. 26 to 28 bytes a light of a prototype, and about 76 a placement.
+/// in the frame of that. 24 to 29 bytes a light of a prototype, and about 76 a placement.
 ///
 /// The laws are those of [`LightBvh`]: a sampled pmf has the bits of the queried one, a light that
 /// can contribute has a pmf above 0, and the pmfs and the probability of `None` add up to 1.
