@@ -47,6 +47,40 @@ pub fn gpu(arguments: &[String]) -> StepResult {
     pictures(&driver)
 }
 
+/// What is wrong with the `arguments` of the check, in one line; the names of its sets are its own.
+pub fn wrong_arguments(arguments: &[String]) -> Option<String> {
+    let (queries, set) = match arguments {
+        [] => return None,
+        [queries] => (queries, None),
+        [queries, set] => (queries, Some(set)),
+        _ => return Some("gpu: expected QUERIES and SET at most".into()),
+    };
+    if queries.parse::<u32>().is_err() {
+        return Some(format!(
+            "gpu: expected a number of queries, found {queries}"
+        ));
+    }
+    let set = set?;
+    let mut list = check(&["--sets".to_owned()]);
+    // A check that does not build is reported by the check itself.
+    let listed = list
+        .output()
+        .ok()
+        .filter(|output| output.status.success())?;
+    unknown_set(&String::from_utf8_lossy(&listed.stdout), set)
+}
+
+/// What to say where none of the names, a line each, has this `part`.
+fn unknown_set(names: &str, part: &str) -> Option<String> {
+    if names.lines().any(|name| name.contains(part)) {
+        return None;
+    }
+    let names = names.lines().collect::<Vec<_>>().join(", ");
+    Some(format!(
+        "gpu: no set has {part} in its name; there are: {names}"
+    ))
+}
+
 /// Lights the pictures of the examples, which hold them against the CPU's.
 fn pictures(driver: &[(&str, String)]) -> StepResult {
     for example in ["gbuffer", "techniques"] {
@@ -94,4 +128,39 @@ fn description(folder: &Path) -> Result<String, String> {
     let ours = folder.join("driver.json");
     fs::write(&ours, theirs.replace(installed, &here)).map_err(|e| e.to_string())?;
     Ok(ours.display().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrong_arguments_are_one_line() {
+        let wrong =
+            |words: &[&str]| wrong_arguments(&words.iter().map(|&w| w.into()).collect::<Vec<_>>());
+        assert_eq!(wrong(&[]), None, "all sets");
+        assert_eq!(wrong(&["1024"]), None, "so many queries");
+        let words = wrong(&["many"]).expect("no number");
+        assert!(
+            words.contains("expected a number") && words.contains("many"),
+            "{words}"
+        );
+        assert!(
+            wrong(&["1", "uniform", "100"]).is_some(),
+            "a name is one word"
+        );
+    }
+
+    #[test]
+    fn an_unknown_set_is_told_those_that_there_are() {
+        let names = "uniform 100\nspots 100\n";
+        for part in ["spots", "100", ""] {
+            assert_eq!(unknown_set(names, part), None, "{part:?}");
+        }
+        let words = unknown_set(names, "unifrom").expect("none has it");
+        assert_eq!(words.lines().count(), 1, "{words}");
+        for word in ["unifrom", "uniform 100, spots 100"] {
+            assert!(words.contains(word), "{word} in {words}");
+        }
+    }
 }

@@ -72,9 +72,10 @@ usage: cargo xtask [COMMAND]
   fuzz [TARGET] [SECONDS]     look for input that breaks a promise (default: all targets, 60 s each)
   coverage [CRATE...]         which lines and regions of the core crates the tests reach
   deny                        check licences, sources and advisories of dependencies
-  gpu [QUERIES]               the shaders of light-gpu against the crates, on this machine's driver
-                              or on Mesa's from Debian (default: 2^20 queries a set); the CUDA
-                              kernels, assembled, and compared where there is a GPU
+  gpu [QUERIES [SET]]         the shaders of light-gpu against the crates, on this machine's driver
+                              or on Mesa's from Debian (default: 2^20 queries a set; with SET
+                              of those that have it in their names); the CUDA kernels, assembled,
+                              and compared where there is a GPU
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                               break the core crates on purpose: does a test notice?
                               (default: 60 mutants a crate)
@@ -133,11 +134,17 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
         ("coverage", rest) => one("coverage", || coverage::coverage(rest)),
         ("deny", []) => all(|steps| dependencies::add_steps(steps, Install::Allowed)),
-        ("gpu", rest) => all(|steps| {
-            steps.run("shaders by tint", tint::tint);
-            steps.run("shaders", || gpu::gpu(rest));
-            ptx::add_steps(steps);
-        }),
+        ("gpu", rest) => match gpu::wrong_arguments(rest) {
+            Some(why) => {
+                eprintln!("{why}");
+                ExitCode::from(2)
+            }
+            None => all(|steps| {
+                steps.run("shaders by tint", tint::tint);
+                steps.run("shaders", || gpu::gpu(rest));
+                ptx::add_steps(steps);
+            }),
+        },
         ("tint", []) => one("shaders by tint", tint::tint),
         ("ptx", []) => one("kernels", ptx::remake),
         ("rust-gpu", rest) => one("places that rust-gpu does not take", || {

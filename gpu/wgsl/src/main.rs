@@ -6,7 +6,8 @@
 //! samples' probabilities again, bit for bit. Then alias tables, octahedral codes and the
 //! equal-area map.
 //! Before all of it, what arrives from lights of each kind. With a part of the name of a set, such
-//! as `clusters 10000`, only choices in the sets that have it.
+//! as `clusters 10000`, only choices in the sets that have it; `light-gpu-check --sets` lists the
+//! names.
 
 mod arrivals;
 mod bounds;
@@ -39,6 +40,10 @@ const KINDS: [SetKind; 4] = [
 ];
 
 fn main() -> ExitCode {
+    if std::env::args().nth(1).is_some_and(|word| word == "--sets") {
+        names().iter().for_each(|name| println!("{name}"));
+        return ExitCode::SUCCESS;
+    }
     let count = match std::env::args().nth(1).map_or(Ok(1 << 20), |n| n.parse()) {
         Ok(count) => count,
         Err(_) => {
@@ -89,15 +94,10 @@ fn check(device: &Device, count: u32) -> Result<bool, String> {
 /// Prints the rows of choices in the sets whose names have this `part`.
 fn check_sets(device: &Device, count: u32, part: &str) -> Result<bool, String> {
     let sky = sky();
-    let sizes = [100, 10_000, 1_000_000];
-    let mut sets: Vec<(SetKind, usize, &[LightExtent])> = Vec::new();
-    for kind in KINDS {
-        sets.extend(sizes.map(|n| (kind, n, &[][..])));
-    }
-    // Slanted sheets.
-    sets.push((SetKind::Place(Family::Tribune), 10_000, &[]));
-    sets.push((SetKind::Uniform, 10_000, &sky));
-    sets.retain(|&(kind, n, beside)| name(kind, n, beside).contains(part));
+    let sets: Vec<_> = sets(&sky)
+        .into_iter()
+        .filter(|&(kind, n, beside)| name(kind, n, beside).contains(part))
+        .collect();
     if sets.is_empty() {
         return Err(format!("no set has {part} in its name"));
     }
@@ -107,6 +107,27 @@ fn check_sets(device: &Device, count: u32, part: &str) -> Result<bool, String> {
         all &= check_set(device, kind, n, beside, count)?;
     }
     Ok(all)
+}
+
+/// The sets in which choices are compared: their kinds, sizes, and lights at infinity.
+fn sets(sky: &[LightExtent]) -> Vec<(SetKind, usize, &[LightExtent])> {
+    let sizes = [100, 10_000, 1_000_000];
+    let mut sets: Vec<(SetKind, usize, &[LightExtent])> = Vec::new();
+    for kind in KINDS {
+        sets.extend(sizes.map(|n| (kind, n, &[][..])));
+    }
+    // Slanted sheets.
+    sets.push((SetKind::Place(Family::Tribune), 10_000, &[]));
+    sets.push((SetKind::Uniform, 10_000, sky));
+    sets
+}
+
+/// The names of all sets.
+fn names() -> Vec<String> {
+    let sky = sky();
+    let sets = sets(&sky).into_iter();
+    sets.map(|(kind, n, beside)| name(kind, n, beside))
+        .collect()
 }
 
 fn name(kind: SetKind, n: usize, beside: &[LightExtent]) -> String {
