@@ -47,8 +47,8 @@ pub(crate) struct SettingsArgs {
     /// Render these samples alone, into an .exr that `lights merge` adds to others.
     #[arg(long, value_name = "A..B", value_parser = sample_range, conflicts_with = "spp")]
     pub(crate) samples: Option<Range<u32>>,
-    /// Stop at this budget, in which estimates and cells of visibility count; at least one sample a
-    /// pixel is taken.
+    /// Stop at this budget. The estimates and cells of visibility count, but are not cut short; at
+    /// least one sample a pixel is taken.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light; without it
