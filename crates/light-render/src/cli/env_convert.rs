@@ -47,7 +47,7 @@ impl ConvertArgs {
     /// Files that cannot be read or written; an input of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
         expect_another(&self.output, from_ref(&self.input), "the one that is read")?;
-        let Environment { image, map, .. } = Environment::read_aloud(&self.input, self.from)?;
+        let Environment { image, map } = Environment::read(&self.input, self.from)?;
         let to = self.to.map_or_else(|| other(map), SphereMap::from);
         let size = match self.height {
             Some(height) => shape(to, height),

@@ -79,7 +79,7 @@ impl MedianCutArgs {
             from_ref(&self.image),
             "the map for the picture of regions",
         )?;
-        let Environment { image, map, .. } = Environment::read_aloud(&self.image, self.map)?;
+        let Environment { image, map } = Environment::read(&self.image, self.map)?;
         let refuse = |message: String| Failure::input(Diagnostic::file(&self.image, message));
         let lights = MedianCut::new(image.clone(), map, self.sums.into())
             .and_then(|cut| cut.lights(self.n as usize, self.centroid.into()))

@@ -3,11 +3,8 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use light_scene::{Diagnostic, ImageFile, read_environment};
-use lights::glam::Affine3A;
 use lights::math::SphereMap;
-use lights::sources::{
-    EnvironmentMap, Image, ImageInfiniteLightDesc, LightDesc, RadianceAmount, Rgb,
-};
+use lights::sources::Image;
 
 use super::failure::Failure;
 use super::scene_input::report_warnings;
@@ -26,8 +23,6 @@ pub(crate) enum MapName {
 pub(super) struct Environment {
     pub(super) image: Image,
     pub(super) map: SphereMap,
-    /// What was repaired of the file.
-    pub(super) warning: Option<Diagnostic>,
 }
 
 impl Environment {
@@ -39,6 +34,7 @@ impl Environment {
     pub(super) fn read(path: &Path, map: Option<MapName>) -> Result<Self, Failure> {
         let refuse = |message: String| Failure::input(Diagnostic::file(path, message));
         let ImageFile { image, warning } = read_environment(path).map_err(Failure::input)?;
+        report_warnings(warning.as_slice());
         let (width, height) = (image.width(), image.height());
         let map = match map {
             Some(MapName::EqualArea) if width != height => {
@@ -52,40 +48,14 @@ impl Environment {
             None => {
                 return Err(refuse(format!(
                     "expected 2:1 (lat-long) or a square (equal-area), found {width} x {height}; \
-                     `lights env convert IN OUT --from MAP` makes one of a map of another shape"
+                     say which map it is"
                 )));
             }
         };
         let image = image
             .to_light()
             .map_err(|error| refuse(error.to_string()))?;
-        Ok(Self {
-            image,
-            map,
-            warning,
-        })
-    }
-
-    /// Reads an image as [`read`](Self::read) does, and prints what was repaired of it.
-    ///
-    /// # Errors
-    /// As for [`read`](Self::read).
-    pub(super) fn read_aloud(path: &Path, map: Option<MapName>) -> Result<Self, Failure> {
-        let read = Self::read(path, map)?;
-        report_warnings(read.warning.as_slice());
-        Ok(read)
-    }
-
-    /// The sky of this map around a scene, turned by `transform`.
-    pub(super) fn sky(self, transform: Affine3A) -> LightDesc<Rgb> {
-        LightDesc::ImageInfinite(ImageInfiniteLightDesc {
-            transform,
-            map: match self.map {
-                SphereMap::LatLong => EnvironmentMap::LatLong(self.image),
-                SphereMap::EqualArea => EnvironmentMap::EqualArea(self.image),
-            },
-            amount: RadianceAmount::default(),
-        })
+        Ok(Self { image, map })
     }
 }
 

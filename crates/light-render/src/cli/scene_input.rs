@@ -3,11 +3,12 @@ use std::path::{Path, PathBuf};
 
 use crate::World;
 use clap::Args;
-use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, is_scene_name};
+use light_scene::{
+    BuiltinScene, Diagnostic, Emission, Image, Scene, is_scene_name, read_environment,
+};
 use lights::glam::{Affine3A, Quat, Vec3};
 
 use super::arguments::{Emit, finite};
-use super::environment::Environment;
 use super::failure::Failure;
 use super::light_args::{LightArgs, up};
 use super::output_file::{expect_another, refuse};
@@ -26,7 +27,7 @@ pub(crate) struct SceneInput {
 /// What is changed in a scene, for commands with an argument `scene`.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneChanges {
-    /// An environment around the scene: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
+    /// A lat-long environment around the scene: .exr, .hdr or .png.
     #[arg(long, value_name = "IMAGE", requires = "scene")]
     pub(crate) env: Option<PathBuf>,
     /// Turn the environment so far about the upward axis, counter-clockwise as seen from above.
@@ -59,12 +60,13 @@ impl SceneInput {
         } = &self.changes;
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = env {
-            let mut environment = Environment::read(path, None)?;
-            scene.warnings.extend(environment.warning.take());
+            let file = read_environment(path).map_err(Failure::input)?;
+            scene.warnings.extend(file.warning);
+            scene.warnings.extend(doubt_of_shape(path, &file.image));
             let up = up(&self.scene, &scene);
             let turn = Quat::from_axis_angle(up, env_rotate.unwrap_or(0.0).to_radians());
             let turned = Affine3A::from_quat(turn * Quat::from_rotation_arc(Vec3::Y, up));
-            scene.lights.push(environment.sky(turned));
+            scene.add_sky(&file.image, turned).map_err(Failure::input)?;
         }
         for Emit { material, radiance } in emit {
             let mut named = scene
@@ -162,6 +164,18 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
             None => format!("expected a scene file, .obj, .pbrt, .gltf or .glb; or {error}"),
         };
         Failure::input(Diagnostic::file(path, message))
+    })
+}
+
+/// What is said of an environment that is taken as lat-long and hardly is one.
+fn doubt_of_shape(path: &Path, image: &Image) -> Option<Diagnostic> {
+    let (width, height) = (image.width(), image.height());
+    (width != 2 * height).then(|| {
+        let message = format!(
+            "expected 2:1, a lat-long map, found {width} x {height}; it is taken as lat-long \
+             (`lights env convert` makes one of an equal-area map)"
+        );
+        Diagnostic::file(path, message)
     })
 }
 
