@@ -74,8 +74,8 @@ usage: cargo xtask [COMMAND]
   deny                        check licences, sources and advisories of dependencies
   gpu [QUERIES [SET]]         the shaders of light-gpu against the crates, on this machine's driver
                               or on Mesa's from Debian (default: 2^20 queries a set; with SET
-                              of those that have it in their names); the CUDA kernels, assembled,
-                              and compared where there is a GPU
+                              of those that have it in their names); the CUDA kernels: made from
+                              these sources, assembled, and compared where there is a GPU
   mutants [CRATE] [COUNT|all|missed] [OFFSET]
                               break the core crates on purpose: does a test notice?
                               (default: 60 mutants a crate)

@@ -57,6 +57,11 @@ fn the_report_of_the_assembler_is_read() {
     assert!(fatal.contains("no such file"), "{fatal}");
 }
 
+#[test]
+fn committed_kernels_are_made_from_these_sources() {
+    assert_eq!(is_current(), Ok(Outcome::Passed));
+}
+
 /// Without an assembler: what is committed keeps the rule.
 #[test]
 fn committed_kernels_are_rounded_as_on_a_cpu() {
