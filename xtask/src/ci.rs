@@ -3,7 +3,9 @@
 use crate::check::WorkspaceTests;
 use crate::steps::{Outcome, Steps, cargo, run};
 use crate::tools::Install;
-use crate::{api, check, counts, crates, dependencies, fuzz, no_std, oldest, packages, tint};
+use crate::{
+    api, check, counts, crates, dependencies, embedded, fuzz, no_std, oldest, packages, tint,
+};
 
 /// Seconds that each fuzz target gets.
 const FUZZ_SECONDS: u32 = 5;
@@ -12,6 +14,7 @@ const FUZZ_SECONDS: u32 = 5;
 pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     check::add_steps(steps, tests);
     no_std::add_steps(steps);
+    embedded::add_steps(steps, &[]);
     oldest::add_steps(steps);
     packages::add_steps(steps);
     steps.run("dependencies of each crate alone", || crates::crates(&[]));

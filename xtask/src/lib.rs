@@ -40,8 +40,9 @@ const USAGE: &str = "\
 usage: cargo xtask [COMMAND]
 
   (none)                      format, imports, lints, tests over each feature set, documentation
-  ci [--tested]               the same, bare targets, the oldest toolchain, packages, fuzz smoke,
-                              instruction counts (--tested: `cargo test --workspace` ran before)
+  ci [--tested]               the same, bare targets, microcontrollers in an emulator, the oldest
+                              toolchain, packages, fuzz smoke, instruction counts
+                              (--tested: `cargo test --workspace` ran before)
   conformance [DIR]           check the reference vectors (default: testdata/pbrt)
   conformance --self-test [DIR]
                               change each of our answers and demand that its case fails
