@@ -21,6 +21,7 @@ const LIGHT_MIN_DIFFUSE: f32 = 0.02;
 const LIGHT_MIN_HALF_SQ: f32 = 1e-5;
 const LIGHT_NEAREST: f32 = 1e-8;
 const LIGHT_NEARNESS: f32 = 0.2;
+const LIGHT_NEAR_POINT: f32 = 16.0;
 const LIGHT_PLACES: f32 = 4.0;
 const LIGHT_RAMP_BY_POSITION: f32 = 11.0;
 const LIGHT_ROUND_OFF: f32 = 1e-5;
@@ -314,6 +315,8 @@ struct LightNode {
     // The largest power of a child, as a share of the tree's.
     gain: f32,
     has_sheets: bool,
+    // Whether a subtree is a point in codes of the node.
+    has_points: bool,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -368,9 +371,10 @@ fn light_node(first: u32) -> LightNode {
     node.inner = (links.z >> 16u) & 0xffu;
     node.count = links.z >> 24u;
     node.parent = links.w;
-    // The sign of the gain is a flag.
-    node.gain = bitcast<f32>((links.z & 0x7fffu) << 16u);
+    // The two top bits of the gain are flags.
+    node.gain = bitcast<f32>((links.z & 0x3fffu) << 16u);
     node.has_sheets = (links.z & 0x8000u) != 0u;
+    node.has_points = (links.z & 0x4000u) != 0u;
     return node;
 }
 
@@ -712,7 +716,7 @@ fn light_tree_descend(
     var rest = u;
     for (var level = 0u; level < LIGHT_MAX_DEPTH && index < tree.node_count; level++) {
         var node = light_node(tree.nodes + 14u * index);
-        let chosen = light_choose(light_parts(light_trusted_weights(&node, receiver)), rest);
+        let chosen = light_choose(light_parts(light_resolved_weights(tree, &node, receiver)), rest);
         if chosen.parts == 0u {
             return none;
         }
@@ -762,7 +766,7 @@ fn light_tree_pmf(tree: LightTree, receiver: LightReceiver, light: u32) -> f32 {
     while slot != LIGHT_NOWHERE && levels < LIGHT_MAX_DEPTH {
         let child = slot & 15u;
         var node = light_node(tree.nodes + 14u * (slot >> 4u));
-        var parts = light_parts(light_trusted_weights(&node, receiver));
+        var parts = light_parts(light_resolved_weights(tree, &node, receiver));
         shares[levels] = f32(parts.lanes[child >> 2u][child & 3u]) * (1.0 / 65536.0);
         levels++;
         slot = node.parent;
@@ -782,7 +786,7 @@ fn light_tree_irradiance(tree: LightTree, receiver: LightReceiver) -> f32 {
         return 0.0;
     }
     var node = light_node(tree.nodes);
-    let weights = light_trusted_weights(&node, receiver);
+    let weights = light_resolved_weights(tree, &node, receiver);
     return light_irradiance(weights.total, weights.inv_unit, node.gain);
 }
 
@@ -822,6 +826,47 @@ fn light_parts(weights: LightWeights) -> LightParts {
     return parts;
 }
 
+// The weights of the children of a node. A subtree that is a point in codes of the node, and near,
+// counts by the weights of its own children.
+fn light_resolved_weights(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+) -> LightWeights {
+    var weights = light_trusted_weights(node, receiver);
+    if !(*node).has_points {
+        return weights;
+    }
+    let near = LIGHT_NEAR_POINT / (*node).inv_scale + light_reach(receiver);
+    for (var k = 0u; k < (*node).inner; k++) {
+        let word = k >> 2u;
+        let lane = k & 3u;
+        let index = (*node).child_base + k;
+        // No extent is 0.
+        let extents = (*node).rows[3][word] | (*node).rows[4][word] | (*node).rows[5][word];
+        let is_point = (extents >> (8u * lane) & 0xffu) == 1u;
+        if is_point && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
+            var child = light_node(tree.nodes + 14u * index);
+            let away = child.origin - receiver.p;
+            if dot(away, away) < near * near {
+                let own = light_trusted_weights(&child, receiver);
+                let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
+                let weight = light_positive_product(own.total, scale);
+                weights.lanes[word][lane] = min(weight, LIGHT_MAX / 16.0);
+            }
+        }
+    }
+    return light_with_least_share(weights);
+}
+
+// The factor that makes weights, of a node whose largest power is `gain`, those of one where it is 1
+// and one over the unit of length is `inv_unit`. Where distances differ by more than LIGHT_MAX_ZOOM,
+// weights lose their proportion and keep their sign.
+fn light_weight_scale(weights: LightWeights, inv_unit: f32, gain: f32) -> f32 {
+    let zoom = min(weights.inv_unit / inv_unit, LIGHT_MAX_ZOOM);
+    return max(gain * zoom * zoom, LIGHT_MIN);
+}
+
 // In codes of the node, or in a unit in which none of them vanishes.
 fn light_trusted_weights(node: ptr<function, LightNode>, receiver: LightReceiver) -> LightWeights {
     let weights = light_weights(node, receiver, light_frame_in_codes(*node, receiver.p));
@@ -846,14 +891,20 @@ fn light_weights(
         let width = light_width(children);
         weights.angular_size_sq[word] = width * width * (1.0 / children.dist_sq);
     }
+    weights.inv_unit = frame.inv_unit;
+    return light_with_least_share(weights);
+}
+
+// The same where each child that can contribute has its least share of the sum of all.
+fn light_with_least_share(weights: LightWeights) -> LightWeights {
+    var raised = weights;
     let least = vec4<f32>(light_total(weights.lanes) * LIGHT_LEAST_SHARE);
     for (var word = 0u; word < 4u; word++) {
         let lanes = weights.lanes[word];
-        weights.lanes[word] = select(vec4<f32>(0.0), max(lanes, least), lanes > vec4<f32>(0.0));
+        raised.lanes[word] = select(vec4<f32>(0.0), max(lanes, least), lanes > vec4<f32>(0.0));
     }
-    weights.total = light_total(weights.lanes);
-    weights.inv_unit = frame.inv_unit;
-    return weights;
+    raised.total = light_total(raised.lanes);
+    return raised;
 }
 
 fn light_total(lanes: array<vec4<f32>, 4>) -> f32 {
@@ -902,7 +953,7 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
     // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
     for (var index = 0u; index < count; index++) {
         var node = light_node(tree.nodes + 14u * cut.nodes[index]);
-        var weights = light_trusted_weights(&node, receiver);
+        var weights = light_resolved_weights(tree, &node, receiver);
         if index == 0u {
             cut.inv_unit = weights.inv_unit;
         }
@@ -1007,7 +1058,7 @@ fn light_cut_pmf(cut: ptr<function, LightCut>, light: u32) -> f32 {
             pmf = light_positive_product(f32(of_node) * (1.0 / 65536.0), within);
             break;
         }
-        var parts = light_parts(light_trusted_weights(&node, (*cut).receiver));
+        var parts = light_parts(light_resolved_weights(tree, &node, (*cut).receiver));
         shares[levels] = f32(parts.lanes[child >> 2u][child & 3u]) * (1.0 / 65536.0);
         levels++;
         slot = node.parent;
@@ -1036,16 +1087,14 @@ fn light_cut_weights(
     node: ptr<function, LightNode>,
     index: u32,
 ) -> LightWeights {
-    let weights = light_trusted_weights(node, (*cut).receiver);
+    let weights = light_resolved_weights((*cut).tree, node, (*cut).receiver);
     let scaled = light_cut_scaled(weights, (*node).gain, (*cut).inv_unit);
     return light_cut_unopened(scaled, (*cut).opened[index]);
 }
 
-// Weights of a node in the root's unit. Where distances differ by more than LIGHT_MAX_ZOOM, they
-// lose their proportion and keep their sign.
+// Weights of a node in the root's unit.
 fn light_cut_scaled(weights: LightWeights, gain: f32, inv_unit: f32) -> LightWeights {
-    let zoom = min(weights.inv_unit / inv_unit, LIGHT_MAX_ZOOM);
-    return light_cut_times(weights, max(gain * zoom * zoom, LIGHT_MIN));
+    return light_cut_times(weights, light_weight_scale(weights, inv_unit, gain));
 }
 
 // Weights times a factor above 0: what is above 0 stays so.

@@ -1,6 +1,6 @@
 //! What a port of the queries to another language has to know.
 
-use crate::cut::grow::{MAX_REVISION, MAX_ZOOM};
+use crate::cut::grow::MAX_REVISION;
 use crate::cut::light_cut;
 use crate::importance::child_importance::{
     BOX_EMISSION, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
@@ -13,11 +13,12 @@ use crate::importance::segment::{BENT, NEAREST, PLACES};
 use crate::importance::sheet;
 use crate::node::sheet_code::CORRELATION;
 use crate::node::spread_code::LEAST_SPREAD;
-use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL};
+use crate::query::points::NEAR_POINT;
+use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 28] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 29] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
@@ -37,6 +38,7 @@ pub const QUERY_CONSTANTS: [(&str, f32); 28] = [
     ("MIN_HALF_SQ", MIN_HALF_SQ),
     ("NEAREST", NEAREST),
     ("NEARNESS", NEARNESS),
+    ("NEAR_POINT", NEAR_POINT),
     ("PLACES", PLACES as f32),
     ("RAMP_BY_POSITION", RAMP_BY_POSITION),
     ("ROUND_OFF", ROUND_OFF),

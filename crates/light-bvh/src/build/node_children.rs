@@ -1,9 +1,13 @@
 use crate::build::split_group::SplitGroup;
-use crate::node::wide_node::WIDTH;
+use crate::node::wide_node::{MAX_DEPTH, WIDTH};
 
 /// A smaller part of the size of a node is not split there: it would be 8 codes of the node wide,
 /// too few to tell its lights apart. A node of its own describes it in codes of its own size.
 const LEAST_SIZE: f32 = 8.0 / 255.0;
+
+/// A part of several places below this size of a node is one point in codes of the node. Its lights
+/// do not become children of that node: a receiver among them could not tell them apart.
+const POINT_SIZE: f32 = 1.0 / 255.0;
 
 /// The gain of a group that stays whole.
 const NOT_TO_SPLIT: f32 = -1.0;
@@ -36,8 +40,15 @@ impl<G: SplitGroup> NodeChildren<G> {
             count: 1,
             singles: 0,
         };
-        let least_size = LEAST_SIZE * whole.size();
-        let gain = |group: &G| gain(group, depth_limited, least_size);
+        let size = whole.size();
+        // A few lights are children of one node, unless some are points there: only the root, whose
+        // lights nothing has divided before, is searched for these.
+        let few = if levels == MAX_DEPTH && whole.lights() <= WIDTH {
+            1
+        } else {
+            WIDTH
+        };
+        let gain = |group: &G| gain(group, few, depth_limited, LEAST_SIZE * size);
         children.gains[0] = gain(&whole);
         children.groups[0] = Some(whole);
         while let Some(index) = children.best_to_split() {
@@ -57,7 +68,7 @@ impl<G: SplitGroup> NodeChildren<G> {
             children.groups[index + 1] = Some(right);
             children.count += 1;
         }
-        children.dissolve();
+        children.dissolve(POINT_SIZE * size);
         children
     }
 
@@ -75,15 +86,17 @@ impl<G: SplitGroup> NodeChildren<G> {
         best
     }
 
-    /// Puts the lights of small groups into the slots that are free.
-    fn dissolve(&mut self) {
+    /// Puts the lights of small groups into the slots that are free, but those of groups of several
+    /// places that are smaller than `point_size`.
+    fn dissolve(&mut self, point_size: f32) {
         let mut free = WIDTH - self.count;
         for (k, group) in self.groups.iter().enumerate() {
             self.singles |= u16::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
         }
         while let Some(k) = self.best(|k, group| {
             let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
-            fits.then(|| group.cost())
+            let is_point = 0.0 < group.size() && group.size() < point_size;
+            (fits && !is_point).then(|| group.cost())
         }) {
             free -= self.groups[k].as_ref().map_or(1, G::lights) - 1;
             self.singles |= 1 << k;
@@ -142,8 +155,8 @@ impl<G: SplitGroup> NodeChildren<G> {
 
 /// What splitting `group` may gain, at least 0 if it needs a node of its own anyway, and below if
 /// it is not to be split.
-fn gain<G: SplitGroup>(group: &G, depth_limited: bool, least_size: f32) -> f32 {
-    if group.lights() <= WIDTH || !group.is_divisible() {
+fn gain<G: SplitGroup>(group: &G, few: usize, depth_limited: bool, least_size: f32) -> f32 {
+    if group.lights() <= few || !group.is_divisible() {
         NOT_TO_SPLIT
     } else if depth_limited {
         group.lights() as f32
@@ -196,5 +209,29 @@ mod tests {
             assert_eq!((near.count, near.inner), (16, 16), "{mode:?}: near");
             assert_eq!((far.count, far.inner), (2, 2), "{mode:?}: far");
         }
+    }
+
+    /// Three lamps in a room and one 10,000 times as far away as the room is wide.
+    #[test]
+    fn a_few_lights_that_are_points_beside_another_have_a_node_of_their_own() {
+        let point = |x: f32| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(Vec3::new(x, 0.5 * x, 0.0)),
+                w: Vec3::Z,
+                phi: 1.0,
+                cos_theta_o: -1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        };
+        let nodes = |places: &[f32]| {
+            let lights: Vec<_> = places.iter().map(|&x| point(x)).collect();
+            let tree = LightBvh::build(&lights).expect("valid lights");
+            let counts = tree.nodes.iter().map(|node| (node.count, node.inner));
+            counts.collect::<Vec<_>>()
+        };
+        assert_eq!(nodes(&[0.0, 0.4, 1.0, 1e4]), [(2, 1), (3, 0)], "far");
+        assert_eq!(nodes(&[0.0, 0.4, 1.0, 10.0]), [(4, 0)], "near");
+        assert_eq!(nodes(&[1.0, 1.0, 1.0, 1e4]), [(4, 0)], "one place");
     }
 }

@@ -12,10 +12,6 @@ use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query, QueryFor};
 use crate::query::weights::{Weights, total};
 use crate::simd::dispatch;
 
-/// How much more a nearer node may count per unit of its weight: where distances differ by more
-/// than 2^30, weights lose their proportion and keep their sign.
-pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
-
 /// How many times less or more an opened group may count than it was estimated: a few lights near
 /// the receiver, or a beam beside it, would take nearly all of the choices from the other groups.
 pub(crate) const MAX_REVISION: f32 = 16.0;
@@ -83,14 +79,14 @@ impl Query for Grow<'_, '_> {
             let Some(node) = tree.nodes().get(cut.nodes[index] as usize) else {
                 break;
             };
-            let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
+            let (weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
+            let mut weights = tree.resolve_points(node, receiver, weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }
             tree.prefetch_below(node);
-            let zoom = (weights.inv_unit / cut.inv_unit).min(MAX_ZOOM);
-            let mut scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            let mut scale = weights.scale_to(cut.inv_unit, node.gain());
             if index > 0 {
                 let revision = revision(weights.total * scale, cut.totals[index]);
                 scale = positive_product(scale, revision).min(f32::MAX);

@@ -1,4 +1,4 @@
-use light_math::float;
+use light_math::float::{self, inverse_power_of_two};
 use light_math::glam::Vec3;
 
 use crate::lane_math::LaneMask;
@@ -170,29 +170,4 @@ pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32) -> f32 {
     let [x, y, z] = mean;
     let width = extent[0] + extent[1] + extent[2];
     (x * x + y * y) + (z * z + variance * (width * width))
-}
-
-/// One over the largest power of two that is not above `x`, which is below 2^127.
-fn inverse_power_of_two(x: f32) -> f32 {
-    let exponent = x.to_bits() & 0x7f80_0000;
-    f32::from_bits((254 << 23) - exponent)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn inverse_powers_of_two_are_exact() {
-        for (x, inv) in [
-            (1.0, 1.0),
-            (1.99, 1.0),
-            (2.0, 0.5),
-            (0.3, 4.0),
-            (1e36, 1.504_632_8e-36),
-        ] {
-            assert_eq!(inverse_power_of_two(x), inv, "{x}");
-        }
-        assert!(inverse_power_of_two(0.0).is_finite(), "zero");
-    }
 }

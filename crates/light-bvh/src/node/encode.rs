@@ -1,7 +1,7 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::wide_node::{HAS_SHEETS, WIDTH, WideNode, encode_power};
+use crate::node::wide_node::{HAS_POINTS, HAS_SHEETS, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
@@ -52,6 +52,9 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
+        if self.points().next().is_some() {
+            self.gain |= HAS_POINTS;
+        }
     }
 
     #[inline(always)]
@@ -169,9 +172,9 @@ impl VectorWork for EncodeChildren<'_> {
     }
 }
 
-/// The upper half of the float, finite and above 0.
+/// The upper half of the float, above 0 and at most 1.
 fn encode_gain(power: f32) -> u16 {
-    ((power.clamp(f32::MIN_POSITIVE, 1e30).to_bits() + 0x8000) >> 16) as u16
+    ((power.clamp(f32::MIN_POSITIVE, 1.0).to_bits() + 0x8000) >> 16) as u16
 }
 
 #[cfg(test)]

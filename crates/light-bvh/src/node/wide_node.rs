@@ -31,7 +31,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 204 | `inv_scale` | |
 /// | 208 | `child_base` | |
 /// | 212 | `light_base` | |
-/// | 216 | `gain` | upper half of an `f32`: the largest share of a child; its sign: has sheets |
+/// | 216 | `gain` | upper half of an `f32`: the largest share of a child; its top bits: two flags |
 /// | 218 | `inner` | |
 /// | 219 | `count` | children in all |
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
@@ -41,10 +41,13 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// of axis and offset has six bits, of which three are the exponent: 0.52 to 122. A power has five
 /// bits of exponent and three of mantissa, less their value for 0.
 ///
-/// The share of a child is that of the tree's power. A group of flat lights that lie in a thin
-/// slanted sheet has offset 0, and the byte tells instead how positions along the axes are
-/// correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c` are -2 to 2, for x and y, y and
-/// z, z and x. No offset of a group of ramps is above 0 otherwise.
+/// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
+/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is a point, whose extents
+/// are 1 in codes: near it the subtree's own node tells more.
+///
+/// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
+/// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
+/// are -2 to 2, for x and y, y and z, z and x. No offset of a group of ramps is above 0 otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]
@@ -81,6 +84,9 @@ pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 /// The bit of [`WideNode::gain`] that is set where a child is a sheet.
 pub(crate) const HAS_SHEETS: u16 = 1 << 15;
 
+/// The bit of [`WideNode::gain`] that is set where a subtree is a point in codes of the node.
+pub(crate) const HAS_POINTS: u16 = 1 << 14;
+
 impl WideNode {
     /// A node without children.
     pub const EMPTY: Self = Self {
@@ -104,13 +110,27 @@ impl WideNode {
     #[inline]
     #[must_use]
     pub(crate) const fn gain(&self) -> f32 {
-        f32::from_bits(((self.gain & !HAS_SHEETS) as u32) << 16)
+        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_POINTS)) as u32) << 16)
     }
 
     /// Whether a child may be a group of lights in a thin slanted sheet.
     #[inline(always)]
     pub(crate) const fn has_sheets(&self) -> bool {
         self.gain & HAS_SHEETS != 0
+    }
+
+    /// Whether a child is a subtree so small that its lights are at one place in codes of the node.
+    #[inline(always)]
+    pub(crate) const fn has_points(&self) -> bool {
+        self.gain & HAS_POINTS != 0
+    }
+
+    /// These children.
+    #[inline]
+    pub(crate) fn points(&self) -> impl Iterator<Item = usize> + use<'_> {
+        let [x, y, z] = &self.extent;
+        // No extent is 0.
+        (0..usize::from(self.inner).min(WIDTH)).filter(|&k| x[k] | y[k] | z[k] == 1)
     }
 }
 

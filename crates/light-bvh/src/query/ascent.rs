@@ -5,7 +5,6 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{MAX_DEPTH, NOWHERE, WIDTH};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::Query;
-use crate::query::weights::Weights;
 
 /// Probabilities that are known before the ascent.
 ///
@@ -68,8 +67,7 @@ impl LightBvhRef<'_> {
             else {
                 return 0.0;
             };
-            let mut weights = Weights::new(node, receiver);
-            self.leave_out(index, &mut weights);
+            let weights = self.weights(index, node, receiver);
             *share = weights.probability(child);
             levels += 1;
             slot = node.parent;

@@ -68,15 +68,17 @@ impl<'a> LightBvhRef<'a> {
     }
 
     /// The weights of the children of the node `index`: 0 for those without a light in the
-    /// requested groups. A descent does both steps itself: what this returns goes through memory.
-    #[inline(always)]
+    /// requested groups.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn weights<R: Receiver>(
         &self,
         index: usize,
         node: &WideNode,
         receiver: &R,
     ) -> Weights {
-        let mut weights = Weights::new(node, receiver);
+        let weights = Weights::new(node, receiver);
+        let mut weights = self.resolve_points(node, receiver, weights);
         self.leave_out(index, &mut weights);
         weights
     }

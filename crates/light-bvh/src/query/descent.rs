@@ -6,7 +6,6 @@ use crate::node::wide_node::MAX_DEPTH;
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
 use crate::query::select::Choice;
-use crate::query::weights::Weights;
 
 /// How many levels below the start of a descent the caches hold: they are not prefetched.
 const CACHED_LEVELS: usize = 2;
@@ -42,8 +41,7 @@ impl LightBvhRef<'_> {
             if level >= CACHED_LEVELS {
                 self.prefetch_below(node);
             }
-            let mut weights = Weights::new(node, receiver);
-            self.leave_out(index, &mut weights);
+            let weights = self.weights(index, node, receiver);
             let choice = weights.choose(u)?;
             pmf = positive_product(pmf, choice.probability);
             u = choice.u;

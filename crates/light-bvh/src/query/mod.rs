@@ -7,6 +7,7 @@ pub(crate) mod bvh_at;
 pub(crate) mod bvh_ref;
 pub(crate) mod descent;
 pub(crate) mod into_receiver;
+pub(crate) mod points;
 mod queries;
 pub(crate) mod select;
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]

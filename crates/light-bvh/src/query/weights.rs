@@ -17,6 +17,13 @@ pub(crate) const LEAST_TOTAL: f32 = 1e-10;
 /// low. Chosen by V: see `docs/light-bvh.md`.
 pub(crate) const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
+/// The largest weight of a child that is a sum of other weights: the sum of all is finite.
+pub(crate) const LARGEST_WEIGHT: f32 = f32::MAX / WIDTH as f32;
+
+/// How much more a nearer node may count per unit of its weight: where distances differ by more
+/// than 2^30, weights lose their proportion and keep their sign.
+pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
+
 /// Whether the codes of four children are loaded at once. A GPU does not compute children side by
 /// side, and each of its loads costs the same, of a byte or a word.
 const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
@@ -42,8 +49,8 @@ impl Weights {
 
     /// The weights of the children of `node` for `receiver`.
     // Without an operating system memory for code is short: all queries call one function.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(any(target_os = "none", target_arch = "nvptx64"), inline(never))]
+    #[cfg_attr(not(any(target_os = "none", target_arch = "nvptx64")), inline(always))]
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::in_codes(node, receiver.position());
         let weights = Self::in_frame(node, receiver, &frame, false, note_nothing);
@@ -79,6 +86,26 @@ impl Weights {
         }
     }
 
+    /// The factor that makes weights, of a node whose largest power is `gain`, those of one where it
+    /// is 1 and one over the unit of length is `inv_unit`; above 0.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    pub(crate) fn scale_to(&self, inv_unit: f32, gain: f32) -> f32 {
+        let zoom = (self.inv_unit / inv_unit).min(MAX_ZOOM);
+        (gain * zoom * zoom).max(f32::MIN_POSITIVE)
+    }
+
+    /// Gives each child that can contribute its least share of the sum of all.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    pub(crate) fn raise_to_least_share(&mut self) {
+        let least = total(self.lanes) * LEAST_SHARE;
+        for weight in &mut self.lanes {
+            *weight = LaneMask::when(*weight > 0.0).keep(larger(*weight, least));
+        }
+        self.total = total(self.lanes);
+    }
+
     /// Sets the weights of children without a light in a `wanted` group to 0.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
@@ -106,16 +133,16 @@ impl Weights {
         if node.has_sheets() {
             dispatch(WithSheets { node, receiver })
         } else {
-            Self::from_afar::<R, false>(node, receiver)
+            Self::from_afar(node, receiver, false)
         }
     }
 
     /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
     /// weights in codes underflow.
     #[cold]
-    fn from_afar<R: Receiver, const SHEETS: bool>(node: &WideNode, receiver: &R) -> Self {
+    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R, sheets: bool) -> Self {
         let frame = NodeFrame::from_afar(node, receiver.position(), receiver.reach());
-        Self::in_frame(node, receiver, &frame, SHEETS, note_nothing)
+        Self::in_frame(node, receiver, &frame, sheets, note_nothing)
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that
@@ -146,15 +173,13 @@ impl Weights {
                 note(k, &child);
             }
         }
-        let least = total(lanes) * LEAST_SHARE;
-        for weight in &mut lanes {
-            *weight = LaneMask::when(*weight > 0.0).keep(larger(*weight, least));
-        }
-        Self {
+        let mut weights = Self {
             lanes,
-            total: total(lanes),
+            total: 0.0,
             inv_unit: frame.inv_unit,
-        }
+        };
+        weights.raise_to_least_share();
+        weights
     }
 }
 
@@ -175,7 +200,7 @@ impl<R: Receiver> VectorWork for WithSheets<'_, R> {
         if is_trusted(weights.total, &frame, receiver) {
             weights
         } else {
-            Weights::from_afar::<R, true>(node, receiver)
+            Weights::from_afar(node, receiver, true)
         }
     }
 }

@@ -7,7 +7,6 @@ use core::borrow::Borrow;
 use light_bounds::LightSampleContext;
 use light_math::float::positive_product;
 
-use crate::cut::grow::MAX_ZOOM;
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
@@ -57,8 +56,7 @@ impl Query for Add<'_, '_> {
                 return;
             };
             let weights = self.tree.weights(index as usize, node, receiver);
-            let zoom = (weights.inv_unit / unit).min(MAX_ZOOM);
-            let scale = (node.gain() * zoom * zoom).max(f32::MIN_POSITIVE);
+            let scale = weights.scale_to(unit, node.gain());
             for (sum, weight) in sums.iter_mut().zip(weights.lanes) {
                 let importance = positive_product(weight, scale).min(MAX_IMPORTANCE);
                 *sum += importance * self.share;
