@@ -7,8 +7,9 @@ use crate::uv_polygon::UvPolygon;
 /// The most texels of a polygon along each axis.
 const SIDE: usize = 32;
 
-/// The least area of a polygon relative to its bounds: rounding errors scale with the bounds.
-const FILLED: f64 = 1e-6;
+/// The least area of a polygon relative to its bounds, which count as no smaller than a texel:
+/// rounding errors scale with them.
+const FILLED: f64 = 1e-7;
 
 /// The mean of an image over a polygon, exact.
 ///
@@ -21,9 +22,10 @@ pub(crate) fn mean_by_rows(image: &Image, wrap: [Wrap; 2], polygon: &UvPolygon) 
     let [min, max] = polygon.place_bounds().map(|place| place * size - 0.5);
     let origin = DVec2::new(floor(min.x), floor(min.y));
     let extent = max - origin;
-    let filled = polygon.place_area() * size.x * size.y;
+    let bounds = extent.max(DVec2::ONE);
+    let least = FILLED * bounds.x * bounds.y;
     let is_small = extent.max_element() <= SIDE as f64;
-    if !(is_small && filled > FILLED * extent.x * (max.y - min.y)) {
+    if !(is_small && polygon.place_area() * size.x * size.y > least) {
         return None;
     }
     let corners = polygon.corners().iter();
@@ -54,7 +56,8 @@ pub(crate) fn mean_by_rows(image: &Image, wrap: [Wrap; 2], polygon: &UvPolygon) 
         }
         y += 1.0;
     }
-    Some(sum / area)
+    // Far from the image the places are rounded so much that another area may be left.
+    (area.abs() > 0.5 * least).then(|| sum / area)
 }
 
 /// The texels of a row and the integrals from the first of them.

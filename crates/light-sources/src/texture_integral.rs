@@ -133,6 +133,7 @@ impl<'a> Integral<'a> {
             return Vec3::ZERO;
         }
         let exact = self.colors.sum / self.colors.total;
+        debug_assert!(!exact.is_nan(), "the mean of finite colours");
         // A mean below the float range is not quite black.
         let darkest = self.nearby.map(|x| {
             if x > 0.0 {
