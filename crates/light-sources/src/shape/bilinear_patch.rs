@@ -201,16 +201,14 @@ impl Shape for BilinearPatch {
             return Some(DirectionSample { at, ..sample });
         }
         let ShapeSample { at, pdf } = self.sample(u)?;
-        let to_light = at.p - ctx.p;
+        // Not by way of `at.p`, whose rounding grows with the coordinates of the scene.
+        let to_light = self.along(self.p00 - ctx.p, at.uv);
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
         if self.bend == Bend::Twisted {
-            // The same distance, up to rounding at a grazing angle.
-            let same = 1.0 - (16.0 * f32::EPSILON / at.n.dot(wi).abs()).min(1e-3);
             let (met, t) = self.intersect(ctx.p, wi)?;
-            // A ray that meets the patch twice meets it from both sides. In a flat patch that folds
-            // over itself both are as far away.
-            let is_other_side = self.scaled_normal(met).dot(wi) * at.n.dot(wi) < 0.0;
-            if t < same * to_light.length() || is_other_side {
+            // A ray that meets the patch twice meets it from both sides, even in a flat patch that
+            // folds over itself, where both are as far away.
+            if self.scaled_normal(met).dot(wi) * at.n.dot(wi) < 0.0 {
                 return None;
             }
             // At the silhouette a rounding of the direction changes the density by much.

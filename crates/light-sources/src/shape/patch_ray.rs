@@ -53,7 +53,7 @@ impl BilinearPatch {
     }
 
     /// From the origin of a ray, which sees the first corner at `from`, to the point at `uv`.
-    fn along(&self, from: Vec3, uv: Vec2) -> Vec3 {
+    pub(super) fn along(&self, from: Vec3, uv: Vec2) -> Vec3 {
         from + self.du * uv.x + (self.dv + self.duv * uv.x) * uv.y
     }
 

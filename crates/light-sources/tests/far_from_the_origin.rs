@@ -1,0 +1,128 @@
+//! Shapes far from the origin of the scene, where coordinates have few digits: samples bring the
+//! light that the shape with its rounded corners emits.
+
+use core::f64::consts::PI;
+
+use light_bounds::LightSampleContext;
+use light_math::glam::{DVec3, Quat, Vec3};
+use light_sources::shape::{AnyShape, Shape, ShapeDesc};
+use light_testkit::{Estimate, Rng};
+
+const OFFSETS: [f32; 7] = [0.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0];
+
+/// A trapezoid, a kite, and two bent patches: corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+fn quads() -> [(&'static str, [Vec3; 4]); 4] {
+    let quad = |[c, d]: [[f32; 3]; 2]| [Vec3::ZERO, Vec3::X, c.into(), d.into()];
+    [
+        ("trapezoid", quad([[0.1, 1.5, 0.0], [0.8, 1.5, 0.0]])),
+        ("kite", quad([[0.0, 1.0, 0.0], [1.4, 1.4, 0.0]])),
+        ("slightly bent", quad([[0.1, 1.5, 0.0], [0.8, 1.5, 0.05]])),
+        ("bent", quad([[0.1, 1.5, 0.0], [0.8, 1.5, 0.5]])),
+    ]
+}
+
+/// The cosine-weighted solid angle of a patch that hides no part of itself, in double precision.
+fn irradiance(corners: [Vec3; 4], p: Vec3, n: Vec3) -> f64 {
+    const STEPS: u32 = 200;
+    let [a, b, c, d] = corners.map(|corner| corner.as_dvec3() - p.as_dvec3());
+    let n = n.as_dvec3();
+    let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
+    let cells = (0..STEPS * STEPS).map(|i| (middle(i % STEPS), middle(i / STEPS)));
+    let arriving = |(u, v)| {
+        let to: DVec3 = a.lerp(b, u).lerp(c.lerp(d, u), v);
+        let normal = (b - a).lerp(d - c, v).cross((c - a).lerp(d - b, u));
+        let dist_sq = to.length_squared();
+        to.dot(normal).abs() * to.dot(n).max(0.0) / (dist_sq * dist_sq)
+    };
+    cells.map(arriving).sum::<f64>() / f64::from(STEPS * STEPS)
+}
+
+/// Samples from one receiver: their estimate of the irradiance, and how many there are none of.
+fn sampled(shape: &AnyShape, ctx: &LightSampleContext, n: Vec3, rng: &mut Rng) -> (Estimate, u32) {
+    let mut missing = 0;
+    let estimate = Estimate::of(COUNT, || {
+        let Some(sample) = shape.sample_toward(ctx, rng.vec2()) else {
+            missing += 1;
+            return 0.0;
+        };
+        let queried = shape.pdf_toward(ctx, sample.wi);
+        assert!(
+            (queried - sample.pdf).abs() <= 1e-3 * sample.pdf,
+            "{shape:?} from {}: queried {queried}, {sample:?}",
+            ctx.p
+        );
+        f64::from(n.dot(sample.wi).max(0.0) / sample.pdf)
+    });
+    (estimate, missing)
+}
+
+const COUNT: u32 = 20_000;
+
+#[test]
+fn quads_bring_all_of_their_light() {
+    let mut rng = Rng::new(6);
+    for (name, corners) in quads() {
+        for (offset, i) in OFFSETS
+            .into_iter()
+            .flat_map(|offset| [(offset, 0), (offset, 1)])
+        {
+            // Once along the axes, once turned.
+            let turn = [0.0, 0.8][i];
+            let turn = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 0.5).normalize(), turn);
+            let place = |p: Vec3| Vec3::new(1.0, 0.7, -0.3) * offset + turn * p;
+            let corners = corners.map(place);
+            let shape = ShapeDesc::Quad(corners).build().expect("a quad");
+            for side in [1.0, -1.0] {
+                let p = place(Vec3::new(0.5, 0.5, 2.0 * side));
+                let n = turn * Vec3::NEG_Z * side;
+                let ctx = LightSampleContext::surface(p, n, n);
+                let (estimate, missing) = sampled(&shape, &ctx, n, &mut rng);
+                let truth = irradiance(corners, p, n);
+                assert!(
+                    (estimate.mean - truth).abs() < estimate.margin(truth) + 1e-3 * truth,
+                    "{name} at {offset}, side {side}: {estimate:?} of {truth}"
+                );
+                assert!(
+                    missing <= COUNT / 1000,
+                    "{name} at {offset}, side {side}: {missing} of {COUNT} missing"
+                );
+            }
+        }
+    }
+}
+
+/// A patch that hides a part of itself: samples bring what rays find, and each ray has a density.
+#[test]
+fn hidden_parts_stay_hidden() {
+    let mut rng = Rng::new(8);
+    let corners = [
+        Vec3::ZERO,
+        Vec3::new(1.0, 0.0, 1.0),
+        Vec3::new(0.0, 1.0, 1.2),
+        Vec3::new(1.0, 1.0, -0.5),
+    ];
+    let p = Vec3::new(2.2, 1.9, 0.4);
+    for offset in OFFSETS {
+        let place = |p: Vec3| Vec3::new(1.0, 0.7, -0.3) * offset + p;
+        let shape = ShapeDesc::Quad(corners.map(place)).build().expect("a quad");
+        let n = (Vec3::splat(0.5) - p).normalize();
+        let ctx = LightSampleContext::surface(place(p), n, n);
+        let (estimate, missing) = sampled(&shape, &ctx, n, &mut rng);
+        let by_rays = Estimate::of(10 * COUNT, || {
+            let wi = rng.direction();
+            let is_hit = shape.hit(ctx.p, wi).is_some();
+            let pdf = shape.pdf_toward(&ctx, wi);
+            assert_eq!(is_hit, pdf > 0.0, "at {offset}: {wi}");
+            4.0 * PI * f64::from(n.dot(wi).max(0.0)) * f64::from(u8::from(is_hit))
+        });
+        assert!(
+            estimate.agrees_with_estimate(&by_rays),
+            "at {offset}: {estimate:?}, by rays {by_rays:?}"
+        );
+        let missing = f64::from(missing) / f64::from(COUNT);
+        assert!(
+            (missing - 0.29).abs() < 0.02,
+            "at {offset}: {missing} hidden"
+        );
+    }
+}
