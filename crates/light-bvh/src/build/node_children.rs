@@ -6,7 +6,8 @@ use crate::node::wide_node::{MAX_DEPTH, WIDTH};
 const LEAST_SIZE: f32 = 8.0 / 255.0;
 
 /// A part of several places below this size of a node is one point in codes of the node. Its lights
-/// do not become children of that node: a receiver among them could not tell them apart.
+/// do not become children of that node, but for a pair: a receiver among them could not tell them
+/// apart.
 const POINT_SIZE: f32 = 1.0 / 255.0;
 
 /// The gain of a group that stays whole.
@@ -68,7 +69,7 @@ impl<G: SplitGroup> NodeChildren<G> {
             children.groups[index + 1] = Some(right);
             children.count += 1;
         }
-        children.dissolve(POINT_SIZE * size);
+        children.dissolve(few.min(2), POINT_SIZE * size);
         children
     }
 
@@ -86,16 +87,16 @@ impl<G: SplitGroup> NodeChildren<G> {
         best
     }
 
-    /// Puts the lights of small groups into the slots that are free, but those of groups of several
-    /// places that are smaller than `point_size`.
-    fn dissolve(&mut self, point_size: f32) {
+    /// Puts the lights of small groups into the slots that are free, but those of groups of more than
+    /// `few` lights at several places that are smaller than `point_size`.
+    fn dissolve(&mut self, few: usize, point_size: f32) {
         let mut free = WIDTH - self.count;
         for (k, group) in self.groups.iter().enumerate() {
             self.singles |= u16::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
         }
         while let Some(k) = self.best(|k, group| {
             let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
-            let is_point = 0.0 < group.size() && group.size() < point_size;
+            let is_point = group.lights() > few && 0.0 < group.size() && group.size() < point_size;
             (fits && !is_point).then(|| group.cost())
         }) {
             free -= self.groups[k].as_ref().map_or(1, G::lights) - 1;
