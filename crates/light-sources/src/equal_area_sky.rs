@@ -1,5 +1,3 @@
-use alloc::vec::Vec;
-
 use crate::environment_table::EnvironmentTable;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
@@ -72,17 +70,66 @@ impl EqualAreaSky {
     }
 }
 
-fn means(image: &Image, averages: &Vec<f32>) -> SkyMeans {
+/// Texels along a side up to which a texel is wider than its centre can stand for.
+const FEW_TEXELS: u32 = 64;
+
+fn means(image: &Image, averages: &[f32]) -> SkyMeans {
     let n = image.size()[0];
+    // Points along each side of a texel: one where texels are small. An even number of points along
+    // the image mirrors the upper half of the sphere in the lower one.
+    let k = (2 * (FEW_TEXELS / n)).max(1);
     let (mut sum, mut weighted) = (0.0, RgbSum::default());
     for (i, &average) in (0..).zip(averages) {
-        let texel = Vec2::new((i % n) as f32, (i / n) as f32) + 0.5;
+        let corner = Vec2::new((i % n) as f32, (i / n) as f32);
         sum += f64::from(average);
-        weighted.add(square_to_sphere(texel / n as f32), f64::from(average));
+        for j in 0..k * k {
+            let point = (Vec2::new((j % k) as f32, (j / k) as f32) + 0.5) / k as f32;
+            let w = square_to_sphere((corner + point) / n as f32);
+            weighted.add(w, f64::from(average) / f64::from(k * k));
+        }
     }
     SkyMeans {
         color: image.mean(),
         average: single(sum / averages.len() as f64),
         direction: weighted.over(sum),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::channels::Channels;
+    use alloc::vec::Vec;
+
+    fn mean_direction(n: u32, texel: impl Fn(u32) -> f32) -> Vec3 {
+        let texels: Vec<f32> = (0..n * n).map(texel).collect();
+        let image = Image::from_f32([n, n], Channels::Gray, texels).expect("an image");
+        EqualAreaSky::new(&image).1.direction
+    }
+
+    #[test]
+    fn a_constant_sky_has_no_direction() {
+        for n in (1..=20).chain([63, 64, 65, 67, 100, 129]) {
+            let mean = mean_direction(n, |_| 0.7);
+            assert!(mean.length() < 1e-3, "{n} x {n}: {mean}");
+        }
+    }
+
+    /// A picture is the same sky at four times the texels.
+    #[test]
+    fn the_direction_is_that_of_the_whole_texel() {
+        for n in [1, 2, 3, 6, 7, 16] {
+            let few = |i: u32| {
+                if i % 3 == 0 {
+                    2.0
+                } else {
+                    f32::from(i == n / 2)
+                }
+            };
+            let fine = 256 / n * n;
+            let many = |i: u32| few(i / fine * n / fine * n + i % fine * n / fine);
+            let (few, many) = (mean_direction(n, few), mean_direction(fine, many));
+            assert!(few.distance(many) < 1e-3, "{n} x {n}: {few}, not {many}");
+        }
     }
 }
