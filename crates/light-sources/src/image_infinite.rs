@@ -85,8 +85,9 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         let transform = RigidTransform::new(desc.transform)?;
         let sky = sky(desc.map)?;
         let means = &sky.means;
-        if !(scale >= 0.0 && (means.color * scale).is_finite() && means.average.is_finite()) {
-            return Err(ImageInfiniteLightError::Amount);
+        ImageInfiniteLightError::check(means.color, scale)?;
+        if !means.average.is_finite() {
+            return Err(ImageInfiniteLightError::TooBright);
         }
         Ok(Self {
             transform,

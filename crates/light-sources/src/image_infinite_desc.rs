@@ -2,7 +2,7 @@ use core::error::Error;
 use core::fmt;
 
 use crate::amount::RadianceAmount;
-use crate::glam::Affine3A;
+use crate::glam::{Affine3A, Vec3};
 use crate::image::Image;
 use crate::resample::equal_area_size;
 use crate::rigid_transform::RigidTransformError;
@@ -72,7 +72,7 @@ impl EnvironmentMap {
                 let n = equal_area_size(image.size()[1]);
                 image
                     .resampled(SphereMap::LatLong, SphereMap::EqualArea, [n, n])
-                    .map_err(|_| ImageInfiniteLightError::Amount)
+                    .map_err(|_| ImageInfiniteLightError::TooBright)
             }
         }
     }
@@ -86,8 +86,23 @@ pub enum ImageInfiniteLightError {
     Transform(RigidTransformError),
     /// `map` is an equal-area image that is not square.
     NotSquare,
-    /// `map` is too bright to be summed, or `amount` negative, not finite, or too large for it.
+    /// `map` is too bright to be summed.
+    TooBright,
+    /// `amount` is negative, not finite, or too large for the map.
     Amount,
+}
+
+impl ImageInfiniteLightError {
+    /// Whether a map with this integral can be summed, and scaled.
+    pub(crate) fn check(integral: Vec3, scale: f32) -> Result<(), Self> {
+        if !integral.is_finite() {
+            Err(Self::TooBright)
+        } else if scale >= 0.0 && (integral * scale).is_finite() {
+            Ok(())
+        } else {
+            Err(Self::Amount)
+        }
+    }
 }
 
 impl fmt::Display for ImageInfiniteLightError {
@@ -95,7 +110,8 @@ impl fmt::Display for ImageInfiniteLightError {
         match self {
             Self::Transform(error) => error.fmt(f),
             Self::NotSquare => f.write_str("map: an equal-area image must be square"),
-            Self::Amount => f.write_str("amount: must be finite and not negative"),
+            Self::TooBright => f.write_str("map: too bright to be summed"),
+            Self::Amount => f.write_str("amount: must be finite, not negative, and fit the map"),
         }
     }
 }

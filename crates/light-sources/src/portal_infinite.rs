@@ -116,10 +116,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
         }
         let count = f64::from(n) * f64::from(n);
         let irradiance = irradiance.over(1.0);
-        let amount = PortalInfiniteLightError::Sky(ImageInfiniteLightError::Amount);
-        if !(scale >= 0.0 && (irradiance * scale).is_finite()) {
-            return Err(amount);
-        }
+        ImageInfiniteLightError::check(irradiance, scale)?;
         let size = sky.size();
         let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
         Ok(Self {
@@ -129,7 +126,8 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
                 cone: DirectionCone::new(portal.frame().z, 0.0),
             },
             portal,
-            image: Image::from_f32(size, Channels::Rgb, texels).map_err(|_| amount)?,
+            image: Image::from_f32(size, Channels::Rgb, texels)
+                .map_err(|_| ImageInfiniteLightError::TooBright)?,
             scale,
             irradiance,
             scene,

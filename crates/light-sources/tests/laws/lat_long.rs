@@ -215,11 +215,12 @@ fn compensation_leaves_what_is_above_the_mean_over_the_sphere() {
 fn too_bright_to_be_summed() {
     let texels = vec![2e38; 3];
     let image = Image::from_f32([1, 1], Channels::Rgb, texels).expect("an image");
-    let desc = ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image));
-    let light = ImageInfiniteLight::<Rgb>::new(desc, scene());
-    assert_eq!(
-        light.err(),
-        Some(ImageInfiniteLightError::Amount),
-        "sum above the range"
-    );
+    for map in [EnvironmentMap::LatLong, EnvironmentMap::EqualArea] {
+        let desc = ImageInfiniteLightDesc::new(map(image.clone()));
+        let error = ImageInfiniteLight::<Rgb>::new(desc, scene()).err();
+        let too_bright = Some(ImageInfiniteLightError::TooBright);
+        assert_eq!(error, too_bright, "sum above the range");
+        let says = error.map(|error| error.to_string()).unwrap_or_default();
+        assert!(says.starts_with("map: "), "{says}");
+    }
 }
