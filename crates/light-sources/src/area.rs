@@ -4,6 +4,7 @@ use crate::color::{ColorModel, Radiance};
 use crate::diffuse_emission::DiffuseEmission;
 use crate::glam::{Vec2, Vec3};
 use crate::light::{AreaLight, Light};
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::medium_interface::MediumInterface;
@@ -69,6 +70,12 @@ impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
     }
 }
 
+impl<'a, C: ColorModel, S: Shape> DiffuseAreaLight<'a, C, S> {
+    pub(crate) fn light_power(&self) -> LightPower<'a, C> {
+        self.emission.power_of(self.shape.area(), self.mean())
+    }
+}
+
 impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
     #[inline]
     fn light_type(&self) -> LightType {
@@ -80,8 +87,7 @@ impl<C: ColorModel, S: Shape> Light<C> for DiffuseAreaLight<'_, C, S> {
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let area = self.shape.area();
-        self.emission.phi_of(area, self.mean(), wavelengths)
+        self.light_power().at(wavelengths)
     }
 
     #[inline]

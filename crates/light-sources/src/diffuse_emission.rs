@@ -5,6 +5,7 @@ use core::fmt;
 use crate::color::{ColorModel, Radiance};
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, EmissionMask, SurfaceColor};
 use crate::glam::Vec3;
+use crate::light_power::{LightPower, PowerColor};
 use crate::medium_interface::MediumInterface;
 use crate::rgb_sum::RgbSum;
 use crate::scaled_emission::{EmissionError, ScaledEmission};
@@ -172,7 +173,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// Power in W that a shape emits, on all sides.
     #[must_use]
     pub fn phi(&self, shape: &impl Shape, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.phi_of(shape.area(), self.mean(shape), wavelengths)
+        self.power_of(shape.area(), self.mean(shape))
+            .at(wavelengths)
     }
 
     /// Power that a shape emits on one side as one number for light samplers; above 0 unless the
@@ -188,18 +190,17 @@ impl<C: ColorModel> DiffuseEmission<C> {
         texture.map_or(Vec3::ONE, |texture| texture.mean(shape))
     }
 
-    /// As [`phi`](Self::phi), of a shape with this area and [`mean`](Self::mean).
-    pub(crate) fn phi_of(
-        &self,
-        area: f32,
-        mean: Vec3,
-        wavelengths: &C::Wavelengths,
-    ) -> C::Radiance {
-        let radiance = match &self.color {
-            Color::Uniform(radiance) => radiance.at(wavelengths) * mean.x,
-            Color::Image { tint, scale, .. } => C::emit_texel(mean * *tint, wavelengths) * *scale,
+    /// The power of a shape with this area and [`mean`](Self::mean).
+    pub(crate) fn power_of(&self, area: f32, mean: Vec3) -> LightPower<'_, C> {
+        let (color, scale) = match &self.color {
+            Color::Uniform(radiance) => (PowerColor::Emission(radiance), mean.x),
+            Color::Image { tint, scale, .. } => (PowerColor::Texel(mean * *tint), *scale),
         };
-        radiance * (PI * self.sides.count() * area)
+        LightPower {
+            color,
+            scale,
+            etendue: PI * self.sides.count() * area,
+        }
     }
 
     /// As [`strength`](Self::strength), of a shape with this area and [`mean`](Self::mean).

@@ -5,6 +5,7 @@ use crate::amount::IrradianceAmount;
 use crate::color::ColorModel;
 use crate::glam::{Vec2, Vec3};
 use crate::light::Light;
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
@@ -83,13 +84,19 @@ impl<C: ColorModel> DistantLight<C> {
     }
 }
 
+impl<C: ColorModel> DistantLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_emission(&self.irradiance, self.scene.disk_area())
+    }
+}
+
 impl<C: ColorModel> Light<C> for DistantLight<C> {
     fn light_type(&self) -> LightType {
         LightType::DeltaDirection
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.irradiance.at(wavelengths) * self.scene.disk_area()
+        self.light_power().at(wavelengths)
     }
 
     fn sample_li(

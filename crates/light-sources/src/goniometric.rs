@@ -8,6 +8,7 @@ use crate::color::ColorModel;
 use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
+use crate::light_power::LightPower;
 use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
@@ -128,6 +129,12 @@ impl<C: ColorModel> GoniometricLight<C> {
     }
 }
 
+impl<C: ColorModel> GoniometricLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_emission(&self.intensity, 4.0 * PI * self.mean)
+    }
+}
+
 impl<C: ColorModel> PointSource for GoniometricLight<C> {
     type Color = C;
 
@@ -141,7 +148,7 @@ impl<C: ColorModel> PointSource for GoniometricLight<C> {
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.intensity.at(wavelengths) * (4.0 * PI * self.mean)
+        self.light_power().at(wavelengths)
     }
 
     /// In proportion to the intensity, by `u1`.

@@ -10,6 +10,7 @@ use crate::image::Image;
 use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightDesc, ImageInfiniteLightError};
 use crate::image_sky::ImageSky;
 use crate::light::{InfiniteLight, Light};
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
@@ -146,14 +147,20 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
     }
 }
 
+impl<C: ColorModel> ImageInfiniteLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        let etendue = 4.0 * PI * self.scene.disk_area() * self.scale;
+        LightPower::of_texel(self.sky.means.color, etendue)
+    }
+}
+
 impl<C: ColorModel> Light<C> for ImageInfiniteLight<C> {
     fn light_type(&self) -> LightType {
         LightType::Infinite
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        let factor = 4.0 * PI * self.scene.disk_area() * self.scale;
-        C::emit_texel(self.sky.means.color, wavelengths) * factor
+        self.light_power().at(wavelengths)
     }
 
     fn sample_li(

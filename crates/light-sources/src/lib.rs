@@ -83,6 +83,7 @@ mod light_desc_from;
 mod light_desc_scale;
 #[cfg(feature = "alloc")]
 mod light_kinds;
+mod light_power;
 #[cfg(feature = "alloc")]
 mod light_ref;
 mod light_sample;
@@ -129,6 +130,8 @@ mod portal;
 mod portal_infinite;
 #[cfg(feature = "alloc")]
 mod projection;
+#[cfg(feature = "alloc")]
+mod radiant_powers;
 #[cfg(feature = "alloc")]
 mod resample;
 mod rgb;

@@ -3,11 +3,11 @@ use alloc::vec::Vec;
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::glam::Vec3;
-use crate::light::Light;
 use crate::light_desc::LightDescError;
 use crate::light_kinds::{LightKind, LightLists, LightSource};
 use crate::light_ref::LightRef;
 use crate::placed_mesh::PlacedMeshes;
+use crate::radiant_powers::RadiantPowers;
 use crate::scene_sphere::SceneSphere;
 use crate::shape::Triangle;
 use crate::source_table::{SourceId, SourcePlace, SourceTable};
@@ -219,12 +219,15 @@ impl<C: ColorModel> LightSet<C> {
         extents
     }
 
-    /// The powers of all lights in W, by id: the mean over the colour channels or the spectrum.
+    /// The powers of all lights in W, by id: the mean over the colour channels, or the integral over
+    /// the spectrum. Above 0 for every light that emits at some wavelength.
+    ///
+    /// Of a light of your own type in the spectral model the integral is not known: its power is
+    /// estimated at a few wavelengths, or if it is black at those by its extent.
     #[must_use]
     pub fn powers(&self) -> Vec<f32> {
-        let wavelengths = C::reference_wavelengths();
-        let power = |light: LightRef<'_, C>| C::mean(light.phi(&wavelengths), &wavelengths);
-        self.iter().map(|(_, light)| power(light)).collect()
+        let mut powers = RadiantPowers::new(self.scene);
+        self.iter().map(|(_, light)| powers.of(&light)).collect()
     }
 
     /// Bytes of the lists themselves.

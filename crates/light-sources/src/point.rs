@@ -5,6 +5,7 @@ use core::fmt;
 use crate::amount::IntensityAmount;
 use crate::color::ColorModel;
 use crate::glam::{Vec2, Vec3};
+use crate::light_power::LightPower;
 use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::scaled_emission::{EmissionError, ScaledEmission};
@@ -83,6 +84,12 @@ impl<C: ColorModel> PointLight<C> {
     }
 }
 
+impl<C: ColorModel> PointLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_emission(&self.intensity, 4.0 * PI)
+    }
+}
+
 impl<C: ColorModel> PointSource for PointLight<C> {
     type Color = C;
 
@@ -95,7 +102,7 @@ impl<C: ColorModel> PointSource for PointLight<C> {
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.intensity.at(wavelengths) * (4.0 * PI)
+        self.light_power().at(wavelengths)
     }
 
     fn sample_direction(

@@ -10,6 +10,7 @@ use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
 use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightError};
 use crate::light::{InfiniteLight, Light};
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
@@ -150,6 +151,10 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
             .map_or(0, |_| width * height * size_of::<u64>())
     }
 
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_texel(self.irradiance, self.portal.area() * self.scale)
+    }
+
     fn radiance(&self, uv: Vec2, wavelengths: &C::Wavelengths) -> C::Radiance {
         C::emit_texel(self.image.nearest(uv), wavelengths) * self.scale
     }
@@ -200,7 +205,7 @@ impl<C: ColorModel> Light<C> for PortalInfiniteLight<C> {
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        C::emit_texel(self.irradiance, wavelengths) * (self.portal.area() * self.scale)
+        self.light_power().at(wavelengths)
     }
 
     fn sample_li(

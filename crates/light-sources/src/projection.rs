@@ -9,6 +9,7 @@ use crate::color::{ColorModel, Radiance};
 use crate::emission_lobe::{Emitted, emission_lobe};
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::image::Image;
+use crate::light_power::LightPower;
 use crate::medium_interface::MediumInterface;
 use crate::picture_grid::PictureGrid;
 use crate::point_source::{DirectionSample, PointSource};
@@ -173,6 +174,12 @@ impl<C: ColorModel> ProjectionLight<C> {
     }
 }
 
+impl<C: ColorModel> ProjectionLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_texel(self.power, self.scale)
+    }
+}
+
 impl<C: ColorModel> PointSource for ProjectionLight<C> {
     type Color = C;
 
@@ -189,7 +196,7 @@ impl<C: ColorModel> PointSource for ProjectionLight<C> {
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        C::emit_texel(self.power, wavelengths) * self.scale
+        self.light_power().at(wavelengths)
     }
 
     /// In proportion to the intensity, by `u1`. Intensity and density are those of the rounded

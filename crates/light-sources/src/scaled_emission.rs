@@ -45,6 +45,19 @@ impl<C: ColorModel> ScaledEmission<C> {
         C::emit(&self.emission, wavelengths) * self.scale
     }
 
+    /// The radiant quantity of the emission, as a power in W; above 0 unless it is black. A line
+    /// between the nanometres of the integral counts as wide as one of them.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub(crate) fn radiant(&self) -> f32 {
+        let radiant = C::flux(&self.emission).radiant;
+        if radiant > 0.0 {
+            radiant * self.scale
+        } else {
+            self.maximum()
+        }
+    }
+
     /// The largest value over all channels or wavelengths.
     #[must_use]
     pub(crate) fn maximum(&self) -> f32 {

@@ -2,6 +2,7 @@ use core::f32::consts::{PI, TAU};
 
 use crate::color::ColorModel;
 use crate::glam::{Vec2, Vec3};
+use crate::light_power::LightPower;
 use crate::medium_interface::MediumInterface;
 use crate::point_source::{DirectionSample, PointSource};
 use crate::rigid_transform::RigidTransform;
@@ -99,6 +100,12 @@ impl<C: ColorModel> SpotLight<C> {
     }
 }
 
+impl<C: ColorModel> SpotLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_emission(&self.intensity, self.solid_angle())
+    }
+}
+
 impl<C: ColorModel> PointSource for SpotLight<C> {
     type Color = C;
 
@@ -111,7 +118,7 @@ impl<C: ColorModel> PointSource for SpotLight<C> {
     }
 
     fn power(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.intensity.at(wavelengths) * self.solid_angle()
+        self.light_power().at(wavelengths)
     }
 
     /// In proportion to the intensity, so that each ray carries the same power: `u2.x` chooses

@@ -6,6 +6,7 @@ use crate::color::{ColorModel, Radiance};
 use crate::distant::ray_through_scene;
 use crate::glam::{Vec2, Vec3};
 use crate::light::{InfiniteLight, Light};
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
@@ -99,13 +100,20 @@ impl<C: ColorModel> SunLight<C> {
     }
 }
 
+impl<C: ColorModel> SunLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        let etendue = self.solid_angle() * self.scene.disk_area();
+        LightPower::of_emission(&self.radiance, etendue)
+    }
+}
+
 impl<C: ColorModel> Light<C> for SunLight<C> {
     fn light_type(&self) -> LightType {
         LightType::Infinite
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.radiance.at(wavelengths) * (self.solid_angle() * self.scene.disk_area())
+        self.light_power().at(wavelengths)
     }
 
     fn sample_li(

@@ -5,6 +5,7 @@ use crate::color::ColorModel;
 use crate::distant::ray_through_scene;
 use crate::glam::{Vec2, Vec3};
 use crate::light::{InfiniteLight, Light};
+use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
@@ -62,13 +63,19 @@ impl<C: ColorModel> UniformInfiniteLight<C> {
     }
 }
 
+impl<C: ColorModel> UniformInfiniteLight<C> {
+    pub(crate) fn light_power(&self) -> LightPower<'_, C> {
+        LightPower::of_emission(&self.radiance, 4.0 * PI * self.scene.disk_area())
+    }
+}
+
 impl<C: ColorModel> Light<C> for UniformInfiniteLight<C> {
     fn light_type(&self) -> LightType {
         LightType::Infinite
     }
 
     fn phi(&self, wavelengths: &C::Wavelengths) -> C::Radiance {
-        self.radiance.at(wavelengths) * (4.0 * PI * self.scene.disk_area())
+        self.light_power().at(wavelengths)
     }
 
     /// No sample when the coverage may be incomplete: any other sample finds this light as well.

@@ -3,6 +3,7 @@ use crate::amount::{IntensityAmount, IrradianceAmount, RadianceAmount};
 use crate::diffuse_emission_desc::{DiffuseEmissionDesc, SurfaceColor};
 use crate::distant::DistantLightDesc;
 use crate::glam::Vec3;
+use crate::light::Light;
 use crate::light_desc::LightDesc;
 use crate::light_set_builder::LightSetBuilder;
 use crate::light_type::LightType;
@@ -11,6 +12,11 @@ use crate::mesh::MeshLightDesc;
 use crate::point::PointLightDesc;
 use crate::rgb::Rgb;
 use crate::scene_sphere::SceneSphere;
+use crate::spectral::Spectral;
+use crate::spectral_emission::SpectralEmission;
+use alloc::sync::Arc;
+use light_math::spectrum::photometric::Watt;
+use light_math::spectrum::{Blackbody, PiecewiseLinear};
 
 fn point(intensity: f32) -> LightDesc<Rgb> {
     LightDesc::Point(PointLightDesc {
@@ -209,4 +215,37 @@ fn powers_and_extents_are_those_of_the_lights() {
         }),
         "valid"
     );
+}
+
+/// A lamp of one narrow line has the power that it was asked for, and one between two nanometres
+/// has some.
+#[test]
+fn powers_of_spectral_lights_are_integrals() {
+    type S4 = Spectral<4>;
+    let line = |middle: f32, half: f32| {
+        let lambda = Arc::from([middle - half, middle, middle + half].as_slice());
+        let line =
+            PiecewiseLinear::<Arc<[f32]>>::new(lambda, Arc::from([0.0, 1.0, 0.0].as_slice()));
+        SpectralEmission::from(line.expect("a line"))
+    };
+    let bulb = SpectralEmission::from(Blackbody::new(2700.0).expect("valid"));
+    let lamp = |emission, amount| PointLightDesc::<S4>::new(Vec3::ZERO, emission, amount);
+    let watts = IntensityAmount::RadiantPower(Watt(9.0));
+    let scene = SceneSphere::new(Vec3::ZERO, 2.0).expect("a sphere");
+    let mut builder = LightSetBuilder::<S4>::new(scene);
+    for half in [0.5, 1.0, 2.0, 5.0, 20.0] {
+        builder.add(lamp(line(589.0, half), watts)).expect("a lamp");
+    }
+    builder.add(lamp(bulb, watts)).expect("a bulb");
+    let powers = builder.build().powers();
+    for power in powers {
+        assert!((power / 9.0 - 1.0).abs() < 1e-5, "{power} W");
+    }
+    let between = lamp(line(589.5, 0.4), IntensityAmount::Radiometric(1.0));
+    let dark = lamp(line(589.0, 0.5), IntensityAmount::Radiometric(0.0));
+    let mut builder = LightSetBuilder::<S4>::new(scene);
+    builder.add(between).expect("a lamp");
+    builder.add(dark).expect("a dark lamp");
+    let powers = builder.build().powers();
+    assert!(powers[0] > 0.0 && powers[1] == 0.0, "{powers:?}");
 }
