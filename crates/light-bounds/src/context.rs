@@ -94,8 +94,7 @@ impl LightSampleContext {
     /// A ray segment in a medium, from `p` to `p + extent`: lights are weighted by their
     /// contribution along all of it. One of no extent is a point.
     ///
-    /// The default hierarchy chooses for the whole segment; other samplers, and lights, use the
-    /// point `p`.
+    /// Samplers that read the context choose for the whole segment; lights use the point `p`.
     #[inline]
     #[must_use]
     pub fn segment(p: Vec3, extent: Vec3) -> Self {

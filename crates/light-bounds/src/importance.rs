@@ -3,7 +3,9 @@ use light_math::float::{inverse_power_of_two, sqrt};
 use crate::angle::Angle;
 use crate::glam::Vec3;
 use crate::light_bounds::AXIS_TOLERANCE;
-use crate::{LightBounds, LightSampleContext};
+use crate::{LightBounds, LightSampleContext, ReceiverKind};
+
+mod segment;
 
 /// Least importance where light may arrive, so that contributions too small for a float keep a
 /// positive probability.
@@ -37,7 +39,8 @@ impl LightBounds {
     /// Zero only where none of them can contribute. Otherwise positive and finite, for any finite
     /// bounds and any context: also at a box centre, on a point light, and at coordinates whose
     /// squares overflow or underflow. Reads `ctx.p` and `ctx.ns()`. At a surface light counts
-    /// from both sides.
+    /// from both sides. For a ray segment the mean along it counts, and no light with power has the
+    /// importance zero.
     ///
     /// Costs six square roots, seven at a surface, and no trigonometric function.
     ///
@@ -53,6 +56,9 @@ impl LightBounds {
     pub fn importance(&self, ctx: &LightSampleContext) -> f32 {
         if self.phi == 0.0 {
             return 0.0;
+        }
+        if let ReceiverKind::Segment { extent } = *ctx.kind() {
+            return self.importance_along(ctx.p, extent);
         }
 
         // Vector from the centre, and a half box that contains both corners although the centre is

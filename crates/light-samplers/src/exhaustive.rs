@@ -14,8 +14,8 @@ use crate::{LightChoices, LightSampler};
 /// number of lights.
 ///
 /// A tree approximates its probabilities. For tests, comparisons and a handful of lights. Reads
-/// `ctx.ns`. Without a context lights are chosen in proportion to power. Lights at infinity share
-/// one uniform choice with all others.
+/// `ctx.ns`, and all of a ray segment. Without a context lights are chosen in proportion to power.
+/// Lights at infinity share one uniform choice with all others.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.2, as its exhaustive sampler.

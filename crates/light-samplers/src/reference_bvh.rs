@@ -9,11 +9,11 @@ use crate::{LightChoices, LightSampler};
 /// The light hierarchy as published: lights at infinity and the reference tree share one uniform
 /// choice.
 ///
-/// Reads `ctx.ns`. Without a context, lights of the tree are chosen in proportion to power. 68
-/// bytes a light; a query takes two importances a level.
+/// Reads `ctx.ns`, and all of a ray segment. Without a context, lights of the tree are chosen in
+/// proportion to power. 68 bytes a light; a query takes two importances a level.
 ///
 /// # Source
-/// `[PBRT4]`, section 12.6.3.
+/// `[PBRT4]`, section 12.6.3, which has no segments.
 #[derive(Clone, Debug)]
 pub struct ReferenceBvhLightSampler {
     tree: ReferenceLightBvh,

@@ -1,6 +1,6 @@
 //! Compact bounds and their importance against light-bounds.
 
-use light_bounds::{CompactLightBounds, LightBounds};
+use light_bounds::{CompactLightBounds, LightBounds, LightSampleContext, ReceiverKind};
 use light_gpu::compact_bounds_rows;
 use light_math::Aabb;
 use light_math::glam::Vec3;
@@ -57,7 +57,14 @@ fn check_set(device: &Device, kind: SetKind, count: u32) -> Result<bool, String>
     for (query, theirs) in queries.iter().zip(&answers) {
         let ours = compact[query.other().index()];
         decoded += u32::from(!is_near(&ours.decode(&all), theirs, &all));
-        let ours = ours.importance(&all, &query.context());
+        // The shader weighs the beginning of a segment.
+        let ctx = query.context();
+        let ours = match ctx.kind() {
+            ReceiverKind::Segment { .. } => {
+                ours.importance(&all, &LightSampleContext::medium(ctx.p))
+            }
+            _ => ours.importance(&all, &ctx),
+        };
         if (ours > 0.0) != (theirs.importance > 0.0) {
             zeros += 1;
         } else if ours > 0.0 {

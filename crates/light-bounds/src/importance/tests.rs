@@ -195,3 +195,89 @@ proptest! {
         prop_assert!(DirectionCone::new(group.w, group.cos_theta_o).contains(normal.normalize()));
     }
 }
+
+fn along(light: &LightBounds, a: Vec3, b: Vec3) -> f32 {
+    light.importance(&LightSampleContext::segment(a, b - a))
+}
+
+/// A ray that passes under a spot: from its start the spot lights nothing.
+#[test]
+fn a_spot_counts_for_a_segment_that_crosses_its_cone() {
+    let spot = LightBounds {
+        w: Vec3::NEG_Y,
+        cos_theta_e: 0.92,
+        ..lamp(Aabb::from_point(Vec3::new(5.0, 3.0, 0.0)))
+    };
+    let start = LightSampleContext::medium(Vec3::ZERO);
+    assert_eq!(spot.importance(&start), 0.0, "aside");
+    let [crossing, aside] = [10.0, 3.0].map(|x| along(&spot, Vec3::ZERO, Vec3::X * x));
+    assert!(crossing > 0.01 && aside > 0.0, "{crossing}, {aside}");
+    assert!(aside < 1e-9 * crossing, "{aside} of {crossing}");
+}
+
+#[test]
+fn the_importance_for_a_segment_is_the_mean_of_inverse_squares() {
+    let bulb = LightBounds {
+        cos_theta_o: -1.0,
+        ..lamp(Aabb::from_point(Vec3::new(1.0, 2.0, -1.0)))
+    };
+    for (a, b) in [
+        (Vec3::ZERO, Vec3::X * 4.0),
+        (Vec3::X * 3.0, Vec3::X * 30.0),
+        (Vec3::new(1.0, 2.0, 0.0), Vec3::new(1.0, 2.0, 9.0)),
+        (Vec3::new(0.9, 2.1, -9.0), Vec3::new(0.8, 2.0, 9.0)),
+        (Vec3::ZERO, Vec3::X * 1e-6),
+    ] {
+        let n = 20_000;
+        let at = |i: i32| a.lerp(b, (i as f32 + 0.5) / n as f32);
+        let inverse = |i| 2.0 / f64::from(at(i).distance_squared(bulb.centroid()));
+        let mean = (0..n).map(inverse).sum::<f64>() / f64::from(n);
+        let importance = f64::from(along(&bulb, a, b));
+        assert!(
+            (importance / mean - 1.0).abs() < 1e-3,
+            "{a} to {b}: {importance}, {mean}"
+        );
+    }
+    // Through the light itself, from it, and through its box.
+    let p = bulb.centroid();
+    let boxed = LightBounds {
+        bounds: Aabb::new(p - 1.0, p + 1.0),
+        ..bulb
+    };
+    for light in [bulb, boxed] {
+        for (a, b) in [
+            (p - Vec3::X, p + Vec3::X),
+            (p, p + Vec3::Y),
+            (p - 1e30, p + 1e30),
+        ] {
+            let importance = along(&light, a, b);
+            assert!(importance > 0.0 && importance.is_finite(), "{importance}");
+        }
+    }
+}
+
+proptest! {
+    /// The cosine factor is the largest along the segment.
+    #[test]
+    fn no_point_of_a_segment_has_a_larger_cosine(
+        a in prop::array::uniform3(-2.0f32..2.0),
+        b in prop::array::uniform3(-2.0f32..2.0),
+        p in prop::array::uniform3(-2.0f32..2.0),
+        cos_theta_e in -1.0f32..1.0,
+        size in prop_oneof![Just(0.0f32), 0.0f32..0.3],
+        two_sided in any::<bool>(),
+    ) {
+        let [a, b, p] = [a, b, p].map(Vec3::from);
+        let light = LightBounds {
+            cos_theta_e,
+            two_sided,
+            ..lamp(Aabb::new(p - size, p + size))
+        };
+        let lit = (0..=64)
+            .map(|i| LightSampleContext::medium(a.lerp(b, i as f32 / 64.0)))
+            .any(|ctx| light.importance(&ctx) > 0.0);
+        let most = along(&LightBounds { cos_theta_o: -1.0, ..light }, a, b);
+        let importance = along(&light, a, b);
+        prop_assert!(importance > if lit { 1e-6 * most } else { 0.0 }, "{importance} of {most}");
+    }
+}

@@ -1,11 +1,15 @@
 //! Estimates against quadrature and closed forms.
 
 use light_math::Aabb;
-use light_math::glam::{Affine3A, Vec3};
+use light_math::glam::{Affine3A, Quat, Vec3};
 use light_media::{Homogeneous, Region, Span, StepSize, Substance, VolumeIntegrator};
-use light_samplers::PowerLightSampler;
+use light_samplers::{
+    BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
+    ReferenceBvhLightSampler,
+};
 use light_sources::{
-    DistantLightDesc, IrradianceAmount, LightDesc, LightSetBuilder, Rgb, SceneSphere,
+    DistantLightDesc, IntensityAmount, IrradianceAmount, LightDesc, LightSetBuilder,
+    PointLightDesc, Rgb, SceneSphere, SpotLightDesc,
 };
 use light_testkit::{Estimate, Rng};
 
@@ -209,4 +213,55 @@ fn a_sun_over_a_medium_that_starts_later() {
     let truth = 0.4 * 3.0 / (4.0 * core::f64::consts::PI) * (-sigma_t).exp() * along;
     let margin = found.margin(truth) + 1e-4 * truth;
     assert!((found.mean - truth).abs() <= margin, "{found:?}, {truth}");
+}
+
+/// A spot that lights the middle of the ray and not its start is found by every sampler.
+#[test]
+fn a_spot_beside_the_start_of_the_ray() {
+    let scene = SceneSphere::new(Vec3::ZERO, 100.0).expect("a sphere");
+    let mut lights = LightSetBuilder::<Rgb>::new(scene);
+    let down = Quat::from_rotation_arc(Vec3::Z, Vec3::NEG_Y);
+    let spot = Affine3A::from_rotation_translation(down, Vec3::new(5.0, 3.0, 0.0));
+    let bright = IntensityAmount::Radiometric(100.0);
+    let spot = SpotLightDesc::new(spot, 0.4, Vec3::ONE, bright);
+    lights.add(spot).expect("a spot");
+    let weak = IntensityAmount::Radiometric(1.0);
+    let bulb = PointLightDesc::new(Vec3::Y, Vec3::ONE, weak);
+    lights.add(bulb).expect("a bulb");
+    let lights = lights.build();
+    let (extents, step) = (lights.extents(), StepSize::new(0.1).expect("positive"));
+    let samplers: [(&str, Box<dyn LightSampler>); 3] = [
+        (
+            "default",
+            Box::new(BvhLightSampler::new(&extents).expect("valid")),
+        ),
+        (
+            "exhaustive",
+            Box::new(ExhaustiveLightSampler::new(&extents).expect("valid")),
+        ),
+        (
+            "reference",
+            Box::new(ReferenceBvhLightSampler::new(&extents).expect("valid")),
+        ),
+    ];
+    let span = Span { t0: 0.0, t1: 10.0 };
+    for (name, sampler) in samplers {
+        let integrator = VolumeIntegrator {
+            medium: &medium(0.02, 0.1, 0.0),
+            lights: &lights,
+            sampler: &*sampler,
+            scene: &NothingInTheWay,
+            wavelengths: &(),
+            step,
+            shadow_step: step,
+        };
+        let mut rng = Rng::new(67);
+        let seen = Estimate::of(20_000, || {
+            let seed = rng.u32();
+            let seen = integrator.next_event(&RAY, span, 4, seed, &mut || rng.f32());
+            seen.l.x.into()
+        });
+        // By the midpoint rule.
+        assert!(seen.agrees_with(0.0888), "{name}: {seen:?}");
+    }
 }

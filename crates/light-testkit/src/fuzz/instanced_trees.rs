@@ -119,13 +119,7 @@ fn check_lights(
     let placed = scene.lights().map(|_| nothing);
     let skies = skies.iter().copied().map(LightExtent::Infinite);
     let all: Vec<_> = placed.chain(skies).collect();
-    check(
-        Kind::default_named("instanced"),
-        sampler,
-        &all,
-        contexts,
-        us,
-    );
+    check(Kind::named("instanced"), sampler, &all, contexts, us);
     for (id, (place, light)) in (0..).map(LightId).zip(scene.lights()) {
         let emitted = sampler.pmf_emitter(id);
         assert_eq!(

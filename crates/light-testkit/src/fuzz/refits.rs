@@ -57,7 +57,7 @@ pub fn refits(data: &[u8]) {
                     "no place for {next:?} in the tree of {first:?}"
                 );
                 lights = next;
-                check(Kind::default_named("refit"), &tree, &lights, &contexts, &us);
+                check(Kind::named("refit"), &tree, &lights, &contexts, &us);
                 compare(&tree, &lights, &options, &contexts, &us);
                 let mut at_once = fresh.clone();
                 at_once.refit(&lights).expect("as it was done in steps");
@@ -135,13 +135,7 @@ fn compare(
     us: &[u64],
 ) {
     let rebuilt = BvhLightSampler::with(lights, options).expect("valid lights");
-    check(
-        Kind::default_named("rebuilt"),
-        &rebuilt,
-        lights,
-        contexts,
-        us,
-    );
+    check(Kind::named("rebuilt"), &rebuilt, lights, contexts, us);
     let powers = [refit, &rebuilt].map(|sampler| sampler.tree().power());
     assert_eq!(
         powers[0], powers[1],

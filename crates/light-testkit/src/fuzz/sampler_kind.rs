@@ -1,4 +1,4 @@
-use light_bounds::{LightExtent, LightId, LightSampleContext, ReceiverKind};
+use light_bounds::{LightExtent, LightId, LightSampleContext};
 use light_math::fraction::stratum;
 use light_samplers::LightSampler;
 
@@ -22,33 +22,14 @@ pub(super) struct Kind {
     name: &'static str,
     /// What each light owns.
     share: Share,
-    segments: Segments,
-}
-
-/// How a ray segment is received.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Segments {
-    /// Along all of it.
-    Whole,
-    /// At its first point.
-    Start,
 }
 
 impl Kind {
-    /// The default sampler, under a name of its own.
-    pub(super) const fn default_named(name: &'static str) -> Self {
+    /// A sampler of which each light owns an interval.
+    pub(super) const fn named(name: &'static str) -> Self {
         Self {
             name,
             share: Share::Interval,
-            segments: Segments::Whole,
-        }
-    }
-
-    pub(super) const fn at_start(name: &'static str, share: Share) -> Self {
-        Self {
-            name,
-            share,
-            segments: Segments::Start,
         }
     }
 }
@@ -85,20 +66,10 @@ pub(super) fn check(
             share,
         };
         choice.shares_fill_the_unit(us);
-        choice.contributing_lights_are_possible(lights, &received(kind, ctx));
+        choice.contributing_lights_are_possible(lights, ctx);
         for k in COUNTS {
             check_several(kind, sampler, lights, ctx, us, k);
         }
-    }
-}
-
-/// The context for which the sampler chooses.
-fn received(kind: Kind, ctx: &LightSampleContext) -> LightSampleContext {
-    match (kind.segments, ctx.kind()) {
-        (Segments::Start, ReceiverKind::Segment { .. }) => {
-            LightSampleContext::medium(ctx.p).with_error(ctx.p_error)
-        }
-        _ => *ctx,
     }
 }
 
@@ -121,7 +92,7 @@ fn check_several(
         share: kind.share,
     };
     choice.shares_fill_the_unit(us);
-    choice.contributing_lights_are_possible(lights, &received(kind, ctx));
+    choice.contributing_lights_are_possible(lights, ctx);
     let name = choice.name;
     assert_eq!(here.count(), k, "{name}");
     let again = sampler.at(ctx, k);

@@ -36,34 +36,22 @@ pub fn samplers(data: &[u8]) {
     let uniform = UniformLightSampler::new(lights.len() as u32);
     let powers: Vec<f32> = lights.iter().map(power).collect();
     let power = PowerLightSampler::new(&powers).expect("powers");
+    check(Kind::named("default"), &tree, &lights, &contexts, &us);
     check(
-        Kind::default_named("default"),
-        &tree,
-        &lights,
-        &contexts,
-        &us,
-    );
-    check(
-        Kind::at_start("reference", Share::Interval),
+        Kind::named("reference"),
         &reference,
         &lights,
         &contexts,
         &us,
     );
     check(
-        Kind::at_start("exhaustive", Share::Interval),
+        Kind::named("exhaustive"),
         &exhaustive,
         &lights,
         &contexts,
         &us,
     );
-    check(
-        Kind::at_start("uniform", Share::Interval),
-        &uniform,
-        &lights,
-        &contexts,
-        &us,
-    );
+    check(Kind::named("uniform"), &uniform, &lights, &contexts, &us);
     check_powers(&power, &lights, &contexts, &us);
     for ctx in &contexts {
         check_cut(&tree, detail, &lights, ctx, &us);
