@@ -81,8 +81,9 @@ fn committed_kernels_load_children_by_words() {
             .count()
     };
     let (bytes, words) = (loads("8 \t"), loads("b32 \t"));
+    // The children of one node have 192 codes, and each kernel looks at nodes of several receivers.
     assert!(
-        bytes < 60 && words > 1000,
+        bytes < 192 && words > 1000,
         "{bytes} loads of bytes, {words} of words"
     );
 }
