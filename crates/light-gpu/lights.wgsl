@@ -844,7 +844,7 @@ fn light_resolved_weights(
         let index = (*node).child_base + k;
         // No extent is 0.
         let extents = (*node).rows[3][word] | (*node).rows[4][word] | (*node).rows[5][word];
-        let is_point = (extents >> (8u * lane) & 0xffu) == 1u;
+        let is_point = ((extents >> (8u * lane)) & 0xffu) == 1u;
         if is_point && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
             var child = light_node(tree.nodes + 14u * index);
             let away = child.origin - receiver.p;
