@@ -93,12 +93,7 @@ impl LightBounds {
 
         let half_diagonal = 0.5 * (self.bounds.diagonal() * scale).length();
         let clamped_dist_sq = dist_sq.max(half_diagonal * scale);
-        let importance = self.phi * scale / clamped_dist_sq * scale * cosines;
-        if importance >= MIN_IMPORTANCE {
-            importance.min(MAX_IMPORTANCE)
-        } else {
-            MIN_IMPORTANCE
-        }
+        in_range(self.phi * scale / clamped_dist_sq * scale * cosines)
     }
 
     /// Cosine of the least angle between `from_light` and a normal in the cone, seen from any point
@@ -123,6 +118,16 @@ fn cos_incidence(ctx: &LightSampleContext, from_light: Vec3, subtended: Angle) -
     };
     let to_normal = Angle::from_cos(ns.dot(from_light).abs().min(1.0));
     (to_normal - subtended).cos
+}
+
+/// An importance above 0 within the range of those; NaN becomes the least.
+#[inline(always)]
+fn in_range(importance: f32) -> f32 {
+    if importance >= MIN_IMPORTANCE {
+        importance.min(MAX_IMPORTANCE)
+    } else {
+        MIN_IMPORTANCE
+    }
 }
 
 #[cfg(test)]

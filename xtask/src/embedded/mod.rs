@@ -51,7 +51,8 @@ const STACK: u32 = 4 << 10;
 /// come to its end would run forever.
 const LIMIT: Duration = Duration::from_secs(300);
 
-/// Adds a step for the host and one for each board. `--write` writes what the first one measured into the README.
+/// Adds a step for the host and one for each board. `--write` writes what the first one measured
+/// into the README.
 pub fn add_steps(steps: &mut Steps, arguments: &[String]) {
     let writes = match arguments {
         [] => false,

@@ -1,6 +1,6 @@
 use light_math::float::{inverse_power_of_two, safe_acos};
 
-use super::{COS_SLACK, EDGE_SLACK, MAX_IMPORTANCE, MIN_IMPORTANCE, SIN_GROWTH};
+use super::{COS_SLACK, EDGE_SLACK, MIN_IMPORTANCE, SIN_GROWTH, in_range};
 use crate::LightBounds;
 use crate::angle::Angle;
 use crate::glam::Vec3;
@@ -55,12 +55,7 @@ impl LightBounds {
         } else {
             1.0
         };
-        let importance = self.phi * scale * mean * scale * cosine;
-        if importance >= MIN_IMPORTANCE {
-            importance.min(MAX_IMPORTANCE)
-        } else {
-            MIN_IMPORTANCE
-        }
+        in_range(self.phi * scale * mean * scale * cosine)
     }
 
     /// The largest cosine factor between the directions `a` and `b`: at one of them, or at the
