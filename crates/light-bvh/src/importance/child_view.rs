@@ -97,12 +97,13 @@ impl NodeFrame {
     /// Whether a receiver that reaches so far is near enough that no weight in codes vanishes.
     ///
     /// A power is at least 2^-34. In codes, all lengths that a weight is made of are of
-    /// `[0.5, 2^13]`: it is their power of -2, times at least 10^-5 for a light on the horizon,
-    /// 10^-3 at the edge of its emission and 0.02 for gloss, or 10^-6 for a segment. All together
-    /// are above 2^-110.
+    /// `[0.5, 2^24]`: it is their power of -2, times at least 10^-5 for a light on the horizon,
+    /// 10^-3 at the edge of its emission and 0.02 for gloss; for a segment 10^-3 of that edge and
+    /// 10^-6 over two such lengths. All are above 2^-116, and their products, which start with the
+    /// power, above 2^-124.
     #[inline(always)]
     pub(crate) fn is_near(&self, reach: f32) -> bool {
-        self.origin.abs().element_sum() + reach * self.inv_unit < 4096.0
+        self.origin.abs().element_sum() + reach * self.inv_unit < 8_388_608.0
     }
 
     /// The child of these codes, of a node that has `sheets` or none.

@@ -1,12 +1,10 @@
-use light_bounds::{LightId, LightSampleContext};
+use light_bounds::{LightGroups, LightId, LightSampleContext, SampledLight};
 use light_math::float::positive_product;
 
 use crate::importance::context_receiver::ContextReceiver;
 use crate::instances::instanced_bvh::InstancedLightBvh;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
-use crate::instances::placed_receiver::PlacedReceiver;
 use crate::query::bvh_at::LightBvhAt;
-use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::InGroups;
 
 /// A tree of trees as one context sees it: the root is evaluated once for all queries.
@@ -26,21 +24,16 @@ impl InstancedLightBvh {
     pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledPlacedLight> {
         let InGroups { receiver, groups } = &ctx.into();
         let placed = self.top().view().sample_for(receiver, *groups, u)?;
-        let (tree, inside) = self.in_prototype(placed.light.0, receiver)?;
-        let chosen = tree.sample_for(&inside, *groups, placed.u)?;
-        Some(SampledPlacedLight::of(&placed, &chosen))
+        self.sample_in(&placed, receiver, *groups)
     }
 
     /// Probability that [`sample`](Self::sample) at `ctx` returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, ctx: &LightSampleContext, light: PlacedLight) -> f32 {
         let InGroups { receiver, groups } = &ctx.into();
-        let Some((tree, inside)) = self.in_prototype(light.placement, receiver) else {
-            return 0.0;
-        };
         let top = self.top().view();
         let placed = top.pmf_for(receiver, *groups, LightId(light.placement));
-        positive_product(placed, tree.pmf_for(&inside, *groups, light.light))
+        positive_product(placed, self.pmf_in(light, receiver, *groups))
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
@@ -54,16 +47,30 @@ impl InstancedLightBvh {
         }
     }
 
-    /// The tree of a placement's prototype, and the receiver in its frame.
-    #[inline]
-    fn in_prototype(
+    /// One light of a placement that was chosen.
+    #[inline(always)]
+    fn sample_in(
         &self,
-        placement: u32,
+        placed: &SampledLight,
         receiver: &ContextReceiver,
-    ) -> Option<(LightBvhRef<'_>, PlacedReceiver)> {
-        let (frame, prototype) = self.placed(placement)?;
+        groups: LightGroups,
+    ) -> Option<SampledPlacedLight> {
+        let (frame, prototype) = self.placed(placed.light.0)?;
         let inside = frame.receiver(receiver, prototype);
-        Some((prototype.tree().view(), inside))
+        let tree = prototype.tree().view();
+        let chosen = tree.sample_for(&inside, groups, placed.u)?;
+        Some(SampledPlacedLight::of(placed, &chosen))
+    }
+
+    /// Probability of a light given its placement.
+    #[inline(always)]
+    fn pmf_in(&self, light: PlacedLight, receiver: &ContextReceiver, groups: LightGroups) -> f32 {
+        let Some((frame, prototype)) = self.placed(light.placement) else {
+            return 0.0;
+        };
+        let inside = frame.receiver(receiver, prototype);
+        let tree = prototype.tree().view();
+        tree.pmf_for(&inside, groups, light.light)
     }
 }
 
@@ -81,19 +88,14 @@ impl InstancedLightBvhAt<'_> {
     pub fn sample(&self, u: u64) -> Option<SampledPlacedLight> {
         let InGroups { receiver, groups } = &self.receiver;
         let placed = self.top.sample(u)?;
-        let (tree, inside) = self.tree.in_prototype(placed.light.0, receiver)?;
-        let chosen = tree.sample_for(&inside, *groups, placed.u)?;
-        Some(SampledPlacedLight::of(&placed, &chosen))
+        self.tree.sample_in(&placed, receiver, *groups)
     }
 
     /// Probability that [`sample`](Self::sample) returns `light`, to the bit.
     #[must_use]
     pub fn pmf(&self, light: PlacedLight) -> f32 {
         let InGroups { receiver, groups } = &self.receiver;
-        let Some((tree, inside)) = self.tree.in_prototype(light.placement, receiver) else {
-            return 0.0;
-        };
         let placed = self.top.pmf(LightId(light.placement));
-        positive_product(placed, tree.pmf_for(&inside, *groups, light.light))
+        positive_product(placed, self.tree.pmf_in(light, receiver, *groups))
     }
 }

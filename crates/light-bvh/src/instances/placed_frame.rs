@@ -32,7 +32,7 @@ impl PlacedFrame {
             translation,
             ..
         } = placement;
-        let inside = prototype.center();
+        let inside = prototype.center;
         let center = translation + rotation * (inside * scale);
         let inv_scale = 1.0 / scale;
         let coordinates = (norm(center) + norm(translation)) * inv_scale.abs();
@@ -69,12 +69,12 @@ impl PlacedFrame {
         receiver: &ContextReceiver,
         prototype: &LightPrototype,
     ) -> PlacedReceiver {
-        let inside = prototype.center();
+        let inside = prototype.center;
         let frame = Frame::new(self.rotation, self.inv_scale, self.center, inside);
         let receiver = receiver.in_frame(&frame);
         let away = norm(receiver.position() - inside);
         let error = self.error + (RIGID_TOLERANCE + ROUND_OFF) * away;
-        PlacedReceiver::new(receiver, error, away + half_width(prototype))
+        PlacedReceiver::new(receiver, error, away + prototype.half_width)
     }
 }
 
@@ -85,13 +85,7 @@ fn error(coordinates: f32, size: f32) -> f32 {
 
 /// How far from its origin lights of a prototype may be.
 fn size(prototype: &LightPrototype) -> f32 {
-    norm(prototype.center()) + half_width(prototype)
-}
-
-/// Half of the sum of the sides of the box of all lights.
-#[inline(always)]
-fn half_width(prototype: &LightPrototype) -> f32 {
-    (0.5 * norm(prototype.moments.bounds.diagonal())).max(0.0)
+    norm(prototype.center) + prototype.half_width
 }
 
 /// The sum of the coordinates' magnitudes, not below the length.

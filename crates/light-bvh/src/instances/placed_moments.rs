@@ -38,7 +38,7 @@ impl PlacedGroup {
         }
         let scale = frame.scale();
         let axes = frame.axes();
-        let place = |x: Vec3| frame.center + axes * ((x - prototype.center()) * scale);
+        let place = |x: Vec3| frame.center + axes * ((x - prototype.center) * scale);
         let error = frame.error(placement, prototype);
         let bounds = bounds(prototype, scale.abs(), error, axes, place);
         let mut moments = Moments {

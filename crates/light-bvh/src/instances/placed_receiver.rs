@@ -46,8 +46,8 @@ impl KeptReceiver for PlacedReceiver {
 }
 
 /// The largest error, in the unit of a node, so that no weight overflows or vanishes. Boxes as
-/// large as this make weights in codes so small that they are not trusted, and in a unit near the
-/// distance they hold the receiver.
+/// large as this hold all receivers near the node, and so do they in a unit near the distance. Of
+/// others they make weights in codes so small that these are not trusted.
 const WIDEST: f32 = 1e7;
 
 /// A receiver that sees every box larger by an error of positions, so that what it proves of a box

@@ -14,6 +14,10 @@ pub struct LightPrototype {
     tree: LightBvh,
     /// Of all lights together; their power is a share of the tree's.
     pub(crate) moments: Moments,
+    /// The middle of the box of all lights; the origin if none is on.
+    pub(crate) center: Vec3,
+    /// Half of the sum of the sides of that box.
+    pub(crate) half_width: f32,
 }
 
 impl LightPrototype {
@@ -33,12 +37,29 @@ impl LightPrototype {
     /// As for [`LightBvh::build`].
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         let (tree, moments) = LightBvh::build_with_moments(lights, options)?;
-        Ok(Self { tree, moments })
+        Ok(Self::of(tree, moments))
+    }
+
+    fn of(tree: LightBvh, moments: Moments) -> Self {
+        let bounds = &moments.bounds;
+        let (center, size) = if bounds.is_empty() {
+            (Vec3::ZERO, Vec3::ZERO)
+        } else {
+            (bounds.center(), bounds.diagonal())
+        };
+        Self {
+            tree,
+            moments,
+            center,
+            half_width: 0.5 * size.element_sum(),
+        }
     }
 
     /// Refits the tree: see [`LightBvh::refit`].
     pub(crate) fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
-        self.moments = self.tree.refit_with_moments(lights)?;
+        let moments = self.tree.refit_with_moments(lights)?;
+        let tree = core::mem::take(&mut self.tree);
+        *self = Self::of(tree, moments);
         Ok(())
     }
 
@@ -58,15 +79,6 @@ impl LightPrototype {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.tree.slots.is_empty()
-    }
-
-    /// The middle of the box of all lights; the origin if none is on.
-    pub(crate) fn center(&self) -> Vec3 {
-        if self.moments.bounds.is_empty() {
-            Vec3::ZERO
-        } else {
-            self.moments.bounds.center()
-        }
     }
 
     /// The boxes of the children of the root, which hold all lights that are on.

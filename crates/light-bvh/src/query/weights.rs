@@ -7,9 +7,12 @@ use crate::lane_math::{LaneMask, larger};
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::simd::{VectorWork, dispatch};
 
-/// The least sum of weights in codes that is trusted: a weight 10^18 times smaller than the
-/// largest, and its factors 10^27 times smaller, are still normal floats.
+/// The least sum of weights in codes that is trusted from any distance: a weight 10^18 times
+/// smaller than the largest, and its factors 10^27 times smaller, are still normal floats.
 pub(crate) const LEAST_TOTAL: f32 = 1e-10;
+
+/// The same where no weight vanishes: choices divide by the sum.
+const LEAST_TOTAL_NEAR: f32 = 1e-30;
 
 /// The least weight of a child that can contribute, as a share of the weights of its node.
 ///
@@ -224,7 +227,9 @@ pub(crate) fn irradiance(total: f32, inv_unit: f32, gain: f32) -> f32 {
 #[cfg_attr(target_os = "none", inline(never))]
 #[cfg_attr(not(target_os = "none"), inline(always))]
 fn is_trusted<R: Receiver>(total: f32, frame: &NodeFrame, receiver: &R) -> bool {
-    (LEAST_TOTAL..=f32::MAX).contains(&total) || (total == 0.0 && frame.is_near(receiver.reach()))
+    let is_trusted_near = total == 0.0 || total >= LEAST_TOTAL_NEAR;
+    (LEAST_TOTAL..=f32::MAX).contains(&total)
+        || (is_trusted_near && frame.is_near(receiver.reach()))
 }
 
 /// The sum of all lanes, in pairs.
@@ -235,3 +240,6 @@ pub(crate) fn total(lanes: [f32; WIDTH]) -> f32 {
     let sums = (four(0) + four(8)) + (four(4) + four(12));
     (sums.x + sums.z) + (sums.y + sums.w)
 }
+
+#[cfg(test)]
+mod tests;
