@@ -80,6 +80,18 @@ pub(crate) fn prefetch<const N: usize, T>(items: &[T], first: u32) {
     prefetch_lines(items.as_ptr().wrapping_add(first as usize), N);
 }
 
+/// Prefetches the last cache line of each of `N` of `items`, of which one is read soon, from `first`
+/// on. Their other lines would delay this one: most of them are not read.
+#[inline(always)]
+pub(crate) fn prefetch_ends<const N: usize, T>(items: &[T], first: u32) {
+    let mut item = items.as_ptr().wrapping_add(first as usize);
+    for _ in 0..N {
+        let next = item.wrapping_add(1);
+        prefetch_lines(next.cast::<u8>().wrapping_sub(1), 1);
+        item = next;
+    }
+}
+
 /// Prefetches every cache line that `count` items are on.
 #[inline(always)]
 fn prefetch_lines<T>(from: *const T, count: usize) {

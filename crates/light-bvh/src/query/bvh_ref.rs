@@ -3,7 +3,7 @@ use light_bounds::{LightGroups, LightId};
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::query::weights::Weights;
-use crate::simd::prefetch;
+use crate::simd::{prefetch, prefetch_ends};
 
 /// How many nodes the caches hold: a smaller tree is not prefetched.
 const CACHED_NODES: usize = 1 << 8;
@@ -130,7 +130,7 @@ impl<'a> LightBvhRef<'a> {
         }
         prefetch::<WIDTH, _>(self.order, node.light_base);
         if node.inner > 0 {
-            prefetch::<WIDTH, _>(self.nodes, node.child_base);
+            prefetch_ends::<WIDTH, _>(self.nodes, node.child_base);
         }
     }
 
