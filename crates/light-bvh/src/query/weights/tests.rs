@@ -33,7 +33,7 @@ fn no_weight_vanishes_near_a_node() {
     let mut rng = Rng::new(7);
     let (mut trusted, mut asked) = ([0; 5], 0);
     for i in 0..4000 {
-        let mut bytes = |below: usize| [0; WIDTH].map(|_: u8| rng.below(below) as u8);
+        let mut bytes = |below: usize| [0; WIDTH].map(|_: u8| rng.below(below).to_le_bytes()[0]);
         let signed = |codes: [u8; WIDTH]| codes.map(|code| i8::from_ne_bytes([code]));
         let node = WideNode {
             mean: [bytes(256), bytes(256), bytes(256)],
