@@ -1,4 +1,5 @@
-//! Sets a `cfg` if the compiler has AVX-512: stable Rust has it from 1.89 on.
+//! Sets a `cfg` if the compiler has AVX-512, which stable Rust has from 1.89 on, and one if the
+//! machine has no operating system and no instructions for floats.
 
 use std::env;
 use std::process::Command;
@@ -11,6 +12,19 @@ fn main() {
     if has_std && is_x86 && rustc_minor().is_some_and(|minor| minor >= 89) {
         println!("cargo::rustc-cfg=avx512");
     }
+    println!("cargo::rustc-check-cfg=cfg(soft_floats)");
+    let is_bare = env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none");
+    if is_bare && !has_float_instructions() {
+        println!("cargo::rustc-cfg=soft_floats");
+    }
+}
+
+/// Whether the target computes in single precision: by its features, or by its name where those
+/// that say so are unstable.
+fn has_float_instructions() -> bool {
+    let features = env::var("CARGO_CFG_TARGET_FEATURE").unwrap_or_default();
+    let abi = env::var("CARGO_CFG_TARGET_ABI").unwrap_or_default();
+    abi == "eabihf" || features.split(',').any(|f| ["neon", "sse2"].contains(&f))
 }
 
 /// The `y` of a compiler that says it is "rustc 1.y.z"; of another one nothing is known.

@@ -1,6 +1,5 @@
 //! Arithmetic that the compiler vectorises: no branches, and no lane depends on another.
 
-#[cfg(feature = "alloc")]
 use crate::node::wide_node::WIDTH;
 
 /// The larger one, in one instruction; `b` if either is NaN.
@@ -13,6 +12,14 @@ pub(crate) fn larger(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
+}
+
+/// The inner product of two vectors. Where floats are routines, five calls of them are more code
+/// than one of this.
+#[cfg_attr(soft_floats, inline(never))]
+#[cfg_attr(not(soft_floats), inline(always))]
+pub(crate) fn dot([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> f32 {
+    ax * bx + ay * by + az * bz
 }
 
 /// All ones or all zeros: a condition of a lane, in as many bits as the numbers that it selects.
@@ -72,7 +79,6 @@ impl LaneMask {
 }
 
 /// All lanes joined in pairs.
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn reduce(mut lanes: [f32; WIDTH], join: impl Fn(f32, f32) -> f32) -> f32 {
     let mut half = WIDTH / 2;

@@ -184,13 +184,22 @@ impl Groups {
     /// The parts of each group in turn.
     #[inline]
     fn parts(&self) -> impl Iterator<Item = u32> + use<'_> {
+        let (scale, mut rest) = self.scale_and_rest();
         let sums = &self.sums[..self.count];
-        let scale = parts_scale(sums.iter().sum(), sums.len());
-        let mut rest = PARTS - sums.iter().map(|&sum| parts_of(sum, scale)).sum::<u32>();
         sums.iter().map(move |&sum| match parts_of(sum, scale) {
             0 => 0,
             parts => parts + core::mem::take(&mut rest),
         })
+    }
+
+    /// The factor from sums to parts, and how many parts it leaves over.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline)]
+    fn scale_and_rest(&self) -> (f32, u32) {
+        let sums = &self.sums[..self.count];
+        let scale = parts_scale(sums.iter().sum(), sums.len());
+        let shared: u32 = sums.iter().map(|&sum| parts_of(sum, scale)).sum();
+        (scale, PARTS - shared)
     }
 
     /// One of the groups.

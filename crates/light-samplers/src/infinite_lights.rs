@@ -117,14 +117,15 @@ impl<'a> InfiniteLights<'a> {
         in_tree: f32,
         weight: impl Fn(&InfiniteLight) -> f32,
     ) -> FirstPmf {
-        let index = self
+        let found = self
             .lights
             .binary_search_by_key(&light, |light| light.light);
+        let index = found.map_or(TREE, |index| TREE + 1 + index);
         let weights = self.weights(in_tree, weight);
-        let pmf = |index| discrete::pmf_by(self.count(), &weights, index);
-        match index {
-            Ok(index) => FirstPmf::Infinite(pmf(TREE + 1 + index)),
-            Err(_) => FirstPmf::Others(pmf(TREE)),
+        let pmf = discrete::pmf_by(self.count(), &weights, index);
+        match found {
+            Ok(_) => FirstPmf::Infinite(pmf),
+            Err(_) => FirstPmf::Others(pmf),
         }
     }
 

@@ -79,8 +79,8 @@ impl Query for Grow<'_, '_> {
             let Some(node) = tree.nodes().get(cut.nodes[index] as usize) else {
                 break;
             };
-            let (weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
-            let mut weights = tree.resolve_points(node, receiver, weights);
+            let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
+            tree.resolve_points(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
@@ -91,15 +91,15 @@ impl Query for Grow<'_, '_> {
                 let revision = revision(weights.total * scale, cut.totals[index]);
                 scale = positive_product(scale, revision).min(f32::MAX);
             }
-            let mut lanes = weights.lanes;
-            for weight in &mut lanes {
+            let lanes = &mut weights.lanes;
+            for weight in lanes.iter_mut() {
                 *weight = positive_product(*weight, scale);
             }
             if index == 0 {
                 // Not a number counts as 0.
                 limit = detail.threshold.max(0.0) * total(lanes);
             }
-            let open_weights = open_weights(&lanes, &angular_size_sq, node.inner);
+            let open_weights = open_weights(lanes, &angular_size_sq, node.inner);
             let mask = mask_above(&open_weights, limit);
             // A node whose children do not all fit opens none.
             let opened = append_set_bits(&mut cut.nodes, count, mask, node.child_base);
@@ -118,7 +118,7 @@ impl Query for Grow<'_, '_> {
                     };
                 }
             }
-            cut.weights[index] = lanes;
+            cut.weights[index] = *lanes;
             cut.totals[index] = total(lanes);
             cut.sum += cut.totals[index];
             index += 1;

@@ -2,7 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
-use crate::lane_math::{LaneMask, larger};
+use crate::lane_math::{LaneMask, dot, larger};
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
 /// axis. Chosen by V: see `docs/light-bvh.md`.
@@ -38,8 +38,8 @@ pub(crate) const STEP_EDGE: f32 = 4.87;
 /// From a point to a child.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Displacement {
-    /// To the mean position.
-    pub(crate) mean: [f32; 3],
+    /// The inner product of its axis and the way to its mean position.
+    pub(crate) axis_dot_mean: f32,
     /// About the root mean square distance, and its square.
     pub(crate) dist: f32,
     pub(crate) dist_sq: f32,
@@ -50,7 +50,7 @@ impl ChildView {
     #[inline(always)]
     pub(crate) const fn displacement(&self) -> Displacement {
         Displacement {
-            mean: self.mean,
+            axis_dot_mean: self.axis_dot_mean,
             dist: self.dist,
             dist_sq: self.dist_sq,
         }
@@ -62,9 +62,7 @@ impl ChildView {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn may_reach(&self) -> LaneMask {
         let [hx, hy, hz] = self.extent;
-        let [vx, vy, vz] = self.mean;
-        let [mx, my, mz] = self.axis;
-        let beyond = mx * vx + my * vy + mz * vz + self.offset * self.dist;
+        let beyond = self.axis_dot_mean + self.offset * self.dist;
         // Round-off is less than 0.001 times the distance, which the codes leave: see their
         // margins.
         let edge = (STEP_EDGE * self.spread) * self.dist;
@@ -87,7 +85,7 @@ impl ChildView {
         let dist_sq = dist_sq(mean, self.extent, DISTANCE);
         let dist_sq = larger(least_sq, dist_sq);
         Displacement {
-            mean,
+            axis_dot_mean: dot(&self.axis, &mean),
             dist: float::sqrt(dist_sq),
             dist_sq,
         }
@@ -111,10 +109,8 @@ impl ChildView {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn weight(&self, from: &Displacement, height: f32, lift: f32) -> f32 {
         let [hx, hy, hz] = self.extent;
-        let [vx, vy, vz] = from.mean;
-        let [mx, my, mz] = self.axis;
         // The emission times the distance: all divisions come at the end.
-        let beyond = (mx * vx + my * vy + mz * vz) + self.offset * from.dist + lift;
+        let beyond = from.axis_dot_mean + self.offset * from.dist + lift;
         let width = hx + hy + hz;
         let cap = (0.25 * UNIT) * (UNIT - self.offset);
         let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);

@@ -1,7 +1,7 @@
 use light_math::float::{self, inverse_power_of_two};
 use light_math::glam::Vec3;
 
-use crate::lane_math::LaneMask;
+use crate::lane_math::{LaneMask, dot};
 use crate::node::child_codes::ChildCodes;
 use crate::node::sheet_code::SheetCode;
 use crate::node::spread_code::SpreadCode;
@@ -51,6 +51,8 @@ pub struct ChildView {
     pub power: f32,
     /// How it lies, if it is a thin sheet; `None` if no child of the node is one.
     pub(crate) sheet: Option<Sheet>,
+    /// The inner product of `axis` and `mean`, which several tests and weights need.
+    pub(crate) axis_dot_mean: f32,
 }
 
 /// A child whose lights lie in a thin slanted sheet, if they do.
@@ -120,6 +122,11 @@ impl NodeFrame {
             code * f32::from(codes.extent[1]),
             code * f32::from(codes.extent[2]),
         ];
+        let axis = [
+            f32::from(codes.axis[0]),
+            f32::from(codes.axis[1]),
+            f32::from(codes.axis[2]),
+        ];
         let dist_sq = dist_sq(mean, extent, DISTANCE);
         let dist = float::sqrt(dist_sq);
         let offset = i32::from(codes.offset);
@@ -131,11 +138,7 @@ impl NodeFrame {
             dist,
             dist_sq,
             slack: ROUND_OFF * dist,
-            axis: [
-                f32::from(codes.axis[0]),
-                f32::from(codes.axis[1]),
-                f32::from(codes.axis[2]),
-            ],
+            axis,
             offset: both_sides.clear(offset as f32),
             spread: spread.value(),
             soft: spread.soft(),
@@ -143,6 +146,7 @@ impl NodeFrame {
             both_sides,
             power: decode_power(codes.power),
             sheet: None,
+            axis_dot_mean: dot(&axis, &mean),
         };
         if sheets {
             child.set_sheet();

@@ -7,7 +7,7 @@ use crate::importance::child_view::{ChildView, dist_sq};
 use crate::importance::frame::Frame;
 use crate::importance::receiver::Receiver;
 use crate::importance::surface::SurfaceReceiver;
-use crate::lane_math::{larger, smaller};
+use crate::lane_math::{dot, larger, smaller};
 
 /// How much of a group's squared extent over its squared distance widens the facets, and how much
 /// of its squared width is variance of that distance: less than elsewhere, for lights on the far
@@ -86,8 +86,6 @@ impl GlossyReceiver {
     /// The reflection of the child's light toward the viewer over that of a matt surface; above 0.
     #[inline(always)]
     fn reflected(&self, child: &ChildView, height: f32) -> f32 {
-        let [hx, hy, hz] = child.extent;
-        let [vx, vy, vz] = child.mean;
         let Self {
             wo, cos_o, alpha, ..
         } = *self;
@@ -95,11 +93,11 @@ impl GlossyReceiver {
         let inv_dist = 1.0 / float::sqrt(dist_sq);
         let cos_i = smaller(1.0, height * inv_dist);
         // The squared length of the half vector, and of its part along the normal.
-        let half_sq = 2.0 + 2.0 * (vx * wo.x + vy * wo.y + vz * wo.z) * inv_dist;
+        let half_sq = 2.0 + 2.0 * dot(&child.mean, &wo.to_array()) * inv_dist;
         let half_sq = larger(MIN_HALF_SQ, half_sq);
         let cos_sum = cos_i + cos_o;
         let upright = smaller(half_sq, cos_sum * cos_sum);
-        let extent_sq = hx * hx + hy * hy + hz * hz;
+        let extent_sq = dot(&child.extent, &child.extent);
         let widening = WIDENING * extent_sq / (dist_sq + extent_sq);
         let alpha_sq = smaller(1.0, alpha * alpha + widening);
         let spread = half_sq - (1.0 - alpha_sq) * upright;
@@ -144,6 +142,7 @@ mod tests {
             both_sides: LaneMask::when(false),
             power: 1.0,
             sheet: None,
+            axis_dot_mean: 0.0,
         }
     }
 

@@ -2,7 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::ChildView;
-use crate::lane_math::{LaneMask, larger};
+use crate::lane_math::{LaneMask, dot, larger};
 
 /// How much of the squared half extents of a child, along the normal, counts as variance of its
 /// height over the horizon: a little more than that of lights which fill the box evenly, 1/3.
@@ -53,11 +53,10 @@ impl Horizon {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn half_height(&self, child: &ChildView) -> HalfHeight {
         let (n, abs_n) = (self.half_n, self.abs_half_n);
-        let [vx, vy, vz] = child.mean;
         let [hx, hy, hz] = child.extent;
         let [sx, sy, sz] = [abs_n.x * hx, abs_n.y * hy, abs_n.z * hz];
         HalfHeight {
-            mean: n.x * vx + n.y * vy + n.z * vz,
+            mean: n.dot(Vec3::from(child.mean)),
             support: sx + sy + sz,
             variance: HEIGHT * (sx * sx + sy * sy + sz * sz),
         }
@@ -72,12 +71,10 @@ impl Horizon {
     /// horizon are those in front.
     #[inline(always)]
     pub(crate) fn lift(&self, child: &ChildView, height: &HalfHeight) -> f32 {
-        let [mx, my, mz] = child.axis;
-        let n = self.n;
         let raised = child
             .is_ramp_group()
             .keep(larger(0.0, height.support - height.mean));
-        raised * (mx * n.x + my * n.y + mz * n.z)
+        raised * dot(&child.axis, &self.n.to_array())
     }
 }
 

@@ -5,7 +5,7 @@ use light_math::float;
 use crate::importance::child_importance::Displacement;
 use crate::importance::child_view::{ChildView, Sheet};
 use crate::importance::horizon::{HalfHeight, Horizon};
-use crate::lane_math::larger;
+use crate::lane_math::{dot, larger};
 
 /// How far the mean position counts as moved toward that of what is above the horizon, for the
 /// distance. Chosen by V: see `docs/light-bvh.md`.
@@ -28,25 +28,24 @@ impl Horizon {
         height: &HalfHeight,
         sheet: &Sheet,
     ) -> (Displacement, f32) {
-        let n = self.normal();
+        let n = self.normal().to_array();
         let [hx, hy, hz] = child.extent;
-        let [tx, ty, tz] = [n.x * hx, n.y * hy, n.z * hz];
+        let [tx, ty, tz] = [n[0] * hx, n[1] * hy, n[2] * hz];
         let [xy, yz, zx] = sheet.correlations;
         // Three times the covariance of height and position, and the variance of height.
         let ux = hx * (tx + xy * ty + zx * tz);
         let uy = hy * (ty + xy * tx + yz * tz);
         let uz = hz * (tz + zx * tx + yz * ty);
-        let of_box = tx * tx + ty * ty + tz * tz;
-        let variance = n.x * ux + n.y * uy + n.z * uz;
+        let of_box = dot(&[tx, ty, tz], &[tx, ty, tz]);
+        let variance = dot(&n, &[ux, uy, uz]);
         let variance = larger(
             f32::MIN_POSITIVE,
             larger(LEAST_THICKNESS * of_box, variance),
         );
-        let [mx, my, mz] = child.axis;
         let [vx, vy, vz] = child.mean;
-        let above = 0.5 * (float::sqrt(variance) - (n.x * vx + n.y * vy + n.z * vz));
+        let above = 0.5 * (float::sqrt(variance) - dot(&n, &child.mean));
         let raised = larger(0.0, above) / variance;
-        let lift = raised * (mx * ux + my * uy + mz * uz);
+        let lift = raised * dot(&child.axis, &[ux, uy, uz]);
         let nearer = NEARER * raised;
         let (sx, sy, sz) = (nearer * ux, nearer * uy, nearer * uz);
         // The squared length of `mean + shift` less that of `mean`.
@@ -56,7 +55,7 @@ impl Horizon {
             child.dist_sq,
         );
         let from = Displacement {
-            mean: child.mean,
+            axis_dot_mean: child.axis_dot_mean,
             dist: float::sqrt(dist_sq),
             dist_sq,
         };

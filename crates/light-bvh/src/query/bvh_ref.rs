@@ -77,8 +77,8 @@ impl<'a> LightBvhRef<'a> {
         node: &WideNode,
         receiver: &R,
     ) -> Weights {
-        let weights = Weights::new(node, receiver);
-        let mut weights = self.resolve_points(node, receiver, weights);
+        let mut weights = Weights::new(node, receiver);
+        self.resolve_points(node, receiver, &mut weights);
         self.leave_out(index, &mut weights);
         weights
     }

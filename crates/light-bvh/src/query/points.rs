@@ -14,22 +14,27 @@ use crate::simd::{VectorWork, dispatch};
 pub(crate) const NEAR_POINT: f32 = 16.0;
 
 impl LightBvhRef<'_> {
-    /// The `weights` of the children of `node` for `receiver`, but a subtree that is a point, and
-    /// near, counts by the weights of its own children.
+    /// Lets each child of `node` that is a subtree, a point and near count by the weights of its
+    /// own children for `receiver`.
     #[inline(always)]
     pub(crate) fn resolve_points<R: Receiver>(
         &self,
         node: &WideNode,
         receiver: &R,
-        weights: Weights,
-    ) -> Weights {
+        weights: &mut Weights,
+    ) {
         if !node.has_points() {
-            return weights;
+            return;
         }
-        // A copy: what a function may change through a reference is in memory.
-        let mut resolved = weights;
-        self.resolve_near_points(node, receiver, &mut resolved);
-        resolved
+        // Without an operating system the stack is short.
+        if cfg!(target_os = "none") {
+            self.resolve_near_points(node, receiver, weights);
+        } else {
+            // A copy: what a function may change through a reference is in memory.
+            let mut resolved = *weights;
+            self.resolve_near_points(node, receiver, &mut resolved);
+            *weights = resolved;
+        }
     }
 
     /// A function of its own: nodes without points, which are most, pay for one test.

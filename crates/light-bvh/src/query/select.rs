@@ -49,7 +49,7 @@ impl Weights {
         let within = place.max(left_over) - left_over;
         let start = |child: usize| ends[child] - parts[child];
         let is_right = (start(guess) <= within) & (within < ends[guess]);
-        let child = if is_right {
+        let child = if HAS_VECTORS && is_right {
             guess
         } else {
             search(&ends, within)
@@ -77,7 +77,7 @@ impl Weights {
         if child == self.first() {
             // What is left over by all others.
             let parts = self.parts();
-            PART * (ALL - (total(parts) - parts[child]))
+            PART * (ALL - (total(&parts) - parts[child]))
         } else {
             PART * parts_of(self.lanes[child], self.scale())
         }
@@ -87,6 +87,10 @@ impl Weights {
     /// branches: which one it is cannot be predicted.
     #[inline(always)]
     fn first(&self) -> usize {
+        if !HAS_VECTORS {
+            let first = self.lanes.iter().position(|&weight| weight > 0.0);
+            return first.unwrap_or(WIDTH);
+        }
         let mut positive = 0;
         for first in (0..WIDTH).step_by(4) {
             let four = Vec4::from_slice(&self.lanes[first..]);
@@ -96,7 +100,8 @@ impl Weights {
     }
 
     /// The parts of each child, before those that are left over go to the first.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn parts(&self) -> [f32; WIDTH] {
         let scale = self.scale();
         let mut parts = self.lanes;
@@ -181,7 +186,7 @@ mod tests {
         let lanes = core::array::from_fn(|k| some.get(k).copied().unwrap_or(0.0));
         Weights {
             lanes,
-            total: total(lanes),
+            total: total(&lanes),
             inv_unit: 1.0,
         }
     }

@@ -3,7 +3,7 @@ use light_math::glam::Vec4;
 
 use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
-use crate::lane_math::{LaneMask, larger};
+use crate::lane_math::{LaneMask, larger, reduce};
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::simd::{VectorWork, dispatch};
 
@@ -66,7 +66,8 @@ impl Weights {
 
     /// The same, and for each child the square of its angular size: squared width over squared
     /// distance.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn with_angular_size<R: Receiver>(
         node: &WideNode,
         receiver: &R,
@@ -102,11 +103,11 @@ impl Weights {
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn raise_to_least_share(&mut self) {
-        let least = total(self.lanes) * LEAST_SHARE;
+        let least = total(&self.lanes) * LEAST_SHARE;
         for weight in &mut self.lanes {
             *weight = LaneMask::when(*weight > 0.0).keep(larger(*weight, least));
         }
-        self.total = total(self.lanes);
+        self.total = total(&self.lanes);
     }
 
     /// Sets the weights of children without a light in a `wanted` group to 0.
@@ -116,7 +117,7 @@ impl Weights {
         for (weight, groups) in self.lanes.iter_mut().zip(groups) {
             *weight = LaneMask::when(groups.is_wanted(wanted)).keep(*weight);
         }
-        self.total = total(self.lanes);
+        self.total = total(&self.lanes);
     }
 
     /// About the irradiance by the lights of `node`, of which these are the weights, where all
@@ -235,7 +236,11 @@ fn is_trusted<R: Receiver>(total: f32, frame: &NodeFrame, receiver: &R) -> bool 
 /// The sum of all lanes, in pairs.
 #[cfg_attr(target_os = "none", inline(never))]
 #[cfg_attr(not(target_os = "none"), inline(always))]
-pub(crate) fn total(lanes: [f32; WIDTH]) -> f32 {
+pub(crate) fn total(lanes: &[f32; WIDTH]) -> f32 {
+    if cfg!(soft_floats) {
+        // The same sums in a loop: less code.
+        return reduce(*lanes, |a, b| a + b);
+    }
     let four = |first: usize| Vec4::from_slice(&lanes[first..]);
     let sums = (four(0) + four(8)) + (four(4) + four(12));
     (sums.x + sums.z) + (sums.y + sums.w)

@@ -27,13 +27,13 @@ pub(super) fn multiply(weights: &mut Weights, factors: &[u8; WIDTH]) {
     let factors = factors.map(decode_scaled);
     let products = core::array::from_fn(|k| weights.lanes[k] * factors[k]);
     // Not a number if all weights are 0, which they stay.
-    let by_tree = DEFENSIVE_SHARE * (total(products) / weights.total);
+    let by_tree = DEFENSIVE_SHARE * (total(&products) / weights.total);
     for (weight, factor) in weights.lanes.iter_mut().zip(factors) {
         let mixed = (1.0 - DEFENSIVE_SHARE) * factor + by_tree;
         let product = larger(*weight * mixed, f32::MIN_POSITIVE);
         *weight = LaneMask::when(*weight > 0.0).keep(product);
     }
-    weights.total = total(weights.lanes);
+    weights.total = total(&weights.lanes);
     weights.inv_unit *= SHORTER;
 }
 
@@ -45,7 +45,7 @@ mod tests {
     fn weights(lanes: [f32; WIDTH]) -> Weights {
         Weights {
             lanes,
-            total: total(lanes),
+            total: total(&lanes),
             inv_unit: 1.0,
         }
     }
