@@ -2735,3 +2735,15 @@ fn light_spot_falloff(it: LightRecord, w: vec3<f32>) -> f32 {
     let t = clamp((end - x) / (end - start), 0.0, 1.0);
     return select(select(t * t * (3.0 - 2.0 * t), 0.0, x >= end), 1.0, x <= start);
 }
+
+// The lights of a scene and the sampler that chooses among them.
+
+struct LightScene {
+    sampler: LightSampler,
+    lights: LightSet,
+}
+
+// The lights whose rows begin in row `first`: light_scene_rows of the crate makes them.
+fn light_scene(first: u32) -> LightScene {
+    return LightScene(light_sampler(first + 1u), light_set(first + light_row(first).x));
+}

@@ -1,13 +1,13 @@
 //! `cargo xtask gpu [QUERIES [SET]]`: the shaders of `light-gpu` against the Rust crates, on the
-//! driver of this machine, or on Mesa's software driver from Debian; then the pictures of the
-//! examples `gbuffer` and `techniques`.
+//! driver of this machine, or on Mesa's software driver from Debian; then the examples `lit_pixel`,
+//! `gbuffer` and `techniques`.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use crate::debian::{libraries, unpacked};
-use crate::steps::{Outcome, StepResult, cargo, root};
+use crate::steps::{Outcome, StepResult, cargo, output, root};
 
 /// The workspace of the check, which needs a graphics stack to build.
 const MANIFEST: &str = "gpu/wgsl/Cargo.toml";
@@ -24,7 +24,7 @@ const DRIVER: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
 /// When the shaders answer otherwise than they may, or the check does not build.
 pub fn gpu(arguments: &[String]) -> StepResult {
     if holds(check(arguments))? {
-        return pictures(&[]);
+        return examples(&[]);
     }
     println!("    no driver for Vulkan, Metal or DirectX 12");
     let folder = match unpacked("vulkan", &DRIVER.map(String::from)) {
@@ -44,7 +44,7 @@ pub fn gpu(arguments: &[String]) -> StepResult {
     if !holds(with_driver)? {
         return Ok(Outcome::Skipped("Mesa's driver does not run here".into()));
     }
-    pictures(&driver)
+    examples(&driver)
 }
 
 /// What is wrong with the `arguments` of the check, in one line; the names of its sets are its own.
@@ -81,8 +81,14 @@ fn unknown_set(names: &str, part: &str) -> Option<String> {
     ))
 }
 
-/// Lights the pictures of the examples, which hold them against the CPU's.
-fn pictures(driver: &[(&str, String)]) -> StepResult {
+/// Runs the examples; those of pictures hold them against the CPU's.
+fn examples(driver: &[(&str, String)]) -> StepResult {
+    let mut command = program(["--example", "lit_pixel"]);
+    let printed = output(command.envs(driver.iter().cloned()))?;
+    println!("\nlit_pixel: {}", printed.trim());
+    if !is_lit(&printed) {
+        return Err(format!("the pixel of `lit_pixel` is none of {PIXEL:?}"));
+    }
     for example in ["gbuffer", "techniques"] {
         println!();
         let mut command = program(["--example", example]);
@@ -92,6 +98,17 @@ fn pictures(driver: &[(&str, String)]) -> StepResult {
         }
     }
     Ok(Outcome::Passed)
+}
+
+/// What `lit_pixel` prints: a white floor under a white light of irradiance 1 and a red one.
+const PIXEL: [u8; 4] = [162, 81, 81, 255];
+
+/// Whether the program printed this pixel; by 256 choices it may be off by 2.
+fn is_lit(printed: &str) -> bool {
+    let bytes = printed.trim().trim_matches(['[', ']']).split(", ");
+    let bytes: Result<Vec<u8>, _> = bytes.map(str::parse).collect();
+    let near = |bytes: &[u8]| bytes.iter().zip(PIXEL).all(|(a, b)| a.abs_diff(b) <= 2);
+    bytes.is_ok_and(|bytes| bytes.len() == PIXEL.len() && near(&bytes))
 }
 
 fn check(arguments: &[String]) -> Command {
@@ -149,6 +166,15 @@ mod tests {
             wrong(&["1", "uniform", "100"]).is_some(),
             "a name is one word"
         );
+    }
+
+    #[test]
+    fn a_pixel_is_lit_or_not() {
+        assert!(is_lit("[162, 81, 81, 255]\n"), "as computed");
+        assert!(is_lit("[160, 83, 81, 255]"), "off by two");
+        for other in ["[159, 81, 81, 255]", "[162, 81, 81]", "[0, 0, 0, 0]", ""] {
+            assert!(!is_lit(other), "{other}");
+        }
     }
 
     #[test]

@@ -17,9 +17,10 @@ fn light_row(i: u32) -> vec4<u32> { return vec4<u32>(i); }
 const LIGHTS: &str = "crates/light-gpu/lights.wgsl";
 
 /// The shaders made of them: a name, and the files behind them.
-const SHADERS: [(&str, &[&str]); 4] = [
+const SHADERS: [(&str, &[&str]); 5] = [
     ("lights", &[]),
     ("check", &["gpu/wgsl/src/check.wgsl"]),
+    ("lit_pixel", &["gpu/wgsl/examples/lit_pixel/pixel.wgsl"]),
     ("gbuffer", &["gpu/wgsl/examples/gbuffer/gbuffer.wgsl"]),
     (
         "techniques",

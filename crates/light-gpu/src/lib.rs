@@ -12,6 +12,7 @@ pub use light_sources;
 
 mod light_rows;
 mod rows;
+mod scene_rows;
 mod source;
 
 pub use light_rows::{UnsupportedLight, light_set_rows};
@@ -19,4 +20,5 @@ pub use rows::{
     TooManyInfiniteLights, alias_table_rows, compact_bounds_rows, light_sampler_rows,
     light_tree_rows, node_rows,
 };
+pub use scene_rows::{LightSceneRowsError, light_scene_rows};
 pub use source::{LIGHTS_WGSL, constants, flat};

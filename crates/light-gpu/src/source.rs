@@ -18,7 +18,7 @@ use light_sources::shape::SHAPE_CONSTANTS;
 pub const LIGHTS_WGSL: &str = include_str!("../lights.wgsl");
 
 /// The modules, in the order of the text, each after what it needs.
-const MODULES: [&str; 18] = [
+const MODULES: [&str; 19] = [
     include_str!("../wesl/fraction.wesl"),
     include_str!("../wesl/alias_table.wesl"),
     include_str!("../wesl/sphere_maps.wesl"),
@@ -37,6 +37,7 @@ const MODULES: [&str; 18] = [
     include_str!("../wesl/flat_lights.wesl"),
     include_str!("../wesl/sphere_light.wesl"),
     include_str!("../wesl/light_set.wesl"),
+    include_str!("../wesl/light_scene.wesl"),
 ];
 
 #[expect(clippy::cast_possible_truncation, reason = "a few nodes")]

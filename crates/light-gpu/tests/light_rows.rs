@@ -1,5 +1,6 @@
 //! Rows of lights are what the shader's comments say of them.
 
+use light_gpu::light_samplers::BvhLightSampler;
 use light_gpu::light_sources::glam::{Affine3A, Vec3};
 use light_gpu::light_sources::light_bounds::LightId;
 use light_gpu::light_sources::shape::ShapeDesc;
@@ -8,7 +9,9 @@ use light_gpu::light_sources::{
     IntensityAmount, LightDesc, LightSet, LightSetBuilder, MeshLightDesc, PointLightDesc,
     RadianceAmount, Rgb, SceneSphere, Sides, SurfaceColor,
 };
-use light_gpu::{UnsupportedLight, light_set_rows};
+use light_gpu::{
+    LightSceneRowsError, UnsupportedLight, light_sampler_rows, light_scene_rows, light_set_rows,
+};
 
 const COLOR: Vec3 = Vec3::new(1.0, 2.0, 3.0);
 
@@ -139,8 +142,25 @@ fn the_first_light_that_shaders_do_not_sample_is_named() {
     let amount = IntensityAmount::Radiometric(1.0);
     let point = PointLightDesc::new(Vec3::Z, COLOR, amount);
     let disk = AreaLightDesc::new(disk, glow(Sides::Front));
-    let refused = light_set_rows(&set([point.into(), disk.into()]));
-    assert_eq!(refused, Err(UnsupportedLight(LightId(1))), "the disk");
-    let text = UnsupportedLight(LightId(1)).to_string();
+    let set = set([point.into(), disk.into()]);
+    let why = UnsupportedLight(LightId(1));
+    assert_eq!(light_set_rows(&set), Err(why), "the disk");
+    let text = why.to_string();
     assert!(text.starts_with("light 1 "), "{text}");
+    let of_scene = LightSceneRowsError::Unsupported(why);
+    assert_eq!(light_scene_rows(&set), Err(of_scene), "in a scene too");
+    assert_eq!(of_scene.to_string(), text, "in the same words");
+}
+
+#[test]
+fn a_scene_is_a_head_a_sampler_and_a_set() {
+    let point = PointLightDesc::new(Vec3::Z, COLOR, IntensityAmount::Radiometric(1.0));
+    let lights = set([point.into(), sky(EnvironmentMap::LatLong, [4, 2], 1.0)]);
+    let rows = light_scene_rows(&lights).expect("known kinds");
+    let sampler = BvhLightSampler::new(&lights.extents()).expect("valid lights");
+    let sampler = light_sampler_rows(&sampler.view()).expect("one light at infinity");
+    let (of_sampler, of_set) = rows[1..].split_at(sampler.len());
+    assert_eq!(of_sampler, sampler, "after the head");
+    assert_eq!(rows[0][0] as usize, 1 + sampler.len(), "where the set is");
+    assert_eq!(of_set, light_set_rows(&lights).expect("known kinds"));
 }

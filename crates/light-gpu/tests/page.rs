@@ -1,10 +1,10 @@
-//! The page shows the source of the example, which `cargo xtask gpu` compiles and runs.
+//! The page shows the source of the example `lit_pixel`, which `cargo xtask gpu` compiles and runs.
 
 use std::fs;
 use std::path::Path;
 
 fn example(file: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gpu/wgsl/examples/gbuffer");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gpu/wgsl/examples/lit_pixel");
     fs::read_to_string(folder.join(file)).expect("a file of the example")
 }
 
@@ -12,21 +12,15 @@ const PAGE: &str = include_str!("../../../docs/light-gpu.md");
 
 #[test]
 fn the_host_code_is_that_of_the_example() {
-    let host = example("lit.rs");
-    assert!(
-        PAGE.contains(&format!("```rust,ignore\n{host}```")),
-        "lit.rs"
-    );
-    let (_, body) = host.split_once("\npub fn ").expect("a function");
-    assert!(body.lines().count() <= 40, "{} lines", body.lines().count());
+    let host = example("main.rs");
+    let shown = format!("```rust,ignore\n{host}```");
+    assert!(PAGE.contains(&shown), "main.rs");
+    let lines = host.lines().count();
+    assert!(lines <= 40, "{lines} lines of a program");
 }
 
 #[test]
 fn the_shader_is_that_of_the_example() {
-    let shader = example("gbuffer.wgsl");
-    let at = shader.find("@compute").expect("an entry point");
-    assert!(
-        PAGE.contains(&format!("```wgsl\n{}```", &shader[at..])),
-        "gbuffer.wgsl"
-    );
+    let shown = format!("```wgsl\n{}```", example("pixel.wgsl"));
+    assert!(PAGE.contains(&shown), "pixel.wgsl");
 }

@@ -38,10 +38,11 @@ fn light_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = picture[id.x];
     let u = random(vec4<u32>(id.x, u32(sum.w), 0u, 0u));
     if any(pixel.n != vec3<f32>(0.0)) {
+        let scene = light_scene(0u);
         let here = light_surface(pixel.p, pixel.n);
-        let chosen = light_sampler_sample(light_sampler(1u), here, u.xy);
+        let chosen = light_sampler_sample(scene.sampler, here, u.xy);
         let place = vec2<f32>(u.zw >> vec2<u32>(8u)) / 16777216.0;
-        let arriving = light_set_sample_li(light_set(rows[0].x), chosen.light, here, place);
+        let arriving = light_set_sample_li(scene.lights, chosen.light, here, place);
         if chosen.pmf > 0.0 && arriving.pdf > 0.0 {
             let cosine = max(dot(here.n, arriving.wi), 0.0);
             let weight = cosine / (3.14159265358979 * arriving.pdf * chosen.pmf);

@@ -1,9 +1,8 @@
 use core::error::Error;
 
 use bytemuck::{cast_slice, pod_collect_to_vec};
-use light_gpu::light_samplers::BvhLightSampler;
 use light_gpu::light_sources::{LightSet, Rgb};
-use light_gpu::{LIGHTS_WGSL, light_sampler_rows, light_set_rows};
+use light_gpu::{LIGHTS_WGSL, light_scene_rows};
 use pollster::block_on;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::*;
@@ -11,8 +10,7 @@ use wgpu::*;
 type Picture = Result<Vec<f32>, Box<dyn Error>>;
 
 pub fn lit(lights: &LightSet<Rgb>, pixels: &[[f32; 16]], frames: u32) -> Picture {
-    let tree = light_sampler_rows(&BvhLightSampler::new(&lights.extents())?.view())?;
-    let rows = [vec![[1 + tree.len() as u32, 0, 0, 0]], tree, light_set_rows(lights)?].concat();
+    let rows = light_scene_rows(lights)?;
     let adapter = block_on(Instance::default().request_adapter(&Default::default()))?;
     let (device, queue) = block_on(adapter.request_device(&Default::default()))?;
     let source = ShaderSource::Wgsl([LIGHTS_WGSL, include_str!("gbuffer.wgsl")].concat().into());
