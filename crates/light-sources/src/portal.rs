@@ -1,4 +1,4 @@
-use crate::glam::{DVec2, Vec2, Vec3};
+use crate::glam::{DVec2, DVec3, Vec2, Vec3};
 use light_math::Frame;
 use light_math::distribution::Window;
 use light_math::float::{atan2, tan};
@@ -79,20 +79,29 @@ impl Portal {
         (self.frame.from_local(w), solid_angle_per_area(w))
     }
 
-    /// The integral of the cosine at the portal over a texel of a square map with `n` of them along
-    /// each side, in sr.
+    /// The integrals over a texel of a square map with `n` of them along each side, in sr: of the
+    /// direction in the portal's frame, of which z is the cosine at the portal, and of 1, the solid
+    /// angle.
     ///
-    /// From the axis to the angles `a` and `b` it is
-    /// `(sin a atan(tan b cos a) + sin b atan(tan a cos b)) / 2`: the form factor of a rectangle.
-    pub(crate) fn projected_solid_angle([x, y]: [u32; 2], n: u32) -> f64 {
+    /// From the axis to the angles `a` and `b` that of the cosine is
+    /// `(sin a atan(tan b cos a) + sin b atan(tan a cos b)) / 2`, the form factor of a rectangle,
+    /// and the solid angle is `asin(sin a sin b)`. The one of x is `-cos a atan(tan b cos a) / 2`
+    /// but for what does not depend on `a`, and cancels.
+    pub(crate) fn texel_integrals([x, y]: [u32; 2], n: u32) -> (DVec3, f64) {
         let angle =
             |i: u32| DVec2::from_angle((f64::from(i) / f64::from(n) - 0.5) * f64::consts::PI);
         let corner = |x: u32, y: u32| {
             let (a, b) = (angle(x), angle(y));
-            let up_to = |a: DVec2, b: DVec2| a.y * DVec2::new(b.x, b.y * a.x).to_angle();
-            0.5 * (up_to(a, b) + up_to(b, a))
+            let across = |a: DVec2, b: DVec2| DVec2::new(b.x, b.y * a.x).to_angle();
+            let (to_b, to_a) = (across(a, b), across(b, a));
+            // The angle with the sine `sin a sin b`, of which this is the cosine.
+            let sine = a.y * b.y;
+            let cosine = DVec2::new(a.x, a.y * b.x).length();
+            let integral = 0.5 * DVec3::new(-a.x * to_b, -b.x * to_a, a.y * to_b + b.y * to_a);
+            integral.extend(DVec2::new(cosine, sine).to_angle())
         };
-        corner(x + 1, y + 1) - corner(x, y + 1) - corner(x + 1, y) + corner(x, y)
+        let sum = corner(x + 1, y + 1) - corner(x, y + 1) - corner(x + 1, y) + corner(x, y);
+        (sum.truncate(), sum.w)
     }
 
     /// The point of the square of a direction, and the solid angle per area there; `None` for
@@ -203,6 +212,36 @@ mod tests {
                 "on line"
             );
         }
+    }
+
+    /// However large the texels are: one of a map of one has all of the half space.
+    #[test]
+    fn integrals_of_texels_are_exact() {
+        let Some(portal) = Portal::new(SQUARE) else {
+            unreachable!("a rectangle")
+        };
+        const PARTS: u32 = 256;
+        for n in [1, 2, 3] {
+            for texel in (0..n * n).map(|i| [i % n, i / n]) {
+                let (mut direction, mut solid_angle) = (DVec3::ZERO, 0.0);
+                for part in (0..PARTS * PARTS).map(|i| [i % PARTS, i / PARTS]) {
+                    let at = [0, 1].map(|i| texel[i] as f32 + (part[i] as f32 + 0.5) / 256.0);
+                    let (w, density) = portal.direction(Vec2::from(at) / n as f32);
+                    let area = f64::from(density) / f64::from(n * n * PARTS * PARTS);
+                    direction += portal.frame().to_local(w).as_dvec3() * area;
+                    solid_angle += area;
+                }
+                let (exact, whole) = Portal::texel_integrals(texel, n);
+                assert!(
+                    exact.distance(direction) < 1e-2 && (whole - solid_angle).abs() < 1e-2,
+                    "{texel:?} of {n}: {exact}, {whole}, not {direction}, {solid_angle}"
+                );
+            }
+        }
+        let (direction, solid_angle) = Portal::texel_integrals([0, 0], 1);
+        let pi = f64::consts::PI;
+        assert!(direction.distance(DVec3::Z * pi) < 1e-12, "{direction}");
+        assert!((solid_angle - 2.0 * pi).abs() < 1e-12, "{solid_angle}");
     }
 
     #[test]

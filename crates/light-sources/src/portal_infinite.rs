@@ -108,21 +108,22 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
                 let (w, solid_angle) = portal.direction(uv);
                 let texel = sky.bilinear(transform.inverse_vector(w));
                 let weight = texel.average() * solid_angle;
-                irradiance.add(texel, Portal::projected_solid_angle([x, y], n));
-                mean.add(w, f64::from(weight));
-                fluence += f64::from(weight);
+                let (direction, exact) = Portal::texel_integrals([x, y], n);
+                irradiance.add(texel, direction.z);
+                let average = f64::from(texel.average());
+                mean.add(portal.frame().from_local(direction.as_vec3()), average);
+                fluence += average * exact;
                 texels.extend_from_slice(&texel.to_array());
                 weights.push(weight);
             }
         }
-        let count = f64::from(n) * f64::from(n);
         let irradiance = irradiance.over(1.0);
         ImageInfiniteLightError::check(irradiance, scale)?;
         let size = sky.size();
         let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
         Ok(Self {
             extent: InfiniteBounds {
-                fluence: single(fluence / count) * scale,
+                fluence: single(fluence) * scale,
                 mean: mean.over(fluence),
                 cone: DirectionCone::new(portal.frame().z, 0.0),
             },
