@@ -92,6 +92,9 @@ usage: cargo xtask [COMMAND]
                               many (default: 10000000, and 10^9 that are placed), for
                               docs/light-bvh.md, and what farms render, for docs/farm.md
                               (--quick: to 10000, roughly, printed only)
+  brute-force [SEEDS] [FIRST SEED] [KIND]
+                              compare very many lights of each kind with quadrature of their
+                              descriptions (default: 1000 seeds from 0, all kinds)
   soak [CHOICES] [LIGHT_SAMPLES] [SEED]
                               take very many samples and compare each with its query
                               (default: 10^9, 10^8, seed 1)
@@ -154,6 +157,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         ("mutants", rest) => one("mutants", || mutants::mutants(rest)),
         ("fuzz", rest) => one("fuzz", || fuzz::fuzz(rest)),
         ("scaling", rest) => one("scaling", || programs::scaling(rest)),
+        ("brute-force", rest) => one("brute-force", || programs::brute_force(rest)),
         ("soak", rest) => one("soak", || programs::soak(rest)),
         ("conformance", rest) => programs::conformance(rest),
         ("exhaustive", rest) => programs::exhaustive(rest),

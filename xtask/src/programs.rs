@@ -38,6 +38,17 @@ pub fn soak(arguments: &[String]) -> StepResult {
     step(program(&[&package[..], &example].concat(), arguments))
 }
 
+/// `cargo xtask brute-force [SEEDS] [FIRST SEED] [KIND]`: very many lights, each compared with
+/// quadrature of its description.
+///
+/// # Errors
+/// The command line, when a light differs or an argument is no number.
+pub fn brute_force(arguments: &[String]) -> StepResult {
+    let package = ["--release", "--package", "light-testkit"];
+    let example = ["--features", "sources", "--example", "brute_force"];
+    step(program(&[&package[..], &example].concat(), arguments))
+}
+
 /// `cargo xtask march-convergence`: measures how marches through media converge, and draws it.
 ///
 /// # Errors

@@ -19,6 +19,8 @@ pub use light_sources;
 
 #[cfg(feature = "samplers")]
 mod adversarial_cases;
+#[cfg(feature = "sources")]
+pub mod brute_force;
 mod cap;
 mod chi_squared;
 #[cfg(feature = "samplers")]
