@@ -22,18 +22,18 @@ fn lights_on_shapes() {
         Kind::Disk,
         Kind::Cylinder,
     ];
-    check_all(kinds, 24);
+    check_all(kinds, 96);
 }
 
 #[test]
 fn meshes() {
-    check_all([Kind::Mesh, Kind::PlacedMesh], 24);
+    check_all([Kind::Mesh, Kind::PlacedMesh], 96);
 }
 
 #[test]
 fn lights_at_points() {
     let kinds = [Kind::Point, Kind::Spot, Kind::Projection, Kind::Goniometric];
-    check_all(kinds, 24);
+    check_all(kinds, 96);
 }
 
 #[test]
@@ -45,5 +45,5 @@ fn lights_at_infinity() {
         Kind::ImageInfinite,
         Kind::PortalInfinite,
     ];
-    check_all(kinds, 12);
+    check_all(kinds, 32);
 }

@@ -158,7 +158,7 @@ fn density_holds<M: Model>(
     });
     let is_visible = !matches!(truth.emission.mask, EmissionMask::Invisible);
     let mut fault = String::new();
-    for detail in [1, 16, 256] {
+    for detail in [4, 16, 256] {
         let mut integral = Stratified::<4>::default();
         // At a silhouette rounding decides which side is seen.
         let mut on_any_side = 0.0;

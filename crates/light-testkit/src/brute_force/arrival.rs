@@ -41,7 +41,7 @@ pub(super) const UNSEEN: f64 = 21.0;
 
 /// Rows of cells of the first comparison, and of those that confirm a difference: points that are
 /// chosen by area hardly ever lie near a receiver that is close to a surface.
-const SIDES: [u32; 3] = [24, 128, 1024];
+const SIDES: [u32; 3] = [64, 256, 1024];
 
 /// The mean of samples toward the light is what arrives, to chance and to what moves as rounding
 /// moves the receiver: the result is exact for a receiver nearby.
@@ -54,7 +54,7 @@ pub(super) fn arrival_holds<M: Model>(
 ) -> Result<(), String> {
     let mut fault = String::new();
     let mut sensitivity = None;
-    for (detail, side) in [1, 4, 16].into_iter().zip(SIDES) {
+    for (detail, side) in [4, 16, 64].into_iter().zip(SIDES) {
         let mut outcome = Outcome::default();
         let side = if is_dirac(light) { 2 } else { side };
         let sampled = Stratified::over_square(side, rng, |u, _| {
