@@ -165,19 +165,27 @@ impl Lines<'_> {
 
     /// A finite number, with a decimal point or a decimal comma.
     fn number(&mut self, what: &str) -> Result<f32, Diagnostic> {
+        self.number_as_written(what).map(|(number, _)| number)
+    }
+
+    /// A finite number with its words, which may have more digits than an `f32`.
+    fn number_as_written(&mut self, what: &str) -> Result<(f32, String), Diagnostic> {
         let words = self.words(what)?;
         let parsed = words.replace(',', ".").parse().ok();
-        let finite = parsed.filter(|number: &f32| number.is_finite());
-        finite.ok_or_else(|| self.wrong(format!("expected {what}, found `{}`", shown(&words))))
+        match parsed.filter(|number: &f32| number.is_finite()) {
+            Some(number) => Ok((number, words)),
+            None => Err(self.wrong(format!("expected {what}, found `{}`", shown(&words)))),
+        }
     }
 
     /// A whole number from 0 to `most`.
     fn count(&mut self, what: &str, most: u16) -> Result<usize, Diagnostic> {
-        let number = self.number(what)?;
+        let (number, words) = self.number_as_written(what)?;
         let found = (0..=most).find(|&n| f32::from(n) == number);
-        found
-            .map(usize::from)
-            .ok_or_else(|| self.wrong(format!("expected {what}, at most {most}, found `{number}`")))
+        found.map(usize::from).ok_or_else(|| {
+            let words = shown(&words);
+            self.wrong(format!("expected {what}, at most {most}, found `{words}`"))
+        })
     }
 
     fn list(&mut self, n: usize, what: &str) -> Result<Vec<f32>, Diagnostic> {

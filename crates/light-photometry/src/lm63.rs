@@ -12,8 +12,8 @@ const MOST_ANGLES: u16 = 7_201;
 
 /// The luminaire in the text of an LM-63 file, of any edition from 1986 to 2019.
 ///
-/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or an
-/// error message: this crate reads no files.
+/// Where `TILT=` names a file, `tilt_file` gets that name and returns the text of the file, or why
+/// there is none, as in `cannot be read`: this crate reads no files.
 ///
 /// # Errors
 /// When the text is malformed, or `tilt_file` fails: the line and what was expected there.
@@ -60,7 +60,7 @@ pub fn parse_lm63(
         }
         name => {
             let text = tilt_file(name).map_err(|reason| {
-                let message = format!("TILT names `{}`, which {reason}", shown(name));
+                let message = format!("TILT names `{}`: {reason}", shown(name));
                 Diagnostic::at(tilt_line, message)
             })?;
             let tilt = read_tilt(&mut Numbers::new((1..).zip(text.lines())));

@@ -49,9 +49,8 @@ impl<'a> Numbers<'a> {
         let number = self.number(what)?;
         let found = (1..=most).find(|&n| f32::from(n) == number);
         found.map(usize::from).ok_or_else(|| {
-            self.wrong(format!(
-                "expected {what} from 1 to {most}, found `{number}`"
-            ))
+            let word = shown(self.last_word());
+            self.wrong(format!("expected {what} from 1 to {most}, found `{word}`"))
         })
     }
 
@@ -65,10 +64,18 @@ impl<'a> Numbers<'a> {
         self.next >= self.words.len()
     }
 
+    /// The number read last as the text has it, which may have more digits than an `f32`.
+    fn last_word(&self) -> &'a str {
+        self.last().map_or("", |&(_, word)| word)
+    }
+
+    fn last(&self) -> Option<&(usize, &'a str)> {
+        self.words.get(self.next.saturating_sub(1))
+    }
+
     /// A message about the line of the number read last.
     pub(super) fn wrong(&self, message: impl Into<String>) -> Diagnostic {
-        let last = self.words.get(self.next.saturating_sub(1));
-        let line = last.map_or(self.last_line, |&(line, _)| line);
+        let line = self.last().map_or(self.last_line, |&(line, _)| line);
         Diagnostic::at(line, message)
     }
 }

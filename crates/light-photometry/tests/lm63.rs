@@ -194,7 +194,7 @@ fn tilt_is_included_or_in_a_file() {
     let missing = parse_lm63(&text, |_| Err("cannot be read".into())).expect_err("no file");
     assert_eq!(
         missing.to_string(),
-        "line 1: TILT names `lamp.tlt`, which cannot be read",
+        "line 1: TILT names `lamp.tlt`: cannot be read",
         "the caller's reason"
     );
     let broken = parse_lm63(&text, |_| Ok("1\n2\n0 0\n1 1\n".into())).expect_err("no tilt");
@@ -257,6 +257,10 @@ fn errors_name_line_and_expectation() {
         (
             "TILT=NONE\n1 -1 1\n2.5 1".to_owned(),
             "line 3: expected the number of vertical angles from 1 to 7201, found `2.5`",
+        ),
+        (
+            "TILT=NONE\n1 -1 1\n99999999 1".to_owned(),
+            "line 3: expected the number of vertical angles from 1 to 7201, found `99999999`",
         ),
         (
             "TILT=NONE\n1 -1 1 2 1 4".to_owned(),

@@ -106,7 +106,7 @@ mod tests {
         assert!(
             missing
                 .message
-                .starts_with("TILT names `lamp.tlt`, which cannot be read"),
+                .starts_with("TILT names `lamp.tlt`: cannot be read"),
             "{missing}"
         );
         fs::write(folder.path("lamp.tlt"), "1\n3\n0 45 90\n1 0.9 0.7\n").expect("written");
