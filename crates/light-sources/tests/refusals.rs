@@ -1,6 +1,7 @@
 //! Each kind of light is refused by its name and by the field that is wrong.
 
-use light_sources::glam::{Affine3A, Vec3};
+use light_sources::glam::{Affine3A, Quat, Vec3};
+use light_sources::shape::ShapeDesc;
 use light_sources::*;
 
 const IDENTITY: Affine3A = Affine3A::IDENTITY;
@@ -152,4 +153,29 @@ fn lights_at_infinity() {
     };
     assert_refused(portal(flat(), 1.0), "portal infinite light, transform: ");
     assert_refused(portal(IDENTITY, BRIGHT), "portal infinite light, amount: ");
+}
+
+#[test]
+fn quads_whose_corners_go_around() {
+    let quad = |corners: [Vec3; 4]| {
+        let build = ShapeDesc::Quad(corners).build();
+        build.map_or_else(|error| error.to_string(), |_| "accepted".to_owned())
+    };
+    let turn = Quat::from_axis_angle(Vec3::new(2.0, 1.0, 2.0) / 3.0, 0.8);
+    for far in [0.0, 10.0, 1e3] {
+        let place = |(x, y, z)| turn * Vec3::new(x, y, z) + Vec3::new(1.0, 0.7, -0.3) * far;
+        let rows = [(0.0, 0.0), (1.0, 0.0), (0.1, 1.5), (0.8, 1.4)];
+        let rows = rows.map(|(x, y)| place((x, y, 0.0)));
+        let [p00, p10, p01, p11] = rows;
+        assert_eq!(quad(rows), "accepted", "rows, {far} away");
+        for around in [[p00, p10, p11, p01], [p00, p11, p01, p10]] {
+            let said = quad(around);
+            assert!(said.starts_with("quad, corners: two sides cross"), "{said}");
+        }
+        // One corner turns the other way: the outline does not cross itself.
+        let dent = [p00, p10, p01, place((0.3, 0.3, 0.0))];
+        assert_eq!(quad(dent), "accepted", "a dent, {far} away");
+        let bent = [p00, p10, p11, place((0.1, 1.5, 0.3))];
+        assert_eq!(quad(bent), "accepted", "not flat, {far} away");
+    }
 }

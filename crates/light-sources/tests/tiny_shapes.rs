@@ -231,18 +231,33 @@ fn a_patch_that_folds_over_itself_is_sampled_where_a_ray_meets_it() {
     );
 }
 
-/// The normals at two corners are opposite, but for subnormal numbers.
+/// A ribbon turned by half: the normals at two of its corners are nearly opposite to the others.
 #[test]
 fn opposite_normals_have_no_cone() {
+    let z = 4.8e-4;
+    let corners = [
+        Vec3::NEG_X,
+        Vec3::X,
+        Vec3::new(1.0, 1.0, z),
+        Vec3::new(-1.0, 1.0, -z),
+    ];
+    let patch = BilinearPatch::new(corners).expect("an area");
+    let cone = patch.normal_cone();
+    assert!(cone.is_whole_sphere(), "{cone:?}");
+    assert!((cone.w.length() - 1.0).abs() < 1e-6, "{cone:?}");
+}
+
+/// The sides cross, but for subnormal numbers in the normals.
+#[test]
+fn a_flat_quad_whose_sides_cross_is_refused() {
     let corners = [
         Vec3::ZERO,
         Vec3::splat(53.0),
         Vec3::new(53.0, 0.0, 1.081_694_3e-19),
         Vec3::new(2.449_22, 53.0, 53.0),
     ];
-    let patch = BilinearPatch::new(corners).expect("an area");
-    let w = patch.normal_cone().w;
-    assert!((w.length() - 1.0).abs() < 1e-6, "{w}");
+    let error = BilinearPatch::new(corners).err();
+    assert_eq!(error, Some(BilinearPatchError::Crossed));
 }
 
 /// One of the two triangles is a sliver, whose density is not that of the other.

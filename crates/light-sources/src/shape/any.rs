@@ -27,7 +27,8 @@ pub enum ShapeDesc {
         /// The edges along u and v.
         edges: [Vec3; 2],
     },
-    /// Corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1) of a quadrilateral, planar or not.
+    /// Corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1) of a quadrilateral, planar or not: row by
+    /// row as pbrt's bilinear meshes, not around it as the corners of a portal.
     Quad([Vec3; 4]),
     /// A sphere around the origin of its transform.
     Sphere {

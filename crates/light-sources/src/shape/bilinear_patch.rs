@@ -42,7 +42,7 @@ impl BilinearPatch {
     /// The patch with the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
     ///
     /// # Errors
-    /// When a corner is not finite or the patch has no area.
+    /// When a corner is not finite, the patch has no area, or it is flat and two sides cross.
     pub fn new([p00, p10, p01, p11]: [Vec3; 4]) -> Result<Self, BilinearPatchError> {
         const ROUNDED: f32 = 1.0 + 1e-3;
         if ![p00, p10, p01, p11].iter().all(|p| p.is_finite()) {
@@ -64,6 +64,9 @@ impl BilinearPatch {
         let is_area = patch.area.is_finite() && (1.0 / patch.area).is_finite();
         if !(is_area && patch.area <= ROUNDED * most) {
             return Err(BilinearPatchError::Area);
+        }
+        if patch.is_crossed() {
+            return Err(BilinearPatchError::Crossed);
         }
         Ok(patch)
     }
@@ -135,6 +138,23 @@ impl BilinearPatch {
         } else {
             Bend::Twisted
         }
+    }
+
+    /// Whether the patch is flat and two opposite sides cross: around a flat quadrilateral all
+    /// corners turn the same way, or all but one, or those beside a crossing one way and the others
+    /// the other.
+    fn is_crossed(&self) -> bool {
+        const TOLERANCE: f32 = 1e-3;
+        let [Some(n), others @ ..] = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv))) else {
+            return false;
+        };
+        let turns = |n: Vec3| {
+            others
+                .into_iter()
+                .flatten()
+                .filter(move |other| other.distance(n) <= TOLERANCE)
+        };
+        turns(n).count() == 1 && turns(-n).count() == 2
     }
 
     /// The view of a flat patch that is not small.

@@ -9,6 +9,9 @@ pub enum BilinearPatchError {
     Corner,
     /// The patch has no area, or one so small that one over it is no finite number.
     Area,
+    /// The patch is flat and two opposite sides cross, as of corners that are given one after the
+    /// other around it.
+    Crossed,
 }
 
 impl fmt::Display for BilinearPatchError {
@@ -16,6 +19,10 @@ impl fmt::Display for BilinearPatchError {
         f.write_str(match self {
             Self::Corner => "corners: must be finite",
             Self::Area => "corners: must span an area above 0",
+            Self::Crossed => {
+                "corners: two sides cross; expected the order (u, v) = (0, 0), (1, 0), (0, 1), \
+                 (1, 1), not around the quad"
+            }
         })
     }
 }
