@@ -42,7 +42,8 @@ impl AlphaMask {
 
     pub(crate) fn is_valid(&self) -> bool {
         let is_number = self.cutoff.is_none_or(|cutoff| !cutoff.is_nan());
-        self.scale.is_finite() && self.scale >= 0.0 && is_number
+        let is_mapped = self.mapping.is_none_or(|mapping| mapping.is_valid());
+        self.scale.is_finite() && self.scale >= 0.0 && is_number && is_mapped
     }
 
     /// How its texels count; `None` where the surface emits everywhere.

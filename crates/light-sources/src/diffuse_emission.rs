@@ -44,8 +44,11 @@ enum Color<C: ColorModel> {
 pub enum DiffuseEmissionError {
     /// `color` or `amount` is invalid.
     Emission(EmissionError),
-    /// `mask` has a scale that is negative or not finite, or a cutoff that is no number.
+    /// `mask` has a scale that is negative or not finite, a cutoff that is no number, or a mapping
+    /// that is not finite.
     Mask,
+    /// `mapping` has a transform that is not finite.
+    Mapping,
 }
 
 impl<C: ColorModel> DiffuseEmission<C> {
@@ -75,6 +78,9 @@ impl<C: ColorModel> DiffuseEmission<C> {
         surface: Option<SurfaceTexture>,
         shapes: impl FnOnce() -> I,
     ) -> Result<Self, DiffuseEmissionError> {
+        if !desc.mapping.is_valid() {
+            return Err(DiffuseEmissionError::Mapping);
+        }
         if let EmissionMask::Alpha(mask) = &desc.mask {
             if !mask.is_valid() {
                 return Err(DiffuseEmissionError::Mask);
@@ -223,9 +229,10 @@ impl fmt::Display for DiffuseEmissionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Emission(error) => error.fmt(f),
-            Self::Mask => {
-                f.write_str("mask: scale must be finite and not negative, cutoff a number")
-            }
+            Self::Mask => f.write_str(
+                "mask: scale must be finite and not negative, cutoff a number, mapping finite",
+            ),
+            Self::Mapping => f.write_str("mapping: transform must be finite"),
         }
     }
 }

@@ -8,7 +8,7 @@ use light_math::float::floor;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TextureMapping {
     /// From surface parameters (u, v) to those of the image, of which (0, 0) is the lower left
-    /// corner.
+    /// corner; finite.
     pub transform: Affine2,
     /// The rule beyond the left and right edges, and beyond the upper and lower.
     pub wrap: [Wrap; 2],
@@ -35,6 +35,10 @@ impl TextureMapping {
         transform: Affine2::IDENTITY,
         wrap: [Wrap::Repeat; 2],
     };
+
+    pub(crate) fn is_valid(&self) -> bool {
+        self.transform.is_finite()
+    }
 
     /// The image coordinates, with (0, 0) at the upper left corner, where row 0 is.
     #[inline]

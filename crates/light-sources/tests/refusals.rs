@@ -1,6 +1,6 @@
 //! Each kind of light is refused by its name and by the field that is wrong.
 
-use light_sources::glam::{Affine3A, Quat, Vec3};
+use light_sources::glam::{Affine2, Affine3A, Quat, Vec2, Vec3};
 use light_sources::shape::ShapeDesc;
 use light_sources::*;
 
@@ -153,6 +153,38 @@ fn lights_at_infinity() {
     };
     assert_refused(portal(flat(), 1.0), "portal infinite light, transform: ");
     assert_refused(portal(IDENTITY, BRIGHT), "portal infinite light, amount: ");
+}
+
+#[test]
+fn mappings() {
+    let area = |mapping: TextureMapping, of_mask: TextureMapping| {
+        let image = Image::from_f32([1, 1], Channels::Gray, vec![1.0]).expect("an image");
+        let texture = Texture::new(image);
+        let mask = EmissionMask::Alpha(AlphaMask {
+            mapping: Some(of_mask),
+            ..texture.clone().into()
+        });
+        let tint = Vec3::ONE;
+        let color = SurfaceColor::Image { texture, tint };
+        let emission = DiffuseEmissionDesc {
+            mapping,
+            mask,
+            ..DiffuseEmissionDesc::new(color, RadianceAmount::default())
+        };
+        AreaLightDesc::new(ShapeDesc::sphere(Vec3::ZERO, 1.0), emission).into()
+    };
+    let plain = TextureMapping::default();
+    assert_eq!(refusal(area(plain, plain)), "accepted", "a mapping");
+    for wrong in [f32::NAN, f32::INFINITY] {
+        for transform in [
+            Affine2::from_scale(Vec2::new(1.0, wrong)),
+            Affine2::from_translation(Vec2::new(wrong, 0.0)),
+        ] {
+            let mapping = TextureMapping { transform, ..plain };
+            assert_refused(area(mapping, plain), "area light, mapping: transform");
+            assert_refused(area(plain, mapping), "area light, mask: ");
+        }
+    }
 }
 
 #[test]
