@@ -16,7 +16,8 @@ use light_math::spectrum::photometric::{Candela, Lumen, Lux, Nit, Watt};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum IntensityAmount {
-    /// The intensity is this times the emission, in W/sr.
+    /// The intensity is this times the emission, in W/sr; per nanometre in
+    /// [`Spectral`](crate::Spectral).
     Radiometric(f32),
     /// The largest intensity: inside of a spot's falloff, where a distribution or picture is 1.
     LuminousIntensity(Candela),
@@ -31,7 +32,8 @@ pub enum IntensityAmount {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum IrradianceAmount {
-    /// The irradiance of a plane that faces the light is this times the emission, in W m^-2.
+    /// The irradiance of a plane that faces the light is this times the emission, in W m^-2; per
+    /// nanometre in [`Spectral`](crate::Spectral).
     Radiometric(f32),
     /// The illuminance of a plane that faces the light.
     Illuminance(Lux),
@@ -42,7 +44,9 @@ pub enum IrradianceAmount {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RadianceAmount {
-    /// The radiance is this times the emission, in W m^-2 sr^-1.
+    /// The radiance is this times the emission, in W m^-2 sr^-1; per nanometre in
+    /// [`Spectral`](crate::Spectral), where white of an image is 106.9 times as bright as in
+    /// [`Rgb`](crate::Rgb).
     Radiometric(f32),
     /// The luminance in all directions. A whole sky of it makes an illuminance of pi times as many
     /// lux on open ground.

@@ -21,7 +21,9 @@ pub struct ImageInfiniteLightDesc {
 }
 
 impl ImageInfiniteLightDesc {
-    /// The sky of `map` in light space, its texels in W m^-2 sr^-1.
+    /// The sky of `map` in light space, its texels in W m^-2 sr^-1: white of 1 has 683 nit in
+    /// [`Rgb`](crate::Rgb). In [`Spectral`](crate::Spectral) texels are per nanometre, and white has
+    /// 72,982 nit: the amount `Luminance(Nit(683.0))` makes the same sky in both.
     #[must_use]
     pub fn new(map: EnvironmentMap) -> Self {
         Self {

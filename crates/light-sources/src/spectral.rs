@@ -10,6 +10,14 @@ use crate::spectral_emission::SpectralEmission;
 
 /// The spectral colour model, with `N` sampled wavelengths per query.
 ///
+/// Emissions, and what queries return, are per nanometre: `Radiometric(1.0)` of a spectrum that is 1
+/// is 1 W m^-2 sr^-1 nm^-1. White of an image, `(1, 1, 1)`, is D65 with the
+/// [mean](light_math::spectrum::cie::xyz) luminance 1, as in pbrt's lights: it is
+/// [`Y_INTEGRAL`](light_math::spectrum::cie::Y_INTEGRAL), 106.9, times as bright as white of the same
+/// amount in [`Rgb`](crate::Rgb), 72,982 nit in place of 683. Photometric amounts and powers make the
+/// same light in both models; for an image whose white is `Radiometric(1.0)` in `Rgb` that amount is
+/// `Luminance(Nit(683.0))`.
+///
 /// The example [`spectral`][1] makes a picture with it; [`spectral_and_rgb`][2] has the same lamps in
 /// both models.
 ///
