@@ -183,8 +183,8 @@ impl<C: ColorModel> DiffuseEmission<C> {
             .at(wavelengths)
     }
 
-    /// Power that a shape emits on one side as one number for light samplers; above 0 unless the
-    /// shape is black.
+    /// Power that a shape emits on one side as one number for light samplers, that of the brightest
+    /// channel or wavelength; above 0 unless the shape is black.
     #[must_use]
     pub fn strength(&self, shape: &impl Shape) -> f32 {
         self.strength_of(shape.area(), self.mean(shape))
@@ -213,7 +213,7 @@ impl<C: ColorModel> DiffuseEmission<C> {
     pub(crate) fn strength_of(&self, area: f32, mean: Vec3) -> f32 {
         let radiance = match &self.color {
             Color::Uniform(radiance) => radiance.maximum() * mean.x,
-            Color::Image { tint, scale, .. } => (mean * *tint).average() * *scale,
+            Color::Image { tint, scale, .. } => (mean * *tint).max_element() * *scale,
         };
         // In this order an intermediate result overflows only if the power does.
         radiance * (PI * area)

@@ -93,7 +93,7 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         Ok(Self {
             transform,
             extent: InfiniteBounds {
-                fluence: 4.0 * PI * scale * means.average,
+                fluence: 4.0 * PI * scale * means.color.max_element(),
                 mean: transform.vector(means.direction),
                 cone: DirectionCone::WHOLE_SPHERE,
             },

@@ -15,7 +15,7 @@ use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
 use crate::portal::Portal;
-use crate::rgb_sum::{RgbSum, single};
+use crate::rgb_sum::RgbSum;
 use crate::rigid_transform::RigidTransform;
 use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
@@ -101,7 +101,7 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
             .map_err(|_| ImageInfiniteLightError::NotSquare)?;
         let mut texels = Vec::new();
         let mut weights = Vec::new();
-        let (mut irradiance, mut mean, mut fluence) = (RgbSum::default(), RgbSum::default(), 0.0);
+        let ([mut irradiance, mut mean, mut color], mut total) = ([RgbSum::default(); 3], 0.0);
         for y in 0..n {
             for x in 0..n {
                 let uv = (Vec2::new(x as f32, y as f32) + 0.5) / n as f32;
@@ -110,21 +110,22 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
                 let weight = texel.average() * solid_angle;
                 let (direction, exact) = Portal::texel_integrals([x, y], n);
                 irradiance.add(texel, direction.z);
+                color.add(texel, exact);
                 let average = f64::from(texel.average());
                 mean.add(portal.frame().from_local(direction.as_vec3()), average);
-                fluence += average * exact;
+                total += average * exact;
                 texels.extend_from_slice(&texel.to_array());
                 weights.push(weight);
             }
         }
-        let irradiance = irradiance.over(1.0);
-        ImageInfiniteLightError::check(irradiance, scale)?;
+        let (irradiance, color) = (irradiance.over(1.0), color.over(1.0));
+        ImageInfiniteLightError::check(irradiance.max(color), scale)?;
         let size = sky.size();
         let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
         Ok(Self {
             extent: InfiniteBounds {
-                fluence: single(fluence) * scale,
-                mean: mean.over(fluence),
+                fluence: color.max_element() * scale,
+                mean: mean.over(total),
                 cone: DirectionCone::new(portal.frame().z, 0.0),
             },
             portal,

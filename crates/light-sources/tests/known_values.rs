@@ -2,7 +2,7 @@
 //! samples.
 
 use light_sources::glam::{Affine3A, Quat, Vec2, Vec3};
-use light_sources::light_bounds::InfiniteBounds;
+use light_sources::light_bounds::{InfiniteBounds, LightId};
 use light_sources::shape::{Cylinder, Shape, ShapeDesc};
 use light_sources::*;
 
@@ -203,5 +203,46 @@ fn each_light_of_an_image_adds_its_table() {
         let texels = 8 * 8 * size_of::<f32>();
         let image = one - table;
         assert!((texels..2 * texels).contains(&image), "{name}: {image}");
+    }
+}
+
+/// Samplers compare strengths: a colour counts as much from an image as without one.
+#[test]
+fn an_image_of_one_color_is_as_strong_as_the_color() {
+    let red = Vec3::new(2.0, 0.25, 0.0);
+    let texels = red.to_array().repeat(64 * 64);
+    let image = Image::from_f32([64, 64], Channels::Rgb, texels).expect("an image");
+    let texture = Texture::new(image.clone());
+    let tint = Vec3::ONE;
+    let lamp = |color| {
+        let emission = DiffuseEmissionDesc::new(color, RadianceAmount::default());
+        AreaLightDesc::new(ShapeDesc::sphere(Vec3::ZERO, 1.0), emission).into()
+    };
+    let color = SurfaceColor::Image { texture, tint };
+    let lamps = set([lamp(SurfaceColor::Uniform(red)), lamp(color)]);
+    let [uniform, image_lamp] = [0, 1].map(|i| {
+        let light = lamps.get(LightId(i)).expect("a lamp");
+        light.bounds().expect("bounds").phi
+    });
+    assert!((image_lamp / uniform - 1.0).abs() < 1e-6, "{image_lamp}");
+
+    let amount = RadianceAmount::default();
+    let map = || EnvironmentMap::EqualArea(image.clone());
+    let skies = [
+        UniformInfiniteLightDesc::new(red, amount).into(),
+        ImageInfiniteLightDesc::new(map()).into(),
+        ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image.clone())).into(),
+        LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map: map(),
+            amount,
+            portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+        }),
+    ];
+    let skies = set(skies);
+    let strength = |i| at_infinity(&skies.get(LightId(i)).expect("a sky")).fluence;
+    for (i, part) in [(1, 1.0), (2, 1.0), (3, 0.5)] {
+        let found = strength(i) / strength(0) / part;
+        assert!((found - 1.0).abs() < 0.02, "sky {i}: {found}");
     }
 }
