@@ -126,3 +126,71 @@ fn hidden_parts_stay_hidden() {
         );
     }
 }
+
+/// The fluence of a triangle, its solid angle, in double precision.
+fn solid_angle(corners: [Vec3; 3], p: Vec3) -> f64 {
+    let [a, b, c] = corners.map(|corner| (corner.as_dvec3() - p.as_dvec3()).normalize());
+    let volume = (b - a).cross(c - a).dot(a);
+    2.0 * volume.abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
+}
+
+/// A triangle seen at grazing angles from beside it: none of its light is lost.
+#[test]
+fn triangles_bring_all_of_their_light_at_grazing_angles() {
+    const COUNT: u32 = 4000;
+    let mut rng = Rng::new(9);
+    let corners = [(-0.5, -0.5), (0.5, -0.4), (0.1, 0.6)];
+    let corners = corners.map(|(x, y)| Vec3::new(x, y, 0.0));
+    for degrees in [0.3f32, 1.0, 5.0] {
+        for trial in 0..8u8 {
+            let axis = rng.direction();
+            let turn = Quat::from_axis_angle(axis, f32::from(trial));
+            let around = f32::from(trial) * 0.8;
+            let up = degrees.to_radians();
+            let toward = Vec3::new(around.cos(), around.sin(), 0.0) * up.cos() + Vec3::Z * up.sin();
+            let far = rng.direction() * 3000.0;
+            let place = |p: Vec3| far + turn * p;
+            let (corners, p) = (corners.map(place), place(toward * 1.5));
+            let shape = ShapeDesc::Triangle(corners).build().expect("a triangle");
+            let ctx = LightSampleContext::medium(p);
+            let mut missing = 0;
+            let mut sum = 0.0;
+            for _ in 0..COUNT {
+                let Some(sample) = shape.sample_toward(&ctx, rng.vec2()) else {
+                    missing += 1;
+                    continue;
+                };
+                let queried = shape.pdf_toward(&ctx, sample.wi);
+                let error = (queried / sample.pdf - 1.0).abs();
+                assert!(error <= 1e-3, "{degrees} degrees: {queried}, {sample:?}");
+                sum += 1.0 / f64::from(sample.pdf);
+            }
+            assert_eq!(missing, 0, "at {degrees} degrees, {trial}");
+            let part = sum / f64::from(COUNT) / solid_angle(corners, p);
+            assert!((part - 1.0).abs() < 0.02, "at {degrees} degrees: {part}");
+        }
+    }
+}
+
+/// A flat quad is sampled as one wherever it is: the samples are as even as at the origin.
+#[test]
+fn flat_quads_stay_flat() {
+    let mut rng = Rng::new(10);
+    let turn = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 0.5).normalize(), 0.8);
+    let mut errors = |corners: [Vec3; 4]| {
+        OFFSETS.map(|offset| {
+            let place = |p: Vec3| Vec3::new(1.0, 0.7, -0.3) * offset + turn * p;
+            let shape = ShapeDesc::Quad(corners.map(place)).build().expect("a quad");
+            let n = turn * Vec3::NEG_Z;
+            let ctx = LightSampleContext::surface(place(Vec3::new(0.5, 0.5, 1.0)), n, n);
+            sampled(&shape, &ctx, n, &mut rng).0.standard_error
+        })
+    };
+    let [(_, trapezoid), (_, kite), _, (_, bent)] = quads();
+    for corners in [trapezoid, kite] {
+        let errors = errors(corners);
+        assert!(errors.iter().all(|e| *e < 1.3 * errors[0]), "{errors:?}");
+    }
+    let (flat, bent) = (errors(trapezoid)[0], errors(bent)[0]);
+    assert!(bent > 1.3 * flat, "a bent one has {bent}, not {flat}");
+}

@@ -125,19 +125,28 @@ impl BilinearPatch {
         area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
     }
 
-    /// Flat where all normals at the corners are the same, up to rounding.
+    /// Flat where all normals at the corners are the same, up to rounding of the corners.
     fn measure_bend(&self) -> Bend {
-        const TOLERANCE: f32 = 1e-6;
         let normals = CORNERS.map(|uv| unit_normal(self.scaled_normal(uv)));
+        let tolerance = self.normal_rounding();
         let is_same = |n: Option<Vec3>| {
             let pair = n.zip(normals[0]);
-            pair.is_some_and(|(a, b)| a.distance(b) <= TOLERANCE)
+            pair.is_some_and(|(a, b)| a.distance(b) <= tolerance)
         };
         if normals.into_iter().all(is_same) {
             Bend::Flat
         } else {
             Bend::Twisted
         }
+    }
+
+    /// How far the rounding of the corners turns a unit normal, at most a hundredth.
+    fn normal_rounding(&self) -> f32 {
+        let corners = CORNERS.map(|uv| self.point(uv).abs().max_element());
+        let sides = [self.du, self.dv, self.du + self.duv, self.dv + self.duv].map(normal_length);
+        let largest = |of: [f32; 4]| of.into_iter().fold(0.0, f32::max);
+        let height = self.weights().into_iter().fold(f32::MAX, f32::min) / largest(sides);
+        (1e-6 + 4.0 * f32::EPSILON * largest(corners) / height).min(0.01)
     }
 
     /// Whether the patch is flat and two opposite sides cross: around a flat quadrilateral all

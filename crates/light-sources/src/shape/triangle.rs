@@ -91,9 +91,9 @@ impl Triangle {
 
     #[inline]
     fn at(&self, b: Vec3, n: Vec3) -> SurfacePoint {
-        let ([p0, p1, p2], [uv0, uv1, uv2]) = (self.p, self.uv);
+        let [uv0, uv1, uv2] = self.uv;
         SurfacePoint {
-            p: p0 * b.x + p1 * b.y + p2 * b.z,
+            p: self.p[0] + self.from_first(b),
             n,
             uv: uv0 * b.x + uv1 * b.y + uv2 * b.z,
         }
@@ -129,16 +129,25 @@ impl Triangle {
         ReceiverCosine::toward(ctx, [b, b, a, c])
     }
 
-    /// Where the ray meets the triangle.
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec3, SurfacePoint)> {
-        let b = self.barycentric(origin, direction)?;
-        let at = self.at(b, self.normal()?);
-        ((at.p - origin).dot(direction) > 0.0).then_some((b, at))
+    /// From `p` to the point at `b`: not by way of the point itself, whose rounding grows with the
+    /// coordinates of the scene.
+    #[inline]
+    fn toward(&self, p: Vec3, b: Vec3) -> Vec3 {
+        (self.p[0] - p) + self.from_first(b)
     }
 
-    /// Direction and density of a point that is chosen by area.
-    fn by_area(&self, p: Vec3, at: SurfacePoint) -> Option<(Vec3, f32)> {
-        area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
+    /// From the first vertex to the point at `b`.
+    #[inline]
+    fn from_first(&self, b: Vec3) -> Vec3 {
+        let [p0, p1, p2] = self.p;
+        (p1 - p0) * b.y + (p2 - p0) * b.z
+    }
+
+    /// Where the ray meets the triangle, and the vector from its origin to there.
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec3, Vec3)> {
+        let b = self.barycentric(origin, direction)?;
+        let to_light = self.toward(origin, b);
+        (to_light.dot(direction) > 0.0).then_some((b, to_light))
     }
 
     /// Barycentric coordinates of the point that the ray passes, if it hits; hits slightly outside
@@ -195,9 +204,10 @@ impl Shape for Triangle {
     #[inline]
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
-            let ShapeSample { at, pdf } = self.sample(u)?;
-            let to_light = at.p - ctx.p;
-            let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+            let (n, inv_area) = self.normal_and_inv_area()?;
+            let b = uniform_triangle::sample(u);
+            let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
+            let (wi, pdf) = area_to_solid_angle(inv_area, to_light, n)?;
             if is_within_rounding(to_light, at.p) {
                 return met_by(self, ctx, wi);
             }
@@ -205,8 +215,8 @@ impl Shape for Triangle {
         };
         let (n, _) = self.normal_and_inv_area()?;
         let (u, pdf) = Self::receiver_cosine(ctx, &seen).sample(u);
-        let at = self.at(seen.sample(u), n);
-        let to_light = at.p - ctx.p;
+        let b = seen.sample(u);
+        let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
         let wi = unit_normal(to_light)?;
         if is_within_rounding(to_light, at.p) {
             return met_by(self, ctx, wi);
@@ -216,17 +226,19 @@ impl Shape for Triangle {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let Some((b, at)) = self.intersect(ctx.p, wi) else {
+        let met = self.normal_and_inv_area().zip(self.intersect(ctx.p, wi));
+        let Some(((n, inv_area), (b, to_light))) = met else {
             return 0.0;
         };
         match self.seen_from(ctx.p) {
             Some(seen) => Self::receiver_cosine(ctx, &seen).pdf(|| seen.invert(b)) * seen.pdf(),
-            None => self.by_area(ctx.p, at).map_or(0.0, |(_, pdf)| pdf),
+            None => area_to_solid_angle(inv_area, to_light, n).map_or(0.0, |(_, pdf)| pdf),
         }
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        self.intersect(origin, direction).map(|(_, at)| at)
+        let (b, _) = self.intersect(origin, direction)?;
+        Some(self.at(b, self.normal()?))
     }
 }
 
