@@ -3,7 +3,7 @@
 
 use light_bounds::LightSampleContext;
 use light_math::float::ONE_MINUS_EPSILON;
-use light_math::glam::{Affine3A, Vec2, Vec3};
+use light_math::glam::{Affine3A, Quat, Vec2, Vec3};
 use light_sources::shape::{AnyShape, Shape, ShapeDesc};
 use light_testkit::Rng;
 
@@ -126,4 +126,44 @@ fn samples_from_beside_a_surface_have_the_density_of_their_direction() {
         }
         assert!(compared > 1000, "{name}: {compared} compared");
     }
+}
+
+/// From within the plane of a flat shape, up to rounding, there is hardly anything to see, and what
+/// is sampled has the density that is queried, which rounding makes any number.
+#[test]
+fn samples_from_within_the_plane_have_the_density_of_their_direction() {
+    let mut rng = Rng::new(12);
+    let (mut sampled, mut total) = (0, 0);
+    for trial in 0..400u16 {
+        let turn = Quat::from_axis_angle(rng.direction(), f32::from(trial));
+        let [x, y] = [Vec3::X, Vec3::Y].map(|v| turn * v);
+        let shapes = [
+            ShapeDesc::Triangle([Vec3::ZERO, x, y]),
+            ShapeDesc::Rectangle {
+                corner: Vec3::ZERO,
+                edges: [x, y],
+            },
+            ShapeDesc::Quad([Vec3::ZERO, x, y, 0.8 * x + 0.9 * y]),
+            ShapeDesc::Disk {
+                transform: Affine3A::from_quat(turn),
+                radius: 1.0,
+                inner_radius: 0.0,
+            },
+        ];
+        let places = [Vec3::ZERO, 0.3 * x + 0.2 * y, 2.0 * x - 0.7 * y];
+        for (desc, p) in shapes.iter().flat_map(|s| places.map(|p| (s, p))) {
+            let shape = desc.build().expect("a shape");
+            let ctx = LightSampleContext::medium(p);
+            for _ in 0..20 {
+                total += 1;
+                let Some(sample) = shape.sample_toward(&ctx, rng.vec2()) else {
+                    continue;
+                };
+                sampled += 1;
+                let pdf = shape.pdf_toward(&ctx, sample.wi);
+                assert_eq!(pdf, sample.pdf, "{shape:?}: {sample:?} from {p}");
+            }
+        }
+    }
+    assert!(sampled > 0, "none of {total}");
 }

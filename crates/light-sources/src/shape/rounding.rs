@@ -7,6 +7,16 @@ use light_bounds::LightSampleContext;
 /// The distance, as a part of the coordinates, within which their rounding shows.
 pub(super) const CLOSE: f32 = 1e-3;
 
+/// The cosine below which the height of a receiver over a plane has few digits.
+const GRAZING: f32 = 1e-3;
+
+/// Whether a direction comes in so low over a surface with unit normal `n` that rounding changes
+/// where it meets the surface, and the density there, visibly.
+#[inline]
+pub(super) fn is_edge_on(wi: Vec3, n: Vec3) -> bool {
+    wi.dot(n).abs() < GRAZING
+}
+
 /// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the
 /// direction `to_light` visibly.
 #[inline]
