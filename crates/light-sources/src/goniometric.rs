@@ -158,7 +158,7 @@ impl<C: ColorModel> PointSource for GoniometricLight<C> {
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<DirectionSample<C::Radiance>> {
-        let SphereSample { uv, w, pdf } = self.table.sample(u1)?;
+        let SphereSample { uv, w, pdf, .. } = self.table.sample(u1)?;
         Some(DirectionSample {
             w: self.transform.vector(w),
             intensity: self.intensity.at(wavelengths) * self.image.nearest(uv).x,

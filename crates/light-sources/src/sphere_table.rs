@@ -21,6 +21,8 @@ pub(crate) struct SphereSample {
     pub(crate) w: Vec3,
     /// Its density in sr^-1, above 0.
     pub(crate) pdf: f32,
+    /// Column and row of the texel.
+    pub(crate) texel: [usize; 2],
 }
 
 /// The whole square is the whole sphere.
@@ -59,11 +61,12 @@ impl SphereTable {
     }
 
     pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {
-        let Sample2D { p: uv, pdf, .. } = self.0.as_ref()?.sample(u);
+        let Sample2D { p: uv, pdf, texel } = self.0.as_ref()?.sample(u);
         Some(SphereSample {
             uv,
             w: square_to_sphere(uv),
             pdf: pdf * PER_STERADIAN,
+            texel,
         })
     }
 

@@ -134,3 +134,47 @@ fn a_patch_whose_area_is_rounding_is_refused() {
     let error = BilinearPatch::new(corners).err();
     assert_eq!(error, Some(BilinearPatchError::Area), "no area");
 }
+
+/// At the edges of a texel of an equal-area sky, rounding of a direction may lead to the one beside
+/// it, or across the edge of the square to one far away.
+#[test]
+fn directions_at_the_edge_of_a_texel_of_the_sky_are_its_own() {
+    let ctx = LightSampleContext::medium(Vec3::ZERO);
+    let scene = SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere");
+    for (n, seed) in (2..=6u32).flat_map(|n| [1u32, 5].map(|seed| (n, seed))) {
+        // Black ones among them.
+        let texel = |i: u32| (i * (2 * seed + 5) % 11).saturating_sub(3) as f32;
+        let texels = (0..n * n).map(texel).collect::<Vec<_>>();
+        let image = Image::from_f32([n, n], Channels::Gray, texels).expect("an image");
+        for i in 0..12 {
+            let desc = ImageInfiniteLightDesc {
+                transform: turn(i),
+                ..ImageInfiniteLightDesc::new(EnvironmentMap::EqualArea(image.clone()))
+            };
+            let sky = ImageInfiniteLight::<Rgb>::new(desc, scene).expect("a sky");
+            for coverage in [PdfCoverage::Complete, PdfCoverage::Incomplete] {
+                let table = sky.table(coverage).expect("light");
+                let rows = table.rows.iter().enumerate();
+                let edges = rows.flat_map(|(row, &y)| {
+                    let columns = &table.columns[row * n as usize..][..n as usize];
+                    let beside = |u: f32| {
+                        let bits = u.to_bits();
+                        let [up, down] = [bits + 1, bits.saturating_sub(1)].map(f32::from_bits);
+                        [u, up, down, u + 1e-7]
+                    };
+                    let ys = [y, 0.5 * (y + table.rows.get(row + 1).unwrap_or(&1.0))];
+                    let us = columns.iter().flat_map(move |&x| beside(x));
+                    us.flat_map(move |x| ys.into_iter().flat_map(beside).map(move |y| (x, y)))
+                });
+                let last = [(ONE_MINUS_EPSILON, 0.3), (0.3, ONE_MINUS_EPSILON)];
+                for (x, y) in edges.chain(last) {
+                    let u = Vec2::new(x, y).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON));
+                    let sample = sky.sample_li(&ctx, u, &(), coverage).expect("a sample");
+                    let what = format!("{n} x {n}, {coverage:?}, turn {i}, {u}");
+                    assert_eq!(sky.pdf_li(&ctx, sample.wi, coverage), sample.pdf, "{what}");
+                    assert_eq!(sky.le(Vec3::ZERO, sample.wi, &()), sample.l, "{what}");
+                }
+            }
+        }
+    }
+}
