@@ -57,8 +57,11 @@ impl<C: ColorModel> AreaSource<C> {
         let mean = texture.as_ref().map_or(Vec3::ONE, |t| t.mean(&shape));
         let shapes = || core::iter::once((shape.area(), mean));
         let emission = DiffuseEmission::with_means(desc.emission, texture, shapes);
+        let emission = emission.map_err(AreaLightError::Emission)?;
+        let check = emission.check_power(shape.area());
+        check.map_err(AreaLightError::Emission)?;
         Ok(Self {
-            emission: emission.map_err(AreaLightError::Emission)?,
+            emission,
             shape,
             mean,
         })

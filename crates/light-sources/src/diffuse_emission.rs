@@ -209,6 +209,22 @@ impl<C: ColorModel> DiffuseEmission<C> {
         }
     }
 
+    /// Refuses to emit from a shape whose power is no finite number, taken to be as bright as its
+    /// brightest point.
+    pub(crate) fn check_power(&self, area: f32) -> Result<(), DiffuseEmissionError> {
+        let brightest = match &self.color {
+            Color::Uniform(radiance) => radiance.maximum(),
+            Color::Image {
+                texture,
+                tint,
+                scale,
+            } => (texture.brightest() * *tint).max_element() * *scale,
+        };
+        let etendue = PI * self.sides.count() * area;
+        let is_finite = etendue.is_finite() && (brightest * etendue).is_finite();
+        is_finite.then_some(()).ok_or(EmissionError::Power.into())
+    }
+
     /// As [`strength`](Self::strength), of a shape with this area and [`mean`](Self::mean).
     pub(crate) fn strength_of(&self, area: f32, mean: Vec3) -> f32 {
         let radiance = match &self.color {

@@ -121,7 +121,12 @@ impl<C: ColorModel> MeshLight<C> {
             let triangles = desc.indices.iter();
             triangles.map(|vertices| triangle(&desc.positions, uvs, vertices))
         };
-        if let Some(triangle) = triangles().position(|triangle| !triangle.area().is_finite()) {
+        let mut largest = 0.0f32;
+        let is_endless = |triangle: Triangle| {
+            largest = largest.max(triangle.area());
+            !triangle.area().is_finite()
+        };
+        if let Some(triangle) = triangles().position(is_endless) {
             return Err(MeshLightError::Area { triangle });
         }
         let texture = SurfaceTexture::new(&desc.emission);
@@ -137,6 +142,8 @@ impl<C: ColorModel> MeshLight<C> {
         };
         let emission = DiffuseEmission::with_means(desc.emission, texture, shapes);
         let emission = emission.map_err(MeshLightError::Emission)?;
+        let check = emission.check_power(largest);
+        check.map_err(MeshLightError::Emission)?;
         Ok(Self {
             positions: desc.positions,
             indices: desc.indices,

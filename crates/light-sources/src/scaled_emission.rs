@@ -21,6 +21,8 @@ pub enum EmissionError {
     /// `amount` is a power or a photometric quantity, but the light is black, invisible or without
     /// an area.
     Dark,
+    /// `amount` is so large that the power of this light is not finite.
+    Power,
 }
 
 impl<C: ColorModel> ScaledEmission<C> {
@@ -71,6 +73,7 @@ impl fmt::Display for EmissionError {
             Self::Emission => "emission: must be finite and not negative",
             Self::Amount => "amount: must be finite and not negative",
             Self::Dark => "amount: a light that is black, invisible or without an area has none",
+            Self::Power => "amount: too large, the power of the light is not finite",
         })
     }
 }

@@ -62,10 +62,12 @@ impl SphereTable {
 
     pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {
         let Sample2D { p: uv, pdf, texel } = self.0.as_ref()?.sample(u);
-        Some(SphereSample {
+        let pdf = pdf * PER_STERADIAN;
+        // The least of all densities is none in another unit.
+        (pdf > 0.0).then(|| SphereSample {
             uv,
             w: square_to_sphere(uv),
-            pdf: pdf * PER_STERADIAN,
+            pdf,
             texel,
         })
     }

@@ -42,7 +42,8 @@ impl<C: ColorModel> SpotLight<C> {
     pub fn new(desc: SpotLightDesc<C>) -> Result<Self, SpotLightError> {
         let transform = RigidTransform::new(desc.transform)?;
         let end = one_minus_cos(desc.angle);
-        if !(end > 0.0 && desc.angle > 0.0 && desc.angle <= PI) {
+        let has_density = (1.0 / solid_angle(0.0, end)).is_finite();
+        if !(has_density && desc.angle > 0.0 && desc.angle <= PI) {
             return Err(SpotLightError::Angle);
         }
         if !(desc.falloff_start >= 0.0 && desc.falloff_start <= desc.angle) {

@@ -18,7 +18,7 @@ use crate::scaled_emission::EmissionError;
 pub struct SpotLightDesc<C: ColorModel> {
     /// From light space, where the light is at the origin and emits along +z, to scene space.
     pub transform: Affine3A,
-    /// Angle between the axis and the rim of the cone, in `(0, pi]`.
+    /// Angle between the axis and the rim of the cone, in `[5e-20, pi]`.
     pub angle: f32,
     /// Angle between the axis and where the light starts to fall off, in `[0, angle]`.
     pub falloff_start: f32,
@@ -57,7 +57,8 @@ impl<C: ColorModel> SpotLightDesc<C> {
 pub enum SpotLightError {
     /// `transform` is not rigid.
     Transform(RigidTransformError),
-    /// `angle` does not lie in `(0, pi]`.
+    /// `angle` does not lie in `(0, pi]`, or is so small that one over the solid angle of the cone
+    /// is no finite number, below about 5e-20.
     Angle,
     /// `falloff_start` does not lie in `[0, angle]`.
     FalloffStart,
@@ -69,7 +70,7 @@ impl fmt::Display for SpotLightError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Transform(error) => error.fmt(f),
-            Self::Angle => f.write_str("angle: must lie in (0, pi]"),
+            Self::Angle => f.write_str("angle: must lie in [5e-20, pi]"),
             Self::FalloffStart => f.write_str("falloff_start: must lie in [0, angle]"),
             Self::Emission(error) => error.fmt(f),
         }

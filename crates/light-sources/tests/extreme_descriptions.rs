@@ -142,3 +142,55 @@ fn a_tiny_bright_surface_has_a_finite_strength() {
     let strength = emission.strength(&shape);
     assert!((strength / 6.283_185e2 - 1.0).abs() < 1e-5, "{strength}");
 }
+
+fn refusal(desc: impl Into<LightDesc<Rgb>>) -> String {
+    let error = LightSetBuilder::new(scene()).add(desc).err();
+    error.map_or("accepted".to_owned(), |error| error.to_string())
+}
+
+#[test]
+fn a_set_refuses_surfaces_whose_power_no_float_holds() {
+    let lamp = |length, radiance| {
+        let shape = ShapeDesc::Cylinder {
+            transform: Affine3A::IDENTITY,
+            radius: 5e4,
+            length,
+        };
+        let amount = RadianceAmount::Radiometric(radiance);
+        let red = SurfaceColor::Uniform(Vec3::X);
+        AreaLightDesc::new(shape, DiffuseEmissionDesc::<Rgb>::new(red, amount))
+    };
+    let message = "area light, amount: too large, the power of the light is not finite";
+    assert_eq!(refusal(lamp(1e30, 1.0)), "accepted", "long");
+    assert_eq!(refusal(lamp(1e30, 1e3)), message, "long and bright");
+    // Black channels of it had the power 0 times infinity.
+    assert_eq!(refusal(lamp(8e32, 1e-9)), message, "longer");
+    let mesh = |size, radiance| {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p * size);
+        let amount = RadianceAmount::Radiometric(radiance);
+        let white = SurfaceColor::Uniform(Vec3::ONE);
+        let emission = DiffuseEmissionDesc::<Rgb>::new(white, amount);
+        MeshLightDesc::new(corners, [[0, 1, 2]], emission)
+    };
+    assert_eq!(refusal(mesh(1e15, 1e7)), "accepted", "a mesh");
+    assert_eq!(refusal(mesh(1e15, 1e9)), message.replace("area", "mesh"));
+}
+
+#[test]
+fn a_spot_has_a_density() {
+    let spot = |angle| {
+        let amount = IntensityAmount::Radiometric(1.0);
+        SpotLightDesc::new(Affine3A::IDENTITY, angle, Vec3::ONE, amount)
+    };
+    for angle in [1e-22, 1e-20, 4e-20] {
+        let said = refusal(spot(angle));
+        assert!(said.starts_with("spot light, angle: "), "{angle}: {said}");
+    }
+    for angle in [5e-20, 1e-18, 1e-9] {
+        let light = SpotLight::<Rgb>::new(spot(angle)).expect("a spot");
+        let ray = light.sample_le(Vec2::splat(0.3), Vec2::splat(0.6), &());
+        let ray = ray.expect("a ray");
+        let queried = light.pdf_le(&ray.ray).dir;
+        assert!(ray.pdf.dir.is_finite() && queried.is_finite(), "{ray:?}");
+    }
+}
