@@ -7,7 +7,7 @@ use crate::pbrt::parse_pbrt;
 use crate::text::{read_bytes, text_of};
 use crate::{Diagnostic, Files, Scene};
 
-/// Reads a scene by the ending of its name: `.obj`, `.pbrt`, `.gltf` or `.glb`.
+/// Reads a scene by the ending of its name: `.obj`, `.pbrt`, `.gltf` or `.glb`, in capitals too.
 ///
 /// # Errors
 /// As the reader of the format; and when the ending is another.
@@ -24,7 +24,7 @@ pub fn read_scene(path: &Path) -> Result<Scene, Diagnostic> {
 /// # Errors
 /// As [`read_scene`].
 pub fn parse_scene(path: &Path, bytes: &[u8], files: Files<'static>) -> Result<Scene, Diagnostic> {
-    match ending(path) {
+    match ending(path).as_deref() {
         Some("obj") => parse_obj(path, &text_of(bytes), files),
         Some("pbrt") => parse_pbrt(path, &text_of(&gunzipped(path, bytes)?), files),
         Some("gltf" | "glb") => parse_gltf(path, bytes, files),
@@ -37,11 +37,13 @@ const EXPECTED: &str = "expected a scene file: .obj, .pbrt, .gltf or .glb";
 /// Whether a file of this name is a scene by its ending.
 #[must_use]
 pub fn is_scene_name(path: &Path) -> bool {
-    matches!(ending(path), Some("obj" | "pbrt" | "gltf" | "glb"))
+    let ending = ending(path);
+    matches!(ending.as_deref(), Some("obj" | "pbrt" | "gltf" | "glb"))
 }
 
-fn ending(path: &Path) -> Option<&str> {
-    path.extension()?.to_str()
+/// The ending of a name in lower case.
+fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
 #[cfg(test)]
@@ -54,10 +56,26 @@ mod tests {
     fn read_marked(path: &Path) -> Result<Vec<u8>, Diagnostic> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("testdata/three_formats");
         let mut bytes = fs::read(folder.join(path)).expect("a file");
-        if matches!(ending(path), Some("obj" | "mtl" | "pbrt" | "gltf" | "ply")) {
+        let ending = ending(path);
+        if matches!(
+            ending.as_deref(),
+            Some("obj" | "mtl" | "pbrt" | "gltf" | "ply")
+        ) {
             bytes.splice(..0, *b"\xef\xbb\xbf");
         }
         Ok(bytes)
+    }
+
+    #[test]
+    fn endings_are_matched_without_case() {
+        for name in ["room.obj", "room.pbrt", "room.gltf"] {
+            let bytes = read_marked(Path::new(name)).expect("bytes");
+            let upper = name.to_ascii_uppercase();
+            assert!(is_scene_name(Path::new(&upper)), "{upper}");
+            let scene = parse_scene(Path::new(&upper), &bytes, Files::new(&read_marked));
+            assert!(scene.is_ok(), "{upper}: {:?}", scene.err());
+        }
+        assert!(!is_scene_name(Path::new("room.objx")), "another");
     }
 
     #[test]

@@ -89,7 +89,9 @@ impl LightArgs {
 
 /// What is up: y, but in a pbrt file the axis that is nearest to what is up in its picture.
 pub(super) fn up(path: &Path, scene: &Scene) -> Vec3 {
-    let is_pbrt = path.extension().is_some_and(|ending| ending == "pbrt");
+    let is_pbrt = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("pbrt"));
     let camera = scene.camera.filter(|_| is_pbrt);
     let Some(up) = camera.map(|camera| camera.up) else {
         return Vec3::Y;

@@ -36,7 +36,10 @@ impl RenderArgs {
 
     /// What to say of --half where no file holds half floats.
     pub(super) fn half_doubt(&self) -> Option<String> {
-        let is_exr = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "exr");
+        let is_exr = |path: &PathBuf| {
+            let ending = path.extension();
+            ending.is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
+        };
         let reason = if !self.output.iter().any(is_exr) {
             "no output is an .exr file"
         } else if self.settings.samples.is_some() {

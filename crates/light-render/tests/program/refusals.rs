@@ -125,3 +125,13 @@ fn nonsense_on_the_command_line_is_refused() {
         "help was asked for"
     );
 }
+
+#[test]
+fn scenes_end_in_capitals_too() {
+    let folder = Folder::new("capitals");
+    let scene = std::fs::read_to_string(folder.scene(LIT)).expect("a scene");
+    let upper = folder.file("ROOM.OBJ", &scene);
+    let out = folder.path("out.exr");
+    let done = lights(&["render", &upper, "-o", &out, "--width", "8", "--spp", "1"]);
+    assert!(done.status.success(), "{done:?}");
+}
