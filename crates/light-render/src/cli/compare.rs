@@ -26,10 +26,10 @@ pub(crate) struct CompareArgs {
     /// What it should be.
     reference: PathBuf,
     /// Exit with status 1 above this relMSE.
-    #[arg(long, value_name = "X", value_parser = not_negative)]
+    #[arg(long, value_name = "X", value_parser = not_negative, allow_hyphen_values = true)]
     max_relmse: Option<f64>,
     /// Exit with status 1 when the mean signed bias of a channel is larger than this, either way.
-    #[arg(long, value_name = "X", value_parser = not_negative)]
+    #[arg(long, value_name = "X", value_parser = not_negative, allow_hyphen_values = true)]
     max_bias: Option<f64>,
     /// Write a false-colour difference: red too bright, blue too dark.
     #[arg(long, value_name = "IMAGE")]

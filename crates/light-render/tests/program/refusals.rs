@@ -127,6 +127,16 @@ fn nonsense_on_the_command_line_is_refused() {
 }
 
 #[test]
+fn limits_below_zero_are_named() {
+    for limit in ["--max-bias", "--max-relmse"] {
+        for value in ["-inf", "-1", "inf", "nan"] {
+            let compare = ["compare", "a.exr", "b.exr", limit, value];
+            assert_refused(&compare, &[limit, value, "not negative"]);
+        }
+    }
+}
+
+#[test]
 fn scenes_end_in_capitals_too() {
     let folder = Folder::new("capitals");
     let scene = std::fs::read_to_string(folder.scene(LIT)).expect("a scene");
