@@ -20,6 +20,7 @@ use super::render_args::RenderArgs;
 use super::render_report::RenderReport;
 use super::render_settings::FileSettings;
 use super::rendered_picture::RenderedPicture;
+use super::scene_input::SceneInput;
 use super::stdout::{complain, say};
 use super::unfinished::Unfinished;
 
@@ -29,6 +30,7 @@ impl RenderArgs {
     /// # Errors
     /// Bad input, more memory than there is, or an output that cannot be written.
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        record_read_files();
         if !self.live.watch {
             return self.run_once(&mut None);
         }
@@ -90,6 +92,8 @@ impl RenderArgs {
         self.doubt(|| self.half_doubt());
         self.checkpoint.expect_place(&self.output)?;
         let scene = self.input.read_lit(self.quiet)?;
+        SceneInput::expect_unread(&self.output)?;
+        SceneInput::expect_unread(self.checkpoint.file())?;
         if self.live.watch {
             *stamps = Some(FileStamps::of(recorded_read_files()));
         }

@@ -4,7 +4,7 @@ use core::time::Duration;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use light_scene::{Crop, Diagnostic, read_signed_image, write_atomically};
+use light_scene::{Crop, Diagnostic, read_signed_image, record_read_files, write_atomically};
 
 use crate::integrator::{Estimator, Integrator, PathSettings};
 use crate::report::{Reference, ReferenceSource, ReportOptions, SceneReport};
@@ -90,7 +90,9 @@ impl ReportArgs {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         self.expect_output()?;
         let wanted = self.samplers.as_deref().map(samplers).transpose()?;
+        record_read_files();
         let scene = self.input.read_lit(self.quiet)?;
+        SceneInput::expect_unread(from_ref(&self.output))?;
         let warnings: Vec<String> = scene.warnings.iter().map(ToString::to_string).collect();
         let view = match self.reference {
             Some(_) => self.view.view(&scene)?,

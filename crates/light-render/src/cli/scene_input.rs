@@ -5,6 +5,7 @@ use crate::World;
 use clap::Args;
 use light_scene::{
     BuiltinScene, Diagnostic, Emission, Image, Scene, is_scene_name, read_environment,
+    recorded_read_files,
 };
 use lights::glam::{Affine3A, Quat, Vec3};
 
@@ -110,7 +111,19 @@ impl SceneInput {
         let inputs: Vec<PathBuf> = env.chain([&self.scene]).cloned().collect();
         outputs
             .iter()
-            .try_for_each(|path| expect_another(path, &inputs, "the scene and its images"))
+            .try_for_each(|path| expect_another(path, &inputs, INPUTS))
+    }
+
+    /// Makes sure that none of `outputs` is a file that was opened since files are recorded, as the
+    /// textures and meshes of a scene that was read.
+    ///
+    /// # Errors
+    /// When one is.
+    pub(crate) fn expect_unread(outputs: &[PathBuf]) -> Result<(), Failure> {
+        let read = recorded_read_files();
+        outputs
+            .iter()
+            .try_for_each(|path| expect_another(path, &read, INPUTS))
     }
 
     /// Makes sure that a scene of `world` has light.
@@ -148,6 +161,9 @@ impl SceneInput {
             .map_err(|error| Failure::input(Diagnostic::file(&self.scene, error.to_string())))
     }
 }
+
+/// What a scene is read from.
+const INPUTS: &str = "the scene and its images";
 
 /// The most lights of a scene that commands look at one by one, for some minutes.
 const MOST_LIGHTS: usize = 1 << 25;

@@ -117,6 +117,49 @@ fn no_command_writes_over_what_it_reads() {
     assert!(contents.into_iter().eq(bytes()), "as they were");
 }
 
+/// Textures are known once the scene is read.
+#[test]
+fn no_picture_is_written_over_a_texture_or_a_library() {
+    let folder = Folder::new("own-texture");
+    let scene = folder.scene(&format!("{LIT}map_Kd wall.png\n"));
+    let texture = folder.path("wall.png");
+    let texels = Image::new(2, 2, vec![Vec3::ONE; 4]).expect("texels");
+    write_image(Path::new(&texture), &texels).expect("a texture");
+    let mesh = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+                end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let mesh = folder.file("mesh.html", mesh);
+    let pbrt = folder.file(
+        "scene.pbrt",
+        "WorldBegin\nAreaLightSource \"diffuse\"\n\
+         Shape \"plymesh\" \"string filename\" \"mesh.html\"\n",
+    );
+    let before = folder.names();
+    let contents = [&texture, &mesh].map(|path| fs::read(path).expect("a file"));
+    let spelled = format!("{}/./wall.png", folder.0.display());
+    let render = ["render", &scene, "-o"];
+    assert_refused(
+        &[&render[..], &[&spelled]].concat(),
+        &["wall.png", "another file"],
+    );
+    let both = ["a.exr", &texture].map(|path| ["-o", path]).concat();
+    assert_refused(
+        &[&["render", &scene], &both[..]].concat(),
+        &["wall.png", "another file"],
+    );
+    assert_refused(
+        &["report", &pbrt, "-o", &mesh],
+        &["mesh.html", "another file"],
+    );
+    assert_eq!(folder.names(), before, "no more files");
+    assert_eq!(
+        [&texture, &mesh].map(|path| fs::read(path).expect("a file")),
+        contents
+    );
+    let fine = folder.path("fine.png");
+    stdout(&[&["render", &scene, "-o", &fine], &SMALL[..]].concat());
+}
+
 #[test]
 fn outputs_end_as_what_is_written() {
     let folder = Folder::new("endings");
