@@ -17,7 +17,7 @@ use super::output_file::{expect_another, expect_ending, expect_writable};
 use super::progress::{ProgressLine, Volume};
 use super::sampler_list::samplers;
 use super::scene_input::SceneInput;
-use super::stdout::say;
+use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
 
 /// The longer side of pictures, unless their size is asked for.
@@ -115,6 +115,12 @@ impl ReportArgs {
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         let report = pool.install(|| self.measure(&world, &view, given, options));
         let report = report.map_err(Failure::input)?;
+        if !self.quiet {
+            let left_out = report.pixels_left_out();
+            left_out
+                .iter()
+                .for_each(|words| complain(format_args!("{words}")));
+        }
         let fit = || ToneMap::fit(&report.reference().pixels);
         let tone_map = exposure.map_or_else(fit, ToneMap::new);
         let page = report

@@ -40,6 +40,19 @@ pub(super) fn chosen_pixels(
         .collect()
 }
 
+/// What is said of each of the `wanted` pixels that is not among those `found`.
+pub(super) fn left_out(wanted: &[[u32; 2]], found: &[PixelVariance]) -> Vec<String> {
+    let is_found = |pixel| found.iter().any(|found| found.pixel == pixel);
+    let missing = wanted.iter().filter(|&&pixel| !is_found(pixel));
+    let say = |[x, y]: &[u32; 2]| {
+        format!(
+            "--pixel {x},{y}: no variance there, it shows no surface that scatters light to all \
+             sides (nothing, a light or a mirror)"
+        )
+    };
+    missing.map(say).collect()
+}
+
 /// The pixel at a place in a cell.
 fn pixel_in(crop: Crop, cell: [u32; 2], share: [f64; 2]) -> [u32; 2] {
     [0, 1].map(|axis| {

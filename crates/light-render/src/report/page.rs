@@ -244,7 +244,7 @@ impl SceneReport {
              the mean difference.",
         );
         html.element("ul", "", |html| {
-            for note in &self.options.notes {
+            for note in self.options.notes.iter().chain(&self.pixels_left_out()) {
                 html.words("li", note);
             }
             for row in self.rows.iter().filter(|row| row.rejected > 0) {

@@ -8,7 +8,7 @@ use crate::{
     World, inventory,
 };
 
-use super::chosen_pixels::chosen_pixels;
+use super::chosen_pixels::{chosen_pixels, left_out};
 use super::reference::Reference;
 use super::sampler_row::SamplerRow;
 use super::timed::Timed;
@@ -97,6 +97,11 @@ impl SceneReport {
 }
 
 impl SceneReport {
+    /// What is said of the wanted pixels that have no variance.
+    pub(crate) fn pixels_left_out(&self) -> Vec<String> {
+        left_out(&self.options.pixels, &self.pixels)
+    }
+
     /// What the pictures are compared with.
     pub(crate) const fn reference(&self) -> &Reference {
         &self.reference

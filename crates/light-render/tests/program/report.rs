@@ -256,3 +256,26 @@ fn a_scene_without_light_is_compared_under_the_sky_that_a_picture_shows() {
     let words = report(&["--sky", "uniform", "--quiet"]);
     assert_eq!(words, "", "it was asked for");
 }
+
+#[test]
+fn a_pixel_without_a_variance_is_told_why() {
+    let folder = Folder::new("mirror-pixel");
+    let scene = folder.file(
+        "mirror.pbrt",
+        "LookAt 0 0 -3 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 45\nWorldBegin\n\
+         LightSource \"point\" \"point3 from\" [0 2 -2]\n\
+         Material \"conductor\" \"float roughness\" 0\nShape \"sphere\"\n",
+    );
+    let page = folder.path("mirror.html");
+    let report = ["report", &scene, "-o", &page, "--pixel", "8,4"];
+    let args = [&report, &QUICK[..]].concat();
+    let shown = lights(&args);
+    let error = String::from_utf8_lossy(&shown.stderr);
+    let line = "--pixel 8,4: no variance there";
+    assert!(shown.status.success() && error.contains(line), "{error}");
+    let text = fs::read_to_string(&page).expect("a page");
+    assert!(text.contains(line), "in the page too");
+    let quiet = lights(&[&args[..], &["--quiet"]].concat());
+    let error = String::from_utf8_lossy(&quiet.stderr);
+    assert!(!error.contains(line), "{error}");
+}
