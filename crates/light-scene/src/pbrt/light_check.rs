@@ -1,9 +1,12 @@
+use lights::math::Aabb;
 use lights::math::spectrum::photometric::Lumen;
 use lights::sources::{
     Channels, EnvironmentMap, Image, ImageInfiniteLightDesc, IntensityAmount, LightDesc,
     LightSetBuilder, PortalInfiniteLightDesc, Rgb, SceneSphere,
 };
 
+use super::file_loc::FileLoc;
+use crate::Diagnostic;
 use crate::glam::Vec3;
 
 /// Why no light of finite power can be made of what a file says; the renderer, which finds the same
@@ -26,12 +29,49 @@ pub(super) fn fault(light: &LightDesc<Rgb>) -> Option<String> {
         LightDesc::Goniometric(light) => return fault_of_amount(light.amount),
         _ => return None,
     };
-    let mut builder = LightSetBuilder::new(SceneSphere::new(Vec3::ZERO, 1.0).ok()?);
-    if let Err(error) = builder.add(tried) {
-        return Some(error.to_string());
+    match power_in_unit_scene(tried) {
+        Ok(power) => fault_of_power(power),
+        Err(message) => Some(message),
     }
+}
+
+/// The power of one light in a scene of radius 1.
+fn power_in_unit_scene(light: LightDesc<Rgb>) -> Result<f32, String> {
+    let scene = SceneSphere::new(Vec3::ZERO, 1.0).map_err(|error| error.to_string())?;
+    let mut builder = LightSetBuilder::new(scene);
+    builder.add(light).map_err(|error| error.to_string())?;
     let powers = builder.build().powers();
-    powers.iter().find_map(|&power| fault_of_power(power))
+    Ok(powers.iter().sum())
+}
+
+/// A light at infinity without an image: its power grows with the square of the scene's radius,
+/// which is known at the end of the file.
+#[derive(Debug)]
+pub(super) struct FarLight {
+    power_in_unit_scene: f32,
+    fault: Diagnostic,
+}
+
+impl FarLight {
+    /// `None` for other lights.
+    pub(super) fn new(light: &LightDesc<Rgb>, at: FileLoc<'_>) -> Option<Self> {
+        let (LightDesc::Distant(_) | LightDesc::UniformInfinite(_)) = light else {
+            return None;
+        };
+        Some(Self {
+            power_in_unit_scene: power_in_unit_scene(light.clone()).ok()?,
+            fault: at.diagnostic("expected a light of finite power in a scene of this size"),
+        })
+    }
+
+    /// What is said of the first of `lights` whose power is infinite in a scene with these bounds.
+    pub(super) fn fault_of(lights: Vec<Self>, bounds: &Aabb) -> Option<Diagnostic> {
+        let (_, radius) = bounds.bounding_sphere();
+        let is_held = |light: &Self| (light.power_in_unit_scene * radius * radius).is_finite();
+        let is_scene = !bounds.is_empty() && (radius * radius).is_finite();
+        let mut faulty = lights.into_iter().filter(|light| !is_held(light));
+        is_scene.then(|| faulty.next())?.map(|light| light.fault)
+    }
 }
 
 /// A sky without an image, which may be large.

@@ -10,7 +10,7 @@ use lights::sources::{
 };
 
 use super::file_loc::Typed;
-use super::light_check;
+use super::light_check::{self, FarLight};
 use super::parameter::ParameterType;
 use super::state::{FLATTENED, Reader};
 use crate::Diagnostic;
@@ -102,6 +102,7 @@ impl Reader {
         if let Some(message) = light_check::fault(&light) {
             return Err(at.diagnostic(message));
         }
+        self.far_lights.extend(FarLight::new(&light, at));
         self.scene.lights.push(light);
         Ok(())
     }

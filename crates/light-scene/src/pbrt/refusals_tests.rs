@@ -121,6 +121,16 @@ fn broken_files_give_one_clear_line() {
             "a.pbrt:3: expected a light of finite power",
         ),
         (
+            "WorldBegin\nLightSource \"distant\" \"rgb L\" [1e20 1e20 1e20]\n\
+             Shape \"sphere\" \"float radius\" 1e12",
+            "a.pbrt:2: expected a light of finite power in a scene of this size",
+        ),
+        (
+            "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1e20 1e20 1e20]\n\
+             Shape \"sphere\" \"float radius\" 1e12",
+            "a.pbrt:2: expected a light of finite power in a scene of this size",
+        ),
+        (
             "WorldBegin\nLightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 2 1 0 0 1 0]",
             "a.pbrt:2: portal infinite light, portal: must be a planar rectangle with an area",
         ),

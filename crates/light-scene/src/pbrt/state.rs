@@ -9,6 +9,7 @@ use super::attribute_target::Attributes;
 use super::file_loc::FileLoc;
 use super::image_key::ImageKey;
 use super::included::Included;
+use super::light_check::FarLight;
 use super::material_names::NamedMaterials;
 use super::medium_slot::MediumSlot;
 use super::object_slots::Objects;
@@ -39,6 +40,8 @@ pub(super) struct Reader {
     pub(super) triangles: usize,
     /// The images of lights, each file read once.
     pub(super) light_images: HashMap<PathBuf, LightImage>,
+    /// Lights at infinity, whose power depends on the size of the scene.
+    pub(super) far_lights: Vec<FarLight>,
     pub(super) coordinates: HashMap<String, Mat4>,
     pub(super) materials: NamedMaterials,
     pub(super) textures: Textures,
@@ -211,6 +214,11 @@ impl Reader {
         self.warn_unused_attributes();
         self.scene.media = self.finished_media()?;
         self.scene.prototypes = self.finished_objects()?;
+        let far_lights = core::mem::take(&mut self.far_lights);
+        if !far_lights.is_empty() {
+            let fault = FarLight::fault_of(far_lights, &self.scene.bounds());
+            fault.map_or(Ok(()), Err)?;
+        }
         // A film without a camera is that of the program's own.
         let own = || self.resolution.map(|_| self.scene.camera_or_default());
         self.scene.camera = self.camera.or_else(own).map(|camera| Camera {
