@@ -93,7 +93,7 @@ impl Triangle {
     fn at(&self, b: Vec3, n: Vec3) -> SurfacePoint {
         let [uv0, uv1, uv2] = self.uv;
         SurfacePoint {
-            p: self.p[0] + self.from_first(b),
+            p: self.p[0] + self.offset_at(b),
             n,
             uv: uv0 * b.x + uv1 * b.y + uv2 * b.z,
         }
@@ -133,12 +133,12 @@ impl Triangle {
     /// coordinates of the scene.
     #[inline]
     fn toward(&self, p: Vec3, b: Vec3) -> Vec3 {
-        (self.p[0] - p) + self.from_first(b)
+        (self.p[0] - p) + self.offset_at(b)
     }
 
     /// From the first vertex to the point at `b`.
     #[inline]
-    fn from_first(&self, b: Vec3) -> Vec3 {
+    fn offset_at(&self, b: Vec3) -> Vec3 {
         let [p0, p1, p2] = self.p;
         (p1 - p0) * b.y + (p2 - p0) * b.z
     }
