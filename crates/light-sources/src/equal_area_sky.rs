@@ -66,12 +66,18 @@ impl EqualAreaSky {
         // Rounding of a direction moves it by a part of the sphere, not of a texel.
         let reach = from_middle.abs() + ROUNDING * image.extent();
         if reach.max_element() >= 0.5 {
-            for inset in INSETS {
+            // By the least that suffices, on the square: then as in a lat-long map.
+            let nudges = NUDGES.map(|nudge| {
+                let most = (0.5 - nudge * image.extent()).max(Vec2::ZERO);
+                from_middle.clamp(-most, most)
+            });
+            let insets = INSETS.map(|inset| from_middle * inset);
+            for place in nudges.into_iter().chain(insets) {
                 let back = sphere_to_square(transform.inverse_vector(wi));
                 if image.texel_at(back) == texel {
                     break;
                 }
-                uv = (corner + 0.5 + from_middle * inset) / image.extent();
+                uv = (corner + 0.5 + place) / image.extent();
                 wi = transform.vector(square_to_sphere(uv));
             }
         }
@@ -92,6 +98,9 @@ impl EqualAreaSky {
 
 /// How far a direction moves on the square, where it is rounded, turned and turned back.
 const ROUNDING: f32 = 2e-6;
+
+/// The distances from the edge of a texel, on the square, that a direction is moved to.
+const NUDGES: [f32; 3] = [2e-7, 6e-7, ROUNDING];
 
 /// The index of a texel, of an image whose sides are `u32`.
 fn saturated(index: usize) -> u32 {

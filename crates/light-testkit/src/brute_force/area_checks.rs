@@ -102,7 +102,7 @@ fn power_holds<M: Model>(
                 (
                     M::values(M::emit_texel(unit, truth.wavelengths)).map(|value| value * largest),
                     [f64::from(M::flux_of_texel(unit).radiant) * largest, 0.0],
-                    color.element_sum() / 3.0,
+                    largest,
                     channels.into_iter().fold(0.0, f64::max),
                 )
             }
