@@ -1,6 +1,5 @@
 use core::ops::ControlFlow;
 use core::time::Duration;
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -12,7 +11,7 @@ use clap::Args;
 
 use super::arguments::seconds;
 use super::failure::Failure;
-use super::output_file::{expect_another, expect_writable, refuse};
+use super::output_file::{expect_another, expect_writable, has_ending, refuse};
 
 /// Renderings that may be interrupted.
 #[derive(Args, Debug)]
@@ -67,8 +66,7 @@ impl CheckpointArgs {
         let Some(path) = &self.checkpoint else {
             return Ok(());
         };
-        let has_ending = |own: &OsStr| own.eq_ignore_ascii_case("exr");
-        if !path.extension().is_some_and(has_ending) {
+        if !has_ending(path, "exr") {
             return Err(refuse(path, "expected a file name that ends in .exr"));
         }
         expect_another(path, outputs, "--output for --checkpoint")?;

@@ -6,6 +6,7 @@ use lights::glam::Vec3;
 use lights::sources::LightDesc;
 
 use super::arguments::{named, positive};
+use super::output_file::has_ending;
 
 /// What is changed in a scene's light.
 #[derive(Args, Clone, Debug)]
@@ -89,10 +90,7 @@ impl LightArgs {
 
 /// What is up: y, but in a pbrt file the axis that is nearest to what is up in its picture.
 pub(super) fn up(path: &Path, scene: &Scene) -> Vec3 {
-    let is_pbrt = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("pbrt"));
-    let camera = scene.camera.filter(|_| is_pbrt);
+    let camera = scene.camera.filter(|_| has_ending(path, "pbrt"));
     let Some(up) = camera.map(|camera| camera.up) else {
         return Vec3::Y;
     };

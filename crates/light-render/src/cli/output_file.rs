@@ -38,18 +38,21 @@ pub(crate) fn expect_another(path: &Path, others: &[PathBuf], role: &str) -> Res
     Ok(())
 }
 
+/// Whether the name of a file ends in `.` and `ending`, in capitals or not.
+pub(crate) fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
 /// Makes sure that the name of an output ends in one of `endings`, or in none, as devices do.
 ///
 /// # Errors
 /// When it ends otherwise.
 pub(crate) fn expect_ending(path: &Path, endings: &[&str]) -> Result<(), Failure> {
-    let Some(found) = path.extension() else {
+    if path.extension().is_none() {
         return Ok(());
-    };
-    if endings
-        .iter()
-        .any(|ending| found.eq_ignore_ascii_case(ending))
-    {
+    }
+    if endings.iter().any(|ending| has_ending(path, ending)) {
         return Ok(());
     }
     let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();

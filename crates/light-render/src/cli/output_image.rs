@@ -5,7 +5,7 @@ use light_scene::{ChannelFile, Image, write_exr, write_exr_half, write_png};
 use lights::glam::Vec3;
 
 use super::failure::Failure;
-use super::output_file::{expect_writable, refuse};
+use super::output_file::{expect_writable, has_ending, refuse};
 
 /// The file that a picture will be written to, tried before the work whose result it will hold.
 #[derive(Debug)]
@@ -35,13 +35,9 @@ impl OutputImage {
     /// # Errors
     /// When the name ends otherwise than in .exr or .png, or the folder cannot be written to.
     pub(crate) fn new(path: &Path, precision: Precision) -> Result<Self, Failure> {
-        let has_ending = |ending| {
-            path.extension()
-                .is_some_and(|own| own.eq_ignore_ascii_case(ending))
-        };
-        let format = if has_ending("exr") {
+        let format = if has_ending(path, "exr") {
             Format::Exr(precision)
-        } else if has_ending("png") {
+        } else if has_ending(path, "png") {
             Format::Png
         } else {
             let message = "expected a file name that ends in .exr or .png";

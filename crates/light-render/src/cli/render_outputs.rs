@@ -6,6 +6,7 @@ use crate::PartialPicture;
 
 use super::doubts;
 use super::failure::Failure;
+use super::output_file::has_ending;
 use super::output_image::{OutputImage, Precision};
 use super::prepared_picture::PreparedPicture;
 use super::render_args::RenderArgs;
@@ -36,11 +37,7 @@ impl RenderArgs {
 
     /// What to say of --half where no file holds half floats.
     pub(super) fn half_doubt(&self) -> Option<String> {
-        let is_exr = |path: &PathBuf| {
-            let ending = path.extension();
-            ending.is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
-        };
-        let reason = if !self.output.iter().any(is_exr) {
+        let reason = if !self.output.iter().any(|path| has_ending(path, "exr")) {
             "no output is an .exr file"
         } else if self.settings.samples.is_some() {
             "parts hold exact sums"

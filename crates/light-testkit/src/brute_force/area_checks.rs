@@ -1,5 +1,4 @@
-use light_math::float::ONE_MINUS_EPSILON;
-use light_math::glam::{DVec3, Vec2};
+use light_math::glam::DVec3;
 use light_sources::{EmissionMask, Light, LightRef, PdfCoverage, Sides, SurfaceColor};
 
 use super::area::{EmittingSurface, scale};
@@ -7,7 +6,7 @@ use super::arrival::{Arriving, UNSEEN, arrival_holds, excess};
 use super::model::Model;
 use super::rays::leaving_holds;
 use super::receiver::Receiver;
-use super::stratified::Stratified;
+use super::stratified::{Stratified, place_in_square};
 use super::surface::Surface;
 use crate::Rng;
 
@@ -151,7 +150,7 @@ fn density_holds<M: Model>(
 ) -> Result<(), String> {
     let side = 32;
     let arrives = Stratified::over_square(side, rng, |u, _| {
-        let u = Vec2::from(u.map(|u| (u as f32).min(ONE_MINUS_EPSILON)));
+        let u = place_in_square(u);
         let coverage = PdfCoverage::Complete;
         let sample = light.sample_li(&receiver.ctx, u, truth.wavelengths, coverage);
         [f64::from(u8::from(sample.is_some()))]

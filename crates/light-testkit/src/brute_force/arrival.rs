@@ -1,11 +1,10 @@
 use light_bounds::LightExtent;
-use light_math::float::ONE_MINUS_EPSILON;
-use light_math::glam::{DVec3, Vec2};
+use light_math::glam::DVec3;
 use light_sources::{Light, LightLiSample, LightRef, PdfCoverage};
 
 use super::model::{Model, Values};
 use super::receiver::Receiver;
-use super::stratified::Stratified;
+use super::stratified::{Stratified, place_in_square};
 use crate::{Estimate, Rng};
 
 /// What arrives from a light, in double precision.
@@ -32,8 +31,8 @@ pub(super) const BACKWARD_ERROR: f64 = 4.0 * f32::EPSILON as f64;
 /// side.
 const STRAY: f64 = 2e-3;
 
-/// How far the density of a sample and that of its query may differ, relatively.
-const DENSITY_ROUNDING: f32 = 2e-3;
+/// How far the density of a sample or a ray and that of its query may differ, relatively.
+pub(super) const DENSITY_ROUNDING: f32 = 2e-3;
 
 /// So many of them are expected of an event of which chance, at the level of a single test, shows
 /// none.
@@ -152,7 +151,7 @@ fn sample<M: Model>(
     receiver: &Receiver,
     u: [f64; 2],
 ) -> Option<LightLiSample<M::Radiance>> {
-    let u = Vec2::from(u.map(|u| (u as f32).min(ONE_MINUS_EPSILON)));
+    let u = place_in_square(u);
     light.sample_li(&receiver.ctx, u, wavelengths, PdfCoverage::Complete)
 }
 

@@ -1,17 +1,13 @@
-use light_math::float::ONE_MINUS_EPSILON;
-use light_math::glam::{DVec3, Vec2, Vec3};
+use light_math::glam::{DVec3, Vec3};
 use light_sources::{Light, LightRef};
 
-use super::arrival::{BACKWARD_ERROR, excess};
+use super::arrival::{BACKWARD_ERROR, DENSITY_ROUNDING, excess};
 use super::model::Model;
-use super::stratified::Stratified;
+use super::stratified::{Stratified, place_in_square};
 use crate::Rng;
 
 /// Rows of cells of the first comparison, and of the one that confirms a difference.
 const SIDES: [u32; 2] = [32, 256];
-
-/// How far the densities of a ray and those of its query may differ, relatively.
-const DENSITY_ROUNDING: f32 = 2e-3;
 
 /// The mean of what rays carry is what leaves the light, in power, direction and origin: the power
 /// over the channels, then the integrals of direction and of the place from `center`, weighted by
@@ -28,7 +24,7 @@ pub(super) fn leaving_holds<M: Model>(
     for side in SIDES {
         let (mut strays, mut samples, mut stray) = (0u32, 0u32, String::new());
         let found = Stratified::<10>::over_square(side, rng, |u, rng| {
-            let u = Vec2::from(u.map(|u| (u as f32).min(ONE_MINUS_EPSILON)));
+            let u = place_in_square(u);
             let Some(sample) = light.sample_le(u, rng.vec2(), wavelengths) else {
                 return [0.0; 10];
             };

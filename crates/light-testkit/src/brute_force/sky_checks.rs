@@ -1,13 +1,12 @@
 use light_bounds::LightExtent;
-use light_math::float::ONE_MINUS_EPSILON;
-use light_math::glam::{DVec3, Vec2};
+use light_math::glam::DVec3;
 use light_sources::{Light, LightRef, PdfCoverage};
 
 use super::arrival::Arriving;
 use super::model::Model;
 use super::receiver::Receiver;
 use super::sky_truth::{Sky, SkyTruth};
-use super::stratified::Stratified;
+use super::stratified::{Stratified, place_in_square};
 use crate::{Estimate, Rng};
 
 /// Fraction of directions that rounding may put on a neighbouring texel, or beyond an edge.
@@ -61,7 +60,7 @@ fn density_at<M: Model>(
         [pdf, found, part.l[3], covered].map(|value| value * part.solid_angle)
     });
     let sampled = Stratified::<4>::over_square(side, rng, |u, _| {
-        let u = Vec2::from(u.map(|u| (u as f32).min(ONE_MINUS_EPSILON)));
+        let u = place_in_square(u);
         let sample = light.sample_li(&receiver.ctx, u, wavelengths, coverage);
         sample.map_or([0.0; 4], |sample| {
             let l = M::values(sample.l)[3] / f64::from(sample.pdf);

@@ -1,4 +1,12 @@
+use light_math::float::ONE_MINUS_EPSILON;
+use light_math::glam::Vec2;
+
 use crate::{Estimate, Rng};
+
+/// The random numbers of a query at a point of the unit square, all of them below 1.
+pub(super) fn place_in_square(u: [f64; 2]) -> Vec2 {
+    Vec2::from(u.map(|u| (u as f32).min(ONE_MINUS_EPSILON)))
+}
 
 /// An integral of `N` numbers, each with the standard error that pairs of points in equal cells
 /// have.
