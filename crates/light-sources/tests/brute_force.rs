@@ -25,6 +25,12 @@ fn lights_on_shapes() {
     check_all(kinds, 96);
 }
 
+/// Of a sample at a low angle, the point is on its ray.
+#[test]
+fn a_rectangle_from_within_its_plane() {
+    assert_eq!(check(Kind::Rectangle, 90036), Ok(()));
+}
+
 #[test]
 fn meshes() {
     check_all([Kind::Mesh, Kind::PlacedMesh], 96);

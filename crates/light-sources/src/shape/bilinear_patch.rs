@@ -2,7 +2,7 @@ use super::bilinear_patch_error::BilinearPatchError;
 use super::flat_quad::FlatQuad;
 use super::normal::{normal_length, unit_normal};
 use super::patch_area;
-use super::rounding::is_edge_on;
+use super::rounding::is_within_rounding;
 use super::solid_angle::area_to_solid_angle;
 use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
@@ -234,7 +234,7 @@ impl Shape for BilinearPatch {
         // Not by way of `at.p`, whose rounding grows with the coordinates of the scene.
         let to_light = self.along(self.p00 - ctx.p, at.uv);
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-        if self.bend == Bend::Twisted || is_edge_on(wi, at.n) {
+        if self.bend == Bend::Twisted || is_within_rounding(wi, to_light, &at) {
             let (met, t) = self.intersect(ctx.p, wi)?;
             // A ray that meets the patch twice meets it from both sides, even in a flat patch that
             // folds over itself, where both are as far away.

@@ -3,7 +3,7 @@ use core::f32::consts::{PI, TAU};
 use core::fmt;
 
 use super::azimuth::azimuth;
-use super::rounding::{hit_slack, is_edge_on, met_by};
+use super::rounding::{hit_slack, with_density_of_ray};
 use super::solid_angle::area_to_solid_angle;
 use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
@@ -148,11 +148,9 @@ impl Shape for Disk {
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let ShapeSample { at, pdf } = self.sample(u)?;
-        let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
-        if is_edge_on(wi, at.n) {
-            return met_by(self, ctx, wi);
-        }
-        Some(DirectionSample { at, wi, pdf })
+        let to_light = at.p - ctx.p;
+        let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

@@ -3,7 +3,7 @@ use core::fmt;
 
 use super::normal::unit_normal;
 use super::receiver_cosine::ReceiverCosine;
-use super::rounding::{hit_slack, is_edge_on, is_within_rounding, met_by};
+use super::rounding::{hit_slack, with_density_of_ray};
 use super::solid_angle::{SMALL, area_to_solid_angle};
 use super::{DirectionSample, Shape, ShapeSample};
 use crate::glam::{Vec2, Vec3};
@@ -142,20 +142,14 @@ impl Shape for Rectangle {
             let ShapeSample { at, pdf } = self.sample(u)?;
             let to_light = at.p - ctx.p;
             let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-            if is_within_rounding(to_light, at.p) || is_edge_on(wi, at.n) {
-                return met_by(self, ctx, wi);
-            }
-            return Some(DirectionSample { at, wi, pdf });
+            return with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf });
         };
         let (u, pdf) = self.receiver_cosine(ctx).sample(u);
         let at = self.at(seen.sample(u));
         let to_light = at.p - ctx.p;
         let wi = unit_normal(to_light)?;
-        if is_within_rounding(to_light, at.p) {
-            return met_by(self, ctx, wi);
-        }
         let pdf = pdf * seen.pdf();
-        Some(DirectionSample { at, wi, pdf })
+        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

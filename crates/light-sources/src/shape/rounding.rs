@@ -2,39 +2,50 @@
 
 use super::{DirectionSample, Shape};
 use crate::glam::Vec3;
+use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
 
 /// The distance, as a part of the coordinates, within which their rounding shows.
 pub(super) const CLOSE: f32 = 1e-3;
 
 /// The cosine below which the height of a receiver over a plane has few digits.
-const GRAZING: f32 = 1e-3;
+pub(super) const GRAZING: f32 = 1e-3;
 
-/// Whether a direction comes in so low over a surface with unit normal `n` that rounding changes
-/// where it meets the surface, and the density there, visibly.
+/// Whether rounding changes visibly where the direction `wi` along `to_light` meets a surface, and
+/// the density there: because the point `at` is so close, compared with its coordinates, or because
+/// `wi` comes in so low over the surface.
 #[inline]
-pub(super) fn is_edge_on(wi: Vec3, n: Vec3) -> bool {
-    wi.dot(n).abs() < GRAZING
+pub(super) fn is_within_rounding(wi: Vec3, to_light: Vec3, at: &SurfacePoint) -> bool {
+    let is_close = to_light.length_squared() < CLOSE * CLOSE * at.p.length_squared();
+    is_close || wi.dot(at.n).abs() < GRAZING
 }
 
-/// Whether a point `at` is so close, compared with its coordinates, that their rounding turns the
-/// direction `to_light` visibly.
+/// The sample of a flat `shape`, with the density that a query has for its direction where rounding
+/// may tell them apart; `None` where a query has none.
+///
+/// The point stays the one that was chosen, as it lies on the ray: where a low ray meets the
+/// surface is known less well than the ray.
 #[inline]
-pub(super) fn is_within_rounding(to_light: Vec3, at: Vec3) -> bool {
-    to_light.length_squared() < CLOSE * CLOSE * at.length_squared()
-}
-
-/// The sample of `shape` whose direction is `wi`, with the point that the direction meets and the
-/// density that it has, if it meets one.
-#[cold]
-pub(super) fn met_by(
+pub(super) fn with_density_of_ray(
     shape: &impl Shape,
     ctx: &LightSampleContext,
-    wi: Vec3,
+    to_light: Vec3,
+    sample: DirectionSample,
 ) -> Option<DirectionSample> {
-    let at = shape.hit(ctx.p, wi)?;
-    let pdf = shape.pdf_toward(ctx, wi);
-    (pdf > 0.0).then_some(DirectionSample { at, wi, pdf })
+    if !is_within_rounding(sample.wi, to_light, &sample.at) {
+        return Some(sample);
+    }
+    queried(shape, ctx, sample)
+}
+
+#[cold]
+fn queried(
+    shape: &impl Shape,
+    ctx: &LightSampleContext,
+    sample: DirectionSample,
+) -> Option<DirectionSample> {
+    let pdf = shape.pdf_toward(ctx, sample.wi);
+    (pdf > 0.0).then_some(DirectionSample { pdf, ..sample })
 }
 
 /// The rounding error of a hit, as a part of the coordinates that were subtracted.

@@ -1,6 +1,6 @@
 use super::normal::{has_digits, normal_length, unit_normal};
 use super::receiver_cosine::ReceiverCosine;
-use super::rounding::{is_edge_on, is_within_rounding, met_by};
+use super::rounding::with_density_of_ray;
 use super::solid_angle::{SMALL, area_to_solid_angle};
 use super::{DirectionSample, Shape, ShapeSample, TriangleError, UvArea};
 use crate::glam::{Vec2, Vec3};
@@ -208,21 +208,15 @@ impl Shape for Triangle {
             let b = uniform_triangle::sample(u);
             let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
             let (wi, pdf) = area_to_solid_angle(inv_area, to_light, n)?;
-            if is_within_rounding(to_light, at.p) || is_edge_on(wi, n) {
-                return met_by(self, ctx, wi);
-            }
-            return Some(DirectionSample { at, wi, pdf });
+            return with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf });
         };
         let (n, _) = self.normal_and_inv_area()?;
         let (u, pdf) = Self::receiver_cosine(ctx, &seen).sample(u);
         let b = seen.sample(u);
         let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
         let wi = unit_normal(to_light)?;
-        if is_within_rounding(to_light, at.p) {
-            return met_by(self, ctx, wi);
-        }
         let pdf = pdf * seen.pdf();
-        Some(DirectionSample { at, wi, pdf })
+        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
