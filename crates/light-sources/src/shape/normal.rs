@@ -23,7 +23,7 @@ pub(super) fn has_digits(length_sq: f32) -> bool {
 
 /// Divided by the largest component first, so that no square vanishes or overflows.
 #[cold]
-pub(super) fn extreme_length(v: Vec3) -> f32 {
+fn extreme_length(v: Vec3) -> f32 {
     let largest = v.abs().max_element();
     if largest > 0.0 {
         largest * (v / largest).length()

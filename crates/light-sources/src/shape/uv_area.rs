@@ -1,5 +1,5 @@
 #[cfg(feature = "alloc")]
-use super::normal::{extreme_length, has_digits};
+use super::normal::normal_length;
 use crate::glam::{Vec2, Vec3};
 
 /// The distribution of the area of a shape over its surface parameters (u, v).
@@ -31,19 +31,14 @@ impl UvDensity {
         reason = "single precision is enough for a weight"
     )]
     pub(crate) fn at(&self, uv: glam::DVec2) -> f64 {
-        use light_math::float::{sin, sqrt};
         match self {
             Self::Even => 1.0,
-            Self::Sine => sin(core::f32::consts::PI * (uv.y as f32)).max(0.0).into(),
+            Self::Sine => light_math::float::sin(core::f32::consts::PI * (uv.y as f32))
+                .max(0.0)
+                .into(),
             Self::Length([n, du, dv]) => {
                 let n = n.as_dvec3() + du.as_dvec3() * uv.x + dv.as_dvec3() * uv.y;
-                let length_sq = n.length_squared() as f32;
-                let length = if has_digits(length_sq) {
-                    sqrt(length_sq)
-                } else {
-                    extreme_length(n.as_vec3())
-                };
-                length.into()
+                normal_length(n.as_vec3()).into()
             }
         }
     }
