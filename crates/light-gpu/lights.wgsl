@@ -42,6 +42,7 @@ const LIGHT_NEWTON_REACH: f32 = 0.25;
 const LIGHT_CLOSE: f32 = 0.001;
 const LIGHT_DIRECTION_ERROR: f32 = 4.7683716e-7;
 const LIGHT_EDGE_ERROR: f32 = 9.536743e-7;
+const LIGHT_GRAZING: f32 = 0.001;
 const LIGHT_HIT_ERROR: f32 = 4.7683716e-7;
 const LIGHT_LEAST_COSINE: f32 = 0.01;
 const LIGHT_OWN_ERROR: f32 = 9.536743e-7;
@@ -50,8 +51,11 @@ const LIGHT_SMALL_SOLID_ANGLE: f32 = 0.0003;
 const LIGHT_SPHERE_ERROR: f32 = 4.7683716e-7;
 const LIGHT_WIDEST_SLACK: f32 = 0.5;
 const LIGHT_FIRST_INSET: f32 = 0.999;
+const LIGHT_FIRST_NUDGE: f32 = 2e-7;
 const LIGHT_SECOND_INSET: f32 = 0.97;
+const LIGHT_SECOND_NUDGE: f32 = 6e-7;
 const LIGHT_THIRD_INSET: f32 = 0.5;
+const LIGHT_THIRD_NUDGE: f32 = 2e-6;
 const LIGHT_KIND_POINT: u32 = 1u;
 const LIGHT_KIND_SPOT: u32 = 2u;
 const LIGHT_KIND_DISTANT: u32 = 3u;
@@ -1492,11 +1496,21 @@ fn light_environment_sample(sky: LightEnvironment, u: vec2<f32>) -> LightEnviron
     let column = light_bin(sky.columns, row.index * sky.size.x, sky.size.x, u.x);
     let texel = vec2<u32>(column.index, row.index);
     let from_middle = vec2<f32>(column.place, row.place) - 0.5;
-    // Rounding may move a direction beyond the edge of its texel.
-    var insets = array<f32, 4>(1.0, LIGHT_FIRST_INSET, LIGHT_SECOND_INSET, LIGHT_THIRD_INSET);
-    for (var i = 0u; i < 4u; i++) {
-        let place = 0.5 + from_middle * insets[i];
-        sample.wi = sky.turn * light_environment_direction(sky, texel, place);
+    // Rounding may move a direction beyond the edge of its texel. On the square of equal areas it
+    // is moved by the least that suffices, then as in a lat-long map.
+    var nudges = array<f32, 7>(
+        0.0, LIGHT_FIRST_NUDGE, LIGHT_SECOND_NUDGE, LIGHT_THIRD_NUDGE, 0.0, 0.0, 0.0,
+    );
+    var insets = array<f32, 7>(
+        1.0, 1.0, 1.0, 1.0, LIGHT_FIRST_INSET, LIGHT_SECOND_INSET, LIGHT_THIRD_INSET,
+    );
+    for (var i = 0u; i < 7u; i++) {
+        if sky.is_lat_long && nudges[i] > 0.0 {
+            continue;
+        }
+        let most = max(0.5 - nudges[i] * vec2<f32>(sky.size), vec2<f32>(0.0));
+        let place = clamp(from_middle, -most, most) * insets[i];
+        sample.wi = sky.turn * light_environment_direction(sky, texel, 0.5 + place);
         if all(light_environment_texel(sky, sample.wi) == texel) {
             break;
         }
@@ -2224,17 +2238,15 @@ fn light_triangle_sample(
         density = light_bilinear_pdf(place, weights) / seen.solid_angle;
         b = light_spherical_triangle_sample(seen, place);
     }
-    found.p = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
+    found.p = t.p[0] + light_triangle_offset(t, b);
     found.n = t.n;
-    let to_light = found.p - receiver.p;
+    let to_light = light_triangle_toward(t, receiver.p, b);
     let by_area = light_area_to_solid_angle(t.inv_area, to_light, t.n);
     let by_angle = vec4<f32>(light_unit_or(to_light, vec3<f32>(0.0)), density);
     let direction = select(by_area, by_angle, seen.solid_angle > 0.0);
     found.wi = direction.xyz;
     found.pdf = direction.w;
-    if found.pdf > 0.0 && light_is_within_rounding(to_light, found.p) {
-        let hit = light_triangle_hit(t, receiver.p, found.wi);
-        found.p = t.p[0] * hit.x + t.p[1] * hit.y + t.p[2] * hit.z;
+    if light_is_within_rounding(found, to_light) {
         found.pdf = light_triangle_pdf(t, receiver, found.wi);
     }
     return found;
@@ -2250,8 +2262,19 @@ fn light_triangle_pdf(t: LightTriangle, receiver: LightReceiver, wi: vec3<f32>) 
         let place = light_spherical_triangle_invert(seen, b);
         return light_bilinear_pdf(place, light_triangle_cosines(receiver, seen)) / seen.solid_angle;
     }
-    let at = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
-    return light_area_to_solid_angle(t.inv_area, at - receiver.p, t.n).w;
+    let to_light = light_triangle_toward(t, receiver.p, b);
+    return light_area_to_solid_angle(t.inv_area, to_light, t.n).w;
+}
+
+// From the first vertex to the point at b.
+fn light_triangle_offset(t: LightTriangle, b: vec3<f32>) -> vec3<f32> {
+    return (t.p[1] - t.p[0]) * b.y + (t.p[2] - t.p[0]) * b.z;
+}
+
+// From p to the point at b: not by way of the point itself, whose rounding grows with the
+// coordinates of the scene.
+fn light_triangle_toward(t: LightTriangle, p: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    return (t.p[0] - p) + light_triangle_offset(t, b);
 }
 
 // The triangle on the sphere of directions around p; without solid angle where it is so small that
@@ -2302,8 +2325,8 @@ fn light_triangle_hit(t: LightTriangle, origin: vec3<f32>, direction: vec3<f32>)
         return vec3<f32>(0.0);
     }
     let b = sides / sum;
-    let at = t.p[0] * b.x + t.p[1] * b.y + t.p[2] * b.z;
-    return select(vec3<f32>(0.0), b, dot(at - origin, direction) > 0.0);
+    let to_light = light_triangle_toward(t, origin, b);
+    return select(vec3<f32>(0.0), b, dot(to_light, direction) > 0.0);
 }
 
 fn light_rectangle_sample(
@@ -2329,9 +2352,7 @@ fn light_rectangle_sample(
     let direction = select(by_area, by_angle, seen.solid_angle > 0.0);
     found.wi = direction.xyz;
     found.pdf = direction.w;
-    if found.pdf > 0.0 && light_is_within_rounding(to_light, found.p) {
-        let hit = light_rectangle_hit(s, receiver.p, found.wi);
-        found.p = s.corner + s.x * hit.x + s.y * hit.y;
+    if light_is_within_rounding(found, to_light) {
         found.pdf = light_rectangle_pdf(s, receiver, found.wi);
     }
     return found;
@@ -2420,10 +2441,14 @@ fn light_area_to_solid_angle(pdf_area: f32, to_light: vec3<f32>, n: vec3<f32>) -
     return select(vec4<f32>(0.0), vec4<f32>(wi, pdf), has_pdf);
 }
 
-// Whether a point is so close, compared with its coordinates, that their rounding turns the
-// direction toward it.
-fn light_is_within_rounding(to_light: vec3<f32>, at: vec3<f32>) -> bool {
-    return dot(to_light, to_light) < LIGHT_CLOSE * LIGHT_CLOSE * dot(at, at);
+// Whether rounding changes visibly where the direction of a sample meets the surface, and the
+// density there: because the point is so close, compared with its coordinates, or because the
+// direction comes in so low over the surface. Not where there is no sample.
+fn light_is_within_rounding(sample: LightShapeSample, to_light: vec3<f32>) -> bool {
+    let at = sample.p;
+    let is_close = dot(to_light, to_light) < LIGHT_CLOSE * LIGHT_CLOSE * dot(at, at);
+    let is_low = abs(dot(sample.wi, sample.n)) < LIGHT_GRAZING;
+    return sample.pdf > 0.0 && (is_close || is_low);
 }
 
 // Points of a sphere as seen from a receiver: Sphere of light-sources.

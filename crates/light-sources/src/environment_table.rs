@@ -28,17 +28,28 @@ pub struct EnvironmentTable {
     pub caps: Vec<f32>,
 }
 
+/// How far a direction moves on the square of equal areas, where it is rounded, turned and turned
+/// back.
+pub(crate) const ROUNDING: f32 = 2e-6;
+
+/// The distances from the edge of a texel, on that square, that a direction is moved to.
+pub(crate) const NUDGES: [f32; 3] = [2e-7, 6e-7, ROUNDING];
+
 /// How much of its distance from the middle of its texel a direction keeps, one try after the
 /// other, if rounding has moved it beyond an edge.
 pub(crate) const INSETS: [f32; 3] = [0.999, 0.97, 0.5];
 
 /// The numbers of samples toward an environment map, by name, for ports of them to another
-/// language: how much of its distance from the middle of its texel a direction keeps, one try after
-/// the other, if rounding has moved it beyond an edge.
-pub const ENVIRONMENT_CONSTANTS: [(&str, f32); 3] = [
+/// language, for directions that rounding has moved beyond an edge of their texel: the distances
+/// from the edge, on the square of equal areas, and how much of its distance from the middle of its
+/// texel a direction keeps, one try after the other.
+pub const ENVIRONMENT_CONSTANTS: [(&str, f32); 6] = [
     ("FIRST_INSET", INSETS[0]),
+    ("FIRST_NUDGE", NUDGES[0]),
     ("SECOND_INSET", INSETS[1]),
+    ("SECOND_NUDGE", NUDGES[1]),
     ("THIRD_INSET", INSETS[2]),
+    ("THIRD_NUDGE", NUDGES[2]),
 ];
 
 #[cfg(test)]

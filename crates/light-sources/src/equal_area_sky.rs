@@ -1,4 +1,4 @@
-use crate::environment_table::{EnvironmentTable, INSETS};
+use crate::environment_table::{EnvironmentTable, INSETS, NUDGES, ROUNDING};
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::mis_compensation::compensate;
@@ -95,12 +95,6 @@ impl EqualAreaSky {
         self.of(coverage).pdf(w)
     }
 }
-
-/// How far a direction moves on the square, where it is rounded, turned and turned back.
-const ROUNDING: f32 = 2e-6;
-
-/// The distances from the edge of a texel, on the square, that a direction is moved to.
-const NUDGES: [f32; 3] = [2e-7, 6e-7, ROUNDING];
 
 /// The index of a texel, of an image whose sides are `u32`.
 fn saturated(index: usize) -> u32 {

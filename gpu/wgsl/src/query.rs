@@ -107,6 +107,32 @@ impl Query {
         }
     }
 
+    /// The same nearly within the plane through `center` with the unit normal `n`: on either side,
+    /// as high as 1e-4 to 1e-3 of the coordinates.
+    pub fn near_plane(mut self, center: Vec3, n: Vec3) -> Self {
+        let p = Vec3::from(self.p);
+        let [slope, side] = self.place().to_array();
+        let slope = 1e-4 * 10f32.powf(slope) * (side - 0.5).signum();
+        let height = (p.length() + center.length()) * slope;
+        self.p = (p + n * (height - (p - center).dot(n))).to_array();
+        self
+    }
+
+    /// The same with one or both random numbers at the ends of [0, 1).
+    pub fn at_ends(mut self) -> Self {
+        self.u = self.u.map(|word| match word % 4 {
+            0 => 0,
+            1 => u32::MAX,
+            _ => word,
+        });
+        self
+    }
+
+    /// Whether a random number is at an end of [0, 1).
+    pub fn is_at_end(&self) -> bool {
+        self.u.iter().any(|&word| word == 0 || word == u32::MAX)
+    }
+
     /// The direction to the viewer.
     pub fn wo(&self) -> Vec3 {
         self.wo.into()
