@@ -58,7 +58,7 @@ pub enum SurfaceColor<C: ColorModel> {
     Image {
         /// The image; lights that share it hold it once.
         texture: Texture,
-        /// Multiplies every texel.
+        /// Multiplies every texel; a luminance is that of white times this.
         tint: Vec3,
     },
 }

@@ -17,7 +17,7 @@ const RECEIVERS: u32 = 3;
 const SIDES: [u32; 2] = [64, 768];
 
 /// The weight that texels beside a surface may have in its power, all of them together.
-const NEARBY: f64 = 1e-9;
+pub(super) const NEARBY: f64 = 1e-9;
 
 /// All that is compared for a light on a surface.
 pub(super) fn check_surface<M: Model>(

@@ -3,10 +3,11 @@ use alloc::sync::Arc;
 use light_math::glam::{Affine3A, Mat3, Vec2, Vec3};
 use light_sources::shape::{ShapeDesc, Triangle};
 use light_sources::{
-    AreaLightDesc, Channels, DiffuseEmissionDesc, EmissionMask, LightSetBuilder, MeshLightDesc,
-    RadianceAmount, Sides, SurfaceColor,
+    AreaLightDesc, Channels, DiffuseEmissionDesc, EmissionMask, Light, LightSetBuilder,
+    MeshLightDesc, RadianceAmount, Sides, SurfaceColor,
 };
 
+use super::amounts::surface_amounts_hold;
 use super::area::{EmittingSurface, largest};
 use super::area_checks::check_surface;
 use super::kind::Kind;
@@ -22,6 +23,8 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
     let emission = random_emission::<M>(rng);
     let placement = Placement::random(rng);
     let mut builder = LightSetBuilder::<M>::new(any_scene());
+    // A shape that is no part of a mesh, whose power is that of the whole mesh.
+    let mut alone = None;
     let (surface, points, id, shape) = match kind {
         Kind::Mesh | Kind::PlacedMesh => {
             let triangle = rng.below(TRIANGLES);
@@ -72,6 +75,7 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
         _ => {
             let (shape, surface, points) = random_shape(kind, rng, &placement);
             let desc = AreaLightDesc::new(shape, emission.clone());
+            alone = Some(shape);
             let source = builder.add(desc).map_err(|e| format!("{shape:?}: {e}"))?;
             (surface, points, (source, 0), format!("{shape:?}"))
         }
@@ -87,6 +91,20 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
     };
     let power = set.powers()[id.0 as usize];
     check_surface(&light, power, &truth, placement.unit, rng)
+        .and_then(|()| {
+            let Some(shape) = alone else {
+                return Ok(());
+            };
+            let phi = M::values(light.phi(&wavelengths));
+            surface_amounts_hold(&truth, phi, rng, |emission| {
+                let mut builder = LightSetBuilder::<M>::new(any_scene());
+                let desc = AreaLightDesc::new(shape, emission);
+                let source = builder.add(desc).map_err(|e| e.to_string())?;
+                let set = builder.build();
+                let id = set.first_id(source).ok_or("no id")?;
+                Ok(M::values(set.get(id).ok_or("no light")?.phi(&wavelengths)))
+            })
+        })
         .map_err(|fault| format!("{fault}\n  {shape}\n  {}", what(&emission)))
 }
 

@@ -1,6 +1,7 @@
 use alloc::sync::Arc;
 
-use light_math::glam::Vec3;
+use light_math::glam::{DVec3, Vec3};
+use light_math::spectrum::cie::matching;
 use light_math::spectrum::{Blackbody, Constant, PiecewiseLinear, SampledWavelengths, Spectrum};
 use light_sources::{ColorModel, Rgb, Spectral, SpectralEmission};
 
@@ -23,6 +24,12 @@ pub(super) trait Model: ColorModel {
 
     /// The radiant quantity of an emission, and by how much the sum over nanometres may be off.
     fn radiant(emission: &Self::Emission) -> [f64; 2];
+
+    /// The luminous quantity of an emission, by sums over whole nanometres.
+    fn luminous(emission: &Self::Emission) -> f64;
+
+    /// The luminous and the radiant quantity of a texel.
+    fn flux_of(rgb: DVec3) -> [f64; 2];
 
     /// Values of a white texel, by which powers of pictures are compared, and its radiant quantity
     /// with its error.
@@ -53,6 +60,16 @@ impl Model for Rgb {
 
     fn radiant(emission: &Vec3) -> [f64; 2] {
         [Self::values(*emission)[3], 0.0]
+    }
+
+    fn luminous(emission: &Vec3) -> f64 {
+        Self::flux_of(emission.as_dvec3())[0]
+    }
+
+    fn flux_of(rgb: DVec3) -> [f64; 2] {
+        // Y of the primaries of IEC 61966-2-1.
+        const LUMINANCE: DVec3 = DVec3::new(0.212_639_005_9, 0.715_168_678_8, 0.072_192_315_4);
+        [683.0 * LUMINANCE.dot(rgb), rgb.element_sum() / 3.0]
     }
 
     fn white((): &()) -> (Values, [f64; 2]) {
@@ -109,6 +126,20 @@ impl Model for Spectral<4> {
         let parts = (0..471 * PARTS).map(|i| 359.5 + step * (f64::from(i) + 0.5));
         let sum: f64 = parts.map(|lambda| spectrum_at(emission, lambda)).sum();
         [sum * step, f64::from(emission.max_value())]
+    }
+
+    fn luminous(emission: &SpectralEmission) -> f64 {
+        let visible = (360..=830u16).map(f32::from);
+        let seen =
+            |lambda: f32| f64::from(matching(lambda).y) * spectrum_at(emission, lambda.into());
+        683.0 * visible.map(seen).sum::<f64>()
+    }
+
+    fn flux_of(rgb: DVec3) -> [f64; 2] {
+        // The model's own function takes numbers that a float holds.
+        let largest = rgb.max_element().max(f64::MIN_POSITIVE);
+        let flux = Self::flux_of_texel((rgb / largest).as_vec3());
+        [flux.luminous, flux.radiant].map(|value| f64::from(value) * largest)
     }
 
     fn white(wavelengths: &SampledWavelengths<4>) -> (Values, [f64; 2]) {

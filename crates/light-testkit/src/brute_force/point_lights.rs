@@ -1,9 +1,10 @@
-use light_math::glam::{Affine3A, DVec2, Vec3};
+use light_math::glam::{Affine3A, DVec2, DVec3, Vec3};
 use light_sources::{
     Channels, GoniometricLightDesc, IntensityAmount, Light, LightDesc, LightRef, LightSetBuilder,
     MediumInterface, PointLightDesc, ProjectionLightDesc, SpotLightDesc,
 };
 
+use super::amounts::{Quantities, intensities_hold};
 use super::arrival::arrival_holds;
 use super::kind::Kind;
 use super::model::Model;
@@ -98,7 +99,9 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
     };
     let described = format!("{desc:?}");
     let mut builder = LightSetBuilder::<M>::new(any_scene());
-    let source = builder.add(desc).map_err(|e| format!("{e}: {described}"))?;
+    let source = builder
+        .add(desc.clone())
+        .map_err(|e| format!("{e}: {described}"))?;
     let set = builder.build();
     let id = set.first_id(source).ok_or("no id")?;
     let light = set.get(id).ok_or("no light")?;
@@ -116,7 +119,49 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
     power_holds(power, color, values, rng, |side, rng| {
         truth.leaving(side, rng)
     })
-    .and_then(|()| compare(&light, &wavelengths, &truth, placement.unit, rng))
+    .and_then(|leaving| {
+        compare(&light, &wavelengths, &truth, placement.unit, rng)?;
+        let is_picture = matches!(desc, LightDesc::Projection(_));
+        let scale = f64::from(scale);
+        let beam = if M::is_linear() && is_picture {
+            let [r, g, b, _] = leaving.phi;
+            DVec3::new(r, g, b)
+        } else {
+            DVec3::splat(scale * leaving.etendue)
+        };
+        let [radiant, error] = color;
+        let of_color = [M::luminous(&emission), radiant / scale];
+        let [luminous, power] = if is_picture {
+            [M::flux_of(DVec3::ONE), M::flux_of(beam)]
+        } else {
+            [of_color, of_color.map(|of_color| of_color * beam.x)]
+        };
+        let quantities = Quantities {
+            luminous: luminous[0] * scale,
+            luminous_power: power[0],
+            radiant_power: power[1],
+            chance: leaving.chance,
+        };
+        if error > 5e-3 * radiant {
+            return Ok(());
+        }
+        let phi = M::values(light.phi(&wavelengths));
+        intensities_hold(&quantities, phi, rng, |amount| {
+            let mut desc = desc.clone();
+            match &mut desc {
+                LightDesc::Point(light) => light.amount = amount,
+                LightDesc::Spot(light) => light.amount = amount,
+                LightDesc::Projection(light) => light.amount = amount,
+                LightDesc::Goniometric(light) => light.amount = amount,
+                other => unreachable!("{other:?} is no light in a point"),
+            }
+            let mut builder = LightSetBuilder::<M>::new(any_scene());
+            let source = builder.add(desc).map_err(|e| e.to_string())?;
+            let set = builder.build();
+            let id = set.first_id(source).ok_or("no id")?;
+            Ok(M::values(set.get(id).ok_or("no light")?.phi(&wavelengths)))
+        })
+    })
     .map_err(|fault| format!("{fault}\n  {described}"))
 }
 

@@ -11,6 +11,15 @@ pub(super) struct Power {
     pub(super) radiant: f64,
 }
 
+/// What leaves a light, by quadrature.
+pub(super) struct Leaving {
+    pub(super) phi: Values,
+    /// The power of what has the value 1 in the middle of the beam.
+    pub(super) etendue: f64,
+    /// By how much chance may move it, as a part of it.
+    pub(super) chance: f64,
+}
+
 /// Rows of cells of the first comparison, and of the one that confirms a difference.
 const SIDES: [u32; 2] = [48, 512];
 
@@ -23,7 +32,7 @@ pub(super) fn power_holds<const N: usize>(
     values: Values,
     rng: &mut Rng,
     leaving: impl Fn(u32, &mut Rng) -> Stratified<N>,
-) -> Result<(), String> {
+) -> Result<Leaving, String> {
     let mut fault = String::new();
     let brightest = (0..4).fold(0, |best, i| if values[i] > values[best] { i } else { best });
     for side in SIDES {
@@ -40,7 +49,11 @@ pub(super) fn power_holds<const N: usize>(
         let is_radiant = !(most.is_finite()) || (found.radiant - most).abs() <= slack;
         let is_positive = found.radiant > 0.0 || expected == [0.0; 4];
         if off == [0.0; 4] && is_radiant && is_positive {
-            return Ok(());
+            return Ok(Leaving {
+                phi: expected,
+                etendue,
+                chance: margin[brightest] / expected[brightest],
+            });
         }
         fault = format!(
             "power {:?}, not {expected:?}, beyond chance by {off:?}; in total {}, not {most}",

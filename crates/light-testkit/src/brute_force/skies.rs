@@ -148,6 +148,7 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
             power_holds(power, color, values, rng, |side, rng| {
                 truth.leaving(side, rng)
             })
+            .map(|_| ())
         })
         .map_err(|fault| format!("{fault}\n  {described}"))
 }
