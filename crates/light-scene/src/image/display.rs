@@ -20,10 +20,24 @@ pub(super) fn parse_hdr(
     bytes: &[u8],
     broken: BrokenTexels,
 ) -> Result<ImageFile, Diagnostic> {
+    let signed = with_signature(bytes);
+    let bytes = signed.as_deref().unwrap_or(bytes);
     let image = decode(path, bytes, ImageFormat::Hdr, "a Radiance HDR file")?.into_rgb32f();
     let size = [image.width() as usize, image.height() as usize];
     let texels = image.pixels().map(|texel| Vec3::from(texel.0)).collect();
     checked(path, size, texels, broken)
+}
+
+/// The bytes of a Radiance HDR file with the first line that the decoder expects, if it has another:
+/// programs write their names there, most often `#?RGBE`.
+fn with_signature(bytes: &[u8]) -> Option<Vec<u8>> {
+    const SIGNATURE: &[u8] = b"#?RADIANCE";
+    if !bytes.starts_with(b"#?") || bytes.starts_with(SIGNATURE) {
+        return None;
+    }
+    let line = bytes.iter().position(|&byte| byte == b'\n');
+    let rest = &bytes[line.unwrap_or(bytes.len())..];
+    Some([SIGNATURE, rest].concat())
 }
 
 /// Writes an 8-bit sRGB PNG file; channels are clamped to [0, 1], NaN becomes black.

@@ -86,6 +86,28 @@ fn hdr_is_read() {
     );
 }
 
+/// The first line names the program that wrote the file.
+#[test]
+fn hdr_of_other_programs_is_read() {
+    let file = |first: &str| {
+        let header = format!("{first}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n");
+        [header.as_bytes(), &[128, 64, 0, 129, 0, 0, 128, 130]].concat()
+    };
+    let read = |first: &str| parse_image(Path::new("a.hdr"), &file(first));
+    let radiance = read("#?RADIANCE").expect("an image").image;
+    assert_eq!(radiance.texels()[0], Vec3::new(1.0, 0.5, 0.0), "a texel");
+    for first in ["#?RGBE", "#?AUTOPANO", "#?"] {
+        assert_eq!(read(first).expect(first).image, radiance, "{first}");
+    }
+    for (first, name) in [("RGBE", "no mark"), ("", "nothing")] {
+        let refused = read(first).expect_err(name);
+        assert!(refused.message.contains("signature"), "{name}: {refused}");
+    }
+    for cut in [b"#?RGBE".as_slice(), b"#?"] {
+        assert!(parse_image(Path::new("a.hdr"), cut).is_err(), "no header");
+    }
+}
+
 #[test]
 fn broken_files_give_one_clear_line() {
     let folder = TestFolder::new("broken_images");
