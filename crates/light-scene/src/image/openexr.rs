@@ -65,6 +65,13 @@ pub(super) fn parse_exr_with(
     let has = |name: &str| names.iter().any(|other| other == name);
     let wanted = if ["R", "G", "B"].into_iter().all(has) {
         ["R", "G", "B"]
+    } else if has("Y") && (has("RY") || has("BY")) {
+        // Y alone would be a grey picture of a coloured one.
+        let message = format!(
+            "expected channels R, G and B, or Y without chroma, found {}",
+            names.join(", ")
+        );
+        return Err(Diagnostic::file(path, message));
     } else if has("Y") {
         ["Y"; 3]
     } else {

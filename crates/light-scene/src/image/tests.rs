@@ -86,6 +86,29 @@ fn hdr_is_read() {
     );
 }
 
+/// Of luminance and chroma, the luminance would be a grey picture of a coloured one.
+#[test]
+fn luminance_with_chroma_is_no_grey_image() {
+    let file = |names: &[&str]| {
+        let channels = names.iter().map(|&name| (name.to_owned(), vec![0.5]));
+        let file = ChannelFile {
+            width: 1,
+            height: 1,
+            channels: channels.collect(),
+            ..ChannelFile::default()
+        };
+        file.into_bytes(Path::new("a.exr")).expect("bytes")
+    };
+    let read = |names: &[&str]| parse_image(Path::new("a.exr"), &file(names));
+    for names in [&["Y"][..], &["A", "Y"]] {
+        let grey = read(names).expect("an image").image;
+        assert_eq!(grey.texels(), [Vec3::splat(0.5)], "{names:?}");
+    }
+    let refused = read(&["BY", "RY", "Y"]).expect_err("chroma");
+    assert!(refused.message.contains("Y without chroma"), "{refused}");
+    assert!(refused.message.ends_with("found BY, RY, Y"), "{refused}");
+}
+
 /// The first line names the program that wrote the file.
 #[test]
 fn hdr_of_other_programs_is_read() {
