@@ -63,7 +63,8 @@ impl BenchRow {
         )
     }
 
-    /// The row as one JSON object; V is null where no light reaches a point.
+    /// The row as one JSON object; V is null where no light reaches a point, and the time of a pmf
+    /// where no light is picked.
     #[must_use]
     pub fn json(&self) -> Value {
         // A number that is none, such as NaN, is null in JSON.
@@ -108,7 +109,7 @@ impl fmt::Display for BenchRow {
         };
         write!(
             f,
-            "{:<11} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8.0} {:>9} {:>9} \
+            "{:<11} {:>8} {:<14} {:>3} {:>10.2} {:>9} {:>8.1} {:>5} {:>9.0} {:>8} {:>9} {:>9} \
              {:>9} {:>9} {:>9} {:>9} {:>8.4}",
             self.set,
             self.n_lights,
@@ -120,7 +121,7 @@ impl fmt::Display for BenchRow {
             self.bytes as f64 / self.n_lights.max(1) as f64,
             self.depth,
             self.time.sample,
-            self.time.pmf,
+            known(self.time.pmf, format_args!("{:.0}", self.time.pmf)),
             known(v.mean, format_args!("{:.3}", v.mean)),
             known(v.median, format_args!("{:.3}", v.median)),
             known(v.p99, format_args!("{:.2}", v.p99)),

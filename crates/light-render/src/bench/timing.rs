@@ -25,7 +25,7 @@ pub struct QueryTime {
     /// One sample, or one of the `k` samples of a call.
     pub sample: f64,
     /// The pmf of a light that the sampler itself picked at the point, as multiple importance
-    /// sampling asks it.
+    /// sampling asks it; NaN if it picks none at any point.
     pub pmf: f64,
     /// The pmf of a light picked at random.
     pub pmf_random_light: f64,
@@ -112,9 +112,9 @@ impl Fastest {
         }
     }
 
-    /// Nanoseconds a query.
+    /// Nanoseconds a query; NaN without a query.
     fn per_query(&self) -> f64 {
-        self.seconds.iter().sum::<f64>() * 1e9 / self.queries.max(1) as f64
+        self.seconds.iter().sum::<f64>() * 1e9 / self.queries as f64
     }
 }
 

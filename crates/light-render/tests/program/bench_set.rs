@@ -56,6 +56,22 @@ fn points_that_no_light_reaches_have_no_v() {
     assert!(!bench(LIT, &UNIFORM).contains("No light"), "it is lit");
 }
 
+/// A sampler that picks no light is asked for no probability.
+#[test]
+fn a_time_that_is_not_measured_is_left_out() {
+    let folder = Folder::new("bench-no-pmf");
+    let lights = folder.file("one.lights", UP);
+    let points = folder.file("one.points", DARK);
+    let set = ["bench", "--lights", &lights, "--points", &points];
+    let set = [&set[..], &["--samplers", "bvh"]].concat();
+    let line = stdout(&[&set[..], &["--json"]].concat());
+    let row: Value = serde_json::from_str(line.trim_end()).expect("one line of JSON");
+    assert_eq!(row["no_light"], 1.0, "{row}");
+    assert_eq!(row["ns_pmf"], Value::Null, "{row}");
+    let table = stdout(&set);
+    assert!(!table.contains("-0") && !table.contains("NaN"), "{table}");
+}
+
 #[test]
 fn no_points_are_refused() {
     let bench = ["bench", "--generate", "uniform", "--var-points", "0"];
