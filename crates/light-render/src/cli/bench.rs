@@ -80,11 +80,12 @@ impl BenchArgs {
         ["lights", "points"].into_iter().try_for_each(|ending| {
             let mut path = prefix.clone().into_os_string();
             path.push(format!(".{ending}"));
-            expect_another(
-                Path::new(&path),
-                &inputs,
-                "--lights and --points for --write",
-            )
+            let path = Path::new(&path);
+            if path.file_stem() == path.file_name() {
+                let words = "cannot be written: expected --write to end in a file's name";
+                return Err(refuse(prefix, words));
+            }
+            expect_another(path, &inputs, "--lights and --points for --write")
         })
     }
 

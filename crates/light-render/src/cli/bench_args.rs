@@ -82,7 +82,7 @@ pub(crate) struct BenchArgs {
         long,
         value_name = "N",
         default_value_t = 10_000,
-        conflicts_with = "scene",
+        conflicts_with_all = ["scene", "lights"],
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub(super) n: u32,

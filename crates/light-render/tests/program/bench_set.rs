@@ -73,6 +73,36 @@ fn a_time_that_is_not_measured_is_left_out() {
 }
 
 #[test]
+fn a_set_of_files_has_the_lights_that_it_has() {
+    let folder = Folder::new("bench-n");
+    let lights = folder.file("one.lights", UP);
+    let points = folder.file("one.points", LIT);
+    let set = ["bench", "--lights", &lights, "--points", &points];
+    assert_refused(&[&set[..], &["--n", "10"]].concat(), &["--lights", "--n"]);
+}
+
+#[test]
+fn a_set_that_cannot_be_read_says_so() {
+    let folder = Folder::new("bench-unread");
+    let points = folder.file("one.points", LIT);
+    let none = folder.path("none.lights");
+    let set = ["bench", "--lights", &none, "--points", &points];
+    assert_refused(&set, &["none.lights: cannot be read"]);
+}
+
+/// Else the files would be called `.lights` and `.points`, and hidden.
+#[test]
+fn a_set_is_kept_under_a_name() {
+    let folder = Folder::new("bench-write");
+    let set = ["bench", "--generate", "spots", "--n", "4"];
+    for prefix in ["", "sub/"] {
+        let prefix = folder.path(prefix);
+        assert_refused(&[&set[..], &["--write", &prefix]].concat(), &["--write"]);
+    }
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+#[test]
 fn no_points_are_refused() {
     let bench = ["bench", "--generate", "uniform", "--var-points", "0"];
     assert_refused(&bench, &["--var-points", "0"]);

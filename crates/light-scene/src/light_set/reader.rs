@@ -29,7 +29,10 @@ fn read_records<T>(
         line,
         problem,
     };
-    let refuse = |e| error(0, LightSetProblem::Io(e));
+    let refuse = |e: io::Error| {
+        let words = format!("cannot be read: {e}");
+        error(0, LightSetProblem::Io(io::Error::new(e.kind(), words)))
+    };
     let bytes = read_all(path).map_err(refuse)?;
     let text = core::str::from_utf8(without_mark(&bytes));
     let text = text.map_err(|e| refuse(io::Error::other(e)))?;
