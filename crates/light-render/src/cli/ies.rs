@@ -91,7 +91,11 @@ impl IesArgs {
         }
         say!("input       {:.1} W", luminaire.input_watts)?;
         for (keyword, words) in &luminaire.keywords {
-            say!("[{keyword}] {words}")?;
+            if keyword.is_empty() {
+                say!("{words}")?;
+            } else {
+                say!("[{keyword}] {words}")?;
+            }
         }
         for warning in self.warnings(luminaire) {
             say!("warning: {warning}")?;

@@ -19,6 +19,7 @@ mod live;
 mod no_effect;
 mod outputs;
 mod overwriting;
+mod photometry;
 mod refusals;
 mod report;
 mod samplers;
