@@ -1,3 +1,4 @@
+use core::num::NonZeroU32;
 use core::ops::Range;
 use core::str::FromStr;
 use core::time::Duration;
@@ -150,6 +151,12 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("expected a whole number from 0 to {MOST_THREADS}"))
 }
 
+/// A number of things of which there is at least one.
+pub(crate) fn count(text: &str) -> Result<NonZeroU32, String> {
+    let count = text.parse();
+    count.map_err(|_| format!("expected a whole number from 1 to {}", u32::MAX))
+}
+
 /// More threads than this would be started for minutes, and none would have work.
 const MOST_THREADS: usize = 1024;
 
@@ -279,6 +286,22 @@ mod tests {
         assert_eq!(threads("1024"), Ok(1024), "many");
         for bad in ["1025", "100000", "-1", "1.5", "nan", "18446744073709551616"] {
             assert!(threads(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn counts_are_above_zero() {
+        assert_eq!(count("1").map(NonZeroU32::get), Ok(1), "one");
+        assert_eq!(
+            count("4294967295").map(NonZeroU32::get),
+            Ok(u32::MAX),
+            "all"
+        );
+        for bad in ["0", "-1", "1.5", "4294967296", "x", ""] {
+            assert!(
+                count(bad).is_err_and(|words| words.contains("from 1")),
+                "{bad}"
+            );
         }
     }
 

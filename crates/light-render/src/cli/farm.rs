@@ -8,6 +8,7 @@ use light_scene::write_atomically;
 
 use crate::farm::{FarmEngine, FarmFrames, FarmPlan, FrameNumbers, is_job_file, job_file_names};
 
+use super::arguments::count;
 use super::failure::Failure;
 use super::output_file::refuse;
 use super::render_settings::{FileSettings, SettingsArgs};
@@ -34,13 +35,13 @@ pub(crate) struct FarmArgs {
     #[arg(long, value_name = "A-B")]
     frames: Option<FrameNumbers>,
     /// How many parts of each picture, at most one a sample.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     parts: NonZeroU32,
     /// What runs the job: slurm, hyperqueue, or openjd.
     #[arg(long, value_name = "ENGINE")]
     engine: FarmEngine,
     /// Threads of a part; without it each has a machine for itself.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     threads: Option<NonZeroU32>,
     #[command(flatten)]
     settings: SettingsArgs,

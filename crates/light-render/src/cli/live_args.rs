@@ -18,7 +18,7 @@ pub(crate) struct LiveArgs {
     #[arg(long, value_name = "tev[=HOST:PORT]", conflicts_with = "aov")]
     view: Option<TevAddress>,
     /// Render again when a file of the scene changes, until Ctrl-C.
-    #[arg(long, conflicts_with_all = ["samples", "checkpoint", "aov"])]
+    #[arg(long, conflicts_with_all = ["samples", "checkpoint", "aov", "skip_existing"])]
     pub(crate) watch: bool,
 }
 

@@ -9,7 +9,7 @@ use lights::media::StepSize;
 use crate::integrator::{self, Integrator, PathSettings, SingleScattering};
 use crate::{RenderSettings, SamplerKind, Visibility, World};
 
-use super::arguments::{named, positive, sample_range, seconds};
+use super::arguments::{count, named, positive, sample_range, seconds};
 use super::failure::Failure;
 use super::visibility::VisibilityName;
 
@@ -77,7 +77,7 @@ pub(crate) struct SettingsArgs {
     pub(crate) light_sampler: SamplerKind,
     /// How many lights are chosen at the first diffuse point of a path, at most as many as there
     /// are; without it 2, or as --visibility says.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     light_samples: Option<NonZeroU32>,
     /// What choices of lights know of their visibility: nothing (off); how much of the light in the
     /// picture arrives and how noisy it is, so that one light is chosen instead of several where

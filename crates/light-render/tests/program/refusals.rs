@@ -114,6 +114,10 @@ fn nonsense_on_the_command_line_is_refused() {
     assert_refused(&compare, &["--max-bias", "not negative"]);
     let bench = ["bench", "--generate", "uniform", "--seed", "-1"];
     assert_refused(&bench, &["--seed", "whole number from 0"]);
+    let none = ["render", &scene, "-o", &out, "--light-samples", "0"];
+    assert_refused(&none, &["--light-samples", "whole number from 1"]);
+    let again = ["render", &scene, "-o", &out, "--watch", "--skip-existing"];
+    assert_refused(&again, &["--watch", "--skip-existing"]);
     assert_refused(&["render", &scene], &["--output"]);
     assert_refused(&["redner"], &["redner"]);
     assert_refused(&["env"], &["lights env", "convert", "median-cut"]);
