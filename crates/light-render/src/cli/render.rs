@@ -89,6 +89,8 @@ impl RenderArgs {
             complain(format_args!("{note}"));
         }
         self.doubt(|| self.settings.step_doubt());
+        self.doubt(|| self.settings.light_samples_doubt());
+        self.doubt(|| self.settings.estimator_doubt());
         self.doubt(|| self.half_doubt());
         self.checkpoint.expect_place(&self.output)?;
         let scene = self.input.read_lit(self.quiet)?;
@@ -109,6 +111,7 @@ impl RenderArgs {
             self.input.expect_light(&world)?;
         }
         self.doubt(|| doubts::of_lamps(&inventory(world.lights())));
+        self.doubt(|| self.settings.medium_doubt(&world));
         let settings = self.settings.settings(&world, file)?;
         let layers = self.layers.layers(&self.input, &world, &view, &settings)?;
         Ok(PreparedPicture {

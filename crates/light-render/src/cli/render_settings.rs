@@ -157,6 +157,29 @@ impl SettingsArgs {
         (self.step.is_some() && !is_taken).then(|| words.to_owned())
     }
 
+    /// What to say of a --light-samples where no lights are chosen.
+    pub(crate) fn light_samples_doubt(&self) -> Option<String> {
+        let chooses_none =
+            matches!(self.estimator, Estimator::Bsdf) && !self.is_single_scattering();
+        let words = "--light-samples has no effect with --estimator bsdf, which samples no light";
+        (self.light_samples.is_some() && chooses_none).then(|| words.to_owned())
+    }
+
+    /// What to say of an --estimator that nothing takes.
+    pub(crate) fn estimator_doubt(&self) -> Option<String> {
+        let is_taken = matches!(self.estimator, Estimator::Mis) || !self.is_single_scattering();
+        let words = "--estimator has no effect with single scattering, which samples lights alone";
+        (!is_taken).then(|| words.to_owned())
+    }
+
+    /// What to say of media that single scattering does not reach.
+    pub(crate) fn medium_doubt(&self, world: &World) -> Option<String> {
+        let is_missed = world.has_media() && world.media().camera.is_none();
+        let words = "single scattering is that of the medium around the camera, and there is none: \
+                     surfaces around other media are black";
+        (is_missed && self.is_single_scattering()).then(|| words.to_owned())
+    }
+
     /// Whether lights are chosen for rays as a whole: all of them count.
     const fn is_single_scattering(&self) -> bool {
         matches!(

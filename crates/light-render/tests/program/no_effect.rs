@@ -18,8 +18,14 @@ fn a_flag_without_effect_is_named() {
     for (scene, out, more) in [
         (&scene, &exr, &["--step", "0.5"][..]),
         (&scene, &png, &["--half"]),
+        (&sky, &exr, &["--light-samples", "4", "--estimator", "bsdf"]),
         (&scene, &exr, &["--env-scale", "2"]),
         (&sky, &exr, &["--light-scale", "2"]),
+        (
+            &scene,
+            &exr,
+            &["--estimator", "bsdf", "--integrator", "single-scattering"],
+        ),
     ] {
         let words = said(scene, out, more);
         assert_eq!(words.lines().count(), 1, "{more:?}: {words}");
@@ -31,6 +37,7 @@ fn a_flag_without_effect_is_named() {
     for (scene, more) in [
         (&scene, &["--half"][..]),
         (&scene, &["--light-scale", "2"]),
+        (&scene, &["--light-samples", "4"]),
         (&sky, &["--env-scale", "2"]),
         (
             &scene,
@@ -38,5 +45,36 @@ fn a_flag_without_effect_is_named() {
         ),
     ] {
         assert_eq!(said(scene, &exr, more), "", "{more:?} has an effect");
+    }
+}
+
+/// Single scattering is that of the medium around the camera.
+#[test]
+fn media_that_an_integrator_does_not_reach_are_named() {
+    let folder = Folder::new("missed-media");
+    let fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb Le\" [1 1 1]";
+    let head = "LookAt 0 0 -3 0 0 0 0 1 0";
+    let camera = "Camera \"perspective\"";
+    let ball = "Material \"interface\" Shape \"sphere\"";
+    let within = format!("{head} {camera} WorldBegin {fog} MediumInterface \"fog\" \"\" {ball}");
+    let around = format!("{fog} {head} MediumInterface \"\" \"fog\" {camera} WorldBegin {ball}");
+    let out = folder.path("a.exr");
+    for (name, scene, integrator, is_named) in [
+        ("within.pbrt", &within, "single-scattering", true),
+        ("within.pbrt", &within, "single-scattering-classic", true),
+        ("within.pbrt", &within, "volpath", false),
+        ("around.pbrt", &around, "single-scattering", false),
+    ] {
+        let scene = folder.file(name, scene);
+        let flags = ["render", &scene, "-o", &out, "--integrator", integrator];
+        let output = lights(&[&flags[..], &SMALL].concat());
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(0), "{name}: {said}");
+        let words = "warning: single scattering is that of the medium around the camera";
+        assert_eq!(
+            said.contains(words),
+            is_named,
+            "{name}, {integrator}: {said}"
+        );
     }
 }
