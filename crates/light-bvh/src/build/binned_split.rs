@@ -118,6 +118,10 @@ impl SplitGroup for BinnedSplit<'_> {
         self.bounds.diagonal().max_element()
     }
 
+    fn power(&self) -> f32 {
+        self.clusters.iter().map(|p| p.power).sum()
+    }
+
     fn cost(&self) -> f32 {
         self.cost
     }

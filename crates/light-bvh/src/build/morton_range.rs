@@ -71,9 +71,13 @@ impl SplitGroup for MortonRange<'_> {
         side * self.cell.max(f32::MIN_POSITIVE)
     }
 
+    fn power(&self) -> f32 {
+        power(self.entries)
+    }
+
     /// Power times size.
     fn cost(&self) -> f32 {
-        power(self.entries) * self.size()
+        self.power() * self.size()
     }
 
     fn split(mut self) -> (Self, Self) {

@@ -10,6 +10,10 @@ const LEAST_SIZE: f32 = 8.0 / 255.0;
 /// apart.
 const POINT_SIZE: f32 = 1.0 / 255.0;
 
+/// A light of less than this share of the power of the root is outshone by the rest but within 8
+/// codes, where it could not be told how near it is. A node of its own tells that in a fine unit.
+const FAINT: f32 = LEAST_SIZE * LEAST_SIZE;
+
 /// The gain of a group that stays whole.
 const NOT_TO_SPLIT: f32 = -1.0;
 
@@ -44,10 +48,16 @@ impl<G: SplitGroup> NodeChildren<G> {
         let size = whole.size();
         // A few lights are children of one node, unless some are points there: only the root, whose
         // lights nothing has divided before, is searched for these.
-        let few = if levels == MAX_DEPTH && whole.lights() <= WIDTH {
+        let is_root = levels == MAX_DEPTH;
+        let few = if is_root && whole.lights() <= WIDTH {
             1
         } else {
             WIDTH
+        };
+        let faint = if is_root && size > 0.0 {
+            FAINT * whole.power()
+        } else {
+            0.0
         };
         let gain = |group: &G| gain(group, few, depth_limited, LEAST_SIZE * size);
         children.gains[0] = gain(&whole);
@@ -69,7 +79,7 @@ impl<G: SplitGroup> NodeChildren<G> {
             children.groups[index + 1] = Some(right);
             children.count += 1;
         }
-        children.dissolve(few.min(2), POINT_SIZE * size);
+        children.dissolve(few.min(2), POINT_SIZE * size, faint);
         children
     }
 
@@ -88,14 +98,16 @@ impl<G: SplitGroup> NodeChildren<G> {
     }
 
     /// Puts the lights of small groups into the slots that are free, but those of groups of more than
-    /// `few` lights at several places that are smaller than `point_size`.
-    fn dissolve(&mut self, few: usize, point_size: f32) {
+    /// `few` lights at several places that are smaller than `point_size`, and single lights of less
+    /// power than `faint`.
+    fn dissolve(&mut self, few: usize, point_size: f32, faint: f32) {
         let mut free = WIDTH - self.count;
+        let is_single = |g: &G| g.lights() == 1 && (faint == 0.0 || g.power() >= faint);
         for (k, group) in self.groups.iter().enumerate() {
-            self.singles |= u16::from(group.as_ref().is_some_and(|g| g.lights() == 1)) << k;
+            self.singles |= u16::from(group.as_ref().is_some_and(is_single)) << k;
         }
         while let Some(k) = self.best(|k, group| {
-            let fits = group.lights() <= free + 1 && self.singles >> k & 1 == 0;
+            let fits = (2..=free + 1).contains(&group.lights()) && self.singles >> k & 1 == 0;
             let is_point = group.lights() > few && 0.0 < group.size() && group.size() < point_size;
             (fits && !is_point).then(|| group.cost())
         }) {
@@ -234,5 +246,34 @@ mod tests {
         assert_eq!(nodes(&[0.0, 0.4, 1.0, 1e4]), [(2, 1), (3, 0)], "far");
         assert_eq!(nodes(&[0.0, 0.4, 1.0, 10.0]), [(4, 0)], "near");
         assert_eq!(nodes(&[1.0, 1.0, 1.0, 1e4]), [(4, 0)], "one place");
+    }
+
+    /// Within how many codes a lamp outshines the other light is told by their powers.
+    #[test]
+    fn a_faint_light_has_a_node_of_its_own() {
+        let nodes = |mode, power_of_other: f32| {
+            let point = |x: f32, phi: f32| {
+                LightExtent::Bounded(LightBounds {
+                    bounds: Aabb::from_point(Vec3::new(x, 0.0, 0.0)),
+                    w: Vec3::Z,
+                    phi,
+                    cos_theta_o: -1.0,
+                    cos_theta_e: 0.0,
+                    two_sided: false,
+                })
+            };
+            let lights = [point(0.0, 1.0), point(1e4, power_of_other)];
+            let options = LightBvhOptions {
+                mode,
+                ..LightBvhOptions::default()
+            };
+            let tree = LightBvh::build_with(&lights, &options).expect("valid lights");
+            let counts = tree.nodes.iter().map(|node| (node.count, node.inner));
+            counts.collect::<Vec<_>>()
+        };
+        for mode in [BuildMode::Binned, BuildMode::Morton] {
+            assert_eq!(nodes(mode, 1e4), [(2, 1), (1, 0)], "{mode:?}: faint");
+            assert_eq!(nodes(mode, 100.0), [(2, 0)], "{mode:?}: strong");
+        }
     }
 }

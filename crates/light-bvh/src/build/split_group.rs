@@ -9,6 +9,9 @@ pub(crate) trait SplitGroup: Sized + Send {
     /// About the longest side of the box of their positions.
     fn size(&self) -> f32;
 
+    /// Of all of them together.
+    fn power(&self) -> f32;
+
     /// What splitting them may gain.
     fn cost(&self) -> f32;
 
