@@ -102,7 +102,7 @@ impl<G: SplitGroup> NodeChildren<G> {
     /// power than `faint`.
     fn dissolve(&mut self, few: usize, point_size: f32, faint: f32) {
         let mut free = WIDTH - self.count;
-        let is_single = |g: &G| g.lights() == 1 && (faint == 0.0 || g.power() >= faint);
+        let is_single = |g: &G| g.lights() == 1 && g.power() >= faint;
         for (k, group) in self.groups.iter().enumerate() {
             self.singles |= u16::from(group.as_ref().is_some_and(is_single)) << k;
         }
