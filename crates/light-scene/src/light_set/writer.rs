@@ -126,21 +126,15 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back_bit_for_bit() {
-        let set = BenchSet::generate(SetKind::Mixed, 60, 3);
-        let dir = std::env::temp_dir().join(format!("light-set-{}", std::process::id()));
-        fs::create_dir_all(&dir).expect("a temporary folder");
-        let prefix = dir.join("mixed");
-        write_light_set(&set, &prefix).expect("written");
-        let again = read_light_set(&dir.join("mixed.lights"), &dir.join("mixed.points"))
-            .expect("read back");
-        fs::remove_dir_all(&dir).expect("cleaned");
-        assert_eq!(set.lights, again.lights, "lights");
-        for (a, b) in set.points.iter().zip(&again.points) {
-            assert_eq!(a.p, b.p, "position");
-            assert!(
-                a.n.distance(b.n) < 1e-6,
-                "normal, which the reader makes unit"
-            );
+        let folder = TestFolder::new("light-set-bits");
+        for kind in SetKind::all() {
+            let (set, name) = (BenchSet::generate(kind, 60, 3), kind.name());
+            write_light_set(&set, &folder.path(name)).expect("written");
+            let [lights, points] =
+                ["lights", "points"].map(|ending| folder.path(format!("{name}.{ending}")));
+            let again = read_light_set(&lights, &points).expect("read back");
+            assert_eq!(set.lights, again.lights, "lights of {name}");
+            assert_eq!(set.points, again.points, "points of {name}");
         }
     }
 
