@@ -1,5 +1,6 @@
 //! Each law of samplers finds the fault that it tests for.
 
+use core::any::Any;
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
@@ -27,6 +28,11 @@ enum Fault {
     NeverTheLast,
     SameU,
     KnowsAll,
+    ChoosesUnknown,
+    /// None: two of five choices.
+    MakesFewer,
+    MakesMore,
+    MakesNone,
 }
 
 impl LightSampler for Broken {
@@ -39,13 +45,20 @@ impl LightSampler for Broken {
     }
 
     fn at<'a>(&'a self, ctx: &LightSampleContext, count: u32) -> LightChoices<'a> {
-        LightChoices::one_by_one(self, ctx, count)
+        let choices = LightChoices::one_by_one(self, ctx, count);
+        match self.fault {
+            Fault::MakesFewer => choices.with_count(count.min(2)),
+            Fault::MakesMore => choices.with_count(count + 1),
+            Fault::MakesNone => choices.with_count(0),
+            _ => choices,
+        }
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         let (light, rest) = fraction::choose(self.count, u);
+        let beyond = u32::from(self.fault == Fault::ChoosesUnknown);
         Some(SampledLight {
-            light: LightId(light),
+            light: LightId(light + beyond),
             pmf: 1.0 / self.count as f32,
             u: if self.fault == Fault::SameU { u } else { rest },
         })
@@ -65,10 +78,13 @@ impl LightSampler for Broken {
 
 type Law = fn(&SamplerCase, &Broken);
 
-fn holds(law: impl Fn(&SamplerCase, &Broken), fault: Fault) -> bool {
+/// The message of a law that does not hold.
+fn failure(law: Law, fault: Fault) -> Option<String> {
     let set = SamplerCase::mixed(9, 1);
     let count = set.count();
-    catch_unwind(AssertUnwindSafe(|| law(&set, &Broken { count, fault }))).is_ok()
+    let result = catch_unwind(AssertUnwindSafe(|| law(&set, &Broken { count, fault })));
+    let said = |cause: Box<dyn Any + Send>| *cause.downcast::<String>().expect("a message");
+    result.err().map(said)
 }
 
 #[test]
@@ -82,22 +98,53 @@ fn laws_hold_for_a_right_sampler() {
         invalid_queries_do_not_panic,
         several_choices_follow_their_pmf,
     ] {
-        assert!(holds(law, Fault::None), "a law fails");
+        assert_eq!(failure(law, Fault::None), None, "a law fails");
     }
 }
 
 #[test]
+fn fewer_choices_than_asked_for_are_no_fault() {
+    let law = several_choices_follow_their_pmf;
+    assert_eq!(failure(law, Fault::MakesFewer), None, "two of five");
+}
+
+#[test]
 fn each_law_finds_its_fault() {
-    let cases: [(Law, Fault); 7] = [
-        (sampled_pmf_is_the_queried_pmf, Fault::HalfPmf),
-        (pmfs_and_none_sum_to_one, Fault::HalfPmf),
-        (contributing_lights_can_be_chosen, Fault::NeverTheLast),
-        (unknown_lights_have_no_pmf, Fault::KnowsAll),
-        (frequencies_match_and_u_stays_uniform, Fault::SameU),
-        (several_choices_follow_their_pmf, Fault::HalfPmf),
-        (several_choices_follow_their_pmf, Fault::SameU),
+    const WRONG_PMF: &str = "but the queried pmf is";
+    const WRONG_U: &str = "the rest of u is not uniform for light";
+    const UNKNOWN: &str = "of an unknown light";
+    let frequencies = frequencies_match_and_u_stays_uniform;
+    let several = several_choices_follow_their_pmf;
+    let cases: [(Law, Fault, &str); 14] = [
+        (sampled_pmf_is_the_queried_pmf, Fault::HalfPmf, WRONG_PMF),
+        (
+            sampled_pmf_is_the_queried_pmf,
+            Fault::ChoosesUnknown,
+            UNKNOWN,
+        ),
+        (pmfs_and_none_sum_to_one, Fault::HalfPmf, "the pmfs sum to"),
+        (
+            contributing_lights_can_be_chosen,
+            Fault::NeverTheLast,
+            "is never chosen",
+        ),
+        (
+            unknown_lights_have_no_pmf,
+            Fault::KnowsAll,
+            "pmf of unknown light",
+        ),
+        (frequencies, Fault::SameU, WRONG_U),
+        (frequencies, Fault::HalfPmf, "were chosen"),
+        (frequencies, Fault::ChoosesUnknown, UNKNOWN),
+        (invalid_queries_do_not_panic, Fault::ChoosesUnknown, UNKNOWN),
+        (several, Fault::HalfPmf, WRONG_PMF),
+        (several, Fault::SameU, WRONG_U),
+        (several, Fault::ChoosesUnknown, UNKNOWN),
+        (several, Fault::MakesMore, "more than asked for"),
+        (several, Fault::MakesNone, "none is made"),
     ];
-    for (i, (law, fault)) in cases.into_iter().enumerate() {
-        assert!(!holds(law, fault), "case {i} goes unseen");
+    for (i, (law, fault, words)) in cases.into_iter().enumerate() {
+        let said = failure(law, fault).unwrap_or_default();
+        assert!(said.contains(words), "case {i}: {words:?}, not {said:?}");
     }
 }

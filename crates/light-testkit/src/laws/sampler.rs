@@ -135,7 +135,11 @@ pub fn unknown_lights_have_no_pmf(set: &SamplerCase, sampler: &impl LightSampler
     for query in queries(set) {
         for id in [n, n + 1, 1 << 24, u32::MAX >> 1, u32::MAX] {
             let pmf = pmf(sampler, &query, LightId(id));
-            assert_eq!(pmf, 0.0, "{}: pmf of unknown light {id}", set.name);
+            assert_eq!(
+                pmf, 0.0,
+                "{}: pmf of unknown light {id} at {query:?}",
+                set.name
+            );
         }
     }
 }
@@ -155,7 +159,10 @@ pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl L
         let mut none = 0;
         for _ in 0..DRAWS {
             match sample(sampler, query, rng.u64()) {
-                Some(chosen) => rests[chosen.light.index()].push(fraction::to_f64(chosen.u)),
+                Some(chosen) => match rests.get_mut(chosen.light.index()) {
+                    Some(rest) => rest.push(fraction::to_f64(chosen.u)),
+                    None => panic!("{}: {chosen:?} of an unknown light at {query:?}", set.name),
+                },
                 None => none += 1,
             }
         }
@@ -170,7 +177,8 @@ pub fn frequencies_match_and_u_stays_uniform(set: &SamplerCase, sampler: &impl L
         let outcome = chi_squared(&observed, &expected);
         assert!(
             outcome.passes(),
-            "{}: {observed:?} of {expected:?} at {query:?}: {outcome:?}",
+            "{}: lights, and none at the end, were chosen {observed:?} times, expected \
+             {expected:?}, at {query:?}: {outcome:?}",
             set.name
         );
 
@@ -211,7 +219,11 @@ pub fn invalid_queries_do_not_panic(set: &SamplerCase, sampler: &impl LightSampl
         for u in [0, 1 << 63, u64::MAX] {
             let chosen = sampler.sample(ctx, u);
             let known = chosen.is_none_or(|c| c.light.index() < set.emitters.len());
-            assert!(known, "{}: {chosen:?} for u = {u} at {ctx:?}", set.name);
+            assert!(
+                known,
+                "{}: {chosen:?} of an unknown light at u = {u}, {ctx:?}",
+                set.name
+            );
         }
         for id in set.ids() {
             let pmf = sampler.pmf(ctx, id);

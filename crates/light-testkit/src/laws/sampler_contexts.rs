@@ -124,7 +124,7 @@ pub fn laws_hold_at_any_context(set: &SamplerCase, sampler: &impl LightSampler) 
             let sound = chosen.pmf.to_bits() == asked.to_bits() && chosen.pmf > 0.0;
             assert!(
                 sound,
-                "{name}: {chosen:?}, asked {asked}, at u = {u}, {ctx:?}"
+                "{name}: {chosen:?}, but the queried pmf is {asked} at u = {u}, {ctx:?}"
             );
         }
         // As for valid contexts: a stratum that spans an edge may go either way.
