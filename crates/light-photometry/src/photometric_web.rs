@@ -29,8 +29,8 @@ impl PhotometricWeb {
     ///
     /// Angles omitted because of symmetry are added. Type C: horizontal angles that end at 0 are
     /// those of a rotationally symmetric web, at 90 of one with four equal quadrants, at 180 (or
-    /// from 90 to 270) of one with two equal halves; any end above 180 is taken for a full turn.
-    /// Types A and B: angles from 0 are mirrored to below 0.
+    /// from 90 to 270) of one with two equal halves; any end above 180, up to 360, is taken
+    /// for a full turn. Types A and B: angles from 0 are mirrored to below 0.
     ///
     /// # Errors
     /// When the angles do not fit the type, or the candelas the angles.
