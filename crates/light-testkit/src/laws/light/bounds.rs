@@ -61,7 +61,7 @@ pub fn edges_are_survived<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>
             let wi_is_unit = (sample.wi.length() - 1.0).abs() < 1e-4;
             assert!(
                 sample.pdf > 0.0 && sample.pdf.is_finite() && sample.l >= 0.0 && wi_is_unit,
-                "{}: {sample:?} for {u} at {ctx:?}",
+                "{}: {sample:?} is no valid sample for {u} at {ctx:?}",
                 case.name
             );
         }
@@ -69,9 +69,10 @@ pub fn edges_are_survived<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>
             Vec2::ZERO,
             Vec2::splat(light_math::float::ONE_MINUS_EPSILON),
         ] {
+            let power = le(case, u, v).power;
             assert!(
-                le(case, u, v).power.is_finite(),
-                "{}: a ray for {u}, {v}",
+                power.is_finite(),
+                "{}: a ray for {u}, {v} carries {power}",
                 case.name
             );
         }

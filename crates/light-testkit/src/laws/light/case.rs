@@ -101,7 +101,7 @@ pub(super) fn le<C: ColorModel, L: Light<C>>(case: &LightCase<'_, C, L>, u1: Vec
     let pairs = [(sample.pdf.pos, asked.pos), (sample.pdf.dir, asked.dir)];
     for (pdf, _) in pairs {
         let valid = pdf > 0.0 && pdf.is_finite();
-        assert!(valid, "{}: a density of {sample:?}", case.name);
+        assert!(valid, "{}: a density of {sample:?} is not valid", case.name);
     }
     let density = f64::from(sample.pdf.pos) * f64::from(sample.pdf.dir);
     Le {
