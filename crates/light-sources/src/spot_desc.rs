@@ -31,8 +31,8 @@ pub struct SpotLightDesc<C: ColorModel> {
 }
 
 impl<C: ColorModel> SpotLightDesc<C> {
-    /// A light of even intensity up to the rim of its cone, at `angle` in `(0, pi]` from the axis
-    /// +z of `transform`, in vacuum.
+    /// A light of even intensity up to the rim of its cone, at `angle` in `[5e-20, pi]` from the
+    /// axis +z of `transform`, in vacuum.
     #[must_use]
     pub fn new(
         transform: Affine3A,
