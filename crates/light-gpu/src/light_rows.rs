@@ -89,7 +89,8 @@ impl fmt::Display for UnsupportedLight {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "light {} is of a kind that shaders do not sample",
+            "light {}: expected a kind that shaders sample: a point or spot light, a distant, uniform \
+             or image light, or a triangle, rectangle or sphere without image or mask",
             self.0.0
         )
     }

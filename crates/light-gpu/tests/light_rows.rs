@@ -146,7 +146,8 @@ fn the_first_light_that_shaders_do_not_sample_is_named() {
     let why = UnsupportedLight(LightId(1));
     assert_eq!(light_set_rows(&set), Err(why), "the disk");
     let text = why.to_string();
-    assert!(text.starts_with("light 1 "), "{text}");
+    assert!(text.starts_with("light 1: expected"), "{text}");
+    assert!(text.contains("rectangle"), "names the kinds: {text}");
     let of_scene = LightSceneRowsError::Unsupported(why);
     assert_eq!(light_scene_rows(&set), Err(of_scene), "in a scene too");
     assert_eq!(of_scene.to_string(), text, "in the same words");
