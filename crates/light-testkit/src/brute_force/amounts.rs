@@ -3,8 +3,8 @@ use core::fmt::Debug;
 
 use light_math::glam::DVec3;
 use light_sources::{
-    Candela, DiffuseEmissionDesc, IntensityAmount, Lumen, Nit, RadianceAmount, Sides,
-    SurfaceAmount, SurfaceColor, Watt,
+    Candela, DiffuseEmissionDesc, IntensityAmount, Lumen, Nit, RadianceAmount, SurfaceAmount,
+    SurfaceColor, Watt,
 };
 
 use super::area::{EmittingSurface, scale};
@@ -55,11 +55,7 @@ pub(super) fn surface_amounts_hold<M: Model>(
     phi_with: impl Fn(DiffuseEmissionDesc<M>) -> Result<Values, String>,
 ) -> Result<(), String> {
     let emission = truth.emission;
-    let count = if emission.sides == Sides::Both {
-        2.0
-    } else {
-        1.0
-    };
+    let (count, _) = truth.sides();
     let radiance = f64::from(scale(emission.amount));
     let mean = truth
         .mean_times_area(SIDE, rng)

@@ -83,14 +83,19 @@ impl<M: Model> EmittingSurface<'_, M> {
         })
     }
 
-    /// What leaves the surface: the power over the channels, then the integrals of direction and of
-    /// position from `center`, weighted by the power in the last channel.
-    pub(super) fn leaving(&self, side: u32, center: DVec3, rng: &mut Rng) -> Stratified<10> {
-        let (count, turn) = match self.emission.sides {
+    /// How many sides emit, and the sum of their normals as a multiple of the front's.
+    pub(super) const fn sides(&self) -> (f64, f64) {
+        match self.emission.sides {
             Sides::Front => (1.0, 1.0),
             Sides::Back => (1.0, -1.0),
             Sides::Both => (2.0, 0.0),
-        };
+        }
+    }
+
+    /// What leaves the surface: the power over the channels, then the integrals of direction and of
+    /// position from `center`, weighted by the power in the last channel.
+    pub(super) fn leaving(&self, side: u32, center: DVec3, rng: &mut Rng) -> Stratified<10> {
+        let (count, turn) = self.sides();
         Stratified::over_square(side, rng, |u, _| {
             let place = self.surface.at(u);
             let power = self

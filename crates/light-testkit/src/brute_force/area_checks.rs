@@ -1,5 +1,5 @@
 use light_math::glam::DVec3;
-use light_sources::{EmissionMask, Light, LightRef, PdfCoverage, Sides, SurfaceColor};
+use light_sources::{EmissionMask, Light, LightRef, PdfCoverage, SurfaceColor};
 
 use super::area::{EmittingSurface, scale};
 use super::arrival::{Arriving, UNSEEN, arrival_holds, excess};
@@ -67,11 +67,7 @@ fn power_holds<M: Model>(
     rng: &mut Rng,
 ) -> Result<(), String> {
     let emission = truth.emission;
-    let count = if emission.sides == Sides::Both {
-        2.0
-    } else {
-        1.0
-    };
+    let (count, _) = truth.sides();
     let radiance_scale = f64::from(scale(emission.amount)) * core::f64::consts::PI;
     let phi = M::values(light.phi(truth.wavelengths));
     let strength = f64::from(light.bounds().ok_or("no bounds")?.phi);

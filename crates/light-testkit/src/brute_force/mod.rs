@@ -1,11 +1,12 @@
 //! Lights of every kind at random places, compared with quadrature in double precision that is
 //! written from their descriptions alone.
 //!
-//! Of each light are compared: power, amounts in photometric units and watts, the rays that leave it (their power, mean direction and mean
-//! origin), bounds, and at some receivers the irradiance or fluence by samples, and the integral of
-//! their density. Samples and quadrature take two points in each of many equal cells, so that the
-//! pairs say how far chance may move both. What is left has to be within the rounding of single
-//! precision, or to be right for a receiver that is moved by four roundings of the coordinates.
+//! Of each light are compared: power, amounts in photometric units and watts, the rays that leave it
+//! (their power, mean direction and mean origin), bounds, and at some receivers the irradiance or
+//! fluence by samples, and the integral of their density. Samples and quadrature take two points in
+//! each of many equal cells, so that the pairs say how far chance may move both. What is left has to
+//! be within the rounding of single precision, or to be right for a receiver that is moved by four
+//! roundings of the coordinates.
 //!
 //! A difference counts only if larger independent samples show it again: the chance that a fault is
 //! reported although all code is right is far below [`SIGNIFICANCE`](crate::SIGNIFICANCE).
