@@ -1,3 +1,5 @@
+use alloc::vec::Vec;
+
 use crate::glam::{DVec2, DVec3, Vec2};
 
 /// The texels of a picture on the plane z = 1, seen from the origin.
@@ -13,14 +15,14 @@ pub(crate) struct PictureGrid {
 pub(crate) struct PicturePart {
     /// Column and row of the texel.
     pub(crate) texel: [u32; 2],
-    /// The middle of the part on the plane.
+    /// The middle of the texel on the plane, or of the angles of its part.
     pub(crate) center: Vec2,
     /// In sr.
     pub(crate) solid_angle: f64,
 }
 
 /// The least number of parts of a picture along each axis.
-const PARTS: u32 = 32;
+const PARTS: f64 = 32.0;
 
 impl PictureGrid {
     pub(crate) fn new(size: [u32; 2], half: Vec2) -> Self {
@@ -30,26 +32,13 @@ impl PictureGrid {
 
     /// The texels, row by row.
     pub(crate) fn texels(&self) -> impl Iterator<Item = PicturePart> + use<> {
-        self.cells([1, 1])
-    }
-
-    /// The texels, divided if the picture is coarse, so that a part has nearly one direction.
-    pub(crate) fn parts(&self) -> impl Iterator<Item = PicturePart> + use<> {
-        self.cells(self.size.map(|n| PARTS.div_ceil(n)))
-    }
-
-    /// The given number of parts of each texel along each axis.
-    fn cells(&self, parts: [u32; 2]) -> impl Iterator<Item = PicturePart> + use<> {
         let grid = *self;
-        let [width, height] = [0, 1].map(|i| self.size[i] * parts[i]);
+        let [width, height] = self.size;
         (0..height).flat_map(move |y| {
             (0..width).map(move |x| {
-                let (low, high) = (
-                    grid.corner([x, y], parts),
-                    grid.corner([x + 1, y + 1], parts),
-                );
+                let (low, high) = (grid.corner([x, y]), grid.corner([x + 1, y + 1]));
                 PicturePart {
-                    texel: [x / parts[0], y / parts[1]],
+                    texel: [x, y],
                     center: (0.5 * (low + high)).as_vec2(),
                     solid_angle: solid_angle(low, high),
                 }
@@ -57,12 +46,66 @@ impl PictureGrid {
         })
     }
 
-    /// A corner of the grid with the given number of parts per texel along each axis.
-    fn corner(&self, [x, y]: [u32; 2], parts: [u32; 2]) -> DVec2 {
-        let along = |i: usize| f64::from(self.size[i]) * f64::from(parts[i]);
-        let count = DVec2::new(along(0), along(1));
+    /// The texels, divided where they are wide, so that a part has nearly one direction.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = PicturePart> + use<> {
+        let columns = self.intervals(0);
+        self.intervals(1).into_iter().flat_map(move |row| {
+            let parts = columns.clone().into_iter();
+            parts.map(move |column| {
+                let [low, high] = [0, 1].map(|i| DVec2::new(column.ends[i], row.ends[i]));
+                PicturePart {
+                    texel: [column.texel, row.texel],
+                    center: DVec2::new(column.middle, row.middle).as_vec2(),
+                    solid_angle: solid_angle(low, high),
+                }
+            })
+        })
+    }
+
+    /// The columns (`axis` 0) or rows (1) of the picture, divided into parts of equal angles: on the
+    /// plane those of a wide picture are long beside the edges.
+    fn intervals(&self, axis: usize) -> Vec<Interval> {
+        let angle = |x: f64| DVec2::new(1.0, x).to_angle();
+        let widest = 2.0 * angle(self.half[axis]) / PARTS;
+        let place = |i: u32| self.corner([i, i])[axis];
+        let divide = |texel: u32| {
+            let ends = [place(texel), place(texel + 1)];
+            let [low, high] = ends.map(angle);
+            // A little more is rounding.
+            let count = (1..1 << 16).find(|&n| high - low <= widest * f64::from(n) * 1.001);
+            let count = count.unwrap_or(1);
+            let at = move |part: f64| {
+                let direction = DVec2::from_angle(low + (high - low) * part / f64::from(count));
+                direction.y / direction.x
+            };
+            let cut = move |k: u32| match k {
+                0 => ends[0],
+                k if k == count => ends[1],
+                k => at(k.into()),
+            };
+            (0..count).map(move |k| Interval {
+                texel,
+                ends: [cut(k), cut(k + 1)],
+                middle: at(f64::from(k) + 0.5),
+            })
+        };
+        (0..self.size[axis]).flat_map(divide).collect()
+    }
+
+    /// A corner of the grid of texels.
+    fn corner(&self, [x, y]: [u32; 2]) -> DVec2 {
+        let count = DVec2::new(self.size[0].into(), self.size[1].into());
         (2.0 * DVec2::new(x.into(), y.into()) / count - 1.0) * self.half
     }
+}
+
+/// A part of a column or a row on the plane.
+#[derive(Clone, Copy, Debug)]
+struct Interval {
+    texel: u32,
+    ends: [f64; 2],
+    /// The middle of its angles.
+    middle: f64,
 }
 
 /// The solid angle in sr of a rectangle on the plane z = 1.
@@ -100,6 +143,20 @@ mod tests {
                 grid.parts().count() >= 1024,
                 "{size:?}: fine enough for its directions"
             );
+        }
+    }
+
+    /// The field of view of 178 degrees.
+    #[test]
+    fn the_middle_of_a_wide_picture_is_divided() {
+        for n in [1, 2, 64] {
+            let grid = PictureGrid::new([n, n], Vec2::splat(57.0));
+            let z = |part: PicturePart| {
+                let w = part.center.as_dvec2().extend(1.0).normalize();
+                w.z * part.solid_angle
+            };
+            let mean = grid.parts().map(z).sum::<f64>() / (2.0 * PI);
+            assert!((mean - 0.5).abs() < 2e-3, "{n} texels: {mean}");
         }
     }
 
