@@ -53,3 +53,8 @@ fn lights_at_infinity() {
     ];
     check_all(kinds, 32);
 }
+
+#[test]
+fn skies_in_distant_lights() {
+    check_all([Kind::MedianCut], 400);
+}

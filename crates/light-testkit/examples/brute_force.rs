@@ -16,13 +16,15 @@ fn main() -> ExitCode {
         None => Some(default),
         Some(text) => text.parse().ok(),
     };
-    let (Some(seeds), Some(first)) = (number(0, 1000), number(1, 0)) else {
-        eprintln!("usage: brute_force [SEEDS] [FIRST SEED] [KIND]");
+    let wanted = arguments.get(2);
+    let is_wanted = |kind: &Kind| wanted.is_none_or(|name| format!("{kind:?}") == *name);
+    let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(is_wanted).collect();
+    let (Some(seeds), Some(first), false) = (number(0, 1000), number(1, 0), kinds.is_empty())
+    else {
+        eprintln!("usage: brute_force [SEEDS] [FIRST SEED] [KIND], where KIND is one of");
+        eprintln!("{:?}", Kind::ALL);
         return ExitCode::from(2);
     };
-    let wanted = arguments.get(2);
-    let kinds = Kind::ALL.into_iter();
-    let kinds = kinds.filter(|kind| wanted.is_none_or(|name| format!("{kind:?}") == *name));
     let mut faults = 0u64;
     for kind in kinds {
         let before = faults;

@@ -17,7 +17,7 @@ use crate::{Estimate, Rng};
 const SIDE: u32 = 256;
 
 /// The relative error of sums over nanometres, of spectra that they suit.
-const SPECTRUM: f64 = 5e-3;
+pub(super) const SPECTRUM: f64 = 5e-3;
 
 /// What is known of a light whose amount is radiometric, in double precision.
 #[derive(Clone, Copy, Debug)]
@@ -44,24 +44,31 @@ pub(super) fn intensities_hold(
         IntensityAmount::LuminousPower(Lumen(amount)),
         IntensityAmount::RadiantPower(Watt(amount)),
     ];
-    factors_hold(quantities, phi, amount, amounts, phi_with)
+    factors_hold(phi, amount, quantities.of(amounts), phi_with)
 }
 
-/// The same of a surface.
+/// The same of surfaces that share an emission, of one of which `phi` is the power.
 pub(super) fn surface_amounts_hold<M: Model>(
-    truth: &EmittingSurface<'_, M>,
+    truths: &[EmittingSurface<'_, M>],
     phi: Values,
     rng: &mut Rng,
     phi_with: impl Fn(DiffuseEmissionDesc<M>) -> Result<Values, String>,
 ) -> Result<(), String> {
+    let [truth, ..] = truths else {
+        return Err("no surface".into());
+    };
     let emission = truth.emission;
     let (count, _) = truth.sides();
     let radiance = f64::from(scale(emission.amount));
-    let mean = truth
-        .mean_times_area(SIDE, rng)
-        .scaled(radiance * PI * count);
+    let mut mean = Stratified::default();
+    let mut area = 0.0;
+    for truth in truths {
+        mean.add(&truth.mean_times_area(SIDE, rng));
+        area += truth.area();
+    }
+    let mean = mean.scaled(radiance * PI * count);
     let margin = mean.margin(&Stratified::default());
-    let nearby = NEARBY * radiance * PI * truth.brightest() * truth.area();
+    let nearby = NEARBY * radiance * PI * truth.brightest() * area;
     let chance: Values = core::array::from_fn(|i| (margin[i] + nearby) / mean.values()[i]);
     let [r, g, b, mask] = mean.values();
     let quantities = match &emission.color {
@@ -90,7 +97,7 @@ pub(super) fn surface_amounts_hold<M: Model>(
         SurfaceAmount::LuminousPower(Lumen(amount)),
         SurfaceAmount::RadiantPower(Watt(amount)),
     ];
-    factors_hold(&quantities, phi, amount, amounts, |amount| {
+    factors_hold(phi, amount, quantities.of(amounts), |amount| {
         phi_with(DiffuseEmissionDesc {
             amount,
             ..emission.clone()
@@ -98,32 +105,41 @@ pub(super) fn surface_amounts_hold<M: Model>(
     })
 }
 
-/// The amounts in the order of the quantities.
-fn factors_hold<A: Copy + Debug>(
-    quantities: &Quantities,
+impl Quantities {
+    /// The amounts in the order of the quantities, with what the light has of each and by how much
+    /// chance may move that.
+    fn of<A>(&self, amounts: [A; 3]) -> impl Iterator<Item = (A, f64, f64)> + use<A> {
+        let known = [
+            (self.luminous, 0.0),
+            (self.luminous_power, self.chance),
+            (self.radiant_power, self.chance),
+        ];
+        let each = amounts.into_iter().zip(known);
+        each.map(|(amount, (quantity, chance))| (amount, quantity, chance))
+    }
+}
+
+/// Descriptions whose amount is `amount` in some unit, each with what the light of power `phi` has in
+/// that unit and by how much chance may move that, have their power in proportion.
+pub(super) fn factors_hold<A: Clone + Debug>(
     phi: Values,
     amount: f32,
-    amounts: [A; 3],
+    known: impl IntoIterator<Item = (A, f64, f64)>,
     phi_with: impl Fn(A) -> Result<Values, String>,
 ) -> Result<(), String> {
-    let known = [
-        (quantities.luminous, 0.0),
-        (quantities.luminous_power, quantities.chance),
-        (quantities.radiant_power, quantities.chance),
-    ];
-    for (kind, (quantity, chance)) in amounts.into_iter().zip(known) {
+    for (kind, quantity, chance) in known {
         // Of a light without power no factor is known.
         if !(quantity > 0.0 && chance < 0.1) {
             continue;
         }
-        let found = phi_with(kind)?;
+        let found = phi_with(kind.clone())?;
         let factor = f64::from(amount) / quantity;
         let error = SPECTRUM + 2.0 * Estimate::ROUNDING + chance;
         let is_right =
             |i: usize| (found[i] - phi[i] * factor).abs() <= error * phi[i] * factor + 1e-30;
         if !(0..4).all(is_right) {
             return Err(format!(
-                "{kind:?} makes the power {found:?}, not {phi:?} times {factor}, of {quantities:?}"
+                "{kind:?} makes the power {found:?}, not {phi:?} times {factor}"
             ));
         }
     }

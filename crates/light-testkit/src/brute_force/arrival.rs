@@ -76,7 +76,7 @@ pub(super) fn arrival_holds<M: Model>(
         let off = excess(&sampled.values(), &expected.values(), &margin);
         let is_right = off == [0.0; 4];
         if is_right && outcome.are_strays_few(0.0) {
-            return importance_holds(light, receiver, &expected, &margin);
+            return importance_holds(light, receiver, &expected, &margin, rng);
         }
         // Only now, as it costs more than all above.
         let (changes, share) = *sensitivity.get_or_insert_with(|| {
@@ -87,7 +87,7 @@ pub(super) fn arrival_holds<M: Model>(
         });
         let is_explained = (0..4).all(|i| off[i] <= changes[i]);
         if is_explained && outcome.are_strays_few(share) {
-            return importance_holds(light, receiver, &expected, &margin);
+            return importance_holds(light, receiver, &expected, &margin, rng);
         }
         let [sampled, expected] = [sampled, expected].map(|s| s.values());
         fault = format!(
@@ -161,18 +161,21 @@ fn importance_holds<M: Model>(
     receiver: &Receiver,
     expected: &Stratified<4>,
     margin: &Values,
+    rng: &mut Rng,
 ) -> Result<(), String> {
     let arrives = (0..4).any(|i| expected.values()[i] > 2.0 * margin[i]);
-    let importance = match light.extent() {
-        LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) => {
-            bounds.importance(&receiver.ctx)
+    let mut own = Rng::new(rng.clone().u64());
+    let segments = receiver.segments(&mut own).into_iter().flatten();
+    for ctx in segments.chain([receiver.ctx]) {
+        let importance = match light.extent() {
+            LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _) => bounds.importance(&ctx),
+            LightExtent::Infinite(bounds) => bounds.fluence,
+        };
+        if arrives && !(importance > 0.0) {
+            return Err(format!(
+                "light arrives, the importance is {importance} for {ctx:?}"
+            ));
         }
-        LightExtent::Infinite(bounds) => bounds.fluence,
-    };
-    if arrives && !(importance > 0.0) {
-        return Err(format!(
-            "light arrives, the importance is 0 at {receiver:?}"
-        ));
     }
     Ok(())
 }

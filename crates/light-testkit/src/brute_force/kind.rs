@@ -35,11 +35,13 @@ pub enum Kind {
     ImageInfinite,
     /// A sky behind a portal.
     PortalInfinite,
+    /// A sky that is cut into distant lights.
+    MedianCut,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Triangle,
         Self::Rectangle,
         Self::Quad,
@@ -57,5 +59,6 @@ impl Kind {
         Self::UniformInfinite,
         Self::ImageInfinite,
         Self::PortalInfinite,
+        Self::MedianCut,
     ];
 }

@@ -2,7 +2,10 @@ use alloc::sync::Arc;
 
 use light_math::glam::{DVec3, Vec3};
 use light_math::spectrum::cie::matching;
-use light_math::spectrum::{Blackbody, Constant, PiecewiseLinear, SampledWavelengths, Spectrum};
+use light_math::spectrum::{
+    Blackbody, Constant, Daylight, DenselySampled, PiecewiseLinear, RgbIlluminant, RgbUnbounded,
+    SampledWavelengths, Spectrum, UpliftTable,
+};
 use light_sources::{ColorModel, Rgb, Spectral, SpectralEmission};
 
 use crate::Rng;
@@ -88,6 +91,10 @@ impl Model for Spectral<4> {
     }
 
     fn random_emission(rng: &mut Rng) -> SpectralEmission {
+        let mut own = Rng::new(rng.clone().u64());
+        if own.below(2) == 0 {
+            return random_colour(&mut own);
+        }
         match rng.below(4) {
             0 => Constant(rng.f32() + 0.1).into(),
             1 => {
@@ -150,6 +157,27 @@ impl Model for Spectral<4> {
 
     fn is_linear() -> bool {
         false
+    }
+}
+
+/// Daylight, the spectrum of a colour, or one that is measured at each nanometre.
+fn random_colour(rng: &mut Rng) -> SpectralEmission {
+    let rgb = match rng.below(3) {
+        0 => [Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE][rng.below(4)],
+        _ => rng.vec3() + 1e-3,
+    };
+    let kelvin = rng.range(4000.0, 25_000.0);
+    let daylight = Daylight::from_temperature(kelvin).expect("a temperature");
+    match rng.below(4) {
+        0 => daylight.into(),
+        1 => RgbIlluminant::clamped(&UpliftTable::SRGB, Daylight::D65, rgb).into(),
+        2 => RgbUnbounded::clamped(&UpliftTable::SRGB, rgb).into(),
+        _ => {
+            let values: Arc<[f32]> = (0..DenselySampled::<Arc<[f32]>>::LEN)
+                .map(|_| [0.0, rng.f32()][rng.below(2)])
+                .collect();
+            DenselySampled::new(values).expect("a spectrum").into()
+        }
     }
 }
 

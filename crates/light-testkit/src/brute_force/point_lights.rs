@@ -7,6 +7,7 @@ use light_sources::{
 use super::amounts::{Quantities, intensities_hold};
 use super::arrival::arrival_holds;
 use super::kind::Kind;
+use super::lobes::lobe_holds;
 use super::model::Model;
 use super::picture::random_image;
 use super::placement::{Placement, any_scene};
@@ -178,6 +179,7 @@ fn compare<M: Model>(
     leaving_holds(light, wavelengths, coordinates, origin, rng, |side, rng| {
         truth.leaving(side, rng)
     })?;
+    lobe_holds(light, truth, &mut Rng::new(rng.clone().u64()))?;
     for _ in 0..RECEIVERS {
         let on = origin.as_vec3();
         let ray = light.sample_le(rng.vec2(), rng.vec2(), wavelengths);

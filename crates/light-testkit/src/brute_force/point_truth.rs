@@ -32,7 +32,7 @@ pub(super) enum Beam {
 }
 
 impl PointTruth {
-    fn intensity(&self, w: DVec3) -> Values {
+    pub(super) fn intensity(&self, w: DVec3) -> Values {
         let w = self.frame.inverse_vector(w);
         let share = match &self.beam {
             Beam::Even => 1.0,
@@ -68,35 +68,43 @@ impl PointTruth {
         self.values.map(|value| value * share)
     }
 
-    /// The integrals of intensity, and of direction weighted by that of the last channel.
-    pub(super) fn leaving(&self, side: u32, rng: &mut Rng) -> Stratified<10> {
-        // A multiple of the rows of an image, so that no cell crosses an edge.
-        let side = match &self.beam {
+    /// Rows of cells, at least `side`: a multiple of the rows of a picture, so that no cell crosses an
+    /// edge.
+    pub(super) fn rows(&self, side: u32) -> u32 {
+        match &self.beam {
             Beam::Projection(_, [width, height], _) => {
                 width * height * side.div_ceil(width * height)
             }
             Beam::Goniometric(image) => image.size()[0] * side.div_ceil(image.size()[0]),
             _ => side,
+        }
+    }
+
+    /// A direction of the beam at a point of the unit square, and its solid angle if all of the square
+    /// were like it.
+    pub(super) fn direction(&self, [x, y]: [f64; 2]) -> (DVec3, f64) {
+        let (w, solid_angle) = match &self.beam {
+            Beam::Even | Beam::Goniometric(_) => (equal_area_direction(DVec2::new(x, y)), 4.0 * PI),
+            Beam::Spot([_, end]) => {
+                let most = 2.0 * (0.5 * end).sin().powi(2);
+                let from_axis = most * x;
+                let sin = (from_axis * (2.0 - from_axis)).sqrt();
+                let around = DVec2::from_angle(TAU * y) * sin;
+                (around.extend(1.0 - from_axis), TAU * most)
+            }
+            Beam::Projection(half, ..) => {
+                let on_plane = (DVec2::new(x, y) * 2.0 - 1.0) * *half;
+                let w = on_plane.extend(1.0);
+                (w.normalize(), 4.0 * half.x * half.y / w.length().powi(3))
+            }
         };
-        Stratified::over_square(side, rng, |[x, y], _| {
-            let (w, solid_angle) = match &self.beam {
-                Beam::Even | Beam::Goniometric(_) => {
-                    (equal_area_direction(DVec2::new(x, y)), 4.0 * PI)
-                }
-                Beam::Spot([_, end]) => {
-                    let most = 2.0 * (0.5 * end).sin().powi(2);
-                    let from_axis = most * x;
-                    let sin = (from_axis * (2.0 - from_axis)).sqrt();
-                    let around = DVec2::from_angle(TAU * y) * sin;
-                    (around.extend(1.0 - from_axis), TAU * most)
-                }
-                Beam::Projection(half, ..) => {
-                    let on_plane = (DVec2::new(x, y) * 2.0 - 1.0) * *half;
-                    let w = on_plane.extend(1.0);
-                    (w.normalize(), 4.0 * half.x * half.y / w.length().powi(3))
-                }
-            };
-            let w = self.frame.vector(w);
+        (self.frame.vector(w), solid_angle)
+    }
+
+    /// The integrals of intensity, and of direction weighted by that of the last channel.
+    pub(super) fn leaving(&self, side: u32, rng: &mut Rng) -> Stratified<10> {
+        Stratified::over_square(self.rows(side), rng, |at, _| {
+            let (w, solid_angle) = self.direction(at);
             let power = self.intensity(w).map(|i| i * solid_angle);
             let [a, b, c] = (w * power[3]).to_array();
             let [r, s, t, u] = power;

@@ -1,4 +1,4 @@
-use light_bounds::LightSampleContext;
+use light_bounds::{Gloss, LightSampleContext};
 use light_math::glam::{DVec3, Vec3};
 
 use crate::Rng;
@@ -26,6 +26,26 @@ impl Receiver {
     /// A receiver of any kind at `p`. Of three surfaces one is lit at a grazing angle from
     /// `toward`.
     pub(super) fn random(rng: &mut Rng, p: Vec3, toward: Vec3) -> Self {
+        let mut own = Rng::new(rng.clone().u64());
+        let distance = p.distance(toward);
+        let error = random_error(&mut own, p, distance);
+        let receiver = Self::exact(rng, p, toward);
+        let ctx = match (receiver.facing, own.below(2)) {
+            (Facing::All, 0) => {
+                let length = distance * own.log_range(0.1, 10.0);
+                LightSampleContext::segment(p, own.direction() * length)
+            }
+            (Facing::Front(_), 0) => receiver.ctx.with_gloss(random_gloss(&mut own)),
+            _ => receiver.ctx,
+        };
+        Self {
+            ctx: ctx.with_error(error),
+            ..receiver
+        }
+    }
+
+    /// A receiver without gloss, of which the place is known exactly.
+    fn exact(rng: &mut Rng, p: Vec3, toward: Vec3) -> Self {
         let to_light = (toward - p).try_normalize().unwrap_or(Vec3::X);
         let n = match rng.below(3) {
             0 => rng.direction(),
@@ -63,6 +83,15 @@ impl Receiver {
         }
     }
 
+    /// Segments through a point that receives from all directions: light that reaches the point
+    /// reaches them.
+    pub(super) fn segments(&self, rng: &mut Rng) -> Option<[LightSampleContext; 2]> {
+        let length = rng.log_range(1e-2, 1e2) * (1e-3 + self.ctx.p.length());
+        let along = rng.direction() * length;
+        let through = |part: f32| LightSampleContext::segment(self.ctx.p - along * part, along);
+        matches!(self.facing, Facing::All).then(|| [through(0.5), through(rng.f32())])
+    }
+
     /// The weight of the unit direction `wi`.
     pub(super) fn weight(&self, wi: DVec3) -> f64 {
         match self.facing {
@@ -89,5 +118,24 @@ impl Receiver {
             Facing::Both(n) => Facing::Both(turned(n)),
         };
         Self { facing, ..*self }
+    }
+}
+
+/// Half widths of the box of a point: none, some roundings, or up to a hundredth of the distance of
+/// the light.
+fn random_error(rng: &mut Rng, p: Vec3, distance: f32) -> Vec3 {
+    let size = match rng.below(3) {
+        0 => return Vec3::ZERO,
+        1 => p.length() * f32::EPSILON * rng.range(1.0, 16.0),
+        _ => distance * rng.log_range(1e-6, 1e-2),
+    };
+    rng.vec3() * size
+}
+
+fn random_gloss(rng: &mut Rng) -> Gloss {
+    Gloss {
+        wo: rng.direction(),
+        alpha: rng.log_range(1e-3, 1.0),
+        diffuse: [0.0, rng.f32()][rng.below(2)],
     }
 }

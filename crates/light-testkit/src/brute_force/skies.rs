@@ -14,6 +14,7 @@ use super::placement::Placement;
 use super::power::{Power, power_holds};
 use super::rays::leaving_holds;
 use super::receiver::Receiver;
+use super::sky_amounts::amounts_hold;
 use super::sky_checks::{bounds_hold, density_holds};
 use super::sky_truth::{Map, Sky, SkyTruth, Texels, Window};
 use super::surface::RigidFrame;
@@ -111,7 +112,7 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
     };
     let described = format!("{scene:?}, {desc:?}");
     let mut builder = LightSetBuilder::<M>::new(scene);
-    let source = match builder.add(desc) {
+    let source = match builder.add(desc.clone()) {
         // A window so small that rounding of its corners bends it is refused.
         Err(LightDescError::PortalInfinite(PortalInfiniteLightError::Portal)) => return Ok(()),
         result => result.map_err(|e| format!("{e}: {described}"))?,
@@ -148,7 +149,10 @@ pub(super) fn check<M: Model>(kind: Kind, rng: &mut Rng) -> Result<(), String> {
             power_holds(power, color, values, rng, |side, rng| {
                 truth.leaving(side, rng)
             })
-            .map(|_| ())
+        })
+        .and_then(|_| {
+            let phi = M::values(light.phi(&wavelengths));
+            amounts_hold::<M>(&desc, scene, phi, &wavelengths, rng)
         })
         .map_err(|fault| format!("{fault}\n  {described}"))
 }

@@ -56,6 +56,14 @@ impl<const N: usize> Stratified<N> {
         integral
     }
 
+    /// Adds an independent integral.
+    pub(super) fn add(&mut self, other: &Self) {
+        for i in 0..N {
+            self.sum[i] += other.sum[i];
+            self.variance[i] += other.variance[i];
+        }
+    }
+
     /// The same numbers times `factor`.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         for i in 0..N {
