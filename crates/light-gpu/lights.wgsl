@@ -6,6 +6,7 @@ const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
 const LIGHT_CUT_THRESHOLD: f32 = 0.08;
 const LIGHT_DISTANCE: f32 = 0.09;
+const LIGHT_FAINT_POWER: f32 = 168.0;
 const LIGHT_FAR: f32 = 1e36;
 const LIGHT_GLOSSY_DISTANCE: f32 = 0.03;
 const LIGHT_GROUP_BY_POSITION: f32 = 400.0;
@@ -21,13 +22,15 @@ const LIGHT_MIN_DIFFUSE: f32 = 0.02;
 const LIGHT_MIN_HALF_SQ: f32 = 1e-5;
 const LIGHT_NEAREST: f32 = 1e-8;
 const LIGHT_NEARNESS: f32 = 0.2;
-const LIGHT_NEAR_POINT: f32 = 16.0;
+const LIGHT_NEAR_SHARE: f32 = 0.125;
+const LIGHT_NEAR_SMALL: f32 = 16.0;
 const LIGHT_PLACES: f32 = 4.0;
 const LIGHT_RAMP_BY_POSITION: f32 = 11.0;
 const LIGHT_ROUND_OFF: f32 = 1e-5;
 const LIGHT_SHEET_CORRELATION: f32 = 0.325;
 const LIGHT_SHEET_NEARER: f32 = 0.3;
 const LIGHT_SHEET_THICKNESS: f32 = 0.05;
+const LIGHT_SMALL_EXTENT: f32 = 15.0;
 const LIGHT_STEP_EDGE: f32 = 4.87;
 const LIGHT_UNIT: f32 = 127.25;
 const LIGHT_WIDENING: f32 = 0.375;
@@ -319,8 +322,8 @@ struct LightNode {
     // The largest power of a child, as a share of the tree's.
     gain: f32,
     has_sheets: bool,
-    // Whether a subtree is a point in codes of the node.
-    has_points: bool,
+    // Whether a subtree is small in codes of the node.
+    has_small: bool,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -378,7 +381,7 @@ fn light_node(first: u32) -> LightNode {
     // The two top bits of the gain are flags.
     node.gain = bitcast<f32>((links.z & 0x3fffu) << 16u);
     node.has_sheets = (links.z & 0x8000u) != 0u;
-    node.has_points = (links.z & 0x4000u) != 0u;
+    node.has_small = (links.z & 0x4000u) != 0u;
     return node;
 }
 
@@ -830,37 +833,54 @@ fn light_parts(weights: LightWeights) -> LightParts {
     return parts;
 }
 
-// The weights of the children of a node. A subtree that is a point in codes of the node, and near,
-// counts by the weights of its own children.
+// The weights of the children of a node. A subtree that is small in codes of the node, and near,
+// counts by the weights of its own children; if it has several, it has at least its near share.
 fn light_resolved_weights(
     tree: LightTree,
     node: ptr<function, LightNode>,
     receiver: LightReceiver,
 ) -> LightWeights {
     var weights = light_trusted_weights(node, receiver);
-    if !(*node).has_points {
+    if !(*node).has_small {
         return weights;
     }
-    let near = LIGHT_NEAR_POINT / (*node).inv_scale + light_reach(receiver);
+    let reach = LIGHT_NEAR_SMALL / (*node).inv_scale + light_reach(receiver);
+    var groups = 0u;
     for (var k = 0u; k < (*node).inner; k++) {
         let word = k >> 2u;
         let lane = k & 3u;
         let index = (*node).child_base + k;
-        // No extent is 0.
-        let extents = (*node).rows[3][word] | (*node).rows[4][word] | (*node).rows[5][word];
-        let is_point = ((extents >> (8u * lane)) & 0xffu) == 1u;
-        if is_point && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
+        let is_small = light_is_small(node, word, lane);
+        if is_small && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
             var child = light_node(tree.nodes + 14u * index);
             let away = child.origin - receiver.p;
+            let near = reach + 255.0 / child.inv_scale;
             if dot(away, away) < near * near {
                 let own = light_trusted_weights(&child, receiver);
                 let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
                 let weight = light_positive_product(own.total, scale);
                 weights.lanes[word][lane] = min(weight, LIGHT_MAX / 16.0);
+                groups |= select(0u, 1u << k, child.count > 1u && weight > 0.0);
             }
         }
     }
+    let least = min(light_total(weights.lanes) * LIGHT_NEAR_SHARE, LIGHT_MAX / 16.0);
+    for (var word = 0u; word < 4u; word++) {
+        let is_group = (vec4<u32>(groups >> (4u * word)) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
+        let lanes = weights.lanes[word];
+        weights.lanes[word] = select(lanes, max(lanes, vec4<f32>(least)), is_group);
+    }
     return light_with_least_share(weights);
+}
+
+// Whether a child that is a node is small in codes of this one.
+fn light_is_small(node: ptr<function, LightNode>, word: u32, lane: u32) -> bool {
+    let extents = (*node).rows[3][word] | (*node).rows[4][word] | (*node).rows[5][word];
+    let extent = (extents >> (8u * lane)) & 0xffu;
+    let power = ((*node).rows[11][word] >> (8u * lane)) & 0xffu;
+    // No extent is 0.
+    return extent == 1u
+        || (extent <= u32(LIGHT_SMALL_EXTENT) && power <= u32(LIGHT_FAINT_POWER));
 }
 
 // The factor that makes weights, of a node whose largest power is `gain`, those of one where it is 1

@@ -13,16 +13,18 @@ use crate::importance::segment::{BENT, NEAREST, PLACES};
 use crate::importance::sheet;
 use crate::node::sheet_code::CORRELATION;
 use crate::node::spread_code::LEAST_SPREAD;
-use crate::query::points::NEAR_POINT;
+use crate::node::wide_node::{FAINT_POWER, SMALL_EXTENT};
+use crate::query::small_subtrees::{NEAR_SHARE, NEAR_SMALL};
 use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 29] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 32] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
     ("DISTANCE", DISTANCE),
+    ("FAINT_POWER", FAINT_POWER as f32),
     ("FAR", FAR),
     ("GLOSSY_DISTANCE", glossy::DISTANCE),
     ("GROUP_BY_POSITION", GROUP_BY_POSITION),
@@ -38,13 +40,15 @@ pub const QUERY_CONSTANTS: [(&str, f32); 29] = [
     ("MIN_HALF_SQ", MIN_HALF_SQ),
     ("NEAREST", NEAREST),
     ("NEARNESS", NEARNESS),
-    ("NEAR_POINT", NEAR_POINT),
+    ("NEAR_SHARE", NEAR_SHARE),
+    ("NEAR_SMALL", NEAR_SMALL),
     ("PLACES", PLACES as f32),
     ("RAMP_BY_POSITION", RAMP_BY_POSITION),
     ("ROUND_OFF", ROUND_OFF),
     ("SHEET_CORRELATION", CORRELATION),
     ("SHEET_NEARER", sheet::NEARER),
     ("SHEET_THICKNESS", sheet::LEAST_THICKNESS),
+    ("SMALL_EXTENT", SMALL_EXTENT as f32),
     ("STEP_EDGE", STEP_EDGE),
     ("UNIT", UNIT),
     ("WIDENING", WIDENING),

@@ -4,7 +4,7 @@ use core::ops::RangeInclusive;
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
-use crate::build::bins::{Grid, Plane};
+use crate::build::bins::{Grid, Plane, is_in_few_places};
 use crate::build::cluster::{Cluster, Sums};
 use crate::build::dominant::Dominant;
 use crate::build::light_primitive::LightPrimitive;
@@ -128,8 +128,8 @@ impl SplitGroup for BinnedSplit<'_> {
 
     fn split(self) -> (Self, Self) {
         let dominant = Dominant::of(self.clusters, self.bounds.min);
-        let off = |most| dominant.filter(|dominant| dominant.rest_cost < most);
-        if SNAP.contains(&self.clusters.len()) {
+        let off = |most| dominant.as_ref().filter(|one| one.rest_cost < most);
+        if SNAP.contains(&self.clusters.len()) && !is_in_few_places(self.clusters, &self.bounds) {
             return match off(SNAP_SAVING * self.cost) {
                 Some(one) => self.split_off(one.place, one.rest_cost),
                 None => self.split_few(),
@@ -228,7 +228,10 @@ fn partition(clusters: &mut [Cluster], left: impl Fn(&Cluster) -> bool) -> (usiz
 
 #[cfg(test)]
 mod tests {
+    use light_bounds::{LightBounds, LightExtent};
+
     use super::*;
+    use crate::LightBvh;
 
     #[test]
     fn keys_are_in_the_order_of_the_centres() {
@@ -244,5 +247,25 @@ mod tests {
         let keys = centres.map(|x| key(x, 7));
         assert!(keys.is_sorted_by(|a, b| a < b), "{keys:x?}");
         assert!(key(1.0, 1) < key(1.0, 2), "the order of the curve");
+    }
+
+    #[test]
+    fn rooms_far_from_each_other_are_not_in_one_node() {
+        let rooms: Vec<_> = (0..20u16)
+            .map(|i| {
+                let p = Vec3::new(f32::from(i), f32::from(i % 7), 0.0);
+                LightExtent::Bounded(LightBounds {
+                    bounds: Aabb::from_point(p + f32::from(i / 10) * 1e5 * Vec3::Y),
+                    w: Vec3::Z,
+                    phi: 1.0,
+                    cos_theta_o: -1.0,
+                    cos_theta_e: 0.0,
+                    two_sided: false,
+                })
+            })
+            .collect();
+        let tree = LightBvh::build(&rooms).expect("valid lights");
+        let counts: Vec<_> = tree.nodes.iter().map(|n| (n.count, n.inner)).collect();
+        assert_eq!(counts, [(2, 2), (10, 0), (10, 0)]);
     }
 }

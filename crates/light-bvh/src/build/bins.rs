@@ -74,6 +74,24 @@ fn bin(x: f32) -> usize {
     (x as u32).min(BINS as u32 - 1) as usize
 }
 
+/// Whether few clusters are in places with much space between them: at most one in four cells of a
+/// cube about their box `bounds`, of which eight fill each side. Two halves as large as a node would
+/// tear such places apart.
+pub(crate) fn is_in_few_places(clusters: &[Cluster], bounds: &Aabb) -> bool {
+    let side = Vec3::splat(bounds.diagonal().max_element());
+    let grid = Grid::new(&Aabb {
+        min: bounds.min,
+        max: bounds.min + side,
+    });
+    let mut cells = [0u64; BINS];
+    for cluster in clusters {
+        let [x, y, z] = grid.position(cluster);
+        cells[z] |= 1 << (BINS * y + x);
+    }
+    let places: u32 = cells.iter().map(|layer| layer.count_ones()).sum();
+    (2..=clusters.len() / 4).contains(&(places as usize))
+}
+
 /// Lights up to `bin` go left.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
@@ -132,4 +150,31 @@ fn costs(sums: &[Sums; BINS]) -> [f32; BINS] {
         *cost = Sums(core::array::from_fn(|i| columns[i][bin])).cost();
     }
     costs
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use super::*;
+
+    #[test]
+    fn two_rooms_are_in_few_places_and_a_hall_is_not() {
+        let is_few = |place: &dyn Fn(u16) -> Vec3| {
+            let clusters: Vec<_> = (0..20)
+                .map(|i| Cluster {
+                    center: place(i),
+                    ..Cluster::NOTHING
+                })
+                .collect();
+            let centers = clusters.iter().map(|cluster| cluster.center);
+            let bounds = centers.fold(Aabb::EMPTY, |bounds, p| bounds.extend(p));
+            is_in_few_places(&clusters, &bounds)
+        };
+        let in_hall = |i: u16| Vec3::new(f32::from(i % 5), f32::from(i % 3), 0.0);
+        assert!(!is_few(&in_hall), "a hall");
+        assert!(is_few(&|i| in_hall(i) + f32::from(i % 2) * 1e3 * Vec3::Y));
+        assert!(!is_few(&|_| Vec3::ONE), "one place");
+        assert!(!is_few(&|i| f32::from(i) * Vec3::Z), "a row");
+    }
 }

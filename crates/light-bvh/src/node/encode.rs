@@ -1,7 +1,7 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::wide_node::{HAS_POINTS, HAS_SHEETS, WIDTH, WideNode, encode_power};
+use crate::node::wide_node::{HAS_SHEETS, HAS_SMALL, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
@@ -52,8 +52,8 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
-        if self.points().next().is_some() {
-            self.gain |= HAS_POINTS;
+        if self.small_subtrees().next().is_some() {
+            self.gain |= HAS_SMALL;
         }
     }
 

@@ -42,8 +42,9 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// bits of exponent and three of mantissa, less their value for 0.
 ///
 /// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
-/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is a point, whose extents
-/// are 1 in codes: near it the subtree's own node tells more.
+/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is small: its extents are 1
+/// in codes, or at most 15 where its power is at most a 1024th of the largest. Near it the subtree's
+/// own node tells more.
 ///
 /// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
 /// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
@@ -84,8 +85,15 @@ pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 /// The bit of [`WideNode::gain`] that is set where a child is a sheet.
 pub(crate) const HAS_SHEETS: u16 = 1 << 15;
 
-/// The bit of [`WideNode::gain`] that is set where a subtree is a point in codes of the node.
-pub(crate) const HAS_POINTS: u16 = 1 << 14;
+/// The bit of [`WideNode::gain`] that is set where a subtree is small in codes of the node.
+pub(crate) const HAS_SMALL: u16 = 1 << 14;
+
+/// The largest extent of a faint subtree that is small. All bits are set: the bits of three extents
+/// together are above it where one of them is.
+pub(crate) const SMALL_EXTENT: u8 = 15;
+
+/// The code of the power up to which a subtree is faint: a 1024th of the largest.
+pub(crate) const FAINT_POWER: u8 = 21 << 3;
 
 impl WideNode {
     /// A node without children.
@@ -110,7 +118,7 @@ impl WideNode {
     #[inline]
     #[must_use]
     pub(crate) const fn gain(&self) -> f32 {
-        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_POINTS)) as u32) << 16)
+        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_SMALL)) as u32) << 16)
     }
 
     /// Whether a child may be a group of lights in a thin slanted sheet.
@@ -119,18 +127,21 @@ impl WideNode {
         self.gain & HAS_SHEETS != 0
     }
 
-    /// Whether a child is a subtree so small that its lights are at one place in codes of the node.
+    /// Whether a child is a subtree so small that codes of the node describe it coarsely.
     #[inline(always)]
-    pub(crate) const fn has_points(&self) -> bool {
-        self.gain & HAS_POINTS != 0
+    pub(crate) const fn has_small(&self) -> bool {
+        self.gain & HAS_SMALL != 0
     }
 
     /// These children.
     #[inline]
-    pub(crate) fn points(&self) -> impl Iterator<Item = usize> + use<'_> {
+    pub(crate) fn small_subtrees(&self) -> impl Iterator<Item = usize> + use<'_> {
         let [x, y, z] = &self.extent;
-        // No extent is 0.
-        (0..usize::from(self.inner).min(WIDTH)).filter(|&k| x[k] | y[k] | z[k] == 1)
+        (0..usize::from(self.inner).min(WIDTH)).filter(|&k| {
+            let extent = x[k] | y[k] | z[k];
+            // No extent is 0.
+            extent == 1 || (extent <= SMALL_EXTENT && self.power[k] <= FAINT_POWER)
+        })
     }
 }
 
@@ -169,6 +180,11 @@ mod tests {
             );
             power *= 0.97;
         }
+    }
+
+    #[test]
+    fn a_1024th_is_faint() {
+        assert_eq!(encode_power(1.0 / 1024.0), FAINT_POWER);
     }
 
     #[test]

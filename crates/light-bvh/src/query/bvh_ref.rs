@@ -78,7 +78,7 @@ impl<'a> LightBvhRef<'a> {
         receiver: &R,
     ) -> Weights {
         let mut weights = Weights::new(node, receiver);
-        self.resolve_points(node, receiver, &mut weights);
+        self.resolve_small(node, receiver, &mut weights);
         self.leave_out(index, &mut weights);
         weights
     }

@@ -1,52 +1,56 @@
-//! Subtrees that are points in codes of their node: too small for a receiver near them to be told
-//! where it is.
+//! Subtrees that are small in codes of their node, where a receiver is near them: their own nodes
+//! tell more than the codes do.
 
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
 use crate::importance::receiver::Receiver;
-use crate::node::wide_node::WideNode;
+use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::weights::{LARGEST_WEIGHT, Weights};
+use crate::query::weights::{LARGEST_WEIGHT, Weights, total};
 use crate::simd::{VectorWork, dispatch};
 
-/// Within how many codes a subtree that is a point is not described well enough by one.
-pub(crate) const NEAR_POINT: f32 = 16.0;
+/// Within how many codes a small subtree is not described well enough by them.
+pub(crate) const NEAR_SMALL: f32 = 16.0;
+
+/// The least weight of a small subtree of several lights that is near, as a share of the weights of
+/// its node.
+///
+/// One level further down does not tell how much a light beside the receiver gives, where the
+/// subtree has itself children that are far smaller than its codes. Chosen by V: see
+/// `docs/light-bvh.md`.
+pub(crate) const NEAR_SHARE: f32 = 0.125;
 
 impl LightBvhRef<'_> {
-    /// Lets each child of `node` that is a subtree, a point and near count by the weights of its
-    /// own children for `receiver`.
+    /// Lets each child of `node` that is a small subtree and near count by the weights of its own
+    /// children for `receiver`.
     #[inline(always)]
-    pub(crate) fn resolve_points<R: Receiver>(
+    pub(crate) fn resolve_small<R: Receiver>(
         &self,
         node: &WideNode,
         receiver: &R,
         weights: &mut Weights,
     ) {
-        if !node.has_points() {
+        if !node.has_small() {
             return;
         }
         // Without an operating system the stack is short.
         if cfg!(target_os = "none") {
-            self.resolve_near_points(node, receiver, weights);
+            self.resolve_near(node, receiver, weights);
         } else {
             // A copy: what a function may change through a reference is in memory.
             let mut resolved = *weights;
-            self.resolve_near_points(node, receiver, &mut resolved);
+            self.resolve_near(node, receiver, &mut resolved);
             *weights = resolved;
         }
     }
 
-    /// A function of its own: nodes without points, which are most, pay for one test.
+    /// A function of its own: nodes without small subtrees, which are most, pay for one test.
     #[cold]
     #[inline(never)]
-    fn resolve_near_points<R: Receiver>(
-        &self,
-        node: &WideNode,
-        receiver: &R,
-        weights: &mut Weights,
-    ) {
-        for k in node.points() {
+    fn resolve_near<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
+        let mut groups = [false; WIDTH];
+        for k in node.small_subtrees() {
             let index = node.child_base as usize + k;
             let Some(child) = self.nodes().get(index) else {
                 return;
@@ -56,6 +60,13 @@ impl LightBvhRef<'_> {
                 let gain = child.gain() / node.gain();
                 let own = self.total_weight(index, child, receiver, (weights.inv_unit, gain));
                 weights.lanes[k] = own.min(LARGEST_WEIGHT);
+                groups[k] = child.count > 1 && own > 0.0;
+            }
+        }
+        let least = (total(&weights.lanes) * NEAR_SHARE).min(LARGEST_WEIGHT);
+        for (weight, is_group) in weights.lanes.iter_mut().zip(groups) {
+            if is_group {
+                *weight = weight.max(least);
             }
         }
         weights.raise_to_least_share();
@@ -78,10 +89,10 @@ impl LightBvhRef<'_> {
     }
 }
 
-/// Whether the lights of `child`, a point in codes of `node`, are within some codes of a receiver
-/// that reaches so far.
+/// Whether a receiver that reaches so far is within some codes of `node` from `child`.
 fn is_near(node: &WideNode, child: &WideNode, position: Vec3, reach: f32) -> bool {
-    let near = NEAR_POINT / node.inv_scale + reach;
+    let width = 255.0 / child.inv_scale;
+    let near = NEAR_SMALL / node.inv_scale + width + reach;
     Vec3::from(child.origin).distance_squared(position) < near * near
 }
 
@@ -112,19 +123,20 @@ mod tests {
 
     use crate::LightBvh;
 
+    fn lamp(p: Vec3, phi: f32) -> LightExtent {
+        LightExtent::Bounded(LightBounds {
+            bounds: Aabb::from_point(p),
+            w: Vec3::Z,
+            phi,
+            cos_theta_o: -1.0,
+            cos_theta_e: 0.0,
+            two_sided: false,
+        })
+    }
+
     /// So many lamps in a hall, and after them a sun far away that gives as much light in the middle
     /// as they do together.
     fn hall_and_sun(rng: &mut Rng, lamps: usize) -> LightBvh {
-        let lamp = |p: Vec3, phi: f32| {
-            LightExtent::Bounded(LightBounds {
-                bounds: Aabb::from_point(p),
-                w: Vec3::Z,
-                phi,
-                cos_theta_o: -1.0,
-                cos_theta_e: 0.0,
-                two_sided: false,
-            })
-        };
         let sun = 1e5 * Vec3::new(0.6, 0.0, 0.8);
         let at: Vec<_> = (0..lamps).map(|_| 10.0 * rng.direction()).collect();
         let of_lamps: f32 = at.iter().map(|p| 1.0 / p.length_squared()).sum();
@@ -146,6 +158,27 @@ mod tests {
                 let fair = 0.5 / lamps as f32;
                 assert!(pmf(light) > 0.2 * fair, "lamp {light} of {lamps}");
             }
+        }
+    }
+
+    /// Houses of three lamps over kilometres and a sun: a house is small in codes of a node above
+    /// it, which is small in codes of the root.
+    #[test]
+    fn a_lamp_beside_the_receiver_counts_in_a_village_under_a_sun() {
+        let mut rng = Rng::new(5);
+        let houses: Vec<_> = (0..40).map(|_| 1e3 * rng.direction()).collect();
+        let mut lights = Vec::new();
+        for &house in &houses {
+            lights.extend((0..3).map(|_| lamp(house + 3.0 * rng.direction(), 1.0)));
+        }
+        lights.push(lamp(3e5 * Vec3::Z, 3e5 * 3e5));
+        let tree = LightBvh::build(&lights).expect("valid lights");
+        for (k, &house) in houses.iter().enumerate() {
+            let here = LightSampleContext::medium(house);
+            let of_house: f32 = (3 * k..3 * k + 3)
+                .map(|light| tree.pmf(&here, LightId(u32::try_from(light).expect("few"))))
+                .sum();
+            assert!(of_house > 0.01, "house {k}: {of_house}");
         }
     }
 
