@@ -86,14 +86,14 @@ impl<C: ColorModel> ImageInfiniteLight<C> {
         let transform = RigidTransform::new(desc.transform)?;
         let sky = sky(desc.map)?;
         let means = &sky.means;
-        ImageInfiniteLightError::check(means.color, scale)?;
+        let fluence = ImageInfiniteLightError::fluence(&sky.image, means.color, 4.0 * PI, scale)?;
         if !means.average.is_finite() {
             return Err(ImageInfiniteLightError::TooBright);
         }
         Ok(Self {
             transform,
             extent: InfiniteBounds {
-                fluence: 4.0 * PI * scale * means.color.max_element(),
+                fluence,
                 mean: transform.vector(means.direction),
                 cone: DirectionCone::WHOLE_SPHERE,
             },

@@ -88,21 +88,40 @@ pub enum ImageInfiniteLightError {
     Transform(RigidTransformError),
     /// `map` is an equal-area image that is not square.
     NotSquare,
-    /// `map` is too bright to be summed.
+    /// `map` is so bright that its integral over the sphere is not finite.
     TooBright,
-    /// `amount` is negative, not finite, or too large for the map.
+    /// `amount` is negative, not finite, or so large that the integral or a texel of `map` is not
+    /// finite.
     Amount,
 }
 
 impl ImageInfiniteLightError {
-    /// Whether a map with this integral can be summed, and scaled.
-    pub(crate) fn check(integral: Vec3, scale: f32) -> Result<(), Self> {
-        if !integral.is_finite() {
-            Err(Self::TooBright)
-        } else if scale >= 0.0 && (integral * scale).is_finite() {
-            Ok(())
-        } else {
-            Err(Self::Amount)
+    /// With less fluence no texel of a map that fits into memory is too bright: each has more than
+    /// 1e-18 of the sphere.
+    const HARMLESS: f32 = 1e20;
+
+    /// The fluence of a map with this mean over a solid angle, if it and each texel are finite,
+    /// scaled.
+    pub(crate) fn fluence(
+        image: &Image,
+        mean: Vec3,
+        solid_angle: f32,
+        scale: f32,
+    ) -> Result<f32, Self> {
+        if !mean.is_finite() {
+            return Err(Self::TooBright);
+        }
+        if !(scale >= 0.0 && scale.is_finite()) {
+            return Err(Self::Amount);
+        }
+        let fluence = solid_angle * scale * mean.max_element();
+        let is_finite = |texel: Vec3| (texel * scale).is_finite();
+        let fits = fluence < Self::HARMLESS
+            || fluence.is_finite() && (scale <= 1.0 || image.texels().all(is_finite));
+        match fits {
+            true => Ok(fluence),
+            false if scale <= 1.0 => Err(Self::TooBright),
+            false => Err(Self::Amount),
         }
     }
 }
@@ -112,8 +131,12 @@ impl fmt::Display for ImageInfiniteLightError {
         match self {
             Self::Transform(error) => error.fmt(f),
             Self::NotSquare => f.write_str("map: an equal-area image must be square"),
-            Self::TooBright => f.write_str("map: too bright to be summed"),
-            Self::Amount => f.write_str("amount: must be finite, not negative, and fit the map"),
+            Self::TooBright => {
+                f.write_str("map: too bright, its sum over all directions is not finite")
+            }
+            Self::Amount => f.write_str(
+                "amount: must be finite, not negative, and leave what the map gives finite",
+            ),
         }
     }
 }
@@ -123,5 +146,73 @@ impl Error for ImageInfiniteLightError {}
 impl From<RigidTransformError> for ImageInfiniteLightError {
     fn from(error: RigidTransformError) -> Self {
         Self::Transform(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::channels::Channels;
+    use crate::image_infinite::ImageInfiniteLight;
+    use crate::portal_infinite::{
+        PortalInfiniteLight, PortalInfiniteLightDesc, PortalInfiniteLightError,
+    };
+    use crate::rgb::Rgb;
+    use crate::scene_sphere::SceneSphere;
+
+    /// A sky `scale` times as bright as its picture, alone and behind a portal.
+    fn refusals(map: &EnvironmentMap, scale: f32) -> [Option<ImageInfiniteLightError>; 2] {
+        let scene = SceneSphere::new(Vec3::ZERO, 1e-3).expect("a sphere");
+        let (map, amount) = (map.clone(), RadianceAmount::Radiometric(scale));
+        let portal = PortalInfiniteLightDesc {
+            transform: Affine3A::IDENTITY,
+            map: map.clone(),
+            amount,
+            portal: [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y],
+        };
+        let portal = PortalInfiniteLight::<Rgb>::new(portal, scene).err();
+        let portal = portal.map(|error| match error {
+            PortalInfiniteLightError::Sky(error) => error,
+            error => unreachable!("{error}"),
+        });
+        let sky = ImageInfiniteLightDesc {
+            amount,
+            ..ImageInfiniteLightDesc::new(map)
+        };
+        [ImageInfiniteLight::<Rgb>::new(sky, scene).err(), portal]
+    }
+
+    fn gray(size: [u32; 2], texels: &[f32]) -> Image {
+        Image::from_f32(size, Channels::Gray, texels).expect("an image")
+    }
+
+    #[test]
+    fn skies_of_infinite_fluence_are_refused() {
+        let [bright, huge] = [1e37, 1e38].map(|texel| gray([4, 4], &[texel; 16]));
+        let too_bright = Some(ImageInfiniteLightError::TooBright);
+        let amount = Some(ImageInfiniteLightError::Amount);
+        for map in [EnvironmentMap::EqualArea, EnvironmentMap::LatLong] {
+            let of = |image: &Image, scale| refusals(&map(image.clone()), scale)[0];
+            assert_eq!(of(&bright, 1.0), None, "1.3e38");
+            assert_eq!(of(&huge, 1e-3), None, "1.3e36");
+            assert_eq!(of(&huge, 1.0), too_bright, "1.3e39");
+            assert_eq!(of(&bright, 100.0), amount, "1.3e40");
+        }
+        let of =
+            |image: &Image, scale| refusals(&EnvironmentMap::EqualArea(image.clone()), scale)[1];
+        assert_eq!(of(&bright, 1.0), None, "6e37 through a portal");
+        assert_eq!(of(&huge, 1.0), too_bright, "6e38");
+        assert_eq!(of(&bright, 100.0), amount, "6e39");
+    }
+
+    /// One texel of many: their integral is finite, its radiance is not.
+    #[test]
+    fn skies_with_an_infinite_texel_are_refused() {
+        let mut texels = [0.0; 64 * 64];
+        texels[2000] = 1e35;
+        let map = EnvironmentMap::EqualArea(gray([64, 64], &texels));
+        assert_eq!(refusals(&map, 1e3)[0], None, "1e38");
+        let amount = Some(ImageInfiniteLightError::Amount);
+        assert_eq!(refusals(&map, 5e3)[0], amount, "5e38");
     }
 }

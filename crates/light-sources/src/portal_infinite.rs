@@ -119,18 +119,18 @@ impl<C: ColorModel> PortalInfiniteLight<C> {
             }
         }
         let (irradiance, color) = (irradiance.over(1.0), color.over(1.0));
-        ImageInfiniteLightError::check(irradiance.max(color), scale)?;
         let size = sky.size();
+        let image = Image::from_f32(size, Channels::Rgb, texels)
+            .map_err(|_| ImageInfiniteLightError::TooBright)?;
         let table = SummedAreaTable::new(&weights, size[0] as usize, size[1] as usize);
         Ok(Self {
             extent: InfiniteBounds {
-                fluence: color.max_element() * scale,
+                fluence: ImageInfiniteLightError::fluence(&image, color, 1.0, scale)?,
                 mean: mean.over(total),
                 cone: DirectionCone::new(portal.frame().z, 0.0),
             },
             portal,
-            image: Image::from_f32(size, Channels::Rgb, texels)
-                .map_err(|_| ImageInfiniteLightError::TooBright)?,
+            image,
             scale,
             irradiance,
             scene,

@@ -21,7 +21,8 @@ pub enum EmissionError {
     /// `amount` is a power or a photometric quantity, but the light is black, invisible or without
     /// an area.
     Dark,
-    /// `amount` is so large that the power of this light is not finite.
+    /// `amount` is so large that the power of this light is not finite, or, of a sky or a sun, its
+    /// fluence.
     Power,
 }
 
@@ -38,6 +39,15 @@ impl<C: ColorModel> ScaledEmission<C> {
             return Err(EmissionError::Amount);
         }
         Ok(Self { emission, scale })
+    }
+
+    /// This radiance, if its integral over a solid angle is finite.
+    ///
+    /// # Errors
+    /// When it is not.
+    pub(crate) fn with_solid_angle(self, solid_angle: f32) -> Result<Self, EmissionError> {
+        let is_finite = (solid_angle * self.maximum()).is_finite();
+        is_finite.then_some(self).ok_or(EmissionError::Power)
     }
 
     /// The value at the wavelengths of a query.
@@ -83,8 +93,14 @@ impl Error for EmissionError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::amount::RadianceAmount;
     use crate::glam::Vec3;
     use crate::rgb::Rgb;
+    use crate::scene_sphere::SceneSphere;
+    use crate::sun::{SunLight, SunLightError};
+    use crate::sun_desc::{SunAmount, SunLightDesc};
+    use crate::uniform_infinite::{UniformInfiniteLight, UniformInfiniteLightDesc};
+    use core::f32::consts::PI;
 
     #[test]
     fn refuses_nonsense_by_field() {
@@ -94,5 +110,30 @@ mod tests {
         assert_eq!(new(1.0, -1.0), Some(EmissionError::Amount), "negative");
         assert_eq!(new(1.0, f32::NAN), Some(EmissionError::Amount), "NaN");
         assert_eq!(new(1e30, 1e30), Some(EmissionError::Amount), "overflow");
+    }
+
+    /// Infinite fluence would make the choice of a sky certain, and of all other lights impossible.
+    #[test]
+    fn skies_of_infinite_fluence_are_refused() {
+        let scene = SceneSphere::new(Vec3::ZERO, 1e-3).expect("a sphere");
+        let amount = RadianceAmount::default();
+        let sky = |radiance| {
+            let desc = UniformInfiniteLightDesc::new(Vec3::splat(radiance), amount);
+            UniformInfiniteLight::<Rgb>::new(desc, scene).err()
+        };
+        assert_eq!(sky(2e37), None, "2.5e38 in all");
+        assert_eq!(sky(3e37), Some(EmissionError::Power), "3.8e38 in all");
+        let sun = |radiance| {
+            let desc = SunLightDesc {
+                direction: Vec3::Y,
+                angular_diameter: PI,
+                emission: Vec3::splat(radiance),
+                amount: SunAmount::Radiance(amount),
+            };
+            SunLight::<Rgb>::new(desc, scene).err()
+        };
+        assert_eq!(sun(5e37), None, "3.1e38 in all");
+        let expected = Some(SunLightError::Emission(EmissionError::Power));
+        assert_eq!(sun(6e37), expected, "3.8e38 in all");
     }
 }

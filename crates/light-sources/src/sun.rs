@@ -68,11 +68,12 @@ impl<C: ColorModel> SunLight<C> {
                 irradiance.scale(unit)? / (PI * sin_theta * sin_theta)
             }
         };
+        let radiance = ScaledEmission::new(desc.emission, scale)?;
         Ok(Self {
             frame: Frame::from_z(direction),
             sin_theta,
             one_minus_cos_theta,
-            radiance: ScaledEmission::new(desc.emission, scale)?,
+            radiance: radiance.with_solid_angle(TAU * one_minus_cos_theta)?,
             scene,
         })
     }

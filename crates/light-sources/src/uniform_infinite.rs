@@ -56,8 +56,9 @@ impl<C: ColorModel> UniformInfiniteLight<C> {
         scene: SceneSphere,
     ) -> Result<Self, EmissionError> {
         let scale = desc.amount.scale(C::flux(&desc.emission))?;
+        let radiance = ScaledEmission::new(desc.emission, scale)?;
         Ok(Self {
-            radiance: ScaledEmission::new(desc.emission, scale)?,
+            radiance: radiance.with_solid_angle(4.0 * PI)?,
             scene,
         })
     }
