@@ -9,7 +9,12 @@ pub enum ImageError {
     /// Width or height is 0.
     Empty,
     /// There are not `width * height * channels` numbers.
-    Length,
+    Length {
+        /// So many are needed, or more than `usize` can hold: then it is its largest value.
+        expected: usize,
+        /// So many there are.
+        found: usize,
+    },
     /// An image that is to be an equal-area map is not square.
     NotSquare,
     /// A texel is NaN.
@@ -39,7 +44,12 @@ impl fmt::Display for ImageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (texel, channel, rule) = match self {
             Self::Empty => return f.write_str("width and height must be at least 1"),
-            Self::Length => return f.write_str("width * height * channels numbers are needed"),
+            Self::Length { expected, found } => {
+                return write!(
+                    f,
+                    "expected width * height * channels = {expected} numbers, found {found}"
+                );
+            }
             Self::NotSquare => return f.write_str("an equal-area image must be square"),
             Self::NotANumber { texel, channel } => (texel, channel, "is not a number"),
             Self::Infinite { texel, channel } => (texel, channel, "is infinite"),
@@ -67,8 +77,12 @@ pub(crate) fn check_texels(
     }
     let texels = (size[0] as usize).checked_mul(size[1] as usize);
     let numbers = texels.and_then(|texels| texels.checked_mul(channels.count()));
-    if numbers != Some(len) {
-        return Err(ImageError::Length);
+    let expected = numbers.unwrap_or(usize::MAX);
+    if expected != len {
+        return Err(ImageError::Length {
+            expected,
+            found: len,
+        });
     }
     for i in 0..len {
         let value = number(i);
@@ -88,4 +102,29 @@ pub(crate) fn check_texels(
         });
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::string::ToString;
+
+    #[test]
+    fn a_wrong_count_of_numbers_is_said_beside_the_right_one() {
+        let check = |size, len| check_texels(size, Channels::Rgb, len, |_| 1.0);
+        assert_eq!(check([2, 3], 18), Ok(()), "as many as needed");
+        let (expected, found) = (18, 17);
+        let short = ImageError::Length { expected, found };
+        assert_eq!(check([2, 3], found), Err(short), "too few");
+        let words = "expected width * height * channels = 18 numbers, found 17";
+        assert_eq!(short.to_string(), words, "both");
+        let huge = check([u32::MAX; 2], 1);
+        let expected = usize::MAX;
+        let found = 1;
+        assert_eq!(
+            huge,
+            Err(ImageError::Length { expected, found }),
+            "beyond all"
+        );
+    }
 }
