@@ -1,10 +1,10 @@
 use std::path::Path;
 
 use super::broken_texels::BrokenTexels;
-use super::display::parse_hdr;
 use super::image_file::ending;
 use super::openexr::parse_exr_with;
 use super::pfm::parse_pfm;
+use super::radiance::parse_hdr;
 use super::{EncodedImage, Encoding, Image, ImageFile, write_exr, write_hdr, write_png};
 use crate::{Diagnostic, Files};
 
@@ -13,6 +13,7 @@ pub(crate) const IMAGE_ENDINGS: &str = ".exr, .hdr, .pfm, .png, .tga or .jpg";
 
 /// Reads an image by the ending of its name: `.exr` (channels R, G, B, or Y), `.hdr`, `.pfm`, or
 /// `.png`, `.tga`, `.jpg`, `.jpeg` (sRGB, made linear). Negative texels become 0, with a warning.
+/// Texels of `.hdr` are divided by the exposure in the header, with a warning where it is not 1.
 ///
 /// # Errors
 /// When the file cannot be read, is broken or of another kind, lacks a channel, or holds a NaN or

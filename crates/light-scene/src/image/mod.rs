@@ -11,12 +11,12 @@ mod image_file;
 mod openexr;
 mod pfm;
 mod primaries;
+mod radiance;
 mod rgb_image;
 mod srgb;
 mod texel_budget;
 
 pub use channels::ChannelFile;
-pub(crate) use display::write_hdr;
 pub use display::{encode_png, write_png};
 pub(crate) use encoded::{EncodedImage, Encoding};
 pub(crate) use file::{
@@ -26,6 +26,7 @@ pub(crate) use file::{
 pub use file::{parse_image, read_environment, read_image, read_signed_image, write_image};
 pub use image_file::ImageFile;
 pub use openexr::{parse_exr, write_exr, write_exr_half};
+pub(crate) use radiance::write_hdr;
 pub use rgb_image::{Image, ImageError};
 pub(crate) use texel_budget::TexelBudget;
 

@@ -207,14 +207,13 @@ fn sizes_are_checked_before_memory_is_taken() {
     // The check sum of the header.
     let sum = crc(&png[12..29]).to_be_bytes();
     png[29..33].copy_from_slice(&sum);
-    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n".to_vec();
     let tga = [
         &[0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0][..],
         &[255; 4],
         &[32, 0],
     ]
     .concat();
-    for (name, bytes) in [("a.png", png), ("a.hdr", hdr), ("a.tga", tga)] {
+    for (name, bytes) in [("a.png", png), ("a.tga", tga)] {
         let error = parse_image(Path::new(name), &bytes).expect_err(name);
         let shown = error.to_string();
         assert!(shown.contains("emory") || shown.contains("imit"), "{shown}");
