@@ -31,4 +31,6 @@ pub use rgb_image::{Image, ImageError};
 pub(crate) use texel_budget::TexelBudget;
 
 #[cfg(test)]
+mod openexr_tests;
+#[cfg(test)]
 pub(crate) mod tests;

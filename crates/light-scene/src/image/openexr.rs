@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use exr::meta::header::Header;
 use exr::prelude::{
     Encoding, Error, FlatSamples, IntoSample, Layer, LayerAttributes, MetaData, ReadChannels,
     ReadLayers, SpecificChannels, Text, Vec2, WritableImage, f16, read,
@@ -21,8 +22,9 @@ const MAX_TEXELS: usize = 1 << 27;
 /// The largest compression ratio: that of deflate, above all other methods.
 const MOST_EXPANDED: usize = 1032;
 
-/// The image in the bytes of an OpenEXR file: the first layer's channels R, G and B, or Y alone, of
-/// half or float samples. Chromaticities that the file states are honoured: the image is of Rec.
+/// The image in the bytes of an OpenEXR file: the channels R, G and B of the first part that has
+/// them, or Y alone of the first, of half or float samples, with a warning where the data window is
+/// not the display window. Chromaticities that the file states are honoured: the image is of Rec.
 /// 709.
 ///
 /// `path` names the file in messages.
@@ -41,9 +43,16 @@ pub(super) fn parse_exr_with(
 ) -> Result<ImageFile, Diagnostic> {
     let refuse = |error: Error| Diagnostic::file(path, message(&error));
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(refuse)?;
-    let header = meta.headers.iter().find(|header| !header.deep);
-    let header =
-        header.ok_or_else(|| Diagnostic::file(path, "expected an image, found deep data only"))?;
+    let mut flat = meta.headers.iter().filter(|header| !header.deep);
+    let first = flat.clone().next();
+    let first =
+        first.ok_or_else(|| Diagnostic::file(path, "expected an image, found deep data only"))?;
+    // Other parts may come before, as depth.
+    let header = if has(first, "Y") {
+        first
+    } else {
+        flat.find(|part| has_color(part)).unwrap_or(first)
+    };
     let [width, height] = [header.layer_size.0, header.layer_size.1];
     if width.checked_mul(height).is_none_or(|n| n > MAX_TEXELS) {
         let message = format!("expected at most {MAX_TEXELS} texels, found {width} x {height}");
@@ -62,8 +71,8 @@ pub(super) fn parse_exr_with(
         .iter()
         .map(|c| c.name.to_string())
         .collect();
-    let has = |name: &str| names.iter().any(|other| other == name);
-    let wanted = if ["R", "G", "B"].into_iter().all(has) {
+    let has = |name: &str| has(header, name);
+    let wanted = if has_color(header) {
         ["R", "G", "B"]
     } else if has("Y") && (has("RY") || has("BY")) {
         // Y alone would be a grey picture of a coloured one.
@@ -88,7 +97,47 @@ pub(super) fn parse_exr_with(
             primaries::convert(&mut texels, &matrix);
         }
     }
-    checked(path, [width, height], texels, broken)
+    let mut file = checked(path, [width, height], texels, broken)?;
+    if let Some(mut message) = doubt_of_windows(header) {
+        if let Some(warning) = file.warning {
+            message = format!("{message}; {}", warning.message);
+        }
+        file.warning = Some(Diagnostic::file(path, message));
+    }
+    Ok(file)
+}
+
+/// Whether a part has a channel.
+fn has(part: &Header, name: &str) -> bool {
+    part.channels
+        .list
+        .iter()
+        .any(|channel| channel.name == *name)
+}
+
+fn has_color(part: &Header) -> bool {
+    ["R", "G", "B"].into_iter().all(|name| has(part, name))
+}
+
+/// What is said of an image that has more or fewer pixels than are to be shown.
+fn doubt_of_windows(part: &Header) -> Option<String> {
+    let shown = part.shared_attributes.display_window;
+    let position = part.own_attributes.layer_position;
+    let (data, size) = (part.layer_size, shown.size);
+    (size != data || shown.position != position).then(|| {
+        format!(
+            "all {} x {} pixels of the data window at ({}, {}) were taken, not the {} x {} of the \
+             display window at ({}, {})",
+            data.0,
+            data.1,
+            position.0,
+            position.1,
+            size.0,
+            size.1,
+            shown.position.0,
+            shown.position.1
+        )
+    })
 }
 
 /// The texels of the first layer that has the wanted channels.
