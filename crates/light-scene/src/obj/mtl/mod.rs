@@ -44,19 +44,20 @@ pub(super) fn parse_mtl(
     let Library {
         places,
         mut warnings,
+        ..
     } = lines.cleaner;
     let mut textures = Textures::new(files);
     let mut described = Vec::with_capacity(materials.len());
     for (material, place) in materials.iter().zip(&places) {
         let mut description = Description::of(material);
-        for (keyword, content) in MAPS {
-            let (Some(&number), Some(name)) = (place.maps.get(keyword), map_of(material, keyword))
-            else {
+        for (number, (keyword, content)) in place.maps_by_line() {
+            let Some(name) = map_of(material, keyword) else {
                 continue;
             };
             let mut line = Line::new(path, number, name);
             let texture = textures.load(content, &mut line, scene)?;
-            texture.warnings.into_iter().for_each(|w| warnings.add(w));
+            let said = texture.warnings.into_iter();
+            said.for_each(|warning| warnings.add(number, warning));
             description.set_map(keyword, texture.image);
         }
         described.push(description);
@@ -65,13 +66,13 @@ pub(super) fn parse_mtl(
     for (description, place) in described.into_iter().zip(&places) {
         let start = Line::new(path, place.start, "");
         for message in description.simplifications() {
-            warnings.add(start.diagnostic(message));
+            warnings.add(place.start, start.diagnostic(message));
         }
         let name = description.name.clone();
         let finished = description.into_material(scene);
         added.push((name, scene.add_material(finished)));
     }
-    scene.warnings.extend(warnings.list);
+    scene.warnings.extend(warnings.by_line());
     Ok(added)
 }
 
@@ -89,6 +90,7 @@ fn map_of<'a>(material: &'a tobj::Material, keyword: &str) -> Option<&'a str> {
 struct Library {
     /// Where each material is described.
     places: Vec<Place>,
+    names: BTreeSet<String>,
     warnings: Warnings,
 }
 
@@ -100,19 +102,39 @@ struct Place {
     maps: BTreeMap<&'static str, usize>,
 }
 
+impl Place {
+    /// The lines that name images, from the first on.
+    fn maps_by_line(&self) -> Vec<(usize, (&'static str, Content))> {
+        let named = MAPS.into_iter().filter_map(|map| {
+            let &number = self.maps.get(map.0)?;
+            Some((number, map))
+        });
+        let mut named: Vec<_> = named.collect();
+        named.sort_unstable_by_key(|(number, _)| *number);
+        named
+    }
+}
+
 /// What is said once for the library.
 #[derive(Debug, Default)]
 struct Warnings {
-    list: Vec<Diagnostic>,
+    /// Each with the line of the library that it comes from.
+    list: Vec<(usize, Diagnostic)>,
     said: BTreeSet<(PathBuf, String)>,
 }
 
 impl Warnings {
-    fn add(&mut self, warning: Diagnostic) {
+    fn add(&mut self, line: usize, warning: Diagnostic) {
         let said = (warning.path.clone(), warning.message.clone());
         if self.said.insert(said) {
-            self.list.push(warning);
+            self.list.push((line, warning));
         }
+    }
+
+    /// All of them, those of the first line first.
+    fn by_line(mut self) -> impl Iterator<Item = Diagnostic> {
+        self.list.sort_by_key(|(line, _)| *line);
+        self.list.into_iter().map(|(_, warning)| warning)
     }
 }
 
@@ -129,6 +151,12 @@ impl Cleaner for Library {
         if keyword == "newmtl" {
             let name = line.rest("a material's name")?;
             handed.line(format!("newmtl {name}"));
+            if !self.names.insert(name.clone()) {
+                let name = shown(&name);
+                let message = format!("material `{name}` is described again: the last one counts");
+                self.warnings
+                    .add(line.number_in_file(), line.diagnostic(message));
+            }
             self.places.push(Place {
                 start: line.number_in_file(),
                 maps: BTreeMap::new(),
@@ -141,7 +169,8 @@ impl Cleaner for Library {
         };
         if parameter::is_cut(keyword, &line) {
             let message = format!("`{keyword}` above 1 was taken as 1");
-            self.warnings.add(line.diagnostic(message));
+            self.warnings
+                .add(line.number_in_file(), line.diagnostic(message));
         }
         if let Some((map, _)) = MAPS.into_iter().find(|(map, _)| *map == keyword) {
             place.maps.insert(map, line.number_in_file());
@@ -153,7 +182,8 @@ impl Cleaner for Library {
             }
         } else {
             let message = format!("`{keyword}` is not understood and was ignored");
-            self.warnings.add(line.diagnostic(message));
+            self.warnings
+                .add(line.number_in_file(), line.diagnostic(message));
         }
         Ok(())
     }

@@ -155,11 +155,6 @@ fn what_does_not_count_is_named_once() {
         newmtl e\nPm .6\nmap_Kd a b.png\nnewmtl f\nd .5\nTr .7\nbump a b.png\nTf 1\nTf 1\n\
         newmtl g\nmap_Kd c.dds\nnewmtl h\nKd 0 2 0\nKd 3\nd 2\n";
     let expected = [
-        "dir/a.mtl:17: `bump` is not understood and was ignored",
-        "dir/a.mtl:18: `Tf` is not understood and was ignored",
-        "dir/a.mtl:23: `Kd` above 1 was taken as 1",
-        "dir/a.mtl:25: `d` above 1 was taken as 1",
-        "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .pfm, .png, .tga or .jpg",
         "dir/a.mtl:1: `Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or \
          `illum 3` or `5` of a mirror",
         "dir/a.mtl:5: `Kd` of a mirror was ignored",
@@ -167,6 +162,11 @@ fn what_does_not_count_is_named_once() {
         "dir/a.mtl:11: `map_Kd` of a metal was taken as its mean",
         "dir/a.mtl:11: `Pm` was taken as the nearer of 0 and 1",
         "dir/a.mtl:14: `Tr` was ignored: expected 1 minus `d`",
+        "dir/a.mtl:17: `bump` is not understood and was ignored",
+        "dir/a.mtl:18: `Tf` is not understood and was ignored",
+        "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .pfm, .png, .tga or .jpg",
+        "dir/a.mtl:23: `Kd` above 1 was taken as 1",
+        "dir/a.mtl:25: `d` above 1 was taken as 1",
     ];
     assert_eq!(warnings(mtl), expected, "one warning each");
 }
@@ -233,4 +233,26 @@ fn options_place_the_image() {
     );
     let warning = "dir/a.mtl:2: option `-mm` is not understood and was ignored";
     assert_eq!(warnings(mtl), [warning], "named");
+}
+
+/// Lines, images and whole materials are looked at one after another.
+#[test]
+fn warnings_come_in_the_order_of_lines() {
+    let warnings = warnings(
+        "newmtl a\nillum 2\nKs 1 1 1\nmap_Ke -bm 1 none.png\nmap_Kd -bm 1 a b.png\nKx 1\n\
+         newmtl b\nPm 0.7\nmap_d -cc on a b.png\nKy 1\n",
+    );
+    let lines = warnings.iter().map(|warning| {
+        let (line, _) = warning.strip_prefix("dir/a.mtl:")?.split_once(':')?;
+        line.parse().ok()
+    });
+    let expected = [1, 4, 4, 6, 7, 9, 10].map(Some);
+    assert_eq!(lines.collect::<Vec<Option<u8>>>(), expected, "{warnings:?}");
+}
+
+#[test]
+fn a_material_that_is_described_again_is_named() {
+    let mtl = "newmtl a\nKe 1 1 1\nnewmtl b\nnewmtl a\nKe 2 2 2\n";
+    let expected = "dir/a.mtl:4: material `a` is described again: the last one counts";
+    assert_eq!(warnings(mtl), [expected], "the second one");
 }
