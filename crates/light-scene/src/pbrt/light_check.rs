@@ -2,7 +2,7 @@ use lights::math::Aabb;
 use lights::math::spectrum::photometric::Lumen;
 use lights::sources::{
     Channels, EnvironmentMap, Image, ImageInfiniteLightDesc, IntensityAmount, LightDesc,
-    LightSetBuilder, PortalInfiniteLightDesc, Rgb, SceneSphere,
+    LightSetBuilder, PortalInfiniteLightDesc, RadianceAmount, Rgb, SceneSphere,
 };
 
 use super::file_loc::FileLoc;
@@ -17,14 +17,20 @@ pub(super) fn fault(light: &LightDesc<Rgb>) -> Option<String> {
         | LightDesc::Spot(_)
         | LightDesc::Distant(_)
         | LightDesc::UniformInfinite(_) => light.clone(),
-        LightDesc::ImageInfinite(light) => LightDesc::ImageInfinite(ImageInfiniteLightDesc {
-            map: black()?,
-            ..*light
-        }),
-        LightDesc::PortalInfinite(light) => LightDesc::PortalInfinite(PortalInfiniteLightDesc {
-            map: black()?,
-            ..*light
-        }),
+        // The tables of a picture take time, and are made again by the renderer.
+        LightDesc::ImageInfinite(light) if is_moderate(&light.map, light.amount) => {
+            LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+                map: black()?,
+                ..*light
+            })
+        }
+        LightDesc::PortalInfinite(light) if is_moderate(&light.map, light.amount) => {
+            LightDesc::PortalInfinite(PortalInfiniteLightDesc {
+                map: black()?,
+                ..*light
+            })
+        }
+        LightDesc::ImageInfinite(_) | LightDesc::PortalInfinite(_) => light.clone(),
         LightDesc::Projection(light) => return fault_of_amount(light.amount),
         LightDesc::Goniometric(light) => return fault_of_amount(light.amount),
         _ => return None,
@@ -44,7 +50,19 @@ fn power_in_unit_scene(light: LightDesc<Rgb>) -> Result<f32, String> {
     Ok(powers.iter().sum())
 }
 
-/// A light at infinity without an image: its power grows with the square of the scene's radius,
+/// Whether all of the sphere can be as bright as the brightest texel, and more: no sum is infinite
+/// then.
+fn is_moderate(map: &EnvironmentMap, amount: RadianceAmount) -> bool {
+    const SPHERE: f32 = 4.0 * core::f32::consts::PI;
+    let (EnvironmentMap::EqualArea(image) | EnvironmentMap::LatLong(image)) = map;
+    let RadianceAmount::Radiometric(scale) = amount else {
+        return false;
+    };
+    let brightest = image.texels().map(Vec3::max_element).fold(0.0, f32::max);
+    (3.0 * SPHERE * scale * brightest).is_finite()
+}
+
+/// A light at infinity without a portal: its power grows with the square of the scene's radius,
 /// which is known at the end of the file.
 #[derive(Debug)]
 pub(super) struct FarLight {
@@ -55,11 +73,16 @@ pub(super) struct FarLight {
 impl FarLight {
     /// `None` for other lights.
     pub(super) fn new(light: &LightDesc<Rgb>, at: FileLoc<'_>) -> Option<Self> {
-        let (LightDesc::Distant(_) | LightDesc::UniformInfinite(_)) = light else {
-            return None;
+        let light = match light {
+            LightDesc::Distant(_) | LightDesc::UniformInfinite(_) => light.clone(),
+            LightDesc::ImageInfinite(light) => LightDesc::ImageInfinite(ImageInfiniteLightDesc {
+                map: mean_of(&light.map)?,
+                ..*light
+            }),
+            _ => return None,
         };
         Some(Self {
-            power_in_unit_scene: power_in_unit_scene(light.clone()).ok()?,
+            power_in_unit_scene: power_in_unit_scene(light).ok()?,
             fault: at.diagnostic("expected a light of finite power in a scene of this size"),
         })
     }
@@ -76,7 +99,19 @@ impl FarLight {
 
 /// A sky without an image, which may be large.
 fn black() -> Option<EnvironmentMap> {
-    let image = Image::from_f32([1, 1], Channels::Rgb, vec![0.0; 3]);
+    of_one_color(Vec3::ZERO)
+}
+
+/// A sky of the mean colour of an equal-area one, as all those of files are.
+fn mean_of(map: &EnvironmentMap) -> Option<EnvironmentMap> {
+    match map {
+        EnvironmentMap::EqualArea(image) => of_one_color(image.mean()),
+        EnvironmentMap::LatLong(_) => None,
+    }
+}
+
+fn of_one_color(color: Vec3) -> Option<EnvironmentMap> {
+    let image = Image::from_f32([1, 1], Channels::Rgb, color.to_array().to_vec());
     image.ok().map(EnvironmentMap::EqualArea)
 }
 

@@ -16,6 +16,7 @@ use super::state::{FLATTENED, Reader};
 use crate::Diagnostic;
 use crate::glam::{Affine3A, Quat, Vec3};
 use crate::image::read_environment_from;
+use crate::text::shown;
 
 impl Reader {
     pub(super) fn light(&mut self, typed: &Typed<'_>) -> Result<(), Diagnostic> {
@@ -100,7 +101,9 @@ impl Reader {
             }
         };
         if let Some(message) = light_check::fault(&light) {
-            return Err(at.diagnostic(message));
+            let file = parameters.string("filename");
+            let of_file = file.map_or_else(String::new, |file| format!("{}: ", shown(file)));
+            return Err(at.diagnostic(of_file + &message));
         }
         self.far_lights.extend(FarLight::new(&light, at));
         self.scene.lights.push(light);

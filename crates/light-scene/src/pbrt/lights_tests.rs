@@ -146,3 +146,56 @@ fn an_rgb_multiplies_stated_powers_and_illuminances() {
         assert!((power - 7.0).abs() < 1e-3, "{color}: {power} W");
     }
 }
+
+/// Whether a sky is too strong depends on its picture and on the scene; the renderer, which finds
+/// the same later, knows no file.
+#[test]
+fn image_skies_beyond_all_numbers_name_file_and_line() {
+    fn picture(texel: f32) -> Vec<u8> {
+        let texels = [texel; 16].map(f32::to_le_bytes);
+        [b"Pf 4 4 -1\n", texels.as_flattened()].concat()
+    }
+    fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+        match path.to_str() {
+            Some("strong.pfm") => Ok(picture(1e38)),
+            Some("weak.pfm") => Ok(picture(1e20)),
+            _ => Err(Diagnostic::file(path, "cannot be read")),
+        }
+    }
+    let fault = |light: &str, shape: &str| {
+        let text = format!("WorldBegin\nLightSource \"infinite\" {light}\n{shape}");
+        let scene = parse_pbrt(Path::new("a.pbrt"), &text, Files::new(&read));
+        scene.err().map(|error| error.to_string())
+    };
+    let portal = "\"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]";
+    let strong = "\"string filename\" \"strong.pfm\"";
+    let weak = "\"string filename\" \"weak.pfm\"";
+    let [ball, planet] = ["1", "1e12"].map(|r| format!("Shape \"sphere\" \"float radius\" {r}"));
+    let sum = "map: too bright, its sum over all directions is not finite";
+    let amount = "amount: must be finite, not negative, and leave what the map gives finite";
+    let size = "expected a light of finite power in a scene of this size";
+    for (light, shape, expected) in [
+        (
+            strong.to_owned(),
+            &ball,
+            Some(format!("strong.pfm: image infinite light, {sum}")),
+        ),
+        (
+            format!("{strong} {portal}"),
+            &ball,
+            Some(format!("strong.pfm: portal infinite light, {sum}")),
+        ),
+        (format!("{strong} \"float scale\" 0.01"), &ball, None),
+        (
+            format!("{weak} \"float scale\" 1e18"),
+            &ball,
+            Some(format!("weak.pfm: image infinite light, {amount}")),
+        ),
+        (format!("{weak} \"float scale\" 1e16"), &ball, None),
+        (weak.to_owned(), &planet, Some(size.to_owned())),
+        (format!("{weak} {portal}"), &planet, None),
+    ] {
+        let expected = expected.map(|expected| format!("a.pbrt:2: {expected}"));
+        assert_eq!(fault(&light, shape), expected, "{light} {shape}");
+    }
+}
