@@ -66,11 +66,10 @@ impl<'a> Tokens<'a> {
                 Ok(Some(Token::Close))
             }
             '"' => {
-                let end = self.rest[1..].find(['"', '\n']);
-                let end = end.filter(|&end| self.rest[1 + end..].starts_with('"'));
+                let end = end_of_quote(&self.rest[1..]);
                 let end = end.ok_or_else(|| self.diagnostic("expected a closing quote"))?;
                 let inner = &self.take(end + 2)[1..=end];
-                Ok(Some(Token::Quoted(Cow::Borrowed(inner))))
+                Ok(Some(Token::Quoted(unescaped(inner))))
             }
             _ => {
                 let stops = |c: char| c.is_whitespace() || "[]\"#".contains(c);
@@ -144,6 +143,50 @@ impl<'a> Tokens<'a> {
     }
 }
 
+/// The byte of the quote that closes a string on its line; one behind a backslash does not.
+fn end_of_quote(text: &str) -> Option<usize> {
+    let mut is_escaped = false;
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'\n' => return None,
+            _ if is_escaped => is_escaped = false,
+            b'\\' => is_escaped = true,
+            b'"' => return Some(at),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// A string without its backslashes. One before a letter without such a meaning stays, as in names
+/// of files from Windows.
+fn unescaped(text: &str) -> Cow<'_, str> {
+    if !text.contains('\\') {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = String::with_capacity(text.len());
+    let mut characters = text.chars();
+    while let Some(character) = characters.next() {
+        if character != '\\' {
+            plain.push(character);
+            continue;
+        }
+        match characters.next() {
+            Some('b') => plain.push('\u{8}'),
+            Some('f') => plain.push('\u{c}'),
+            Some('n') => plain.push('\n'),
+            Some('r') => plain.push('\r'),
+            Some('t') => plain.push('\t'),
+            Some(same @ ('\\' | '\'' | '"')) => plain.push(same),
+            other => {
+                plain.push('\\');
+                plain.extend(other);
+            }
+        }
+    }
+    Cow::Owned(plain)
+}
+
 /// A finite number.
 pub(super) fn number_of(word: &str) -> Option<f32> {
     word.parse::<f32>().ok().filter(|number| number.is_finite())
@@ -169,6 +212,28 @@ mod tests {
             (2, Token::Word("-2")),
         ];
         assert_eq!(all, expected, "tokens and lines");
+    }
+
+    /// As pbrt-v4 reads them.
+    #[test]
+    fn backslashes_escape() {
+        fn of(text: &str) -> Result<Option<Token<'_>>, Diagnostic> {
+            Tokens::new(Path::new("a"), text).next()
+        }
+        for (text, expected) in [
+            (r#""a \"b\" c""#, "a \"b\" c"),
+            (r#""dir\\sky.exr""#, r"dir\sky.exr"),
+            (r#""a\tb""#, "a\tb"),
+            (r#""dir\sky.exr""#, r"dir\sky.exr"),
+            (r#""\\""#, r"\"),
+        ] {
+            let token = of(text).expect(text).expect("a token");
+            assert_eq!(token, Token::Quoted(expected.into()), "{text}");
+        }
+        for open in [r#""a\""#, "\"a\\\n\""] {
+            let error = of(open).expect_err(open).to_string();
+            assert_eq!(error, "a:1: expected a closing quote", "{open}");
+        }
     }
 
     #[test]
