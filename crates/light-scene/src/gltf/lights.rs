@@ -111,10 +111,12 @@ fn punctual(
                 Some(spot) => {
                     let start = spot.number_or("innerConeAngle", 0.0)?;
                     let angle = spot.number_or("outerConeAngle", FRAC_PI_4)?;
-                    // One unit in the last place more is still a right angle.
-                    if !(0.0 <= start && start < angle && angle <= FRAC_PI_2 * 1.000_001) {
-                        let message = "expected an `innerConeAngle` from 0 on, below an \
-                                       `outerConeAngle` of at most pi/2";
+                    // Exporters write equal angles for a sharp edge. One unit in the last place
+                    // more is still a right angle.
+                    let is_cone = angle > 0.0 && angle <= FRAC_PI_2 * 1.000_001;
+                    if !(is_cone && (0.0..=angle).contains(&start)) {
+                        let message = "expected an `outerConeAngle` above 0, of at most pi/2, and \
+                                       an `innerConeAngle` from 0 on, not above it";
                         return Err(spot.error(message));
                     }
                     (start, angle)

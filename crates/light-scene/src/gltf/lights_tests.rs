@@ -120,3 +120,31 @@ fn measured_luminaires_are_not_mirrored() {
         assert!((found - quarters).abs() < 0.05, "{w}: {found} quarters");
     }
 }
+
+/// As exporters write a spot with a sharp edge.
+#[test]
+fn spots_may_have_a_sharp_edge() {
+    let spot = |inner: f32, outer: f32| {
+        let scene = read(&format!(
+            r#""scenes": [{{"nodes": [0]}}],
+            "nodes": [{{"extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
+            "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "spot",
+            "spot": {{"innerConeAngle": {inner}, "outerConeAngle": {outer}}}}}]}}}}"#
+        ))?;
+        match &scene.lights[..] {
+            [LightDesc::Spot(spot)] => Ok((spot.falloff_start, spot.angle)),
+            other => panic!("one spot, not {other:?}"),
+        }
+    };
+    assert_eq!(spot(0.5, 0.5), Ok((0.5, 0.5)), "sharp");
+    assert_eq!(spot(0.0, 0.5), Ok((0.0, 0.5)), "soft");
+    for (inner, outer) in [(0.6, 0.5), (0.0, 0.0), (-0.1, 0.5), (0.5, 1.6)] {
+        let error = spot(inner, outer);
+        let expected = "expected an `outerConeAngle` above 0, of at most pi/2, and an \
+                        `innerConeAngle` from 0 on, not above it";
+        assert!(
+            error.is_err_and(|e: String| e.ends_with(expected)),
+            "{inner} {outer}"
+        );
+    }
+}
