@@ -34,7 +34,8 @@ impl<'a> Reader<'a> {
         files: Files<'a>,
     ) -> Result<Self, Diagnostic> {
         let root = document.root();
-        let version = root.require("asset")?.require("version")?;
+        let asset = root.require("asset")?;
+        let version = asset.require("version")?;
         let number = version.text()?;
         if !number.starts_with("2.") {
             let mut error = version.expected("version 2.0");
@@ -42,6 +43,11 @@ impl<'a> Reader<'a> {
                 error.message += UPGRADE;
             }
             return Err(error);
+        }
+        if let Some(least) = asset.get("minVersion")? {
+            if least.text()? != "2.0" {
+                return Err(least.expected("version 2.0, the newest that is read"));
+            }
         }
         let mut warnings = Warnings::default();
         for extension in root.list("extensionsRequired")? {

@@ -150,3 +150,18 @@ fn other_versions_are_refused() {
         assert_eq!(error, format!("{expected}\"{version}\"{more}"));
     }
 }
+
+/// What a file needs at least, not what it was written as, must be known.
+#[test]
+fn files_that_need_a_newer_version_are_refused() {
+    let read = |least: &str| {
+        let asset = format!(r#"{{"version": "2.1", "minVersion": "{least}"}}"#);
+        let json = format!(r#"{{"asset": {asset}, "scenes": [{{"nodes": []}}]}}"#);
+        let scene = parse_gltf(Path::new("a.gltf"), json.as_bytes(), Files::NONE);
+        scene.map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!(read("2.0"), Ok(()), "old enough");
+    let expected = "a.gltf: asset.minVersion: expected version 2.0, the newest that is read, found \
+                    \"2.1\"";
+    assert_eq!(read("2.1"), Err(expected.to_owned()), "too new");
+}
