@@ -19,12 +19,13 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
     Ok(text.unwrap_or_else(|error| text_of(error.as_bytes()).into_owned()))
 }
 
-/// Bytes as text without its byte order mark; those that are not UTF-8 become replacement
-/// characters.
+/// Bytes as text without its byte order mark; what is not UTF-8 is taken as Latin-1, as older
+/// programs write it, in which two names stay two.
 pub(crate) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = without_mark(bytes);
     // Most files are valid, which is checked much faster than what is not is found.
-    core::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed)
+    let latin = |_| bytes.iter().copied().map(char::from).collect();
+    core::str::from_utf8(bytes).map_or_else(|error| Cow::Owned(latin(error)), Cow::Borrowed)
 }
 
 /// The bytes of a text without the byte order mark that some programs write before it.
@@ -227,7 +228,7 @@ mod tests {
     #[test]
     fn a_byte_order_mark_is_no_part_of_a_text() {
         assert_eq!(text_of(b"\xef\xbb\xbfv 1"), "v 1");
-        assert_eq!(text_of(b"\xef\xbb\xbfv\xff"), "v\u{fffd}", "not UTF-8");
+        assert_eq!(text_of(b"\xef\xbb\xbfW\xe4nde"), "W\u{e4}nde", "not UTF-8");
         assert_eq!(text_of("v\u{feff}".as_bytes()), "v\u{feff}", "elsewhere");
         let folder = crate::test_folder::TestFolder::new("byte_order_mark");
         let path = folder.path("a.ies");
