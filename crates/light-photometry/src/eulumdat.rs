@@ -114,6 +114,12 @@ pub fn parse_eulumdat(text: &str) -> Result<Luminaire, Diagnostic> {
         tilt: None,
         warnings: Vec::new(),
     };
+    // As of a file with another number of planes than it has.
+    if let Some(blank) = file.lines.clone().position(|line| !line.trim().is_empty()) {
+        let message = "what follows the last intensity was ignored";
+        let rest = Diagnostic::at(file.number + blank + 1, message);
+        luminaire.warnings.push(rest);
+    }
     if sets > 1 {
         let message = format!("the {} further sets of lamps were ignored", sets - 1);
         luminaire.warnings.push(Diagnostic::whole(message));

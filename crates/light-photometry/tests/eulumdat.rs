@@ -116,3 +116,21 @@ fn eulumdat_errors_and_warnings() {
         "not as stated"
     );
 }
+
+/// More numbers than the header says: most likely it is wrong.
+#[test]
+fn what_follows_the_last_intensity_is_named() {
+    let text = ldt(1, &[0], |_, _| 100.0);
+    let lines = text.lines().count();
+    let warnings = |end: &str| {
+        let lamp = parse_eulumdat(&format!("{text}{end}")).expect("well-formed");
+        let warnings = lamp.warnings.iter();
+        warnings.map(ToString::to_string).collect::<Vec<String>>()
+    };
+    assert_eq!(warnings("\r\n \r\n"), [""; 0], "blank lines");
+    let expected = format!(
+        "line {}: what follows the last intensity was ignored",
+        lines + 2
+    );
+    assert_eq!(warnings("\r\n\r\n7\r\n8"), [expected], "numbers");
+}
