@@ -118,7 +118,8 @@ impl BenchArgs {
         let name = path
             .file_stem()
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let rows = bench_scene(&name, &world, &options).map_err(Failure::input)?;
+        let rows = bench_scene(&name, &world, &options);
+        let rows = rows.map_err(|error| input.refuse_choice(&error))?;
         let Some(row) = rows.first() else {
             let message = "no point that lights could be seen from: expected a surface that \
                            scatters light into more than single directions";

@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use crate::choice_variance::{ChoiceVariance, choice_variance};
-use crate::{AnyLightSampler, LightInventory, SamplerKind, World, inventory};
+use crate::{AnyLightSampler, AnyLightSamplerError, LightInventory, SamplerKind, World, inventory};
 use clap::Args;
 use light_scene::Diagnostic;
 use serde_json::{Value, json};
@@ -66,7 +66,7 @@ impl InfoArgs {
             _ => Some(ViewArgs::default().view(&scene)?),
         };
         let world = self.input.build(scene)?;
-        let tree = Tree::over(&world)?;
+        let tree = Tree::over(&world).map_err(|error| self.input.refuse_choice(&error))?;
         let visible = |view| Visible::over(self.visibility, &world, &view, max_depth);
         let visible = view.map(visible).transpose()?;
         let kinds = inventory(world.lights());
@@ -230,10 +230,10 @@ impl InfoArgs {
 }
 
 impl Tree {
-    fn over(world: &World) -> Result<Self, Failure> {
+    fn over(world: &World) -> Result<Self, AnyLightSamplerError> {
         let kind = SamplerKind::DEFAULT;
         let start = Instant::now();
-        let sampler = AnyLightSampler::new(kind, world.lights()).map_err(Failure::input)?;
+        let sampler = AnyLightSampler::new(kind, world.lights())?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(Self {
             sampler: kind,

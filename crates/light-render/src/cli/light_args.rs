@@ -48,6 +48,16 @@ impl LightArgs {
         }
     }
 
+    /// The flag that makes skies, or all other lights, brighter or darker, as it was given.
+    pub(super) fn scale_flag(&self, of_skies: bool) -> Option<String> {
+        let (flag, factor) = if of_skies {
+            ("--env-scale", self.env_scale)
+        } else {
+            ("--light-scale", self.light_scale)
+        };
+        Some(format!("{flag} {:?}", factor?))
+    }
+
     /// Adds a warning for each scale that no light of `scene` has.
     fn doubt_scales(&self, path: &Path, scene: &mut Scene) {
         let has_sky = scene.lights.iter().any(LightDesc::is_sky);

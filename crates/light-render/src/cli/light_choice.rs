@@ -4,6 +4,7 @@ use crate::AnyLightSampler;
 
 use super::failure::Failure;
 use super::prepared_picture::PreparedPicture;
+use super::scene_input::SceneInput;
 use super::visibility::{VisibilityCosts, with_visibility};
 
 /// What chooses the lights of a picture, and what it took to build.
@@ -20,11 +21,11 @@ impl LightChoice {
     ///
     /// # Errors
     /// A light that the sampler refuses, or more cells than 32 bits count.
-    pub(super) fn new(picture: &PreparedPicture) -> Result<Self, Failure> {
+    pub(super) fn new(input: &SceneInput, picture: &PreparedPicture) -> Result<Self, Failure> {
         let PreparedPicture { world, view, .. } = picture;
         let start = Instant::now();
         let sampler = AnyLightSampler::new(picture.sampler, world.lights());
-        let sampler = sampler.map_err(Failure::input)?;
+        let sampler = sampler.map_err(|error| input.refuse_choice(&error))?;
         let build_ms = start.elapsed().as_secs_f64() * 1e3;
         let max_depth = picture.settings.path.max_depth;
         let (sampler, visibility) =

@@ -31,6 +31,7 @@ mod output_image;
 mod prepared_picture;
 mod progress;
 mod references;
+mod refused_lights;
 mod render;
 mod render_args;
 mod render_outputs;

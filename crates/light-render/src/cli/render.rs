@@ -67,7 +67,7 @@ impl RenderArgs {
             .num_threads(self.threads)
             .build()
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
-        let choice = pool.install(|| LightChoice::new(&picture))?;
+        let choice = pool.install(|| LightChoice::new(&self.input, &picture))?;
         picture.spend(choice.visibility.time);
         let made = pool.install(|| self.render(&picture, &choice, checkpoint, stamps.as_mut()))?;
         let Some(made) = made else {

@@ -114,7 +114,7 @@ impl ReportArgs {
             .build()
             .map_err(|error| Failure::Input(format!("--threads: {error}")))?;
         let report = pool.install(|| self.measure(&world, &view, given, options));
-        let report = report.map_err(Failure::input)?;
+        let report = report.map_err(|error| self.input.refuse_choice(&error))?;
         if !self.quiet {
             let left_out = report.pixels_left_out();
             left_out

@@ -41,7 +41,7 @@ pub(crate) struct SceneChanges {
     )]
     env_rotate: Option<f32>,
     #[command(flatten)]
-    light: LightArgs,
+    pub(super) light: LightArgs,
     /// Let the front of a material emit light with this radiance; may be repeated.
     #[arg(long, value_name = "MATERIAL=r,g,b", requires = "scene")]
     emit: Vec<Emit>,
@@ -150,15 +150,6 @@ impl SceneInput {
         let message =
             format!("{what} looks at each light: expected at most {MOST_LIGHTS}, found {lights}");
         Err(refuse(&self.scene, message))
-    }
-
-    /// Makes a scene ready for rays.
-    ///
-    /// # Errors
-    /// When a light is invalid.
-    pub(crate) fn build(&self, scene: Scene) -> Result<World, Failure> {
-        World::new(scene)
-            .map_err(|error| Failure::input(Diagnostic::file(&self.scene, error.to_string())))
     }
 }
 

@@ -21,6 +21,7 @@ mod outputs;
 mod overwriting;
 mod photometry;
 mod refusals;
+mod refused_lights;
 mod report;
 mod samplers;
 mod visibility;

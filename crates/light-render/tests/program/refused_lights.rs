@@ -1,0 +1,64 @@
+//! Lights that are too strong for the numbers of the program: the file, the flag and the rule.
+
+use light_scene::glam::Vec3;
+use light_scene::{Image, write_image};
+
+use crate::folder::{Folder, LIT, assert_refused};
+
+#[test]
+fn the_flag_that_makes_a_light_too_strong_is_named() {
+    let folder = Folder::new("too-strong");
+    let scene = folder.scene(LIT);
+    let sky = folder.path("sky.exr");
+    let texels = vec![Vec3::splat(10.0); 8];
+    let image = Image::new(4, 2, texels).expect("an image");
+    write_image(sky.as_ref(), &image).expect("written");
+    let out = folder.path("a.exr");
+    let render = ["render", &scene, "-o", &out, "--width", "4", "--spp", "1"];
+    for command in [&["info", &scene][..], &render] {
+        let refused =
+            |more: &[&str], words: &[&str]| assert_refused(&[command, more].concat(), words);
+        let in_file = |path: &str, flag: &str| format!("lights: {path}: {flag}: ");
+        for factor in ["1e38", "3e38"] {
+            let flag = format!("--light-scale {factor}");
+            refused(
+                &["--light-scale", factor],
+                &[&in_file(&scene, &flag), "lamp: mesh light, "],
+            );
+        }
+        let flag = "--env-scale 1e38";
+        let words = [
+            &in_file(&sky, flag),
+            "image infinite light, amount: must be ",
+        ];
+        refused(
+            &["--env", &sky, "--env-scale", "1e38"],
+            &words.map(|w| w as &str),
+        );
+        let words = [&in_file(&scene, flag), "light 0: image infinite light, "];
+        refused(
+            &["--sky", "overcast", "--env-scale", "1e38"],
+            &words.map(|w| w as &str),
+        );
+    }
+}
+
+/// Single lights are finite, their sum over a large scene is not.
+#[test]
+fn lights_that_cannot_be_chosen_from_name_the_scene() {
+    let folder = Folder::new("no-choice");
+    let corners = "v -1e15 0 0\nv 1e15 0 0\nv 0 1e15 0\n";
+    let scene = folder.file("far.obj", &format!("{corners}f 1 2 3\n"));
+    let sky = [
+        "--sky",
+        "overcast",
+        "--env-scale",
+        "1e20",
+        "--light-sampler",
+        "power",
+    ];
+    let out = folder.path("a.exr");
+    let render = ["render", &scene, "-o", &out, "--width", "4", "--spp", "1"];
+    let start = format!("lights: {scene}: light 0: ");
+    assert_refused(&[&render[..], &sky].concat(), &[&start]);
+}
