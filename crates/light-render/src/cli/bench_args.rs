@@ -87,7 +87,13 @@ pub(crate) struct BenchArgs {
     )]
     pub(super) n: u32,
     /// Seed of the set to make, or of the points on surfaces.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        conflicts_with = "lights",
+        value_parser = seed
+    )]
     pub(super) seed: u64,
     /// Keep the set as PREFIX.lights and PREFIX.points.
     #[arg(long, value_name = "PREFIX", conflicts_with = "scene")]

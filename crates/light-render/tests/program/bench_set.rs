@@ -78,7 +78,9 @@ fn a_set_of_files_has_the_lights_that_it_has() {
     let lights = folder.file("one.lights", UP);
     let points = folder.file("one.points", LIT);
     let set = ["bench", "--lights", &lights, "--points", &points];
-    assert_refused(&[&set[..], &["--n", "10"]].concat(), &["--lights", "--n"]);
+    for flag in ["--n", "--seed"] {
+        assert_refused(&[&set[..], &[flag, "10"]].concat(), &["--lights", flag]);
+    }
 }
 
 #[test]
