@@ -111,7 +111,7 @@ impl InfoArgs {
             "stored_quadrics": world.stored_quadric_count(),
             "prototypes": world.prototype_count(),
             "placements": world.instance_count(),
-            "bounds": [bounds.min.to_array(), bounds.max.to_array()],
+            "bounds": (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]),
             "lights": count,
             "kinds": kinds,
             "placed_lights": {
@@ -163,7 +163,11 @@ impl InfoArgs {
                 world.stored_quadric_count()
             )?;
         }
-        say!("  bounds     {} to {}", bounds.min, bounds.max)?;
+        if bounds.is_empty() {
+            say!("  bounds     none")?;
+        } else {
+            say!("  bounds     {} to {}", bounds.min, bounds.max)?;
+        }
         say!("  lights     {}", world.lights().len())?;
         let placed = world.lights().placed_counts();
         if placed.placements > 0 {

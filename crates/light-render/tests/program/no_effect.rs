@@ -1,6 +1,6 @@
 //! Flags that change nothing: the picture is made, and one line says so.
 
-use crate::folder::{Folder, LIT, SMALL, lights};
+use crate::folder::{Folder, LIT, SMALL, lights, stdout};
 
 #[test]
 fn a_flag_without_effect_is_named() {
@@ -77,4 +77,16 @@ fn media_that_an_integrator_does_not_reach_are_named() {
             "{name}, {integrator}: {said}"
         );
     }
+}
+
+/// A scene of lights alone has no box.
+#[test]
+fn a_scene_without_surfaces_has_no_bounds() {
+    let folder = Folder::new("no-bounds");
+    let scene = folder.file("a.pbrt", "WorldBegin LightSource \"point\"");
+    let words = stdout(&["info", &scene]);
+    assert!(words.contains("bounds     none"), "{words}");
+    let line = stdout(&["info", &scene, "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(report["bounds"], serde_json::Value::Null, "{line}");
 }
