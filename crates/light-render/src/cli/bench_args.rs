@@ -9,6 +9,7 @@ use crate::bench::{BenchReceiverKind, GroundTruth};
 use super::arguments::{named, threads};
 use super::sampler_list::list;
 use super::scene_input::SceneChanges;
+use super::whole::whole;
 
 /// What is said of a scene, and not of a set.
 const OF_A_SCENE: [&str; 7] = [
@@ -83,7 +84,7 @@ pub(crate) struct BenchArgs {
         value_name = "N",
         default_value_t = 10_000,
         conflicts_with_all = ["scene", "lights"],
-        value_parser = clap::value_parser!(u32).range(1..)
+        value_parser = whole(1..=u32::MAX)
     )]
     pub(super) n: u32,
     /// Seed of the set to make, or of the points on surfaces.
@@ -103,11 +104,11 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "LIST", default_value_t = list(&SamplerKind::SUBLINEAR))]
     pub(super) samplers: String,
     /// Samples of one call, at most 4096.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1 << 12))]
+    #[arg(long, default_value_t = 1, value_parser = whole(1..=1 << 12))]
     pub(super) k: u32,
     /// Points that the variance is taken over. By default all, or 256 above 10 thousand lights; in
     /// a scene 4096, or fewer of more than 512 lights.
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "M", value_parser = whole(1..=u32::MAX))]
     pub(super) var_points: Option<u32>,
     /// Threads for building, at most 1024.
     #[arg(long, value_name = "T", default_value_t = 1, value_parser = threads)]
@@ -125,7 +126,7 @@ pub(crate) struct BenchArgs {
         value_name = "N",
         default_value_t = 0,
         conflicts_with = "scene",
-        value_parser = clap::value_parser!(u32).range(..=1 << 16)
+        value_parser = whole(0..=1 << 16)
     )]
     pub(super) occluders: u32,
     /// Move the lights in N steps, at most 20, each twice as far as the last, and compare
@@ -134,7 +135,7 @@ pub(crate) struct BenchArgs {
         long,
         value_name = "N",
         conflicts_with_all = ["k", "scene"],
-        value_parser = clap::value_parser!(u32).range(..=20)
+        value_parser = whole(0..=20)
     )]
     pub(super) refits: Option<u32>,
     /// One JSON object a line instead of a table.

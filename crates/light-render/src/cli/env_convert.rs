@@ -10,6 +10,7 @@ use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::memory_check::check_memory;
 use super::output_file::{expect_another, expect_writable};
+use super::whole::whole;
 
 /// A texel while it is made, as light, as a picture, and in the file.
 const BYTES_PER_TEXEL: u64 = 48;
@@ -36,7 +37,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "MAP")]
     to: Option<MapName>,
     /// Rows of the output; without, as many as keep the size of texels.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=16384))]
     height: Option<u32>,
 }
 

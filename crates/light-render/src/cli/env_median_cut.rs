@@ -11,6 +11,7 @@ use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::output_file::expect_another;
 use super::stdout::say;
+use super::whole::whole;
 
 /// Turn an environment map into directional lights of equal energy, by median cut.
 ///
@@ -27,7 +28,7 @@ pub(crate) struct MedianCutArgs {
     /// The map: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
     image: PathBuf,
     /// How many lights; there are fewer if fewer texels emit light.
-    #[arg(short, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(short, value_name = "N", value_parser = whole(1..=u32::MAX))]
     n: u32,
     /// How a light's place in its region is weighted.
     #[arg(long, value_name = "WEIGHT", default_value = "luminance")]

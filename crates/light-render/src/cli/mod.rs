@@ -46,6 +46,8 @@ mod unfinished;
 mod view_args;
 mod visibility;
 mod visible;
+mod whole;
+mod window;
 
 use alloc::collections::BTreeSet;
 use std::ffi::OsString;

@@ -12,6 +12,7 @@ use crate::{RenderSettings, SamplerKind, Visibility, World};
 use super::arguments::{count, named, positive, sample_range, seconds};
 use super::failure::Failure;
 use super::visibility::VisibilityName;
+use super::whole::whole;
 
 /// Segments of the longest path where nobody says how many.
 pub(super) const DEFAULT_DEPTH: u32 = 8;
@@ -42,7 +43,7 @@ impl FileSettings {
 pub(crate) struct SettingsArgs {
     /// Samples a pixel; without it as many as fit into --time, or as the scene's file asks for, or
     /// 64.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX))]
     spp: Option<u32>,
     /// Render these samples alone, into an .exr that `lights merge` adds to others.
     #[arg(long, value_name = "A..B", value_parser = sample_range, conflicts_with = "spp")]
@@ -53,7 +54,7 @@ pub(crate) struct SettingsArgs {
     time: Option<Duration>,
     /// Segments of the longest path: 1 = emitters seen directly, 2 = plus direct light; without it
     /// what the scene's file asks for, or 8.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=u32::MAX))]
     max_depth: Option<u32>,
     /// What scatters light: surfaces alone (path), or media as well (volpath), or either once
     /// (single-scattering, with lights for the ray as a whole, and -classic, in steps); without it

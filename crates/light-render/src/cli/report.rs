@@ -19,6 +19,7 @@ use super::sampler_list::samplers;
 use super::scene_input::SceneInput;
 use super::stdout::{complain, say};
 use super::view_args::ViewArgs;
+use super::whole::whole;
 
 /// The longer side of pictures, unless their size is asked for.
 const SIDE: u32 = 320;
@@ -63,7 +64,7 @@ pub(crate) struct ReportArgs {
         long,
         value_name = "N",
         default_value_t = 8,
-        value_parser = clap::value_parser!(u32).range(1..)
+        value_parser = whole(1..=u32::MAX)
     )]
     max_depth: u32,
     /// Chooses the random numbers.

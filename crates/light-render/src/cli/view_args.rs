@@ -1,18 +1,20 @@
-use crate::View;
+use crate::{View, ViewError};
 use clap::Args;
 use light_scene::{Camera, Crop, Projection, Scene};
 
-use super::arguments::{LookAt, Window, positive};
+use super::arguments::{LookAt, positive};
 use super::failure::Failure;
+use super::whole::whole;
+use super::window::Window;
 
 /// The camera, and the size of the picture.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct ViewArgs {
     /// Width of the image in pixels.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_parser = whole(1..=u32::MAX))]
     width: Option<u32>,
     /// Height of the image in pixels.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_parser = whole(1..=u32::MAX))]
     height: Option<u32>,
     /// Render this part alone, as shares of width and height from the top left corner; the image is
     /// that part.
@@ -89,7 +91,7 @@ impl ViewArgs {
             (None, Some(height)) => (scaled(w, h, height), height),
             (None, None) => (w, h),
         };
-        let view = View::new(&camera, width, height).map_err(Failure::input)?;
+        let view = View::new(&camera, width, height).map_err(|error| self.refuse(error))?;
         // The crop of a file is in pixels of its own size.
         let of_file = camera.crop.map(|Crop { min, max }| Window {
             x: [min[0], max[0]].map(|x| f64::from(x) / f64::from(w)),
@@ -102,5 +104,15 @@ impl ViewArgs {
             }
             None => Ok(view),
         }
+    }
+
+    /// What is said of a camera, with the flags that made it so.
+    fn refuse(&self, error: ViewError) -> Failure {
+        let has_size = self.width.is_some() || self.height.is_some();
+        Failure::Input(match error {
+            ViewError::FieldOfView if self.fov.is_some() => format!("--fov: {error}"),
+            ViewError::HugePicture if has_size => format!("--width, --height: {error}"),
+            _ => error.to_string(),
+        })
     }
 }

@@ -169,8 +169,10 @@ fn info_counts_the_lights() {
     );
     let turned_on = stdout(&["info", &folder.scene(UNLIT), "--emit", "floor=1,1,1"]);
     assert!(turned_on.contains("lights     2"), "{turned_on}");
-    for wrong in ["roof=1,1,1", "floor=-1,1,1"] {
-        let words = ["scene.obj", &wrong[..4]];
+    for (wrong, words) in [
+        ("roof=1,1,1", ["scene.obj: --emit: ", "found roof"]),
+        ("floor=-1,1,1", ["--emit", "radiance of at least 0"]),
+    ] {
         assert_refused(&["info", &folder.scene(UNLIT), "--emit", wrong], &words);
     }
     assert!(

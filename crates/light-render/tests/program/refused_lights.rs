@@ -43,6 +43,26 @@ fn the_flag_that_makes_a_light_too_strong_is_named() {
     }
 }
 
+#[test]
+fn flags_that_make_no_camera_or_light_are_named() {
+    let folder = Folder::new("named-flags");
+    let scene = folder.scene(LIT);
+    let out = folder.path("a.exr");
+    let render = ["render", &scene, "-o", &out];
+    for (flag, value, expected) in [
+        ("--fov", "180", "--fov: the angle of view must"),
+        ("--width", "99999999", "--width, --height: the picture must"),
+        (
+            "--spp",
+            "1e3",
+            "expected a whole number from 1 to 4294967295",
+        ),
+        ("--emit", "lamp=1,-1,1", "expected a radiance of at least 0"),
+    ] {
+        assert_refused(&[&render[..], &[flag, value]].concat(), &[flag, expected]);
+    }
+}
+
 /// Single lights are finite, their sum over a large scene is not.
 #[test]
 fn lights_that_cannot_be_chosen_from_name_the_scene() {
