@@ -6,7 +6,9 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
 use light_scene::write_atomically;
 
-use crate::farm::{FarmEngine, FarmFrames, FarmPlan, FrameNumbers, is_job_file, job_file_names};
+use crate::farm::{
+    FarmEngine, FarmFrames, FarmPlan, FarmPlanError, FrameNumbers, is_job_file, job_file_names,
+};
 
 use super::arguments::count;
 use super::failure::Failure;
@@ -75,7 +77,12 @@ impl FarmArgs {
             (samples, self.parts),
             self.threads,
         )
-        .map_err(|error| Failure::Input(format!("farm: {error}")))?;
+        .map_err(|error| match error {
+            FarmPlanError::TooManyParts { .. } => {
+                Failure::Input(format!("--parts {}: {error}", self.parts))
+            }
+            error => Failure::Input(format!("farm: {error}")),
+        })?;
         let (plan, pictures) = match frames {
             None => (plan, "picture.exr".into()),
             Some(frames) => {

@@ -164,7 +164,7 @@ impl fmt::Display for FarmPlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooManyParts { samples } => {
-                write!(f, "expected at most one part a sample, {samples} parts")
+                write!(f, "expected at most {samples} parts, one a sample")
             }
             Self::Unprintable { word } => {
                 write!(f, "expected no line break and no {{{{ in {word:?}")

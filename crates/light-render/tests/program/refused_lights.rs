@@ -63,6 +63,17 @@ fn flags_that_make_no_camera_or_light_are_named() {
     }
 }
 
+#[test]
+fn more_parts_of_a_job_than_samples_are_refused_by_their_flag() {
+    let folder = Folder::new("many-parts");
+    let scene = folder.scene(LIT);
+    let job = folder.path("job");
+    let farm = ["farm", &scene, "--engine", "slurm", "-o", &job];
+    let many = ["--parts", "9", "--spp", "8"];
+    let words = ["--parts 9: expected at most 8 parts, one a sample"];
+    assert_refused(&[&farm[..], &many].concat(), &words);
+}
+
 /// Single lights are finite, their sum over a large scene is not.
 #[test]
 fn lights_that_cannot_be_chosen_from_name_the_scene() {
