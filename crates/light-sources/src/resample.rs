@@ -7,26 +7,41 @@ use crate::rgb_sum::RgbSum;
 use light_math::float::sin;
 use light_math::{Resampler, SphereImage, SphereImageError, SphereMap};
 
+/// Sums of many texels that are not brighter are finite.
+const BRIGHT: f32 = 1e30;
+
+/// What brighter images are multiplied by while they are summed, a power of two: 2^-40.
+const DIMMED: f32 = 1.0 / (1u64 << 40) as f32;
+
 impl Image {
     /// Resamples this image of the sphere from the map `from` to another map and size.
     ///
-    /// Each channel keeps its integral over the sphere, which matters for small suns.
+    /// Each channel keeps its integral over the sphere, which matters for small suns. For the same
+    /// map and size this is a clone.
     ///
     /// # Errors
-    /// When a side is 0, or an equal-area image is not square.
+    /// When a side is 0, an equal-area image is not square, or a texel of the result would be
+    /// infinite.
     pub fn resampled(
         &self,
         from: SphereMap,
         to: SphereMap,
         size: [u32; 2],
     ) -> Result<Self, ImageError> {
-        let texels: Vec<Vec3> = SphereImage::new(from, self.size(), |x, y| self.texel(x, y))
+        // The sum over a texel's directions shall be finite.
+        let brightest = self.texels().map(Vec3::max_element).fold(0.0, f32::max);
+        let dimmed = if brightest > BRIGHT { DIMMED } else { 1.0 };
+        let source = |x, y| self.texel(x, y) * dimmed;
+        let resampler = SphereImage::new(from, self.size(), source)
             .and_then(|source| Resampler::new(source, to, size))
-            .map(|resampler| resampler.texels().collect())
             .map_err(|error| match error {
                 SphereImageError::NotSquare => ImageError::NotSquare,
                 _ => ImageError::Empty,
             })?;
+        if (from, self.size()) == (to, size) {
+            return Ok(self.clone());
+        }
+        let texels: Vec<Vec3> = resampler.texels().collect();
         let have = sphere_mean(to, size, texels.iter().copied());
         let ratio = self.sphere_mean(from) / have;
         let ratio = Vec3::select(have.cmpgt(Vec3::ZERO), ratio, Vec3::ONE);
@@ -99,6 +114,27 @@ mod tests {
         let again = back.sphere_mean(SphereMap::LatLong).x;
         assert!((again / mean - 1.0).abs() < 1e-5, "and back");
         assert_eq!(n, 36, "32 * 2 / sqrt(pi)");
+        Ok(())
+    }
+
+    #[test]
+    fn the_same_map_and_size_change_nothing() -> Result<(), ImageError> {
+        let texels: Vec<f32> = (0..8u8).map(f32::from).collect();
+        let image = Image::from_f32([4, 2], Channels::Gray, texels)?;
+        let same = image.resampled(SphereMap::LatLong, SphereMap::LatLong, [4, 2])?;
+        assert!(same.is_clone_of(&image), "each texel as it is");
+        Ok(())
+    }
+
+    /// The directions in a texel together are brighter than any number.
+    #[test]
+    fn the_brightest_images_stay_as_they_are() -> Result<(), ImageError> {
+        let image = Image::from_f32([8, 4], Channels::Gray, [2e38; 32])?;
+        let square = image.resampled(SphereMap::LatLong, SphereMap::EqualArea, [4, 4])?;
+        let back = square.resampled(SphereMap::EqualArea, SphereMap::LatLong, [8, 4])?;
+        for texel in square.texels().chain(back.texels()) {
+            assert!((texel.x / 2e38 - 1.0).abs() < 1e-5, "{texel}");
+        }
         Ok(())
     }
 
