@@ -234,3 +234,40 @@ fn images_on_surfaces_stand_upright() {
         }
     }
 }
+
+/// Directions have no length; what is not alike along all axes would turn some of them.
+#[test]
+fn a_scale_along_all_axes_changes_no_frame() {
+    let lights = [
+        "\"infinite\" \"string filename\" \"square.png\"",
+        "\"projection\" \"string filename\" \"wide.png\"",
+        "\"goniometric\" \"string filename\" \"square.png\"",
+        "\"goniometric\" \"string filename\" \"a.ies\"",
+    ];
+    let transform = |light: &LightDesc<Rgb>| match light {
+        LightDesc::ImageInfinite(light) => light.transform,
+        LightDesc::Projection(light) => light.transform,
+        LightDesc::Goniometric(light) => light.transform,
+        other => panic!("not {other:?}"),
+    };
+    for parameters in lights {
+        let text =
+            |scale: &str| format!("WorldBegin {TRANSFORM} Scale {scale}\nLightSource {parameters}");
+        let parse = |scale| parse_pbrt(Path::new("a"), &text(scale), Files::new(&read_sibling));
+        let [plain, scaled] = ["1 1 1", "3 3 3"].map(|scale| {
+            let scene = parse(scale).expect("a scene");
+            transform(&scene.lights[0])
+        });
+        assert!(
+            scaled.abs_diff_eq(plain, 1e-6),
+            "{parameters}: {scaled} for {plain}"
+        );
+        let refused = parse("1 2 1");
+        let message = refused.expect_err(parameters).to_string();
+        let end = "transform: must be rigid, without scale or shear";
+        assert!(
+            message.starts_with("a:2: ") && message.ends_with(end),
+            "{message}"
+        );
+    }
+}

@@ -2,12 +2,12 @@ use lights::math::Aabb;
 use lights::math::spectrum::photometric::Lumen;
 use lights::sources::{
     Channels, EnvironmentMap, Image, ImageInfiniteLightDesc, IntensityAmount, LightDesc,
-    LightSetBuilder, PortalInfiniteLightDesc, RadianceAmount, Rgb, SceneSphere,
+    LightSetBuilder, PortalInfiniteLightDesc, RadianceAmount, Rgb, RigidTransform, SceneSphere,
 };
 
 use super::file_loc::FileLoc;
 use crate::Diagnostic;
-use crate::glam::Vec3;
+use crate::glam::{Affine3A, Vec3};
 
 /// Why no light of finite power can be made of what a file says; the renderer, which finds the same
 /// later, knows no line.
@@ -31,8 +31,14 @@ pub(super) fn fault(light: &LightDesc<Rgb>) -> Option<String> {
             })
         }
         LightDesc::ImageInfinite(_) | LightDesc::PortalInfinite(_) => light.clone(),
-        LightDesc::Projection(light) => return fault_of_amount(light.amount),
-        LightDesc::Goniometric(light) => return fault_of_amount(light.amount),
+        LightDesc::Projection(light) => {
+            let fault = fault_of_transform("projection", light.transform);
+            return fault.or_else(|| fault_of_amount(light.amount));
+        }
+        LightDesc::Goniometric(light) => {
+            let fault = fault_of_transform("goniometric", light.transform);
+            return fault.or_else(|| fault_of_amount(light.amount));
+        }
         _ => return None,
     };
     match power_in_unit_scene(tried) {
@@ -113,6 +119,11 @@ fn mean_of(map: &EnvironmentMap) -> Option<EnvironmentMap> {
 fn of_one_color(color: Vec3) -> Option<EnvironmentMap> {
     let image = Image::from_f32([1, 1], Channels::Rgb, color.to_array().to_vec());
     image.ok().map(EnvironmentMap::EqualArea)
+}
+
+fn fault_of_transform(kind: &str, transform: Affine3A) -> Option<String> {
+    let error = RigidTransform::new(transform).err()?;
+    Some(format!("{kind} light, {error}"))
 }
 
 fn fault_of_amount(amount: IntensityAmount) -> Option<String> {

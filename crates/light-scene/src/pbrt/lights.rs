@@ -83,7 +83,7 @@ impl Reader {
             }),
             "projection" => LightDesc::Projection(ProjectionLightDesc {
                 // Rows run downward, y upward.
-                transform: transform * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
+                transform: unscaled(transform) * Affine3A::from_scale(Vec3::new(1.0, -1.0, 1.0)),
                 image: self.light_image(typed)?,
                 fov: fov(typed).to_radians(),
                 amount: match parameters.positive("power") {
@@ -92,8 +92,8 @@ impl Reader {
                 },
                 media,
             }),
-            "goniometric" => self.goniometric(typed, transform, scale)?,
-            "infinite" => self.infinite(typed, transform, scale)?,
+            "goniometric" => self.goniometric(typed, unscaled(transform), scale)?,
+            "infinite" => self.infinite(typed, unscaled(transform), scale)?,
             other => {
                 let what = format!("LightSource \"{other}\"");
                 self.warn(at, &what, "is not understood and was left out");
@@ -200,6 +200,22 @@ impl Reader {
 
 /// What is said of a light whose colour is black.
 pub(super) const DARK: &str = "gives no light and was left out";
+
+/// A transform without its scale, if that is the same along all axes: the directions of a light
+/// have no length.
+fn unscaled(transform: Affine3A) -> Affine3A {
+    const ROUNDING: f32 = 1e-4;
+    let axes = transform.matrix3;
+    let lengths = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.length());
+    let is_alike = |length: f32| (length / lengths[0] - 1.0).abs() <= ROUNDING;
+    if !lengths.into_iter().all(is_alike) {
+        return transform;
+    }
+    Affine3A {
+        matrix3: axes * lengths[0].recip(),
+        ..transform
+    }
+}
 
 /// Whether the file gives a light no other colour than black.
 pub(super) fn is_dark(typed: &Typed<'_>) -> bool {
