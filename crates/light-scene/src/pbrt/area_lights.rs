@@ -5,7 +5,7 @@ use lights::sources::TextureMapping;
 
 use super::file_loc::Typed;
 use super::image_key::ImageKey;
-use super::lights::{DARK, is_dark, stated_luminance};
+use super::lights::{DARK, expect_one_color, is_dark, stated_luminance};
 use super::state::{AreaLight, Reader};
 use crate::glam::Vec3;
 use crate::scene_light::scaled;
@@ -22,6 +22,7 @@ impl Reader {
             let what = format!("AreaLightSource \"{kind}\"");
             self.warn(*at, &what, "was taken as diffuse");
         }
+        expect_one_color(typed)?;
         if is_dark(typed) {
             let what = format!("AreaLightSource \"{kind}\"");
             self.warn(*at, &what, DARK);

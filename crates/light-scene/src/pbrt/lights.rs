@@ -36,6 +36,9 @@ impl Reader {
         let to = transform.transform_point3(parameters.vec3_or("to", Vec3::Z));
         let scale = parameters.amount_or("scale", 1.0);
         let media = self.light_media();
+        if kind == "infinite" {
+            expect_one_color(typed)?;
+        }
         if is_dark(typed) {
             let what = format!("LightSource \"{kind}\"");
             self.warn(at, &what, DARK);
@@ -200,6 +203,15 @@ impl Reader {
 
 /// What is said of a light whose colour is black.
 pub(super) const DARK: &str = "gives no light and was left out";
+
+/// Makes sure that the radiance of a light is a picture or a colour, as pbrt does.
+pub(super) fn expect_one_color(typed: &Typed<'_>) -> Result<(), Diagnostic> {
+    if typed.parameters.has("filename") && typed.parameters.has("L") {
+        let message = "expected `filename` or `L`, found both";
+        return Err(typed.at.diagnostic(message));
+    }
+    Ok(())
+}
 
 /// A transform without its scale, if that is the same along all axes: the directions of a light
 /// have no length.

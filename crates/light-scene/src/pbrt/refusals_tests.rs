@@ -108,6 +108,14 @@ fn broken_files_give_one_clear_line() {
         ),
         ("Shape \"trianglemesh\"", "a.pbrt:1: expected \"point3 P\""),
         (
+            "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 1 1] \"string filename\" \"a.png\"",
+            "a.pbrt:2: expected `filename` or `L`, found both",
+        ),
+        (
+            "WorldBegin\nAreaLightSource \"diffuse\" \"rgb L\" [0 0 0] \"string filename\" \"a.png\"",
+            "a.pbrt:2: expected `filename` or `L`, found both",
+        ),
+        (
             "WorldBegin\nLightSource \"point\" \"rgb I\" [1e38 1e38 1e38]",
             "a.pbrt:2: expected a light of finite power",
         ),
