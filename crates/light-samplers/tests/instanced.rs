@@ -5,7 +5,7 @@ use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{
     EmissionLobe, Gloss, LightBounds, LightExtent, LightId, LightSampleContext, SampledLight,
 };
-use light_samplers::light_bvh::{InstancedLightBvh, LightPrototype, Placement};
+use light_samplers::light_bvh::{InstancedLightBvh, LightBvhOptions, LightPrototype, Placement};
 use light_samplers::{
     InstancedBvhLightSampler, InstancedBvhLightSamplerError, LightChoices, LightSampler,
 };
@@ -19,6 +19,11 @@ light_testkit::sampler_laws! {
     /// Every few lights are a prototype, turned back from where it is placed.
     mod instanced {
         |set| taken_apart(set, 7)
+    }
+
+    /// The same, none of which is opened.
+    mod instanced_closed {
+        |set| taken_apart_opening(set, 7, 0)
     }
 
     /// Every light is a prototype of its own.
@@ -67,6 +72,11 @@ fn motion(i: usize) -> (Quat, f32, f32) {
 
 /// A sampler of the lights of the set as placed prototypes of at most `few` lights.
 fn taken_apart(set: &SamplerCase, few: usize) -> Renumbered {
+    taken_apart_opening(set, few, usize::MAX)
+}
+
+/// The same, with so many lights of opened placements at most.
+fn taken_apart_opening(set: &SamplerCase, few: usize, most_opened: usize) -> Renumbered {
     let (mut prototypes, mut placements) = (Vec::new(), Vec::new());
     let (mut bounded, mut infinite) = (Vec::new(), Vec::new());
     for (id, extent) in set.ids().zip(set.extents()) {
@@ -85,7 +95,9 @@ fn taken_apart(set: &SamplerCase, few: usize) -> Renumbered {
         let placement = Placement::new(prototype, turn, scale, translation).expect("rigid");
         placements.push(placement.with_power(1.0).expect("a factor"));
     }
-    let tree = InstancedLightBvh::build(prototypes, &placements).expect("within reach");
+    let options = LightBvhOptions::default();
+    let tree = InstancedLightBvh::build_opening(prototypes, &placements, &options, most_opened)
+        .expect("within reach");
     let skies: Vec<_> = infinite.iter().map(|(_, bounds)| *bounds).collect();
     let all = bounded.iter().map(|(id, _)| *id);
     Renumbered {

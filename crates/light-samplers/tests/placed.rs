@@ -26,15 +26,26 @@ fn laws(set: &SamplerCase, sampler: &InstancedBvhLightSampler) {
 fn laws_hold_for_many_placements() {
     for seed in 1..5 {
         let village = PlacedCase::village(COUNT, seed);
-        laws(&village.case, &village.sampler(&village.placements));
+        // All, some, or none are opened.
+        for most_opened in [usize::MAX, 100, 0] {
+            let sampler = village.sampler_opening(&village.placements, most_opened);
+            laws(&village.case, &sampler);
+        }
     }
 }
 
 #[test]
 fn laws_hold_after_a_refit() {
     let village = PlacedCase::village(COUNT, 5);
+    for most_opened in [usize::MAX, 100, 0] {
+        refitted(&village, most_opened);
+    }
+}
+
+/// The laws hold for a village that was built elsewhere.
+fn refitted(village: &PlacedCase, most_opened: usize) {
     let placements = &village.placements;
-    let mut moved = village.sampler(&village.elsewhere());
+    let mut moved = village.sampler_opening(&village.elsewhere(), most_opened);
     let error = moved.refit(&placements[1..]).err();
     let expected = placements.len();
     let missing = InstancedLightBvhError::OtherPlacements { expected };

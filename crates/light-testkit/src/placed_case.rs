@@ -67,9 +67,22 @@ impl PlacedCase {
     /// If a placement is not within reach of a tree.
     #[must_use]
     pub fn sampler(&self, placements: &[Placement]) -> InstancedBvhLightSampler {
+        self.sampler_opening(placements, usize::MAX)
+    }
+
+    /// The same, with so many lights of opened placements at most.
+    ///
+    /// # Panics
+    /// If a placement is not within reach of a tree.
+    #[must_use]
+    pub fn sampler_opening(
+        &self,
+        placements: &[Placement],
+        most_opened: usize,
+    ) -> InstancedBvhLightSampler {
         let prototypes = self.prototypes.clone();
         let options = LightBvhOptions::DYNAMIC;
-        let tree = InstancedLightBvh::build_with(prototypes, placements, &options);
+        let tree = InstancedLightBvh::build_opening(prototypes, placements, &options, most_opened);
         let sky = [InfiniteBounds::uniform(SKY)];
         InstancedBvhLightSampler::new(tree.expect("within reach"), &sky).expect("a sampler")
     }

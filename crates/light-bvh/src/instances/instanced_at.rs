@@ -32,6 +32,9 @@ impl InstancedLightBvh {
     pub fn pmf(&self, ctx: &LightSampleContext, light: PlacedLight) -> f32 {
         let InGroups { receiver, groups } = &ctx.into();
         let top = self.top().view();
+        if let Some(leaf) = self.openings().leaf(light) {
+            return top.pmf_for(receiver, *groups, leaf);
+        }
         let placed = top.pmf_for(receiver, *groups, LightId(light.placement));
         positive_product(placed, self.pmf_in(light, receiver, *groups))
     }
@@ -47,7 +50,7 @@ impl InstancedLightBvh {
         }
     }
 
-    /// One light of a placement that was chosen.
+    /// The light of an opened placement, or one light of a placement, that was chosen.
     #[inline(always)]
     fn sample_in(
         &self,
@@ -55,6 +58,9 @@ impl InstancedLightBvh {
         receiver: &ContextReceiver,
         groups: LightGroups,
     ) -> Option<SampledPlacedLight> {
+        if let Some(light) = self.openings().light(placed) {
+            return Some(light);
+        }
         let (frame, prototype) = self.placed(placed.light.0)?;
         let inside = frame.receiver(receiver, prototype);
         let tree = prototype.tree().view();
@@ -95,6 +101,9 @@ impl InstancedLightBvhAt<'_> {
     #[must_use]
     pub fn pmf(&self, light: PlacedLight) -> f32 {
         let InGroups { receiver, groups } = &self.receiver;
+        if let Some(leaf) = self.tree.openings().leaf(light) {
+            return self.top.pmf(leaf);
+        }
         let placed = self.top.pmf(LightId(light.placement));
         positive_product(placed, self.tree.pmf_in(light, receiver, *groups))
     }

@@ -3,19 +3,18 @@ use alloc::vec::Vec;
 use light_bounds::{LightExtent, LightGroups, LightId};
 use light_math::float::positive_product;
 
-use crate::build::options::{DarkLights, LightBvhOptions};
-use crate::build::scan::{Scan, is_addressable};
-use crate::importance::position::FAR;
+use crate::build::options::LightBvhOptions;
+use crate::build::scan::is_addressable;
 use crate::instances::error::InstancedLightBvhError;
 use crate::instances::light_ranges::LightRanges;
+use crate::instances::openings::Openings;
+use crate::instances::overlaps::placements_to_open;
+use crate::instances::placed::Placed;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
-use crate::instances::placed_moments::{PlacedGroup, PlacedGroups};
 use crate::instances::placement::Placement;
-use crate::instances::prototype::LightPrototype;
+use crate::instances::prototype::{LightPrototype, MOST_OPENED};
 use crate::light_bvh::LightBvh;
-use crate::node::wide_node::NOWHERE;
-use crate::parallel::table;
 
 /// A tree of trees: lights that are placed many times are stored once.
 ///
@@ -23,6 +22,10 @@ use crate::parallel::table;
 /// translation. A node of it knows the moments of the placed groups as a node of [`LightBvh`] knows
 /// those of lights, and a choice goes on from a leaf to the root of a prototype, with the receiver
 /// in the frame of that. 24 to 29 bytes a light of a prototype, and about 76 a placement.
+///
+/// Placements that reach into others are opened when the tree is built: their lights are leaves of
+/// the upper tree, as if they were copied, about 40 bytes each. At most 2^20 lights are, of those
+/// placements first that reach into most others.
 ///
 /// The laws are those of [`LightBvh`]: a sampled pmf has the bits of the queried one, a light that
 /// can contribute has a pmf above 0, and the pmfs and the probability of `None` add up to 1.
@@ -61,6 +64,7 @@ use crate::parallel::table;
 pub struct InstancedLightBvh {
     top: LightBvh,
     frames: Vec<PlacedFrame>,
+    openings: Openings,
     prototypes: Vec<LightPrototype>,
     ranges: LightRanges,
 }
@@ -78,7 +82,7 @@ impl InstancedLightBvh {
         Self::build_with(prototypes, placements, &LightBvhOptions::default())
     }
 
-    /// The same, with an upper tree built as `options` say; [`DarkLights::Kept`] gives a place to
+    /// The same, with an upper tree built as `options` say; [`DarkLights::Kept`](crate::DarkLights::Kept) gives a place to
     /// dark placements.
     ///
     /// # Errors
@@ -87,6 +91,21 @@ impl InstancedLightBvh {
         prototypes: Vec<LightPrototype>,
         placements: &[Placement],
         options: &LightBvhOptions,
+    ) -> Result<Self, InstancedLightBvhError> {
+        Self::build_opening(prototypes, placements, options, MOST_OPENED)
+    }
+
+    /// The same, and with at most `most_opened` lights of opened placements instead of 2^20: with 0
+    /// the build and refits take the least time and memory. Prototypes of more than 2^20 lights are
+    /// not opened.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build).
+    pub fn build_opening(
+        prototypes: Vec<LightPrototype>,
+        placements: &[Placement],
+        options: &LightBvhOptions,
+        most_opened: usize,
     ) -> Result<Self, InstancedLightBvhError> {
         if !is_addressable(placements.len()) {
             return Err(InstancedLightBvhError::TooManyPlacements);
@@ -97,14 +116,24 @@ impl InstancedLightBvh {
             }
         }
         let placed = Placed::new(&prototypes, placements)?;
-        let scan = placed.scan(options.dark)?;
-        let leaves = placed.groups.leaves(scan.power);
-        let (top, _) = LightBvh::build_of_leaves(&placed.extents, &scan, options, &leaves);
+        let closed = placed.build(options, &Openings::NONE)?;
+        let opened = placements_to_open(&closed, &placed, most_opened);
+        let openings = Openings::new(&prototypes, placements, &opened);
+        let top = if openings.is_empty() {
+            closed
+        } else {
+            placed.build(options, &openings)?
+        };
+        let frames = placed.frames;
         let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
+        let ranges = LightRanges::new(placements.iter().map(count));
+        let mut prototypes = prototypes;
+        openings.forget_unopened(&mut prototypes, placements);
         Ok(Self {
             top,
-            frames: placed.frames,
-            ranges: LightRanges::new(placements.iter().map(count)),
+            frames,
+            openings,
+            ranges,
             prototypes,
         })
     }
@@ -126,16 +155,7 @@ impl InstancedLightBvh {
             }
         }
         let placed = Placed::new(&self.prototypes, placements)?;
-        let unplaced = |group: &PlacedGroup, slot: &u32| *slot == NOWHERE && group.power() > 0.0;
-        let slots = (0..).zip(placed.groups.0.iter().zip(&self.top.slots));
-        for (placement, (group, slot)) in slots {
-            if unplaced(group, slot) {
-                return Err(InstancedLightBvhError::NoPlace { placement });
-            }
-        }
-        let power = placed.scan(DarkLights::Kept)?.power;
-        self.top
-            .refit_to_leaves(power, &placed.groups.leaves(power));
+        placed.refit(&mut self.top, &self.openings)?;
         self.frames = placed.frames;
         Ok(())
     }
@@ -169,8 +189,14 @@ impl InstancedLightBvh {
     /// [`InstancedLightBvhError::OtherPlacements`] if these are not as many as the placements.
     pub fn set_groups(&mut self, groups: &[LightGroups]) -> Result<(), InstancedLightBvhError> {
         let expected = self.frames.len();
-        let refused = |_| InstancedLightBvhError::OtherPlacements { expected };
-        self.top.set_groups(groups).map_err(refused)
+        let refused = InstancedLightBvhError::OtherPlacements { expected };
+        if groups.len() != expected {
+            return Err(refused);
+        }
+        let of_lights = self.openings.lights().iter();
+        let of_lights = of_lights.map(|light| groups[light.placement as usize]);
+        let groups: Vec<_> = groups.iter().copied().chain(of_lights).collect();
+        self.top.set_groups(&groups).map_err(|_| refused)
     }
 
     /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is
@@ -178,6 +204,9 @@ impl InstancedLightBvh {
     #[must_use]
     pub fn sample_emitter(&self, u: u64) -> Option<SampledPlacedLight> {
         let placed = self.top.view().sample_emitter(u)?;
+        if let Some(light) = self.openings.light(&placed) {
+            return Some(light);
+        }
         let (_, prototype) = self.placed(placed.light.0)?;
         let chosen = prototype.tree().view().sample_emitter(placed.u)?;
         Some(SampledPlacedLight::of(&placed, &chosen))
@@ -186,6 +215,9 @@ impl InstancedLightBvh {
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
     #[must_use]
     pub fn pmf_emitter(&self, light: PlacedLight) -> f32 {
+        if let Some(leaf) = self.openings.leaf(light) {
+            return self.top.view().pmf_emitter(leaf);
+        }
         let Some((_, prototype)) = self.placed(light.placement) else {
             return 0.0;
         };
@@ -215,7 +247,7 @@ impl InstancedLightBvh {
         self.ranges.light(index)
     }
 
-    /// The upper tree, whose lights are placements.
+    /// The upper tree, whose lights are placements, and after them the lights of opened ones.
     #[must_use]
     pub const fn top(&self) -> &LightBvh {
         &self.top
@@ -239,7 +271,12 @@ impl InstancedLightBvh {
         let prototypes = self.prototypes.iter();
         let prototypes: usize = prototypes.map(|p| p.tree().bytes()).sum();
         let placements = size_of_val(&*self.frames) + self.ranges.bytes();
+        let placements = placements + self.openings.bytes();
         self.top.bytes() + placements + prototypes
+    }
+
+    pub(crate) const fn openings(&self) -> &Openings {
+        &self.openings
     }
 
     /// A placement and its prototype.
@@ -247,50 +284,5 @@ impl InstancedLightBvh {
     pub(crate) fn placed(&self, placement: u32) -> Option<(&PlacedFrame, &LightPrototype)> {
         let frame = self.frames.get(placement as usize)?;
         Some((frame, self.prototypes.get(frame.prototype as usize)?))
-    }
-}
-
-/// All placements, on their way into a tree.
-struct Placed {
-    frames: Vec<PlacedFrame>,
-    groups: PlacedGroups,
-    /// As if each group were one light.
-    extents: Vec<LightExtent>,
-}
-
-impl Placed {
-    /// The placements, whose prototypes are there.
-    fn new(
-        prototypes: &[LightPrototype],
-        placements: &[Placement],
-    ) -> Result<Self, InstancedLightBvhError> {
-        let prototype = |p: &Placement| &prototypes[p.prototype as usize];
-        let frames = table(placements.len(), |i| {
-            PlacedFrame::new(&placements[i], prototype(&placements[i]))
-        });
-        let groups = table(placements.len(), |i| {
-            let placement = &placements[i];
-            PlacedGroup::new(prototype(placement), &frames[i], placement)
-        });
-        for (placement, group) in (0..).zip(&groups) {
-            let bounds = group.bounds();
-            // Written so that NaN fails.
-            let is_near = bounds.min.min_element() >= -FAR && bounds.max.max_element() <= FAR;
-            if group.power() > 0.0 && !is_near {
-                return Err(InstancedLightBvhError::TooFar { placement });
-            }
-        }
-        let extents = table(groups.len(), |i| groups[i].extent());
-        Ok(Self {
-            frames,
-            groups: PlacedGroups(groups),
-            extents,
-        })
-    }
-
-    fn scan(&self, dark: DarkLights) -> Result<Scan, InstancedLightBvhError> {
-        // Groups that are near have valid extents.
-        Scan::new(&self.extents, 0, dark, &|_, _| Ok(()))
-            .map_err(|_| InstancedLightBvhError::TooManyPlacements)
     }
 }

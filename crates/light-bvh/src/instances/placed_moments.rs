@@ -1,27 +1,32 @@
-use alloc::vec::Vec;
-
 use light_bounds::LightExtent;
 use light_math::Aabb;
 use light_math::glam::{Mat3, Vec3};
 
 use crate::build::group_extent::group_extent;
-use crate::build::lights::LeafMoments;
+use crate::build::lights::phi;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placement::Placement;
 use crate::instances::prototype::LightPrototype;
 use crate::node::moments::Moments;
-use crate::simd::prefetch;
 
-/// A placed prototype as a leaf of the upper tree.
+/// A placed prototype, or one light of it, as a leaf of the upper tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedGroup {
-    /// With the peak intensity as a share of the prototype's power.
+    /// With the peak intensity as a share of [`whole`](Self::whole).
     moments: Moments,
     /// The power of its lights.
     power: f64,
+    /// The power of all lights of the placement.
+    whole: f64,
 }
 
 impl PlacedGroup {
+    const DARK: Self = Self {
+        moments: Moments::NOTHING,
+        power: 0.0,
+        whole: 0.0,
+    };
+
     /// The lights of `prototype` as `placement` places them, which `frame` is made of.
     pub(crate) fn new(
         prototype: &LightPrototype,
@@ -31,28 +36,56 @@ impl PlacedGroup {
         let inner = &prototype.moments;
         let power = f64::from(prototype.tree().power()) * f64::from(placement.power);
         if !(inner.power > 0.0 && power > 0.0) {
-            return Self {
-                moments: Moments::NOTHING,
-                power: 0.0,
-            };
+            return Self::DARK;
         }
-        let scale = frame.scale();
-        let axes = frame.axes();
-        let place = |x: Vec3| frame.center + axes * ((x - prototype.center) * scale);
-        let error = frame.error(placement, prototype);
-        let bounds = bounds(prototype, scale.abs(), error, axes, place);
-        let mut moments = Moments {
-            bounds,
-            mean: place(inner.mean).clamp(bounds.min, bounds.max),
-            axis: axes * inner.axis * 1.0f32.copysign(scale),
-            ..*inner
+        let turned = Turned::new(prototype, frame, placement);
+        Self {
+            moments: turned.moments(inner, turned.whole_box()),
+            power,
+            whole: power,
+        }
+    }
+
+    /// `light`, one of those of `prototype` that are together as this says.
+    pub(crate) fn of_light(
+        &self,
+        prototype: &LightPrototype,
+        frame: &PlacedFrame,
+        placement: &Placement,
+        light: &LightExtent,
+    ) -> Self {
+        let power = f64::from(phi(light)) * f64::from(placement.power);
+        if !(self.power > 0.0 && power > 0.0) {
+            return Self::DARK;
+        }
+        let inner = Moments::of_light(light, 1.0 / f64::from(prototype.tree().power()));
+        let turned = Turned::new(prototype, frame, placement);
+        let Aabb { min, max } = turned.box_of(&inner.bounds);
+        let all = self.bounds();
+        let bounds = Aabb {
+            min: min.clamp(all.min, all.max),
+            max: max.clamp(all.min, all.max),
         };
-        // Depth and covariance stay shares of the squared width, which turning changes.
-        let relative_width = inner.width() * scale.abs() / moments.width().max(f32::MIN_POSITIVE);
-        let relative_width = relative_width.min(1.0);
-        moments.depth_var *= relative_width * relative_width;
-        moments.covariance = inner.covariance.turned(axes, relative_width);
-        Self { moments, power }
+        Self {
+            moments: turned.moments(&inner, bounds),
+            power,
+            whole: self.power,
+        }
+    }
+
+    /// With its peak intensity as a share of a power, of which `inv_power` is one over.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+    pub(crate) fn moments(&self, inv_power: f64) -> Moments {
+        let Self { moments, whole, .. } = *self;
+        if !(moments.power > 0.0) {
+            return Moments::NOTHING;
+        }
+        let share = (f64::from(moments.power) * whole * inv_power) as f32;
+        Moments {
+            power: share.clamp(f32::MIN_POSITIVE, f32::MAX),
+            ..moments
+        }
     }
 
     /// The box of all its lights; empty if none is on.
@@ -73,72 +106,93 @@ impl PlacedGroup {
     }
 }
 
-/// The box of the placed lights of `prototype`, larger by `error`.
-///
-/// A turned box of all lights, and the turned boxes of the root's children: what is in both.
-fn bounds(
-    prototype: &LightPrototype,
-    scale: f32,
-    error: f32,
+/// The lights of a prototype where they are placed.
+struct Turned<'a> {
+    prototype: &'a LightPrototype,
+    center: Vec3,
     axes: Mat3,
-    place: impl Fn(Vec3) -> Vec3,
-) -> Aabb {
-    let turned = |inner: Aabb| {
-        let half = 0.5 * scale * inner.diagonal();
-        let [x, y, z] = [axes.x_axis, axes.y_axis, axes.z_axis].map(Vec3::abs);
-        let half = x * half.x + y * half.y + z * half.z;
-        let center = place(inner.center());
+    scale: f32,
+    /// How far they may be from where they are computed to be.
+    error: f32,
+}
+
+impl<'a> Turned<'a> {
+    fn new(prototype: &'a LightPrototype, frame: &PlacedFrame, placement: &Placement) -> Self {
+        Self {
+            prototype,
+            center: frame.center,
+            axes: frame.axes(),
+            scale: frame.scale(),
+            error: frame.error(placement, prototype),
+        }
+    }
+
+    /// A point of the prototype.
+    fn place(&self, x: Vec3) -> Vec3 {
+        self.center + self.axes * ((x - self.prototype.center) * self.scale)
+    }
+
+    /// Moments of some lights, which are in the box `bounds` where they are placed.
+    fn moments(&self, inner: &Moments, bounds: Aabb) -> Moments {
+        let mut moments = Moments {
+            bounds,
+            mean: self.place(inner.mean).clamp(bounds.min, bounds.max),
+            axis: self.axes * inner.axis * 1.0f32.copysign(self.scale),
+            ..*inner
+        };
+        // Depth and covariance stay shares of the squared width, which turning changes.
+        let width = moments.width().max(f32::MIN_POSITIVE);
+        let relative_width = (inner.width() * self.scale.abs() / width).min(1.0);
+        moments.depth_var *= relative_width * relative_width;
+        moments.covariance = inner.covariance.turned(self.axes, relative_width);
+        moments
+    }
+
+    /// A box around a turned box, without the error.
+    fn turned(&self, inner: &Aabb) -> Aabb {
+        let half = 0.5 * self.scale.abs() * inner.diagonal();
+        let Mat3 {
+            x_axis,
+            y_axis,
+            z_axis,
+        } = self.axes;
+        let half = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
+        let center = self.place(inner.center());
         Aabb {
             min: center - half,
             max: center + half,
         }
-    };
-    let whole = turned(prototype.moments.bounds);
-    let parts = prototype.child_boxes().map(turned);
-    let parts = parts.fold(Aabb::EMPTY, Aabb::union);
-    Aabb {
-        min: whole.min.max(parts.min) - error,
-        max: whole.max.min(parts.max) + error,
     }
-}
 
-/// All placed prototypes.
-pub(crate) struct PlacedGroups(pub(crate) Vec<PlacedGroup>);
+    /// A box around the lights that are in the box `inner` of the prototype.
+    fn box_of(&self, inner: &Aabb) -> Aabb {
+        let Aabb { min, max } = self.turned(inner);
+        Aabb {
+            min: min - self.error,
+            max: max + self.error,
+        }
+    }
 
-impl PlacedGroups {
-    /// The same as leaves of the upper tree, where all together have the power `power`.
-    pub(crate) fn leaves(&self, power: f64) -> PlacedLeaves<'_> {
-        PlacedLeaves {
-            groups: &self.0,
-            inv_power: if power > 0.0 { 1.0 / power } else { 0.0 },
+    /// A box around all lights: the turned box of all, and those of the root's children, what is in
+    /// both.
+    fn whole_box(&self) -> Aabb {
+        let whole = self.turned(&self.prototype.moments.bounds);
+        let parts = self.prototype.child_boxes();
+        let parts = parts.map(|inner| self.turned(&inner));
+        let parts = parts.fold(Aabb::EMPTY, Aabb::union);
+        Aabb {
+            min: whole.min.max(parts.min) - self.error,
+            max: whole.max.min(parts.max) + self.error,
         }
     }
 }
 
-/// The leaves of the upper tree.
-pub(crate) struct PlacedLeaves<'a> {
-    groups: &'a [PlacedGroup],
-    /// One over the power of all of them, 0 if they have none.
-    inv_power: f64,
-}
-
-impl LeafMoments for PlacedLeaves<'_> {
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    fn moments(&self, placement: u32) -> Moments {
-        let PlacedGroup { moments, power } = self.groups[placement as usize];
-        if !(moments.power > 0.0) {
-            return Moments::NOTHING;
-        }
-        let share = (f64::from(moments.power) * power * self.inv_power) as f32;
-        Moments {
-            power: share.clamp(f32::MIN_POSITIVE, f32::MAX),
-            ..moments
-        }
-    }
-
-    #[inline]
-    fn prefetch(&self, placement: u32) {
-        prefetch::<1, _>(self.groups, placement);
+/// A power as a float, which is above 0 if the power is.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+pub(crate) fn positive_float(power: f64) -> f32 {
+    if power > 0.0 {
+        (power as f32).clamp(f32::MIN_POSITIVE, f32::MAX)
+    } else {
+        0.0
     }
 }

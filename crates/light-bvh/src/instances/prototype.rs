@@ -1,3 +1,5 @@
+use alloc::vec::Vec;
+
 use light_bounds::LightExtent;
 use light_math::Aabb;
 use light_math::glam::Vec3;
@@ -6,12 +8,16 @@ use crate::LightBvhError;
 use crate::build::options::LightBvhOptions;
 use crate::light_bvh::LightBvh;
 use crate::node::moments::Moments;
-use crate::node::wide_node::WIDTH;
+
+/// How many lights of opened placements a tree holds: those of a flat tree of 28 MB.
+pub(crate) const MOST_OPENED: usize = 1 << 20;
 
 /// Lights that are placed any number of times and stored once: a tree in coordinates of its own.
 #[derive(Clone, Debug)]
 pub struct LightPrototype {
     tree: LightBvh,
+    /// The lights, for placements that are opened; empty if none is.
+    pub(crate) lights: Vec<LightExtent>,
     /// Of all lights together; their power is a share of the tree's.
     pub(crate) moments: Moments,
     /// The middle of the box of all lights; the origin if none is on.
@@ -37,10 +43,15 @@ impl LightPrototype {
     /// As for [`LightBvh::build`].
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         let (tree, moments) = LightBvh::build_with_moments(lights, options)?;
-        Ok(Self::of(tree, moments))
+        let lights = if lights.len() <= MOST_OPENED {
+            lights.to_vec()
+        } else {
+            Vec::new()
+        };
+        Ok(Self::of(tree, lights, moments))
     }
 
-    fn of(tree: LightBvh, moments: Moments) -> Self {
+    fn of(tree: LightBvh, lights: Vec<LightExtent>, moments: Moments) -> Self {
         let bounds = &moments.bounds;
         let (center, size) = if bounds.is_empty() {
             (Vec3::ZERO, Vec3::ZERO)
@@ -49,6 +60,7 @@ impl LightPrototype {
         };
         Self {
             tree,
+            lights,
             moments,
             center,
             half_width: 0.5 * size.element_sum(),
@@ -59,7 +71,11 @@ impl LightPrototype {
     pub(crate) fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
         let moments = self.tree.refit_with_moments(lights)?;
         let tree = core::mem::take(&mut self.tree);
-        *self = Self::of(tree, moments);
+        let mut kept = core::mem::take(&mut self.lights);
+        if !kept.is_empty() {
+            kept.copy_from_slice(lights);
+        }
+        *self = Self::of(tree, kept, moments);
         Ok(())
     }
 
@@ -84,17 +100,7 @@ impl LightPrototype {
     /// The boxes of the children of the root, which hold all lights that are on.
     pub(crate) fn child_boxes(&self) -> impl Iterator<Item = Aabb> {
         let root = self.tree.nodes.first();
-        root.into_iter().flat_map(|root| {
-            let code = 1.0 / root.inv_scale;
-            let lit = (0..WIDTH).filter(|&k| root.power[k] > 0);
-            lit.map(move |k| {
-                let of = |codes: &[[u8; WIDTH]; 3]| {
-                    Vec3::from_array([0, 1, 2].map(|axis| f32::from(codes[axis][k]))) * code
-                };
-                let mean = Vec3::from(root.origin) + of(&root.mean);
-                let half = of(&root.extent);
-                Aabb::new(mean - half, mean + half)
-            })
-        })
+        root.into_iter()
+            .flat_map(|root| root.lit_boxes().map(|(_, bounds)| bounds))
     }
 }

@@ -1,3 +1,8 @@
+#[cfg(feature = "alloc")]
+use light_math::Aabb;
+#[cfg(feature = "alloc")]
+use light_math::glam::Vec3;
+
 /// Children of a node.
 pub(crate) const WIDTH: usize = 16;
 
@@ -131,6 +136,21 @@ impl WideNode {
     #[inline(always)]
     pub(crate) const fn has_small(&self) -> bool {
         self.gain & HAS_SMALL != 0
+    }
+
+    /// The children that are on, and boxes that hold their lights.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn lit_boxes(&self) -> impl Iterator<Item = (usize, Aabb)> {
+        let code = 1.0 / self.inv_scale;
+        let lit = (0..WIDTH).filter(|&k| self.power[k] > 0);
+        lit.map(move |k| {
+            let of = |codes: &[[u8; WIDTH]; 3]| {
+                Vec3::from_array([0, 1, 2].map(|axis| f32::from(codes[axis][k]))) * code
+            };
+            let mean = Vec3::from(self.origin) + of(&self.mean);
+            let half = of(&self.extent);
+            (k, Aabb::new(mean - half, mean + half))
+        })
     }
 
     /// These children.

@@ -18,6 +18,13 @@ const MAX_STEPS: usize = 2;
 /// # Panics
 /// If a guarantee is violated.
 pub fn instanced_trees(data: &[u8]) {
+    for most_opened in [usize::MAX, 0] {
+        with_opened(data, most_opened);
+    }
+}
+
+/// The same of a tree with so many lights of opened placements at most.
+fn with_opened(data: &[u8], most_opened: usize) {
     let mut input = Input::new(data);
     let options = options(&mut input);
     let contexts = [input.receiver()];
@@ -27,7 +34,8 @@ pub fn instanced_trees(data: &[u8]) {
         .collect();
     let mut scene = PlacedScene::new(&mut input);
     let prototypes = scene.prototypes(&options);
-    let built = InstancedLightBvh::build_with(prototypes, &scene.placements(), &options);
+    let placements = scene.placements();
+    let built = InstancedLightBvh::build_opening(prototypes, &placements, &options, most_opened);
     let tree = match built {
         Ok(tree) => tree,
         Err(error) => return check_refused(&scene, error),
