@@ -5,7 +5,7 @@ use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
 use crate::importance::receiver::Receiver;
-use crate::node::wide_node::{WIDTH, WideNode};
+use crate::node::wide_node::WideNode;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::weights::{LARGEST_WEIGHT, Weights, total};
 use crate::simd::{VectorWork, dispatch};
@@ -49,7 +49,8 @@ impl LightBvhRef<'_> {
     #[cold]
     #[inline(never)]
     fn resolve_near<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
-        let mut groups = [false; WIDTH];
+        // Bit k: child k is a group of several lights.
+        let mut groups = 0u32;
         for k in node.small_subtrees() {
             let index = node.child_base as usize + k;
             let Some(child) = self.nodes().get(index) else {
@@ -60,12 +61,12 @@ impl LightBvhRef<'_> {
                 let gain = child.gain() / node.gain();
                 let own = self.total_weight(index, child, receiver, (weights.inv_unit, gain));
                 weights.lanes[k] = own.min(LARGEST_WEIGHT);
-                groups[k] = child.count > 1 && own > 0.0;
+                groups |= u32::from(child.count > 1 && own > 0.0) << k;
             }
         }
         let least = (total(&weights.lanes) * NEAR_SHARE).min(LARGEST_WEIGHT);
-        for (weight, is_group) in weights.lanes.iter_mut().zip(groups) {
-            if is_group {
+        for (k, weight) in weights.lanes.iter_mut().enumerate() {
+            if groups >> k & 1 == 1 {
                 *weight = weight.max(least);
             }
         }
