@@ -82,8 +82,8 @@ impl InstancedLightBvh {
         Self::build_with(prototypes, placements, &LightBvhOptions::default())
     }
 
-    /// The same, with an upper tree built as `options` say; [`DarkLights::Kept`](crate::DarkLights::Kept) gives a place to
-    /// dark placements.
+    /// The same, with an upper tree built as `options` say;
+    /// [`DarkLights::Kept`](crate::DarkLights::Kept) gives a place to dark placements.
     ///
     /// # Errors
     /// As for [`build`](Self::build).
