@@ -12,7 +12,7 @@ use crate::instances::error::InstancedLightBvhError;
 use crate::instances::openings::Openings;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::PlacedLight;
-use crate::instances::placed_moments::{PlacedGroup, positive_float};
+use crate::instances::placed_moments::{PlacedGroup, Turned, positive_float};
 use crate::instances::placement::Placement;
 use crate::instances::prototype::LightPrototype;
 use crate::light_bvh::LightBvh;
@@ -127,17 +127,17 @@ impl<'a> Placed<'a> {
             return *light;
         };
         let all = self.groups[id.placement as usize].bounds();
-        let center = frame.place(bounds.bounds.center(), prototype);
+        let turned = Turned::new(prototype, frame, placement);
+        let center = turned.place(bounds.bounds.center());
         let is_lit = all.min.x <= all.max.x;
         let center = if is_lit {
             center.clamp(all.min, all.max)
         } else {
             Vec3::ZERO
         };
-        let w = frame.axes() * bounds.w * 1.0f32.copysign(frame.scale());
         LightExtent::Bounded(LightBounds {
             bounds: Aabb::from_point(center),
-            w: w.normalize_or(Vec3::Z),
+            w: turned.axis(bounds.w).normalize_or(Vec3::Z),
             phi: positive_float(f64::from(phi(light)) * f64::from(placement.power)),
             ..*bounds
         })

@@ -55,11 +55,6 @@ impl PlacedFrame {
         1.0 / self.inv_scale
     }
 
-    /// A point of the prototype where it is placed.
-    pub(crate) fn place(&self, x: Vec3, prototype: &LightPrototype) -> Vec3 {
-        self.center + self.axes() * ((x - prototype.center) * self.scale())
-    }
-
     /// How far the lights of `placement`, which this is the frame of, may be from where they are
     /// computed to be. Where lengths of the prototype overflow, those of the scene need not.
     pub(crate) fn error(&self, placement: &Placement, prototype: &LightPrototype) -> f32 {

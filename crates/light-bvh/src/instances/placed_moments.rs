@@ -107,7 +107,7 @@ impl PlacedGroup {
 }
 
 /// The lights of a prototype where they are placed.
-struct Turned<'a> {
+pub(crate) struct Turned<'a> {
     prototype: &'a LightPrototype,
     center: Vec3,
     axes: Mat3,
@@ -117,7 +117,11 @@ struct Turned<'a> {
 }
 
 impl<'a> Turned<'a> {
-    fn new(prototype: &'a LightPrototype, frame: &PlacedFrame, placement: &Placement) -> Self {
+    pub(crate) fn new(
+        prototype: &'a LightPrototype,
+        frame: &PlacedFrame,
+        placement: &Placement,
+    ) -> Self {
         Self {
             prototype,
             center: frame.center,
@@ -128,8 +132,13 @@ impl<'a> Turned<'a> {
     }
 
     /// A point of the prototype.
-    fn place(&self, x: Vec3) -> Vec3 {
+    pub(crate) fn place(&self, x: Vec3) -> Vec3 {
         self.center + self.axes * ((x - self.prototype.center) * self.scale)
+    }
+
+    /// An emission axis of the prototype.
+    pub(crate) fn axis(&self, w: Vec3) -> Vec3 {
+        self.axes * w * 1.0f32.copysign(self.scale)
     }
 
     /// Moments of some lights, which are in the box `bounds` where they are placed.
@@ -137,7 +146,7 @@ impl<'a> Turned<'a> {
         let mut moments = Moments {
             bounds,
             mean: self.place(inner.mean).clamp(bounds.min, bounds.max),
-            axis: self.axes * inner.axis * 1.0f32.copysign(self.scale),
+            axis: self.axis(inner.axis),
             ..*inner
         };
         // Depth and covariance stay shares of the squared width, which turning changes.
