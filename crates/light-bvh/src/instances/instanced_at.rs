@@ -1,10 +1,12 @@
-use light_bounds::{LightGroups, LightId, LightSampleContext, SampledLight};
+use light_bounds::{LightGroups, LightId, LightSampleContext};
 use light_math::float::positive_product;
 
 use crate::importance::context_receiver::ContextReceiver;
+use crate::instances::frames::AfterOneLevel;
 use crate::instances::instanced_bvh::InstancedLightBvh;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
 use crate::query::bvh_at::LightBvhAt;
+use crate::query::descent::ChosenEntry;
 use crate::query::into_receiver::InGroups;
 
 /// A tree of trees as one context sees it: the root is evaluated once for all queries.
@@ -23,7 +25,8 @@ impl InstancedLightBvh {
     #[must_use]
     pub fn sample(&self, ctx: &LightSampleContext, u: u64) -> Option<SampledPlacedLight> {
         let InGroups { receiver, groups } = &ctx.into();
-        let placed = self.top().view().sample_for(receiver, *groups, u)?;
+        let top = self.top().view();
+        let placed = top.sample_entry(receiver, *groups, u, self.frames())?;
         self.sample_in(&placed, receiver, *groups)
     }
 
@@ -54,18 +57,22 @@ impl InstancedLightBvh {
     #[inline(always)]
     fn sample_in(
         &self,
-        placed: &SampledLight,
+        placed: &ChosenEntry,
         receiver: &ContextReceiver,
         groups: LightGroups,
     ) -> Option<SampledPlacedLight> {
-        if let Some(light) = self.openings().light(placed) {
-            return Some(light);
+        let top = self.top().view();
+        if !self.openings().is_empty() {
+            if let Some(light) = self.openings().light(&top.light_of(placed)?) {
+                return Some(light);
+            }
         }
-        let (frame, prototype) = self.placed(placed.light.0)?;
+        let frame = self.frames().chosen(placed, &top)?;
+        let prototype = self.prototype(frame)?;
         let inside = frame.receiver(receiver, prototype);
         let tree = prototype.tree().view();
-        let chosen = tree.sample_for(&inside, groups, placed.u)?;
-        Some(SampledPlacedLight::of(placed, &chosen))
+        let chosen = tree.sample_for(&inside, groups, placed.u, AfterOneLevel)?;
+        Some(SampledPlacedLight::of(frame.placement, placed.pmf, &chosen))
     }
 
     /// Probability of a light given its placement.
@@ -93,7 +100,7 @@ impl InstancedLightBvhAt<'_> {
     #[must_use]
     pub fn sample(&self, u: u64) -> Option<SampledPlacedLight> {
         let InGroups { receiver, groups } = &self.receiver;
-        let placed = self.top.sample(u)?;
+        let placed = self.top.sample_entry(u, self.tree.frames())?;
         self.tree.sample_in(&placed, receiver, *groups)
     }
 

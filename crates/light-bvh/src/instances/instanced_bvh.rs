@@ -6,6 +6,7 @@ use light_math::float::positive_product;
 use crate::build::options::LightBvhOptions;
 use crate::build::scan::is_addressable;
 use crate::instances::error::InstancedLightBvhError;
+use crate::instances::frames::Frames;
 use crate::instances::light_ranges::LightRanges;
 use crate::instances::openings::Openings;
 use crate::instances::overlaps::placements_to_open;
@@ -63,7 +64,7 @@ use crate::light_bvh::LightBvh;
 #[derive(Clone, Debug)]
 pub struct InstancedLightBvh {
     top: LightBvh,
-    frames: Vec<PlacedFrame>,
+    frames: Frames,
     openings: Openings,
     prototypes: Vec<LightPrototype>,
     ranges: LightRanges,
@@ -124,7 +125,7 @@ impl InstancedLightBvh {
         } else {
             placed.build(options, &openings)?
         };
-        let frames = placed.frames;
+        let frames = Frames::new(placed.frames, &top, !openings.is_empty());
         let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
         let ranges = LightRanges::new(placements.iter().map(count));
         let mut prototypes = prototypes;
@@ -145,18 +146,21 @@ impl InstancedLightBvh {
     /// Another number of placements, or another prototype of one; a light beyond ±1e36; a placement
     /// that was dark and has no place. The tree does not change then.
     pub fn refit(&mut self, placements: &[Placement]) -> Result<(), InstancedLightBvhError> {
-        if placements.len() != self.frames.len() {
-            let expected = self.frames.len();
+        let frames = self.frames.all();
+        if placements.len() != frames.len() {
+            let expected = frames.len();
             return Err(InstancedLightBvhError::OtherPlacements { expected });
         }
-        for (placement, (placed, frame)) in (0..).zip(placements.iter().zip(&self.frames)) {
-            if placed.prototype != frame.prototype {
-                return Err(InstancedLightBvhError::Prototype { placement });
-            }
+        let is_other = |frame: &&PlacedFrame| {
+            placements[frame.placement as usize].prototype != frame.prototype
+        };
+        let others = frames.iter().filter(is_other);
+        if let Some(placement) = others.map(|frame| frame.placement).min() {
+            return Err(InstancedLightBvhError::Prototype { placement });
         }
         let placed = Placed::new(&self.prototypes, placements)?;
         placed.refit(&mut self.top, &self.openings)?;
-        self.frames = placed.frames;
+        self.frames = Frames::new(placed.frames, &self.top, !self.openings.is_empty());
         Ok(())
     }
 
@@ -188,7 +192,7 @@ impl InstancedLightBvh {
     /// # Errors
     /// [`InstancedLightBvhError::OtherPlacements`] if these are not as many as the placements.
     pub fn set_groups(&mut self, groups: &[LightGroups]) -> Result<(), InstancedLightBvhError> {
-        let expected = self.frames.len();
+        let expected = self.frames.all().len();
         let refused = InstancedLightBvhError::OtherPlacements { expected };
         if groups.len() != expected {
             return Err(refused);
@@ -209,7 +213,7 @@ impl InstancedLightBvh {
         }
         let (_, prototype) = self.placed(placed.light.0)?;
         let chosen = prototype.tree().view().sample_emitter(placed.u)?;
-        Some(SampledPlacedLight::of(&placed, &chosen))
+        Some(SampledPlacedLight::of(placed.light.0, placed.pmf, &chosen))
     }
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
@@ -270,7 +274,7 @@ impl InstancedLightBvh {
     pub fn bytes(&self) -> usize {
         let prototypes = self.prototypes.iter();
         let prototypes: usize = prototypes.map(|p| p.tree().bytes()).sum();
-        let placements = size_of_val(&*self.frames) + self.ranges.bytes();
+        let placements = size_of_val(self.frames.all()) + self.ranges.bytes();
         let placements = placements + self.openings.bytes();
         self.top.bytes() + placements + prototypes
     }
@@ -282,7 +286,17 @@ impl InstancedLightBvh {
     /// A placement and its prototype.
     #[inline(always)]
     pub(crate) fn placed(&self, placement: u32) -> Option<(&PlacedFrame, &LightPrototype)> {
-        let frame = self.frames.get(placement as usize)?;
-        Some((frame, self.prototypes.get(frame.prototype as usize)?))
+        let frame = self.frames.of(placement, &self.top.view())?;
+        Some((frame, self.prototype(frame)?))
+    }
+
+    pub(crate) const fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
+    /// The prototype of a placement.
+    #[inline(always)]
+    pub(crate) fn prototype(&self, frame: &PlacedFrame) -> Option<&LightPrototype> {
+        self.prototypes.get(frame.prototype as usize)
     }
 }

@@ -1,6 +1,7 @@
 //! A tree of trees: lights that are placed many times are stored once.
 
 pub(crate) mod error;
+pub(crate) mod frames;
 pub(crate) mod instanced_at;
 pub(crate) mod instanced_bvh;
 pub(crate) mod light_ranges;

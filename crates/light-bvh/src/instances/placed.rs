@@ -7,6 +7,7 @@ use light_math::glam::Vec3;
 use crate::build::lights::{LeafMoments, phi};
 use crate::build::options::{DarkLights, LightBvhOptions};
 use crate::build::scan::Scan;
+use crate::build::topology::low_word;
 use crate::importance::position::FAR;
 use crate::instances::error::InstancedLightBvhError;
 use crate::instances::openings::Openings;
@@ -40,7 +41,7 @@ impl<'a> Placed<'a> {
     ) -> Result<Self, InstancedLightBvhError> {
         let prototype = |p: &Placement| &prototypes[p.prototype as usize];
         let frames = table(placements.len(), |i| {
-            PlacedFrame::new(&placements[i], prototype(&placements[i]))
+            PlacedFrame::new(low_word(i), &placements[i], prototype(&placements[i]))
         });
         let groups = table(placements.len(), |i| {
             let placement = &placements[i];

@@ -10,8 +10,9 @@ use crate::instances::prototype::LightPrototype;
 /// frame of a prototype, as a share of the coordinates.
 const ROUND_OFF: f32 = 1e-6;
 
-/// Where a prototype is placed, as queries need it: 40 bytes.
+/// Where a prototype is placed, as queries need it: 48 bytes, on two cache lines at most.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
 pub(crate) struct PlacedFrame {
     rotation: Quat,
     /// Where the middle of the prototype's lights is placed.
@@ -19,13 +20,17 @@ pub(crate) struct PlacedFrame {
     /// One over the scale; negative if the prototype is mirrored.
     inv_scale: f32,
     pub(crate) prototype: u32,
+    /// Which placement it is.
+    pub(crate) placement: u32,
     /// How far placed lights may be from where they are computed to be, in lengths of the
     /// prototype.
     error: f32,
 }
 
+const _: () = assert!(size_of::<PlacedFrame>() == 48, "as documented");
+
 impl PlacedFrame {
-    pub(crate) fn new(placement: &Placement, prototype: &LightPrototype) -> Self {
+    pub(crate) fn new(index: u32, placement: &Placement, prototype: &LightPrototype) -> Self {
         let &Placement {
             rotation,
             scale,
@@ -41,6 +46,7 @@ impl PlacedFrame {
             center,
             inv_scale,
             prototype: placement.prototype,
+            placement: index,
             error: error(coordinates, size(prototype)),
         }
     }

@@ -24,15 +24,16 @@ pub struct SampledPlacedLight {
 }
 
 impl SampledPlacedLight {
-    /// The choice of a light of a prototype after that of a placement.
+    /// The choice of a light of a prototype after that of a placement, which had probability
+    /// `pmf`.
     #[inline]
-    pub(crate) fn of(placed: &SampledLight, chosen: &SampledLight) -> Self {
+    pub(crate) fn of(placement: u32, pmf: f32, chosen: &SampledLight) -> Self {
         Self {
             light: PlacedLight {
-                placement: placed.light.0,
+                placement,
                 light: chosen.light,
             },
-            pmf: positive_product(placed.pmf, chosen.pmf),
+            pmf: positive_product(pmf, chosen.pmf),
             u: chosen.u,
         }
     }

@@ -69,13 +69,17 @@ impl<F: FnMut(LightId, f32)> Query for Pass<'_, '_, F> {
             for child in 0..usize::from(node.count) {
                 let pmf = positive_product(pmf, weights.probability(child));
                 match self.tree.child(node, child) {
-                    Some(Child::Light(light)) if pmf > 0.0 => (self.each)(light, pmf),
-                    Some(Child::Node(child)) => {
+                    Child::Entry(entry) if pmf > 0.0 => {
+                        if let Some(light) = self.tree.light(entry) {
+                            (self.each)(light, pmf);
+                        }
+                    }
+                    Child::Entry(_) => {}
+                    Child::Node(child) => {
                         if let Some(child) = reached.get_mut(child) {
                             *child = pmf;
                         }
                     }
-                    _ => {}
                 }
             }
         }

@@ -4,6 +4,8 @@ use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::receiver::Receiver;
 use crate::query::ascent::KnownPmfs;
 use crate::query::bvh_ref::LightBvhRef;
+#[cfg(feature = "alloc")]
+use crate::query::descent::{ChosenEntry, Prefetch};
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query, QueryFor};
 use crate::query::weights::Weights;
 use crate::simd::dispatch;
@@ -55,6 +57,16 @@ impl<R: KeptReceiver> LightBvhAt<'_, R> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<R: KeptReceiver> LightBvhAt<'_, R> {
+    /// [`sample`](Self::sample) as an entry of the order.
+    #[inline(always)]
+    pub(crate) fn sample_entry(&self, u: u64, prefetch: impl Prefetch) -> Option<ChosenEntry> {
+        let at = self;
+        dispatch(QueryFor(&self.receiver, EntryFromRoot { at, u, prefetch }))
+    }
+}
+
 /// The weights of the root's children.
 struct Root<'a, 'b> {
     tree: &'b LightBvhRef<'a>,
@@ -86,6 +98,26 @@ impl<K> Query for FromRoot<'_, '_, K> {
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
         let LightBvhAt { tree, root, .. } = self.at;
         tree.descend_from(receiver, 0, 1.0, &root.choose(self.u)?)
+    }
+}
+
+/// [`LightBvhAt::sample_entry`].
+#[cfg(feature = "alloc")]
+struct EntryFromRoot<'a, 'b, K, P> {
+    at: &'b LightBvhAt<'a, K>,
+    u: u64,
+    prefetch: P,
+}
+
+#[cfg(feature = "alloc")]
+impl<K, P: Prefetch> Query for EntryFromRoot<'_, '_, K, P> {
+    type Output = Option<ChosenEntry>;
+
+    #[inline(always)]
+    fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
+        let LightBvhAt { tree, root, .. } = self.at;
+        let choice = root.choose(self.u)?;
+        tree.entry_from(receiver, &self.prefetch, 0, 1.0, &choice)
     }
 }
 

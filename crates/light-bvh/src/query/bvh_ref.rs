@@ -25,7 +25,8 @@ pub struct LightBvhRef<'a> {
 /// What a slot of a node leads to.
 pub(crate) enum Child {
     Node(usize),
-    Light(LightId),
+    /// The light of this entry of the order.
+    Entry(usize),
 }
 
 /// The groups of all children of a node together.
@@ -129,20 +130,41 @@ impl<'a> LightBvhRef<'a> {
             return;
         }
         prefetch::<WIDTH, _>(self.order, node.light_base);
+        self.prefetch_nodes_below(node);
+    }
+
+    /// The same without the lights, of a tree of any size.
+    #[inline(always)]
+    pub(crate) fn prefetch_nodes_below(&self, node: &WideNode) {
         if node.inner > 0 {
             prefetch_ends::<WIDTH, _>(self.nodes, node.child_base);
         }
     }
 
-    /// What slot `child` of `node` leads to; `None` for arrays of another origin.
+    /// What slot `child` of `node` leads to.
     #[inline(always)]
-    pub(crate) fn child(&self, node: &WideNode, child: usize) -> Option<Child> {
+    pub(crate) fn child(&self, node: &WideNode, child: usize) -> Child {
         let inner = usize::from(node.inner);
         if child < inner {
-            return Some(Child::Node(node.child_base as usize + child));
+            Child::Node(node.child_base as usize + child)
+        } else {
+            Child::Entry(node.light_base as usize + child - inner)
         }
-        let entry = node.light_base as usize + child - inner;
-        Some(Child::Light(LightId(*self.order.get(entry)?)))
+    }
+
+    /// The light of an entry of the order; `None` for arrays of another origin.
+    #[inline(always)]
+    pub(crate) fn light(&self, entry: usize) -> Option<LightId> {
+        Some(LightId(*self.order.get(entry)?))
+    }
+
+    /// The entry of the order that `light` has, if it has a place.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn entry(&self, light: LightId) -> Option<usize> {
+        let slot = self.slot(light) as usize;
+        let node = self.nodes.get(slot / WIDTH)?;
+        (node.light_base as usize + slot % WIDTH).checked_sub(usize::from(node.inner))
     }
 
     /// The place of `light`; [`NOWHERE`] if it has none.

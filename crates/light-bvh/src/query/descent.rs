@@ -2,51 +2,94 @@ use light_bounds::SampledLight;
 use light_math::float::positive_product;
 
 use crate::importance::receiver::Receiver;
-use crate::node::wide_node::MAX_DEPTH;
+use crate::node::wide_node::{MAX_DEPTH, WideNode};
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
 use crate::query::select::Choice;
 
-/// How many levels below the start of a descent the caches hold: they are not prefetched.
-const CACHED_LEVELS: usize = 2;
+/// What a descent prefetches on its way.
+pub(crate) trait Prefetch {
+    /// Prefetches what a choice among the children of `node` may lead to, which is so many levels
+    /// below the start.
+    fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode);
+}
 
-/// [`LightBvhRef::sample`].
-pub(crate) struct Descent<'a, 'b> {
-    pub(crate) tree: &'b LightBvhRef<'a>,
+/// Nodes and lights more than two levels below the start: the caches hold those above.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AfterTwoLevels;
+
+impl Prefetch for AfterTwoLevels {
+    #[inline(always)]
+    fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
+        if level >= 2 {
+            tree.prefetch_below(node);
+        }
+    }
+}
+
+/// An entry of a tree's order that was chosen, the probability of that, and the unused part of `u`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChosenEntry {
+    pub(crate) entry: usize,
+    pub(crate) pmf: f32,
     pub(crate) u: u64,
 }
 
-impl Query for Descent<'_, '_> {
+/// The choice of a light.
+pub(crate) struct Descent<'a, 'b, P> {
+    pub(crate) tree: &'b LightBvhRef<'a>,
+    pub(crate) u: u64,
+    pub(crate) prefetch: P,
+}
+
+impl<P: Prefetch> Query for Descent<'_, '_, P> {
     type Output = Option<SampledLight>;
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-        self.tree.descend(receiver, 0, 1.0, self.u)
+        let Self { tree, u, prefetch } = self;
+        tree.light_of(&tree.descend(receiver, &prefetch, 0, 1.0, u)?)
+    }
+}
+
+/// The choice of an entry of the order.
+pub(crate) struct EntryDescent<'a, 'b, P> {
+    pub(crate) tree: &'b LightBvhRef<'a>,
+    pub(crate) u: u64,
+    pub(crate) prefetch: P,
+}
+
+impl<P: Prefetch> Query for EntryDescent<'_, '_, P> {
+    type Output = Option<ChosenEntry>;
+
+    #[inline(always)]
+    fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
+        let Self { tree, u, prefetch } = self;
+        tree.descend(receiver, &prefetch, 0, 1.0, u)
     }
 }
 
 impl LightBvhRef<'_> {
-    /// From `node`, which was reached with probability `pmf`, down to a light.
+    /// From `node`, which was reached with probability `pmf`, down to an entry of the order.
     #[inline(always)]
     fn descend<R: Receiver>(
         &self,
         receiver: &R,
+        prefetch: &impl Prefetch,
         node: usize,
         pmf: f32,
         u: u64,
-    ) -> Option<SampledLight> {
+    ) -> Option<ChosenEntry> {
         let (mut index, mut pmf, mut u) = (node, pmf, u);
         for level in 0..MAX_DEPTH {
             let node = self.nodes().get(index)?;
-            if level >= CACHED_LEVELS {
-                self.prefetch_below(node);
-            }
+            prefetch.below(self, level, node);
             let weights = self.weights(index, node, receiver);
             let choice = weights.choose(u)?;
             pmf = positive_product(pmf, choice.probability);
             u = choice.u;
-            match self.child(node, choice.child)? {
-                Child::Light(light) => return Some(SampledLight { light, pmf, u }),
+            match self.child(node, choice.child) {
+                Child::Entry(entry) => return Some(ChosenEntry { entry, pmf, u }),
                 Child::Node(child) => index = child,
             }
         }
@@ -63,11 +106,33 @@ impl LightBvhRef<'_> {
         pmf: f32,
         choice: &Choice,
     ) -> Option<SampledLight> {
+        let prefetch = &AfterTwoLevels;
+        self.light_of(&self.entry_from(receiver, prefetch, node, pmf, choice)?)
+    }
+
+    /// The same, down to an entry of the order.
+    #[inline(always)]
+    pub(crate) fn entry_from<R: Receiver>(
+        &self,
+        receiver: &R,
+        prefetch: &impl Prefetch,
+        node: u32,
+        pmf: f32,
+        choice: &Choice,
+    ) -> Option<ChosenEntry> {
         let pmf = positive_product(pmf, choice.probability);
         let u = choice.u;
-        match self.child(self.nodes().get(node as usize)?, choice.child)? {
-            Child::Light(light) => Some(SampledLight { light, pmf, u }),
-            Child::Node(child) => self.descend(receiver, child, pmf, u),
+        match self.child(self.nodes().get(node as usize)?, choice.child) {
+            Child::Entry(entry) => Some(ChosenEntry { entry, pmf, u }),
+            Child::Node(child) => self.descend(receiver, prefetch, child, pmf, u),
         }
+    }
+
+    /// The light of a chosen entry.
+    #[inline(always)]
+    pub(crate) fn light_of(&self, chosen: &ChosenEntry) -> Option<SampledLight> {
+        let &ChosenEntry { entry, pmf, u } = chosen;
+        let light = self.light(entry)?;
+        Some(SampledLight { light, pmf, u })
     }
 }

@@ -3,7 +3,9 @@ use light_bounds::{LightGroups, LightId, SampledLight};
 use crate::importance::receiver::NoReceiver;
 use crate::query::ascent::Ascent;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::descent::Descent;
+use crate::query::descent::{AfterTwoLevels, Descent, Prefetch};
+#[cfg(feature = "alloc")]
+use crate::query::descent::{ChosenEntry, EntryDescent};
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, QueryFor};
 use crate::simd::dispatch;
 
@@ -13,7 +15,8 @@ impl LightBvhRef<'_> {
     /// One light that may light `receiver`; `None` if no light in the tree can.
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
-        self.sample_for(&receiver.keep(), receiver.groups(), u)
+        let groups = receiver.groups();
+        self.sample_for(&receiver.keep(), groups, u, AfterTwoLevels)
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
@@ -29,9 +32,24 @@ impl LightBvhRef<'_> {
         receiver: &R,
         groups: LightGroups,
         u: u64,
+        prefetch: impl Prefetch,
     ) -> Option<SampledLight> {
         let tree = &self.wanting(groups);
-        dispatch(QueryFor(receiver, Descent { tree, u }))
+        dispatch(QueryFor(receiver, Descent { tree, u, prefetch }))
+    }
+
+    /// The same as an entry of the order.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn sample_entry<R: KeptReceiver>(
+        &self,
+        receiver: &R,
+        groups: LightGroups,
+        u: u64,
+        prefetch: impl Prefetch,
+    ) -> Option<ChosenEntry> {
+        let tree = &self.wanting(groups);
+        dispatch(QueryFor(receiver, EntryDescent { tree, u, prefetch }))
     }
 
     /// [`pmf`](Self::pmf) of the lights in some groups.

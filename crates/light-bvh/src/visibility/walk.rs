@@ -55,7 +55,7 @@ pub(super) fn descend<R: Receiver>(
         let below = cell.below(place, choice.child);
         let (Some(below), Child::Node(child)) = (
             below,
-            tree.child(tree.nodes().get(index as usize)?, choice.child)?,
+            tree.child(tree.nodes().get(index as usize)?, choice.child),
         ) else {
             break;
         };

@@ -1,0 +1,107 @@
+use alloc::vec::Vec;
+
+use light_bounds::LightId;
+
+use crate::instances::placed_frame::PlacedFrame;
+use crate::light_bvh::LightBvh;
+use crate::node::wide_node::WideNode;
+use crate::query::bvh_ref::LightBvhRef;
+use crate::query::descent::{ChosenEntry, Prefetch};
+use crate::simd::prefetch_some;
+
+/// The frames of all placements.
+///
+/// Where no placement is opened they are in the order of the upper tree, so that those of a node
+/// are side by side and are prefetched before one of them is chosen. Otherwise most entries of that
+/// order are lights, and the frames are in the order of the placements.
+#[derive(Clone, Debug)]
+pub(crate) struct Frames {
+    rows: Vec<PlacedFrame>,
+    is_in_tree_order: bool,
+}
+
+impl Frames {
+    /// The frames of placements that are in their own order, and leaves of the upper tree `top`.
+    pub(crate) fn new(frames: Vec<PlacedFrame>, top: &LightBvh, is_any_open: bool) -> Self {
+        if is_any_open {
+            return Self {
+                rows: frames,
+                is_in_tree_order: false,
+            };
+        }
+        let mut rows = Vec::with_capacity(frames.len());
+        rows.extend(top.order.iter().map(|&leaf| frames[leaf as usize]));
+        // Dark placements without a place come last.
+        let view = top.view();
+        let has_no_place = |frame: &PlacedFrame| view.entry(LightId(frame.placement)).is_none();
+        rows.extend(frames.into_iter().filter(has_no_place));
+        Self {
+            rows,
+            is_in_tree_order: true,
+        }
+    }
+
+    /// All of them, in any order.
+    pub(crate) fn all(&self) -> &[PlacedFrame] {
+        &self.rows
+    }
+
+    /// That of a placement, `None` if it has no place.
+    #[inline(always)]
+    pub(crate) fn of(&self, placement: u32, top: &LightBvhRef<'_>) -> Option<&PlacedFrame> {
+        let index = if self.is_in_tree_order {
+            top.entry(LightId(placement))?
+        } else {
+            placement as usize
+        };
+        self.rows.get(index)
+    }
+
+    /// That of the placement that was chosen, `None` if a light was.
+    #[inline(always)]
+    pub(crate) fn chosen(
+        &self,
+        chosen: &ChosenEntry,
+        top: &LightBvhRef<'_>,
+    ) -> Option<&PlacedFrame> {
+        let index = if self.is_in_tree_order {
+            chosen.entry
+        } else {
+            top.light(chosen.entry)?.index()
+        };
+        self.rows.get(index)
+    }
+}
+
+/// [`AfterTwoLevels`](crate::query::descent::AfterTwoLevels), with the frames of placements.
+impl Prefetch for &Frames {
+    #[inline(always)]
+    fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
+        if level < 2 {
+            return;
+        }
+        if self.is_in_tree_order {
+            tree.prefetch_nodes_below(node);
+            let lights = usize::from(node.count - node.inner);
+            if lights > 0 {
+                prefetch_some(&self.rows, node.light_base, lights);
+            }
+        } else {
+            tree.prefetch_below(node);
+        }
+    }
+}
+
+/// Nodes and lights more than one level below the root of a prototype: the caches hold the first
+/// two levels of all prototypes, if these are few.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AfterOneLevel;
+
+impl Prefetch for AfterOneLevel {
+    #[inline(always)]
+    fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
+        if level >= 1 {
+            tree.prefetch_below(node);
+        }
+    }
+}
