@@ -80,13 +80,6 @@ pub(crate) fn prefetch<const N: usize, T>(items: &[T], first: u32) {
     prefetch_lines(items.as_ptr().wrapping_add(first as usize), N);
 }
 
-/// Prefetches `count` of `items`, which are read soon, from `first` on.
-#[cfg(feature = "alloc")]
-#[inline(always)]
-pub(crate) fn prefetch_some<T>(items: &[T], first: u32, count: usize) {
-    prefetch_lines(items.as_ptr().wrapping_add(first as usize), count);
-}
-
 /// Prefetches the last cache line of each of `N` of `items`, of which one is read soon, from `first`
 /// on. Their other lines would delay this one: most of them are not read.
 #[inline(always)]

@@ -4,10 +4,10 @@ use light_bounds::LightId;
 
 use crate::instances::placed_frame::PlacedFrame;
 use crate::light_bvh::LightBvh;
-use crate::node::wide_node::WideNode;
+use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::descent::{ChosenEntry, Prefetch};
-use crate::simd::prefetch_some;
+use crate::simd::prefetch;
 
 /// The frames of all placements.
 ///
@@ -82,9 +82,8 @@ impl Prefetch for &Frames {
         }
         if self.is_in_tree_order {
             tree.prefetch_nodes_below(node);
-            let lights = usize::from(node.count - node.inner);
-            if lights > 0 {
-                prefetch_some(&self.rows, node.light_base, lights);
+            if node.inner < node.count {
+                prefetch::<WIDTH, _>(&self.rows, node.light_base);
             }
         } else {
             tree.prefetch_below(node);

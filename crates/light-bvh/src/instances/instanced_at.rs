@@ -4,10 +4,14 @@ use light_math::float::positive_product;
 use crate::importance::context_receiver::ContextReceiver;
 use crate::instances::frames::AfterOneLevel;
 use crate::instances::instanced_bvh::InstancedLightBvh;
+use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
+use crate::instances::prototype::LightPrototype;
+use crate::query::ascent::Ascent;
 use crate::query::bvh_at::LightBvhAt;
-use crate::query::descent::ChosenEntry;
-use crate::query::into_receiver::InGroups;
+use crate::query::descent::{ChosenEntry, Descent};
+use crate::query::into_receiver::{InGroups, KeptReceiver, Query};
+use crate::simd::{VectorWork, dispatch};
 
 /// A tree of trees as one context sees it: the root is evaluated once for all queries.
 ///
@@ -69,9 +73,17 @@ impl InstancedLightBvh {
         }
         let frame = self.frames().chosen(placed, &top)?;
         let prototype = self.prototype(frame)?;
-        let inside = frame.receiver(receiver, prototype);
-        let tree = prototype.tree().view();
-        let chosen = tree.sample_for(&inside, groups, placed.u, AfterOneLevel)?;
+        let query = Descent {
+            tree: &prototype.tree().view().wanting(groups),
+            u: placed.u,
+            prefetch: AfterOneLevel,
+        };
+        let chosen = dispatch(InPrototype {
+            frame,
+            prototype,
+            receiver,
+            query,
+        })?;
         Some(SampledPlacedLight::of(frame.placement, placed.pmf, &chosen))
     }
 
@@ -81,9 +93,35 @@ impl InstancedLightBvh {
         let Some((frame, prototype)) = self.placed(light.placement) else {
             return 0.0;
         };
-        let inside = frame.receiver(receiver, prototype);
-        let tree = prototype.tree().view();
-        tree.pmf_for(&inside, groups, light.light)
+        let query = Ascent {
+            tree: &prototype.tree().view().wanting(groups),
+            light: light.light,
+        };
+        dispatch(InPrototype {
+            frame,
+            prototype,
+            receiver,
+            query,
+        })
+    }
+}
+
+/// A query of the tree of a placed prototype: the receiver is moved into its frame in the same
+/// function, where it stays in registers.
+struct InPrototype<'a, Q> {
+    frame: &'a PlacedFrame,
+    prototype: &'a LightPrototype,
+    receiver: &'a ContextReceiver,
+    query: Q,
+}
+
+impl<Q: Query> VectorWork for InPrototype<'_, Q> {
+    type Output = Q::Output;
+
+    #[inline(always)]
+    fn run(self) -> Q::Output {
+        let inside = self.frame.receiver(self.receiver, self.prototype);
+        inside.run(self.query)
     }
 }
 

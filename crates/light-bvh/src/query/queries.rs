@@ -15,8 +15,7 @@ impl LightBvhRef<'_> {
     /// One light that may light `receiver`; `None` if no light in the tree can.
     #[must_use]
     pub fn sample(&self, receiver: impl IntoReceiver, u: u64) -> Option<SampledLight> {
-        let groups = receiver.groups();
-        self.sample_for(&receiver.keep(), groups, u, AfterTwoLevels)
+        self.sample_for(&receiver.keep(), receiver.groups(), u)
     }
 
     /// Probability that [`sample`](Self::sample) for `receiver` returns `light`, to the bit.
@@ -32,9 +31,9 @@ impl LightBvhRef<'_> {
         receiver: &R,
         groups: LightGroups,
         u: u64,
-        prefetch: impl Prefetch,
     ) -> Option<SampledLight> {
         let tree = &self.wanting(groups);
+        let prefetch = AfterTwoLevels;
         dispatch(QueryFor(receiver, Descent { tree, u, prefetch }))
     }
 
