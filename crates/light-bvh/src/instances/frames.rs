@@ -7,7 +7,7 @@ use crate::light_bvh::LightBvh;
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::descent::{ChosenEntry, Prefetch};
-use crate::simd::prefetch;
+use crate::simd::{prefetch, prefetch_item};
 
 /// The frames of all placements.
 ///
@@ -55,6 +55,14 @@ impl Frames {
             placement as usize
         };
         self.rows.get(index)
+    }
+
+    /// Prefetches that of a placement.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, placement: u32, top: &LightBvhRef<'_>) {
+        if let Some(frame) = self.of(placement, top) {
+            prefetch_item(frame);
+        }
     }
 
     /// That of the placement that was chosen, `None` if a light was.

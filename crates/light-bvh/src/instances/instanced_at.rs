@@ -42,6 +42,7 @@ impl InstancedLightBvh {
         if let Some(leaf) = self.openings().leaf(light) {
             return top.pmf_for(receiver, *groups, leaf);
         }
+        self.frames().prefetch(light.placement, &top);
         let placed = top.pmf_for(receiver, *groups, LightId(light.placement));
         positive_product(placed, self.pmf_in(light, receiver, *groups))
     }
@@ -149,6 +150,8 @@ impl InstancedLightBvhAt<'_> {
         if let Some(leaf) = self.tree.openings().leaf(light) {
             return self.top.pmf(leaf);
         }
+        let top = self.tree.top().view();
+        self.tree.frames().prefetch(light.placement, &top);
         let placed = self.top.pmf(LightId(light.placement));
         positive_product(placed, self.tree.pmf_in(light, receiver, *groups))
     }
