@@ -8,6 +8,10 @@ use crate::query::bvh_ref::LightBvhRef;
 /// and the groups of the lights if they have some, as little-endian machines hold them. Nothing is
 /// copied. The example [`tree_in_a_file`][1] writes a tree and reads it.
 ///
+/// Queries of a tree far above the caches wait for page tables too. On Linux ask for huge pages
+/// (`madvise` with `MADV_HUGEPAGE`, in `memmap2` `Mmap::advise(Advice::HugePage)`) before the first
+/// read of a mapped file: see *More lights than memory holds* in `docs/light-bvh.md`.
+///
 /// [1]: https://github.com/lights-rs/lights/blob/main/crates/lights/examples/tree_in_a_file.rs
 #[derive(Clone, Copy, Debug)]
 pub struct StoredLightBvh<'a> {

@@ -85,7 +85,7 @@ impl Frames {
 impl Prefetch for &Frames {
     #[inline(always)]
     fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
-        if level < 2 {
+        if level < 2 || tree.is_small() {
             return;
         }
         if self.is_in_tree_order {

@@ -22,7 +22,7 @@ use crate::light_bvh::LightBvh;
 /// The leaves of the upper tree are placements of prototypes, each with a rotation, one scale and a
 /// translation. A node of it knows the moments of the placed groups as a node of [`LightBvh`] knows
 /// those of lights, and a choice goes on from a leaf to the root of a prototype, with the receiver
-/// in the frame of that. 24 to 29 bytes a light of a prototype, and about 76 a placement.
+/// in the frame of that. 24 to 29 bytes a light of a prototype, and about 84 a placement.
 ///
 /// Placements that reach into others are opened when the tree is built: their lights are leaves of
 /// the upper tree, as if they were copied, about 40 bytes each. At most 2^20 lights are, of those

@@ -133,6 +133,13 @@ impl<'a> LightBvhRef<'a> {
         self.prefetch_nodes_below(node);
     }
 
+    /// Whether the caches hold the whole tree.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) const fn is_small(&self) -> bool {
+        self.nodes.len() <= CACHED_NODES
+    }
+
     /// The same without the lights, of a tree of any size.
     #[inline(always)]
     pub(crate) fn prefetch_nodes_below(&self, node: &WideNode) {

@@ -53,12 +53,14 @@ impl<P: Prefetch> Query for Descent<'_, '_, P> {
 }
 
 /// The choice of an entry of the order.
+#[cfg(feature = "alloc")]
 pub(crate) struct EntryDescent<'a, 'b, P> {
     pub(crate) tree: &'b LightBvhRef<'a>,
     pub(crate) u: u64,
     pub(crate) prefetch: P,
 }
 
+#[cfg(feature = "alloc")]
 impl<P: Prefetch> Query for EntryDescent<'_, '_, P> {
     type Output = Option<ChosenEntry>;
 

@@ -3,9 +3,9 @@ use light_bounds::{LightGroups, LightId, SampledLight};
 use crate::importance::receiver::NoReceiver;
 use crate::query::ascent::Ascent;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::descent::{AfterTwoLevels, Descent, Prefetch};
+use crate::query::descent::{AfterTwoLevels, Descent};
 #[cfg(feature = "alloc")]
-use crate::query::descent::{ChosenEntry, EntryDescent};
+use crate::query::descent::{ChosenEntry, EntryDescent, Prefetch};
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, QueryFor};
 use crate::simd::dispatch;
 
