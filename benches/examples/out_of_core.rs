@@ -2,9 +2,9 @@
 //!
 //! `out_of_core write COUNT LIGHTS` makes a file of so many triangles, 44 bytes each, of random
 //! places in a cube; `out_of_core build LIGHTS TREE [LIGHTS AT ONCE]` builds their tree, with scratch
-//! files beside it; `out_of_core query TREE` maps it and times samples, also after the system has
-//! been told to forget the file, which only its administrator may; `out_of_core variance COUNT`
-//! compares V with that of a tree built in memory.
+//! files beside it; `out_of_core query TREE` maps it in small pages and in huge ones, and times
+//! samples, also after the system has been told to forget the file, which only its administrator
+//! may; `out_of_core variance COUNT` compares V with that of a tree built in memory.
 
 use core::num::NonZeroUsize;
 use std::fs::{self, File};
@@ -22,7 +22,7 @@ use lights::bounds::{LightExtent, LightSampleContext};
 use lights::bvh::out_of_core::{BuildStage, LightChunks, OutOfCoreBuild, SliceChunks};
 use lights::bvh::{LightBvh, LightBvhRef, StoredLightBvh};
 use lights::glam::Vec3;
-use memmap2::{Mmap, UncheckedAdvice};
+use memmap2::{Advice, Mmap, UncheckedAdvice};
 
 type Result<T> = core::result::Result<T, Box<dyn std::error::Error>>;
 
@@ -155,15 +155,28 @@ fn build(lights: &Path, tree: &Path, lights_at_once: usize) -> Result<()> {
     Ok(())
 }
 
-#[expect(unsafe_code, reason = "a mapped file changes when others write to it")]
+/// In pages of the least size, and in huge ones: the system uses these for what it reads into memory
+/// after it was asked for them.
 fn query(path: &Path) -> Result<()> {
+    for (name, advice) in [
+        ("small pages", Advice::NoHugePage),
+        ("huge pages", Advice::HugePage),
+    ] {
+        println!("{name}:");
+        query_in_pages(path, advice)?;
+    }
+    Ok(())
+}
+
+#[expect(unsafe_code, reason = "a mapped file changes when others write to it")]
+fn query_in_pages(path: &Path, advice: Advice) -> Result<()> {
     let file = File::open(path)?;
     // SAFETY: nobody writes to a file that this example has made.
     let bytes = unsafe { Mmap::map(&file)? };
-    let start = Instant::now();
+    if let Err(error) = bytes.advise(advice) {
+        println!("not as it was asked for ({error})");
+    }
     let tree = StoredLightBvh::from_bytes(&bytes)?;
-    println!("checked in {:.1?}", start.elapsed());
-    hot(&tree.view())?;
     // SAFETY: the pages come back from the file with the same content.
     unsafe { bytes.unchecked_advise(UncheckedAdvice::DontNeed)? };
     match fs::write("/proc/sys/vm/drop_caches", "1") {
@@ -177,7 +190,24 @@ fn query(path: &Path) -> Result<()> {
         }
         Err(error) => println!("cold: not measured, the file stays in memory ({error})"),
     }
-    Ok(())
+    let start = Instant::now();
+    let tree = StoredLightBvh::from_bytes(&bytes)?;
+    println!(
+        "the rest read and all checked in {:.1?}; {} of {} MB in huge pages",
+        start.elapsed(),
+        huge_file_pages_mb(),
+        bytes.len() >> 20
+    );
+    hot(&tree.view())
+}
+
+/// How much of the files that this process maps is in huge pages, as Linux says it.
+fn huge_file_pages_mb() -> u64 {
+    let maps = fs::read_to_string("/proc/self/smaps_rollup").unwrap_or_default();
+    let mut words = maps.split_whitespace();
+    words.find(|&word| word == "FilePmdMapped:");
+    let kb: Option<u64> = words.next().and_then(|kb| kb.parse().ok());
+    kb.unwrap_or(0) >> 10
 }
 
 /// Samples of the mapped tree, and of one of a million such lights in memory, in turns.
