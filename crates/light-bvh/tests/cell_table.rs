@@ -142,6 +142,31 @@ impl Arrays {
     }
 }
 
+/// What a file of bytes holds.
+#[cfg(feature = "bytemuck")]
+fn read_back<T: bytemuck::Pod>(values: &[T]) -> Vec<T> {
+    let file: Vec<u8> = bytemuck::cast_slice(values).to_vec();
+    bytemuck::pod_collect_to_vec(&file)
+}
+
+#[test]
+#[cfg(feature = "bytemuck")]
+fn a_table_is_read_back_from_bytes() {
+    let rooms = Rooms::new(100, true);
+    let (coarse, fine) = cells(&rooms);
+    let table = CellTable::new(&coarse, &fine).expect("cells");
+    let parts = table.view().parts();
+    let arrays = Arrays {
+        keys: read_back(parts.keys),
+        entries: read_back(parts.entries),
+        starts: read_back(parts.starts),
+        shapes: read_back(parts.shapes),
+        factors: read_back(parts.factors),
+    };
+    let read = arrays.table(&rooms).expect("the table");
+    assert_eq!(read.parts(), parts, "the same arrays");
+}
+
 #[test]
 fn arrays_that_are_no_table_are_refused() {
     let rooms = Rooms::new(300, true);

@@ -1,6 +1,7 @@
 //! How noisy light is after equal time where most lights are hidden: relMSE times seconds of each
 //! way to choose lights, in the scenes of `OcclusionKind`; and with `--ceilings` the variance of
-//! one choice, split into what better choices can remove and what not.
+//! one choice, split into what better choices can remove and what not; with `--means` whether the
+//! means are those of uniform choices.
 //!
 //! Each picture is compared with both halves of a reference of many more samples, so that the noise
 //! of the reference cancels on average; its own relMSE is a column. Pixels that show a light, and
@@ -17,8 +18,9 @@ use std::time::Instant;
 use clap::Parser;
 use light_render::bench::{ChoiceKind, CpuTimer, PictureBench, TimedPicture, scene_variance};
 use light_render::integrator::{Estimator, Integrator, PathSettings};
-use light_render::{AnyLightSampler, SamplerKind, View, Visibility, World};
-use light_scene::{BuiltinScene, OcclusionKind, OcclusionScene};
+use light_render::{AnyLightSampler, RenderSettings, SamplerKind, View, Visibility, World, render};
+use light_scene::glam::Vec3;
+use light_scene::{BuiltinScene, Crop, OcclusionKind, OcclusionScene};
 
 /// Measures choices of lights where most lights are hidden.
 #[derive(Debug, Parser)]
@@ -40,6 +42,10 @@ struct Arguments {
     /// Samples a pixel of each half of the reference.
     #[arg(long, default_value_t = 2048)]
     reference: u32,
+    /// Render so many upright strips alone, evenly over the picture, that show a quarter of it: each
+    /// figure is an estimate of that of the whole. Cells are those of the whole.
+    #[arg(long, default_value_t = 0)]
+    strips: u32,
     /// Pictures of other seeds that each figure is the mean of.
     #[arg(long, default_value_t = 2)]
     seeds: u32,
@@ -49,6 +55,10 @@ struct Arguments {
     /// Print the variance of one choice instead, exact over all lights.
     #[arg(long)]
     ceilings: bool,
+    /// Print how far the means of pictures are from those of uniform choices instead, in standard
+    /// errors: all means are the same if no light is lost.
+    #[arg(long, conflicts_with = "ceilings")]
+    means: bool,
     /// With --ceilings: receivers, one for each pixel of a picture of this size.
     #[arg(long, default_value = "24x16", value_parser = size)]
     receivers: (u32, u32),
@@ -118,6 +128,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     if arguments.ceilings {
         ceilings(&arguments)
+    } else if arguments.means {
+        means(&arguments)
     } else {
         pictures(&arguments)
     }
@@ -227,10 +239,16 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             .collect::<Result<_, _>>()?;
         eprintln!("{scene}: {} lights, reference", lights.len());
         let path = paths(arguments.max_depth, NonZeroU32::MIN);
-        let [a, b] = [1001, 1002].map(|seed| bench.picture(&samplers[0], path, half, seed).pixels);
+        let [a, b] = [
+            shot(arguments, &bench, &samplers[0], path, half, 1001)?.pixels,
+            shot(arguments, &bench, &samplers[0], path, half, 1002)?.pixels,
+        ];
         let reference: Vec<_> = a.iter().zip(&b).map(|(a, b)| 0.5 * (*a + *b)).collect();
-        let relative = bench.error(&reference, bench.tenth_of_mean(&reference));
-        let own = 0.5 * relative.of_pair(&a, &b);
+        // Pixels that are not rendered are 0, and count in means.
+        let pixels = if arguments.strips > 0 { 4.0 } else { 1.0 };
+        let floor = pixels * pixels * bench.tenth_of_mean(&reference);
+        let relative = bench.error(&reference, floor);
+        let own = 0.5 * pixels * relative.of_pair(&a, &b);
         for &samples in &arguments.samples {
             eprintln!("{scene}: {samples} samples, {:.0?}", start.elapsed());
             print!("| {scene} | {samples} | {}", figure(own));
@@ -239,7 +257,7 @@ fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
                 let (mut error, mut seconds) = (0.0, 0.0);
                 for seed in 1..=arguments.seeds {
                     let picture = picture(arguments, &bench, (method, sampler), samples, seed)?;
-                    error += relative.against(&picture.pixels, [&a, &b]);
+                    error += pixels * relative.against(&picture.pixels, [&a, &b]);
                     seconds += picture.seconds;
                 }
                 let count = f64::from(arguments.seeds.max(1));
@@ -267,7 +285,7 @@ fn picture(
 ) -> Result<TimedPicture, Box<dyn Error>> {
     let path = paths(arguments.max_depth, method.choices);
     if method.visibility == Visibility::Off {
-        return Ok(bench.picture(sampler, path, samples, seed));
+        return shot(arguments, bench, sampler, path, samples, seed);
     }
     let sampler = sampler.clone();
     let timer = CpuTimer::start();
@@ -276,9 +294,111 @@ fn picture(
         _ => sampler.by_estimates(bench.world(), bench.view(), arguments.max_depth),
     };
     let filling = timer.seconds();
-    let mut picture = bench.picture(&guided, path, samples, seed);
+    let mut picture = shot(arguments, bench, &guided, path, samples, seed)?;
     picture.seconds += filling;
     Ok(picture)
+}
+
+/// A picture, or its strips in an empty one, with the seconds of the whole.
+fn shot(
+    arguments: &Arguments,
+    bench: &PictureBench,
+    sampler: &AnyLightSampler,
+    path: PathSettings,
+    samples: u32,
+    seed: u32,
+) -> Result<TimedPicture, Box<dyn Error>> {
+    let strips = arguments.strips;
+    if strips == 0 {
+        return Ok(bench.picture(sampler, path, samples, seed));
+    }
+    let settings = RenderSettings {
+        samples: 0..samples,
+        time_limit: None,
+        seed,
+        path,
+    };
+    let (width, height) = bench.view().resolution();
+    let columns = (width / (4 * strips)).max(1);
+    let mut picture = TimedPicture {
+        pixels: vec![Vec3::ZERO; (width * height) as usize],
+        seconds: 0.0,
+    };
+    for strip in 0..strips {
+        let left = (2 * strip + 1) * width / (2 * strips) - columns / 2;
+        let crop = Crop {
+            min: [left, 0],
+            max: [left + columns, height],
+        };
+        let view = bench.view().with_crop(crop)?;
+        let timer = CpuTimer::start();
+        let film = render(bench.world(), &view, sampler, &settings, |_| ()).film;
+        let parts = f64::from(width) / f64::from(columns * strips);
+        picture.seconds += parts * timer.seconds();
+        let rows = picture.pixels.chunks_mut(width as usize);
+        for (row, part) in rows.zip(film.develop().chunks(columns as usize)) {
+            row[left as usize..][..part.len()].copy_from_slice(part);
+        }
+    }
+    Ok(picture)
+}
+
+/// A table of means and their standard errors, one for each method.
+fn means(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let mut methods = arguments.methods.clone();
+    if methods.is_empty() {
+        methods = METHODS.iter().collect();
+    }
+    let samples = arguments.samples.first().copied().unwrap_or(1);
+    println!("{} pictures of {samples} samples a pixel.", arguments.seeds);
+    let mut title = "| scene | uniform choices".to_owned();
+    let mut line = "| --- | ---".to_owned();
+    for method in &methods {
+        title += &format!(" | {} | standard errors", method.name);
+        line += " | --- | ---";
+    }
+    println!("{title} |\n{line} |");
+    for &scene in &arguments.scenes {
+        let (world, view) = load(scene, arguments.size)?;
+        let bench = PictureBench::new(world, view)?;
+        let uniform = AnyLightSampler::new(SamplerKind::Uniform, bench.world().lights())?;
+        let path = paths(arguments.max_depth, NonZeroU32::MIN);
+        let light = |pixels: &[Vec3]| -> f64 {
+            let sum = pixels.iter().map(|pixel| f64::from(pixel.element_sum()));
+            sum.sum::<f64>() / pixels.len() as f64
+        };
+        let expected = mean(arguments, 1000, |seed| {
+            Ok(light(&bench.picture(&uniform, path, samples, seed).pixels))
+        })?;
+        print!("| {scene} | {} +- {:.1e}", figure(expected[0]), expected[1]);
+        for (method, number) in methods.iter().zip(2..) {
+            let sampler = AnyLightSampler::new(method.sampler, bench.world().lights())?;
+            let [mean, error] = mean(arguments, 1000 * number, |seed| {
+                let picture = picture(arguments, &bench, (method, &sampler), samples, seed)?;
+                Ok(light(&picture.pixels))
+            })?;
+            let apart = (mean - expected[0]) / error.hypot(expected[1]);
+            print!(" | {} +- {error:.1e} | {apart:.1}", figure(mean));
+        }
+        println!(" |");
+    }
+    Ok(())
+}
+
+/// The mean over seeds, and its standard error.
+fn mean(
+    arguments: &Arguments,
+    base: u32,
+    mut of_seed: impl FnMut(u32) -> Result<f64, Box<dyn Error>>,
+) -> Result<[f64; 2], Box<dyn Error>> {
+    let values: Vec<f64> = (base..base + arguments.seeds)
+        .map(&mut of_seed)
+        .collect::<Result<_, _>>()?;
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares = values.iter().map(|value| (value - mean).powi(2));
+    let error = (squares.sum::<f64>() / (count * (count - 1.0))).sqrt();
+    Ok([mean, error])
 }
 
 /// A table of the variance of one choice.

@@ -64,16 +64,39 @@
 //! | 100 | 2.03 | 0.22 | 0.14 | 0.03 |
 //! | 3000 | 4.12 | 0.51 | 0.43 | 0.03 |
 //!
+//! # What moves
+//!
+//! A cell belongs to one tree: a new build needs new cells. The copies of a cell also fit the tree
+//! after a refit, and old cells lose no light, but they describe the old places of the lights. V of
+//! 300 lamps in such rooms that all move, with cells of fewer rays:
+//!
+//! | step | V, tree | old cells | cells filled again |
+//! | --- | --- | --- | --- |
+//! | 0.1 m | 3.30 | 0.45 | 0.41 |
+//! | 0.4 m | 2.78 | 1.10 | 0.36 |
+//! | 1.6 m, many through the wall | 0.54 | 2.92 | 0.17 |
+//!
+//! One lamp that moves by a centimetre changes the weights by which nearly all cells choose their
+//! rays: of 400 fine cells none keeps its bytes among 300 lamps, and 20 do among 3,000. So cells
+//! that must be a function of the scene are all filled again after a refit. Where geometry moves and
+//! places do not, a cell keeps its bytes if none of its rays meets the old or the new place of what
+//! moves. `visible` gets every ray, and so can note the other cells; a fine cell is filled again
+//! with its coarse one.
+//!
+//! # Storage
+//!
+//! Any cell may be dropped at any time, and has the same bytes when it is filled again. The arrays
+//! of a table are plain data (feature `bytemuck`); [`CellTableRef::new`] checks arrays of a file
+//! against the tree.
+//!
 //! # Limits
 //!
-//! A cell belongs to one tree: a new build needs new cells, and after a refit the cells still
-//! describe the old positions of the lights. A light that is seen from a corner of a cell only may
-//! be missed by all rays of the cell: it keeps about [`FillOptions::floor`] of its probability, and
-//! is noisy. Visibility that changes within a fine cell, as behind the bars of a grille, cannot be
-//! learnt; [`FillOptions::least_gain`] detects that. Visibility is 0 or 1; the caller decides how
-//! transmittance counts. The caller chooses the size of the cells, which cells are made, and the
-//! places in them. For pictures that depend on the scene alone, these choices must depend on the
-//! scene alone.
+//! A light that is seen from a corner of a cell only may be missed by all rays of the cell: it keeps
+//! about [`FillOptions::floor`] of its probability, and is noisy. Visibility that changes within a
+//! fine cell, as behind the bars of a grille, cannot be learnt; [`FillOptions::least_gain`] detects
+//! that. Visibility is 0 or 1; the caller decides how transmittance counts. The caller chooses the
+//! size of the cells, which cells are made, and the places in them. For pictures that depend on the
+//! scene alone, these choices must depend on the scene alone.
 //!
 //! # Source
 //!

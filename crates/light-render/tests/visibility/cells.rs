@@ -1,13 +1,13 @@
 //! Cells of visibility make hidden lights rare.
 
 use light_render::bench::PictureBench;
-use light_render::{View, VisibilityCells, World};
+use light_render::{AnyLightSampler, SamplerKind, View, VisibilityCells, World};
 use light_scene::OcclusionKind;
 use light_scene::glam::Vec3;
 use light_testkit::Estimate;
 use lights::samplers::{BvhLightSampler, VisibilityLightSampler};
 
-use super::{Stage, total};
+use super::{Stage, is_the_mean, sums, total};
 
 fn stage(kind: OcclusionKind) -> Stage {
     Stage::new(kind, 96, 64)
@@ -65,4 +65,21 @@ fn between_slabs_the_mean_stays_and_the_noise_falls() {
         before.agrees_with_estimate(&after),
         "{after:?} against {before:?}"
     );
+}
+
+/// Of every kind of scene; `single_choices_keep_the_mean` has slabs and a street by default.
+#[test]
+fn in_cells_the_mean_is_that_of_uniform_choices() {
+    for kind in OcclusionKind::ALL {
+        let stage = Stage::new(kind, 48, 32);
+        let cells = stage.measured(&stage.view, 2, cells);
+        let guided = VisibilityLightSampler::new(stage.lights.view(), &cells);
+        let uniform = AnyLightSampler::new(SamplerKind::Uniform, stage.world.lights());
+        let uniform = sums(&stage, &uniform.expect("lights"), 500);
+        let guided = sums(&stage, &guided, 600);
+        assert!(
+            is_the_mean(&guided, &uniform),
+            "{kind}: {guided:?} against {uniform:?}"
+        );
+    }
 }

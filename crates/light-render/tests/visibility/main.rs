@@ -10,6 +10,7 @@ use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{RenderSettings, View, World, render};
 use light_scene::glam::Vec3;
 use light_scene::{BuiltinScene, Crop, OcclusionKind, OcclusionSize};
+use light_testkit::Estimate;
 use lights::samplers::{BvhLightSampler, LightSampler};
 
 /// A small scene of this kind, its picture and its lights.
@@ -84,4 +85,20 @@ impl Stage {
 fn total(picture: &[Vec3]) -> f64 {
     let sums = picture.iter().map(|pixel| f64::from(pixel.element_sum()));
     sums.sum()
+}
+
+/// The whole picture's direct light of so many choices, once a seed.
+fn sums<S: LightSampler + Sync>(stage: &Stage, sampler: &S, base: u32) -> Estimate {
+    let mut seed = base;
+    Estimate::of(12, || {
+        seed += 1;
+        total(&stage.picture(sampler, 2, seed))
+    })
+}
+
+/// Whether an estimate is within 3 standard errors of that by uniform choices, which is good to a
+/// tenth.
+fn is_the_mean(ours: &Estimate, uniform: &Estimate) -> bool {
+    let error = ours.standard_error.hypot(uniform.standard_error);
+    (ours.mean - uniform.mean).abs() <= 3.0 * error && error < 0.1 * uniform.mean
 }

@@ -4,10 +4,9 @@ use light_render::{
     AnyLightSampler, ChoiceEstimates, ChoicePlan, PlannedLightSampler, SamplerKind, View, World,
 };
 use light_scene::{BuiltinScene, OcclusionKind, OcclusionScene, OcclusionSize, Scene};
-use light_testkit::Estimate;
-use lights::samplers::{BvhLightSampler, LightSampler};
+use lights::samplers::BvhLightSampler;
 
-use super::{Stage, total};
+use super::{Stage, is_the_mean, sums};
 
 /// Segments of the longest path with direct light alone.
 const DIRECT: u32 = 2;
@@ -101,15 +100,6 @@ fn variances_are_near_the_exact_ones() {
     }
 }
 
-/// The whole picture's direct light of so many choices, once a seed.
-fn sums<S: LightSampler + Sync>(stage: &Stage, sampler: &S, base: u32) -> Estimate {
-    let mut seed = base;
-    Estimate::of(12, || {
-        seed += 1;
-        total(&stage.picture(sampler, 2, seed))
-    })
-}
-
 /// Within 3 standard errors of uniform choices: from the root, by a cut, and in cells.
 #[test]
 fn single_choices_keep_the_mean() {
@@ -125,9 +115,8 @@ fn single_choices_keep_the_mean() {
         assert!(pixels_in_cells(&in_cells) > 0, "{kind}: cells pay");
         let uniform = sums(&stage, &of(SamplerKind::Uniform), 200);
         for ours in [sums(&stage, &planned, 100), sums(&stage, &in_cells, 300)] {
-            let error = ours.standard_error.hypot(uniform.standard_error);
             assert!(
-                (ours.mean - uniform.mean).abs() <= 3.0 * error && error < 0.1 * uniform.mean,
+                is_the_mean(&ours, &uniform),
                 "{kind}: {ours:?} against {uniform:?}"
             );
         }
