@@ -30,6 +30,16 @@ fn the_same_for_any_number_of_threads_and_any_part_of_the_picture() {
     assert!(cells.bytes() > 1000, "{} bytes", cells.bytes());
 }
 
+/// 544 bytes for each pixel of the picture, whatever it shows: see `docs/occlusion.md`.
+#[test]
+fn they_take_no_more_memory_than_is_stated() {
+    for kind in OcclusionKind::ALL {
+        let stage = stage(kind);
+        let cells = stage.measured(&stage.view, 2, cells);
+        assert!(cells.bytes() <= 544 * 96 * 64, "{kind}: {}", cells.bytes());
+    }
+}
+
 /// Rays that fill cells leave the large primitive that they start on. There is hardly a cell in the
 /// open field; where a fiftieth of the rays hit what they start on, cells take 83 KB there.
 #[test]
