@@ -33,11 +33,6 @@ pub(super) fn to_rec_709(file: &Chromaticities) -> Option<DMat3> {
     matrix.is_finite().then_some(matrix)
 }
 
-/// The matrix to linear colours of Rec. 709 from XYZ in which white has three equal parts.
-pub(super) fn xyz_to_rec_709() -> DMat3 {
-    to_xyz(&REC_709).inverse() * adaptation([1.0 / 3.0; 2])
-}
-
 /// Colours under a matrix.
 pub(super) fn convert(texels: &mut [Vec3], matrix: &DMat3) {
     for texel in texels {
