@@ -78,7 +78,10 @@ impl fmt::Display for SceneSphereError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Center => "scene bounds: the centre must be finite",
-            Self::Radius => "scene bounds: the radius must be positive, and its square a number of single precision",
+            Self::Radius => {
+                "scene bounds: the radius must be positive, \
+                 and its square a number of single precision"
+            }
         })
     }
 }

@@ -71,7 +71,10 @@ pub fn parse_obj(path: &Path, text: &str, files: Files<'_>) -> Result<Scene, Dia
     let meshes = sections.meshes(&objects);
     scene.meshes = meshes.map_err(|face| of_face(path, text, &face))?;
     if scene.meshes.is_empty() {
-        return Err(Diagnostic::file(path, "expected at least one face (`f`)"));
+        let has_faces = objects.iter().any(|object| !object.mesh.indices.is_empty());
+        let with_area = if has_faces { " with an area" } else { "" };
+        let message = format!("expected at least one face (`f`){with_area}");
+        return Err(Diagnostic::file(path, message));
     }
     Ok(scene)
 }

@@ -146,6 +146,10 @@ fn broken_obj_lines_give_one_clear_line() {
         ("usemtl\n", "dir/a.obj:1: expected a material's name"),
         ("mtllib\n", "dir/a.obj:1: expected a file name"),
         ("", "dir/a.obj: expected at least one face (`f`)"),
+        (
+            "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
+            "dir/a.obj: expected at least one face (`f`) with an area",
+        ),
     ];
     for (obj, expected) in cases {
         assert_eq!(error(obj, "newmtl a\n"), expected, "{obj}");
