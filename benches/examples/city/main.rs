@@ -1,9 +1,10 @@
 //! A city whose houses are placed and stored once: a billion lights, and with a million the same
 //! lights in one flat tree for comparison.
 //!
-//! `city` measures both; `city variance` is the comparison alone; `city crossing` compares both trees
-//! as the lights grow; `city samples` and `city flat` only take samples, for callgrind;
-//! `city scene HOUSES LIGHTS FILE` writes a city of houses of so many lights as a scene of pbrt.
+//! `city` measures both; `city variance SEED...` is the comparison alone, of arrangements made from
+//! these seeds; `city crossing` compares both trees as the lights grow; `city samples` and `city
+//! flat` only take samples, for callgrind; `city scene HOUSES LIGHTS FILE` writes a city of houses of
+//! so many lights as a scene of pbrt.
 
 mod crossing;
 mod million;
@@ -28,7 +29,8 @@ const LIGHTS: usize = 10_000;
 /// Calls of one turn of a timing.
 const CALLS: u32 = 20_000;
 
-const USAGE: &str = "usage: city [variance | crossing | samples | flat | scene HOUSES LIGHTS FILE]";
+const USAGE: &str =
+    "usage: city [variance SEED... | crossing | samples | flat | scene HOUSES LIGHTS FILE]";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,9 +38,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     match *words {
         [] => {
             billion_lights();
-            million::compare();
+            million::compare(&[4, 5]);
         }
-        ["variance"] => million::compare(),
+        ["variance", ref seeds @ ..] => {
+            let seeds = seeds.iter().map(|seed| seed.parse());
+            million::compare(&seeds.collect::<Result<Vec<_>, _>>()?);
+        }
         ["crossing"] => crossing::compare(),
         ["samples"] => ask(&billion(), streets(HOUSES)),
         ["flat"] => ask_flat(&flat_million()),
