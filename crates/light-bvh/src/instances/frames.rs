@@ -6,7 +6,7 @@ use crate::instances::placed_frame::PlacedFrame;
 use crate::light_bvh::LightBvh;
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::descent::{ChosenEntry, Prefetch};
+use crate::query::descent::{AfterLevels, ChosenEntry, Prefetch};
 use crate::simd::{prefetch, prefetch_item};
 
 /// The frames of all placements.
@@ -81,11 +81,11 @@ impl Frames {
     }
 }
 
-/// [`AfterTwoLevels`](crate::query::descent::AfterTwoLevels), with the frames of placements.
+/// [`AfterLevels::OF_TREE`], with the frames of placements.
 impl Prefetch for &Frames {
     #[inline(always)]
     fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
-        if level < 2 || tree.is_small() {
+        if level < AfterLevels::OF_TREE.0 || tree.is_small() {
             return;
         }
         if self.is_in_tree_order {
@@ -94,20 +94,6 @@ impl Prefetch for &Frames {
                 prefetch::<WIDTH, _>(&self.rows, node.light_base);
             }
         } else {
-            tree.prefetch_below(node);
-        }
-    }
-}
-
-/// Nodes and lights more than one level below the root of a prototype: the caches hold the first
-/// two levels of all prototypes, if these are few.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct AfterOneLevel;
-
-impl Prefetch for AfterOneLevel {
-    #[inline(always)]
-    fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
-        if level >= 1 {
             tree.prefetch_below(node);
         }
     }

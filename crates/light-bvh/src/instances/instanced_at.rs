@@ -2,14 +2,13 @@ use light_bounds::{LightGroups, LightId, LightSampleContext};
 use light_math::float::positive_product;
 
 use crate::importance::context_receiver::ContextReceiver;
-use crate::instances::frames::AfterOneLevel;
 use crate::instances::instanced_bvh::InstancedLightBvh;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
 use crate::instances::prototype::LightPrototype;
 use crate::query::ascent::Ascent;
 use crate::query::bvh_at::LightBvhAt;
-use crate::query::descent::{ChosenEntry, Descent};
+use crate::query::descent::{AfterLevels, ChosenEntry, Descent};
 use crate::query::into_receiver::{InGroups, KeptReceiver, Query};
 use crate::simd::{VectorWork, dispatch};
 
@@ -77,7 +76,7 @@ impl InstancedLightBvh {
         let query = Descent {
             tree: &prototype.tree().view().wanting(groups),
             u: placed.u,
-            prefetch: AfterOneLevel,
+            prefetch: AfterLevels::OF_PROTOTYPE,
         };
         let chosen = dispatch(InPrototype {
             frame,

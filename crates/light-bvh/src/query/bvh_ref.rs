@@ -126,7 +126,7 @@ impl<'a> LightBvhRef<'a> {
     /// small.
     #[inline(always)]
     pub(crate) fn prefetch_below(&self, node: &WideNode) {
-        if self.nodes.len() <= CACHED_NODES {
+        if self.is_small() {
             return;
         }
         prefetch::<WIDTH, _>(self.order, node.light_base);
@@ -134,13 +134,12 @@ impl<'a> LightBvhRef<'a> {
     }
 
     /// Whether the caches hold the whole tree.
-    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) const fn is_small(&self) -> bool {
         self.nodes.len() <= CACHED_NODES
     }
 
-    /// The same without the lights, of a tree of any size.
+    /// Prefetches the nodes that a choice among the children of `node` may lead to.
     #[inline(always)]
     pub(crate) fn prefetch_nodes_below(&self, node: &WideNode) {
         if node.inner > 0 {

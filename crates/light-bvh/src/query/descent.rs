@@ -14,14 +14,22 @@ pub(crate) trait Prefetch {
     fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode);
 }
 
-/// Nodes and lights more than two levels below the start: the caches hold those above.
+/// Nodes and lights this many levels below the start and deeper: the caches hold those above.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AfterTwoLevels;
+pub(crate) struct AfterLevels(pub(crate) usize);
 
-impl Prefetch for AfterTwoLevels {
+impl AfterLevels {
+    /// In a tree of its own.
+    pub(crate) const OF_TREE: Self = Self(2);
+    /// In a prototype: the caches hold the first two levels of all prototypes, if these are few.
+    #[cfg(feature = "alloc")]
+    pub(crate) const OF_PROTOTYPE: Self = Self(1);
+}
+
+impl Prefetch for AfterLevels {
     #[inline(always)]
     fn below(&self, tree: &LightBvhRef<'_>, level: usize, node: &WideNode) {
-        if level >= 2 {
+        if level >= self.0 {
             tree.prefetch_below(node);
         }
     }
@@ -108,7 +116,7 @@ impl LightBvhRef<'_> {
         pmf: f32,
         choice: &Choice,
     ) -> Option<SampledLight> {
-        let prefetch = &AfterTwoLevels;
+        let prefetch = &AfterLevels::OF_TREE;
         self.light_of(&self.entry_from(receiver, prefetch, node, pmf, choice)?)
     }
 

@@ -3,7 +3,7 @@ use light_bounds::{LightGroups, LightId, SampledLight};
 use crate::importance::receiver::NoReceiver;
 use crate::query::ascent::Ascent;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::descent::{AfterTwoLevels, Descent};
+use crate::query::descent::{AfterLevels, Descent};
 #[cfg(feature = "alloc")]
 use crate::query::descent::{ChosenEntry, EntryDescent, Prefetch};
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, QueryFor};
@@ -33,7 +33,7 @@ impl LightBvhRef<'_> {
         u: u64,
     ) -> Option<SampledLight> {
         let tree = &self.wanting(groups);
-        let prefetch = AfterTwoLevels;
+        let prefetch = AfterLevels::OF_TREE;
         dispatch(QueryFor(receiver, Descent { tree, u, prefetch }))
     }
 
