@@ -7,16 +7,17 @@
 
 use std::error::Error;
 
+use benches::exact_variance::flat_variance;
 use light_sets::{BenchSet, SetKind, SetPoint};
 use lights::bvh::light_bounds::LightSampleContext;
 use lights::bvh::{LightBvh, WideNode};
+use lights::glam::Vec3;
 
-/// A point, its V, and for each light what it gives and its probability.
+/// A point, its V, and for each light what it gives.
 struct Measured {
     point: SetPoint,
     variance: f64,
     given: Vec<f64>,
-    pmf: Vec<f64>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -50,51 +51,43 @@ impl Measured {
     fn total(&self) -> f64 {
         self.given.iter().sum()
     }
-
-    /// What a light adds to the second moment, of one choice over the light of the point.
-    fn moment(&self, light: usize) -> f64 {
-        let share = self.given[light] / self.total();
-        if share > 0.0 {
-            share * share / self.pmf[light]
-        } else {
-            0.0
-        }
-    }
 }
 
 fn measure(set: &BenchSet, tree: &LightBvh, point: SetPoint) -> Option<Measured> {
-    let given: Vec<f64> = set
-        .lights
-        .iter()
-        .map(|light| light.contribution(&point))
-        .collect();
-    let mut pmf = vec![0.0; given.len()];
-    let here = LightSampleContext::surface(point.p, point.n, point.n);
-    tree.view()
-        .for_each_pmf(&here, |light, p| pmf[light.0 as usize] = f64::from(p));
-    let mut measured = Measured {
+    let variance = flat_variance(&set.lights, tree, &point)?;
+    let lights = set.lights.iter();
+    Some(Measured {
         point,
-        variance: 0.0,
-        given,
-        pmf,
-    };
-    let moments = (0..measured.given.len()).map(|light| measured.moment(light));
-    measured.variance = moments.sum::<f64>() - 1.0;
-    (measured.total() > 0.0).then_some(measured)
+        variance,
+        given: lights.map(|light| light.contribution(&point)).collect(),
+    })
 }
 
 /// The nodes from the root to the light with the largest part in V.
 fn show_way(tree: &LightBvh, point: &Measured) {
-    let moment = |&light: &usize| point.moment(light);
+    let (view, total) = (tree.view(), point.total());
+    let SetPoint { p, n } = point.point;
+    let mut pmfs = vec![0.0; point.given.len()];
+    view.for_each_pmf(&LightSampleContext::surface(p, n, n), |light, pmf| {
+        pmfs[light.index()] = f64::from(pmf);
+    });
+    // What a light adds to the second moment, of one choice over the light of the point.
+    let moment = |light: usize| {
+        let share = point.given[light] / total;
+        if share > 0.0 {
+            share * share / pmfs[light]
+        } else {
+            0.0
+        }
+    };
     let lights = 0..point.given.len();
-    let Some(light) = lights.max_by(|a, b| moment(a).total_cmp(&moment(b))) else {
+    let Some(light) = lights.max_by(|&a, &b| moment(a).total_cmp(&moment(b))) else {
         return;
     };
     println!(
         "  light {light}, {:.2} of it",
-        point.moment(light) / point.variance
+        moment(light) / point.variance
     );
-    let view = tree.view();
     let mut way = vec![view.slots()[light]];
     loop {
         let parent = view.nodes()[way[way.len() - 1] as usize / 16].parent;
@@ -106,7 +99,7 @@ fn show_way(tree: &LightBvh, point: &Measured) {
     for slot in way.into_iter().rev() {
         let (index, on_way) = (slot as usize / 16, slot as usize % 16);
         let node = &view.nodes()[index];
-        let at = (point.point.p - lights::glam::Vec3::from(node.origin)) * node.inv_scale;
+        let at = (p - Vec3::from(node.origin)) * node.inv_scale;
         println!(
             "  node {index}, a code {:.2e}, the point at codes {at:.1}",
             1.0 / node.inv_scale
@@ -114,7 +107,7 @@ fn show_way(tree: &LightBvh, point: &Measured) {
         for child in 0..usize::from(node.count) {
             let lights = lights_below(tree, node, child);
             let sum = |of: &[f64]| lights.iter().map(|&light| of[light]).sum::<f64>();
-            let (given, pmf) = (sum(&point.given) / point.total(), sum(&point.pmf));
+            let (given, pmf) = (sum(&point.given) / total, sum(&pmfs));
             let codes = |codes: &[[u8; 16]; 3]| codes.map(|of_axis| of_axis[child]);
             println!(
                 "    {} {child:2}: {:5} lights, gives {given:.2e}, chosen {pmf:.2e}, mean {:?}, \
