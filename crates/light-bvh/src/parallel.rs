@@ -18,6 +18,21 @@ pub(crate) fn join<A: Send, B: Send>(
     (a(), b())
 }
 
+/// Runs both, `there` on another thread with the feature `rayon`.
+#[cfg(all(feature = "std", feature = "bytemuck"))]
+pub(crate) fn overlap<T>(there: impl FnOnce() + Send, here: impl FnOnce() -> T) -> T {
+    #[cfg(feature = "rayon")]
+    return rayon::in_place_scope(|scope| {
+        scope.spawn(|_| there());
+        here()
+    });
+    #[cfg(not(feature = "rayon"))]
+    {
+        there();
+        here()
+    }
+}
+
 /// Whether work on so many lights takes longer than waking another thread.
 pub(crate) const fn is_worth_a_thread(work: usize) -> bool {
     work >= 2048

@@ -1,4 +1,5 @@
 use alloc::vec::Vec;
+use core::mem::swap;
 use std::io::{Seek, Write};
 use std::path::PathBuf;
 
@@ -15,7 +16,10 @@ use crate::out_of_core::cells::Cells;
 use crate::out_of_core::error::OutOfCoreError;
 use crate::out_of_core::group::Group;
 use crate::out_of_core::light_chunks::LightChunks;
-use crate::out_of_core::tree_writer::{TreeWriter, UpperTree};
+use crate::out_of_core::subtree::{PlacedGroup, Subtree};
+use crate::out_of_core::tree_writer::TreeWriter;
+use crate::out_of_core::upper_tree::UpperTree;
+use crate::parallel::{map, overlap};
 
 /// How a tree of more lights than memory holds is built.
 #[derive(Clone, Debug)]
@@ -111,9 +115,13 @@ impl OutOfCoreBuild {
         let groups = self.divide(lights, count, &scan, &mut |n| {
             progress(BuildStage::Divide, n);
         })?;
-        let tree = self.upper_tree(groups, scan.power)?;
-        let mut writer = TreeWriter::new(out, count, &scan, self.options)?;
-        writer.write(tree, &mut |n| progress(BuildStage::Build, n))?;
+        let (tree, groups) = self.upper_tree(groups, scan.power)?;
+        let mut writer = TreeWriter::new(out, count, &scan, tree)?;
+        self.build(groups, scan.power, &mut |subtree| {
+            writer.add(subtree)?;
+            progress(BuildStage::Build, writer.held());
+            Ok(())
+        })?;
         let power = rounded(scan.power);
         let (nodes, bytes) = writer.finish(power)?;
         Ok(OutOfCoreTree {
@@ -132,12 +140,12 @@ impl OutOfCoreBuild {
         progress: &mut dyn FnMut(usize),
     ) -> Result<(usize, Scan), OutOfCoreError> {
         let mut all = Scan::NOTHING;
-        let count = each_chunk(lights, |first, chunk| {
+        let add = |first, chunk: &[LightExtent]| {
             let scan = Scan::new(chunk, first, self.options.dark, &|_, _| Ok(()))?;
             all = all.union(&scan);
-            progress(first as usize + chunk.len());
             Ok(())
-        })?;
+        };
+        let count = each_chunk(lights, add, progress)?;
         Ok((count, all))
     }
 
@@ -151,15 +159,15 @@ impl OutOfCoreBuild {
     ) -> Result<Vec<Group>, OutOfCoreError> {
         let mut cells = Cells::new(&self.scratch, self.lights_at_once);
         let mut groups = cells.begin(scan.count, &scan.centers);
-        let again = each_chunk(lights, |first, chunk| {
+        let add = |first, chunk: &[LightExtent]| {
             for (id, light) in (first..).zip(chunk) {
                 if light.bounded().is_some() && is_held(phi(light), self.options.dark) {
                     cells.add(&mut groups, id, light)?;
                 }
             }
-            progress(first as usize + chunk.len());
             Ok(())
-        })?;
+        };
+        let again = each_chunk(lights, add, progress)?;
         let groups = cells.finish(groups)?;
         let held: usize = groups.iter().map(|group| group.sums.scan.count).sum();
         if again == count && held == scan.count {
@@ -169,8 +177,12 @@ impl OutOfCoreBuild {
         }
     }
 
-    /// The tree whose lights are `groups`.
-    fn upper_tree(&self, groups: Vec<Group>, power: f64) -> Result<UpperTree, OutOfCoreError> {
+    /// The tree whose lights are `groups`, and these in the order in which they are written.
+    fn upper_tree(
+        &self,
+        groups: Vec<Group>,
+        power: f64,
+    ) -> Result<(UpperTree, Vec<PlacedGroup>), OutOfCoreError> {
         let extents: Vec<LightExtent> = groups.iter().map(|group| group.sums.extent()).collect();
         let options = LightBvhOptions {
             dark: DarkLights::Kept,
@@ -182,29 +194,77 @@ impl OutOfCoreBuild {
         };
         let (topology, order) = build(&extents, &scan, &options, Self::LEVELS_BELOW);
         let mut groups: Vec<Option<Group>> = groups.into_iter().map(Some).collect();
-        Ok(UpperTree {
-            nodes: topology.nodes(),
-            groups: order.iter().map(|&k| groups[k as usize].take()).collect(),
-        })
+        let mut placed = Vec::with_capacity(groups.len());
+        let tree = UpperTree(topology.nodes());
+        tree.for_each_group(&mut |light, depth| {
+            let group = groups[order[light] as usize].take();
+            placed.extend(group.map(|group| PlacedGroup { group, depth }));
+        });
+        Ok((tree, placed))
+    }
+
+    /// Calls `each` with the trees of all groups, while the next ones are built.
+    fn build(
+        &self,
+        groups: Vec<PlacedGroup>,
+        power: f64,
+        each: &mut dyn FnMut(Subtree) -> Result<(), OutOfCoreError>,
+    ) -> Result<(), OutOfCoreError> {
+        let mut groups = groups.into_iter().peekable();
+        let mut next_batch = || {
+            let mut batch = Vec::new();
+            let mut room = self.lights_at_once / 2;
+            while let Some(placed) =
+                groups.next_if(|placed| batch.is_empty() || placed.count() <= room)
+            {
+                room = room.saturating_sub(placed.count());
+                batch.push(placed);
+            }
+            batch
+        };
+        let build = |batch| {
+            map(batch, |placed: PlacedGroup| {
+                placed.build(&self.options, power)
+            })
+        };
+        let mut ready = build(next_batch());
+        while !ready.is_empty() {
+            let batch = next_batch();
+            let mut next = Vec::new();
+            overlap(
+                || next = build(batch),
+                || ready.into_iter().try_for_each(|subtree| each(subtree?)),
+            )?;
+            ready = next;
+        }
+        Ok(())
     }
 }
 
-/// Calls `each` with all chunks and the id of the first light of each; how many lights there are.
+/// Calls `each` with all chunks and the id of the first light of each, while the next one is read,
+/// and then `progress` with the number of lights so far; how many lights there are.
 fn each_chunk(
     lights: &mut impl LightChunks,
-    mut each: impl FnMut(u32, &[LightExtent]) -> Result<(), OutOfCoreError>,
+    mut each: impl FnMut(u32, &[LightExtent]) -> Result<(), OutOfCoreError> + Send,
+    progress: &mut dyn FnMut(usize),
 ) -> Result<usize, OutOfCoreError> {
-    let mut chunk = Vec::new();
-    let mut first = 0;
-    loop {
-        chunk.clear();
-        lights.next_chunk(&mut chunk)?;
-        if chunk.is_empty() {
-            return Ok(first);
-        }
-        let id = low_word(first);
-        first += chunk.len();
-        expect_addressable(first)?;
-        each(id, &chunk)?;
+    let (mut chunk, mut next) = (Vec::new(), Vec::new());
+    let mut count = 0;
+    lights.next_chunk(&mut chunk)?;
+    while !chunk.is_empty() {
+        let first = low_word(count);
+        count += chunk.len();
+        expect_addressable(count)?;
+        next.clear();
+        let mut done = Ok(());
+        let read = overlap(
+            || done = each(first, &chunk),
+            || lights.next_chunk(&mut next),
+        );
+        done?;
+        read?;
+        progress(count);
+        swap(&mut chunk, &mut next);
     }
+    Ok(count)
 }

@@ -58,7 +58,9 @@ mod error;
 mod group;
 mod light_chunks;
 mod record;
+mod subtree;
 mod tree_writer;
+mod upper_tree;
 
 pub use build::{BuildStage, OutOfCoreBuild, OutOfCoreTree};
 pub use error::OutOfCoreError;

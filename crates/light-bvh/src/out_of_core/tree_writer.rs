@@ -2,17 +2,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 use std::io::{self, Seek, SeekFrom, Write};
 
-use crate::build::builder::build;
-use crate::build::lights::Lights;
-use crate::build::options::LightBvhOptions;
-use crate::build::refit;
 use crate::build::scan::{Scan, expect_addressable};
 use crate::build::topology::low_word;
 use crate::bytes::{HEADER, Header};
 use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::out_of_core::error::OutOfCoreError;
-use crate::out_of_core::group::Group;
+use crate::out_of_core::subtree::Subtree;
+use crate::out_of_core::upper_tree::UpperTree;
 
 /// Writes the bytes of a tree from the first node to the last.
 ///
@@ -28,8 +25,9 @@ pub(super) struct TreeWriter<'o, W> {
     late: Vec<(usize, WideNode)>,
     order: Vec<u32>,
     slots: Vec<u32>,
-    power: f64,
-    options: LightBvhOptions,
+    tree: UpperTree,
+    /// From the root on.
+    open: Vec<OpenNode>,
 }
 
 /// Where a node is in the tree.
@@ -58,20 +56,25 @@ impl Place {
     }
 }
 
-/// The upper tree: its nodes, whose lights are groups, and these in the order that the nodes refer
-/// to.
-pub(super) struct UpperTree {
-    pub(super) nodes: Vec<WideNode>,
-    pub(super) groups: Vec<Option<Group>>,
+/// A node of the upper tree that is being written: its place is known, and what is below its first
+/// children.
+struct OpenNode {
+    place: Place,
+    upper: WideNode,
+    /// Where its children begin.
+    base: usize,
+    light_base: u32,
+    /// Of its first children.
+    moments: Vec<Moments>,
 }
 
 impl<'o, W: Write + Seek> TreeWriter<'o, W> {
-    /// No node yet of a tree of `scan`, with slots for `lights` lights.
+    /// No node yet of a tree of `scan`, with slots for `lights` lights, over whose groups is `tree`.
     pub(super) fn new(
         out: &'o mut W,
         lights: usize,
         scan: &Scan,
-        options: LightBvhOptions,
+        tree: UpperTree,
     ) -> io::Result<Self> {
         let start = out.stream_position()?;
         out.write_all(&[0; HEADER])?;
@@ -82,26 +85,22 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
             late: Vec::new(),
             order: Vec::with_capacity(scan.count),
             slots: vec![NOWHERE; lights],
-            power: scan.power,
-            options,
+            tree,
+            open: Vec::new(),
         })
     }
 
-    /// Writes the whole tree; `progress` is told how many lights are in it.
-    pub(super) fn write(
-        &mut self,
-        mut tree: UpperTree,
-        progress: &mut dyn FnMut(usize),
-    ) -> Result<(), OutOfCoreError> {
-        if !tree.groups.is_empty() {
-            let base = self.reserve(1)?;
-            debug_assert_eq!(base, 0, "the root comes first");
-            if let [group] = &mut *tree.groups {
-                self.group(Place::ROOT, group.take(), progress)?;
-            } else {
-                self.upper_node(Place::ROOT, 0, &mut tree, progress)?;
-            }
-        }
+    /// How many lights are in the trees written so far.
+    pub(super) fn held(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Writes the tree of the next group.
+    pub(super) fn add(&mut self, subtree: Subtree) -> Result<(), OutOfCoreError> {
+        let root = self.next_place()?;
+        let moments = subtree.moments;
+        self.write(root, subtree)?;
+        self.close(moments);
         Ok(())
     }
 
@@ -135,77 +134,73 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
         Ok(base)
     }
 
-    /// Writes a node of the upper tree and what is below it.
-    fn upper_node(
-        &mut self,
-        place: Place,
-        upper: usize,
-        tree: &mut UpperTree,
-        progress: &mut dyn FnMut(usize),
-    ) -> Result<Moments, OutOfCoreError> {
-        let (node, light_base) = (tree.nodes[upper], low_word(self.order.len()));
-        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
-        let base = self.reserve(count)?;
-        let mut moments = [Moments::NOTHING; WIDTH];
-        for (k, moments) in moments[..count].iter_mut().enumerate() {
-            let child = place.child(base, k);
-            *moments = if k < inner {
-                self.upper_node(child, node.child_base as usize + k, tree, progress)?
-            } else {
-                let group = tree.groups[node.light_base as usize + k - inner].take();
-                self.group(child, group, progress)?
-            };
+    /// The place of the next group, for which the nodes above it are opened.
+    fn next_place(&mut self) -> io::Result<Place> {
+        if self.nodes == 0 {
+            let base = self.reserve(1)?;
+            debug_assert_eq!(base, 0, "the root comes first");
+            if self.tree.is_one_group() {
+                return Ok(Place::ROOT);
+            }
+            self.open(Place::ROOT, 0)?;
         }
-        let mut node = WideNode {
-            inner: node.count,
-            count: node.count,
-            child_base: low_word(base),
-            light_base,
-            parent: place.parent,
-            ..WideNode::EMPTY
-        };
-        let moments = &moments[..count];
-        node.encode_children(moments);
-        self.late.push((place.index, node));
-        Ok(Moments::join(moments))
+        loop {
+            let node = &self.open[self.open.len() - 1];
+            let k = node.moments.len();
+            let place = node.place.child(node.base, k);
+            if k >= usize::from(node.upper.inner) {
+                return Ok(place);
+            }
+            self.open(place, node.upper.child_base as usize + k)?;
+        }
+    }
+
+    fn open(&mut self, place: Place, upper: usize) -> io::Result<()> {
+        let upper = self.tree.0[upper];
+        let count = usize::from(upper.count);
+        let base = self.reserve(count)?;
+        self.open.push(OpenNode {
+            place,
+            upper,
+            base,
+            light_base: low_word(self.order.len()),
+            moments: Vec::with_capacity(count),
+        });
+        Ok(())
+    }
+
+    /// Takes the moments of a child of the last open node, and closes those that are full.
+    fn close(&mut self, mut moments: Moments) {
+        while let Some(mut open) = self.open.pop() {
+            open.moments.push(moments);
+            let count = open.upper.count;
+            if open.moments.len() < usize::from(count) {
+                self.open.push(open);
+                return;
+            }
+            let mut node = WideNode {
+                inner: count,
+                count,
+                child_base: low_word(open.base),
+                light_base: open.light_base,
+                parent: open.place.parent,
+                ..WideNode::EMPTY
+            };
+            node.encode_children(&open.moments);
+            self.late.push((open.place.index, node));
+            moments = Moments::join(&open.moments);
+        }
     }
 
     /// Writes the tree of a group, whose root has a place already.
-    fn group(
-        &mut self,
-        root: Place,
-        group: Option<Group>,
-        progress: &mut dyn FnMut(usize),
-    ) -> Result<Moments, OutOfCoreError> {
-        let Some(group) = group else {
-            return Ok(Moments::NOTHING);
-        };
-        let (ids, lights) = group.read()?;
-        let scan = group.sums.scan;
-        // Its file is not needed any more.
-        drop(group);
-        let (topology, order) = build(&lights, &scan, &self.options, root.depth);
-        let mut nodes = topology.nodes();
-        let moments = refit::fill(&mut nodes, &order, &Lights::new(&lights, self.power));
-        self.add(root, nodes, order.iter().map(|&k| ids[k as usize]))?;
-        progress(self.order.len());
-        Ok(moments)
-    }
-
-    /// Adds a tree of some of the lights: its nodes, of which the first is at `root`, and the ids
-    /// of its lights in its order.
-    fn add(
-        &mut self,
-        root: Place,
-        mut nodes: Vec<WideNode>,
-        ids: impl Iterator<Item = u32>,
-    ) -> Result<(), OutOfCoreError> {
+    fn write(&mut self, root: Place, subtree: Subtree) -> Result<(), OutOfCoreError> {
+        let Subtree { mut nodes, ids, .. } = subtree;
         // What is below the root follows what was written before.
         let below = self.nodes;
         let index = |k: usize| if k == 0 { root.index } else { below + k - 1 };
         expect_addressable(below + nodes.len())?;
         let light_base = low_word(self.order.len());
-        self.order.extend(ids);
+        self.order.extend_from_slice(&ids);
         for (k, node) in nodes.iter_mut().enumerate() {
             node.child_base = low_word(index(node.child_base as usize));
             node.light_base += light_base;
