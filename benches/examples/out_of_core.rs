@@ -23,6 +23,8 @@ use lights::bvh::out_of_core::{BuildStage, LightChunks, OutOfCoreBuild, SliceChu
 use lights::bvh::{LightBvh, LightBvhRef, StoredLightBvh};
 use lights::glam::Vec3;
 use memmap2::{Advice, Mmap, UncheckedAdvice};
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
 
 type Result<T> = core::result::Result<T, Box<dyn std::error::Error>>;
 
@@ -105,8 +107,10 @@ impl LightChunks for Rows {
                 read => filled += read,
             }
         }
-        let rows = self.bytes[..filled].chunks_exact(ROW);
-        chunk.extend(rows.map(|row| LightExtent::from(light(row).bounds())));
+        let rows = self.bytes[..filled].par_chunks_exact(ROW);
+        let rows = rows.with_min_len(4096);
+        rows.map(|row| LightExtent::from(light(row).bounds()))
+            .collect_into_vec(chunk);
         Ok(())
     }
 
@@ -116,12 +120,18 @@ impl LightChunks for Rows {
 }
 
 fn light(row: &[u8]) -> SetLight {
-    let word = |k: usize| [0, 1, 2, 3].map(|byte| row[4 * k + byte]);
-    let number = |k| f32::from_le_bytes(word(k));
+    let (mut words, _) = row.as_chunks();
+    let mut number = || {
+        let (word, rest) = words.split_first().expect("eleven words");
+        words = rest;
+        f32::from_le_bytes(*word)
+    };
+    let mut vertex = || Vec3::new(number(), number(), number());
+    let vertices = [vertex(), vertex(), vertex()];
     SetLight::Triangle {
-        vertices: [0, 3, 6].map(|k| Vec3::new(number(k), number(k + 1), number(k + 2))),
-        radiance: number(9),
-        two_sided: word(10) != [0; 4],
+        vertices,
+        radiance: number(),
+        two_sided: number().to_bits() != 0,
     }
 }
 

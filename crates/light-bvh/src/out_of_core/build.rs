@@ -58,7 +58,7 @@ pub struct OutOfCoreTree {
 }
 
 impl OutOfCoreBuild {
-    /// How many lights are in memory at once unless it is said: some 800 MB.
+    /// How many lights are in memory at once unless it is said: at most 1 GB.
     const LIGHTS_AT_ONCE: usize = 1 << 22;
 
     /// The upper tree has at most half of the levels that a tree may have.
@@ -81,7 +81,7 @@ impl OutOfCoreBuild {
         Self { options, ..self }
     }
 
-    /// The same with at most so many lights in memory at once, at least 1; about 200 bytes for
+    /// The same with at most so many lights in memory at once, at least 1; about 240 bytes for
     /// each. 2^22 unless it is said.
     #[must_use]
     pub fn with_lights_at_once(self, lights: usize) -> Self {

@@ -1,12 +1,12 @@
 //! Trees of more lights than memory holds at once.
 //!
 //! Lights are read twice, in chunks: once for their number, power and box, once to write each into
-//! a scratch file of its cell of space. A tree is then built for each cell, one after the other,
-//! below an upper tree over the cells, and written into one form of bytes: that of
+//! a scratch file of its cell of space. A tree is then built for each cell below an upper tree over
+//! the cells, and written into one form of bytes: that of
 //! [`StoredLightBvh`](crate::StoredLightBvh), which a program maps into memory.
 //!
-//! In memory are 8 bytes a light, for what stands at the end of the form, and the lights of one
-//! cell.
+//! In memory are 8 bytes a light, for what stands at the end of the form, and the lights of some
+//! cells. With the feature `rayon` it reads, builds and writes at the same time.
 //!
 //! ```
 //! use std::io::{self, Cursor};
