@@ -28,6 +28,7 @@ pub fn add_steps(steps: &mut Steps) {
         return;
     }
     let folder = root().join("target/farm");
+    slurm::stop_leftovers(&folder);
     for pictures in [Pictures::One, Pictures::Frames] {
         let what = pictures.name();
         steps.run(&format!("{what} by Open Job Description"), || {
@@ -45,7 +46,7 @@ pub fn add_steps(steps: &mut Steps) {
             }
         });
         steps.run(&format!("{what} by Slurm"), || {
-            let job = Job::new(&folder, "slurm", pictures)?;
+            let job = Job::new(&folder, slurm::ENGINE, pictures)?;
             match slurm::slurm(&job) {
                 Ok(()) => job.check(),
                 Err(why) => why.outcome(),

@@ -14,6 +14,12 @@ use super::job::{Job, NoPicture};
 /// Debian's packages.
 const PACKAGES: [&str; 4] = ["slurmctld", "slurmd", "slurm-client", "munge"];
 
+/// The name of the engine, and of the folder of its jobs.
+pub(super) const ENGINE: &str = "slurm";
+
+/// The folder of the daemons' files, in that of a job.
+const DAEMONS: &str = "daemons";
+
 /// More than the job takes.
 const LIMIT: Duration = Duration::from_secs(300);
 
@@ -93,7 +99,7 @@ impl Cluster {
         };
         let host = output(&mut Command::new("hostname")).map_err(missing)?;
         let cluster = Self {
-            folder: job.folder().join("daemons"),
+            folder: job.folder().join(DAEMONS),
             programs,
             host: host.trim().to_owned(),
         };
@@ -219,12 +225,32 @@ rm -rf spool/job*
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        for daemon in ["slurmd", "slurmctld", "munged"] {
-            let Ok(pid) = fs::read_to_string(self.folder.join(format!("{daemon}.pid"))) else {
-                continue;
-            };
-            // It may have ended.
-            let _ = output(Command::new("kill").arg(pid.trim()));
+        stop_daemons(&self.folder);
+    }
+}
+
+/// Stops the daemons that a run which was interrupted left behind: they hold the ports of the next.
+pub(super) fn stop_leftovers(farm: &Path) {
+    for job in fs::read_dir(farm.join(ENGINE))
+        .into_iter()
+        .flatten()
+        .flatten()
+    {
+        stop_daemons(&job.path().join(DAEMONS));
+    }
+}
+
+/// Stops the daemons whose files are in `folder`.
+fn stop_daemons(folder: &Path) {
+    for daemon in ["slurmd", "slurmctld", "munged"] {
+        let Ok(id) = fs::read_to_string(folder.join(format!("{daemon}.pid"))) else {
+            continue;
+        };
+        let id = id.trim();
+        // It may have ended, and the number may be that of another program.
+        let name = output(Command::new("ps").args(["-o", "comm=", "-p", id]));
+        if name.is_ok_and(|name| name.starts_with(daemon)) {
+            let _ = output(Command::new("kill").arg(id));
         }
     }
 }
