@@ -89,9 +89,9 @@ usage: cargo xtask [COMMAND]
                               docs/rust-gpu.md, or write them there
   scaling [--quick | LIGHTS | placed | workers]
                               measure how the costs of light samplers grow with the lights, to so
-                              many (default: 10000000, and 10^9 that are placed), for
-                              docs/light-bvh.md, and what farms render, for docs/farm.md
-                              (--quick: to 10000, roughly, printed only)
+                              many (default: 100000000 where the memory holds them, and 10^9
+                              that are placed), for docs/light-bvh.md, and what farms render, for
+                              docs/farm.md (--quick: to 10000, roughly, printed only)
   brute-force [SEEDS] [FIRST SEED] [KIND]
                               compare very many lights of each kind with quadrature of their
                               descriptions (default: 1000 seeds from 0, all kinds)

@@ -30,15 +30,11 @@ const FARM_PLOT: &str = "docs/images/scaling-workers.svg";
 /// Lights of the largest city of placed houses.
 const LARGEST_PLACED: usize = 1_000_000_000;
 
-/// Lights of the largest set, if the command does not say.
-const LARGEST: usize = 10_000_000;
+/// Lights of the largest set, if the command does not say and the memory holds it.
+const LARGEST: usize = 100_000_000;
 
 /// Lights of the largest set of `--quick`.
 const QUICK: usize = 10_000;
-
-/// Bytes of memory that a light takes at most while its set is measured (246 at 10^7 lights, with
-/// the reference tree), with a sixth of room.
-const BYTES_A_LIGHT: u64 = 288;
 
 /// What the command asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +62,7 @@ fn main() -> ExitCode {
 
 fn request(arguments: &[String]) -> Result<Request, String> {
     match arguments {
-        [] => Ok(Request::UpTo(LARGEST)),
+        [] => Ok(Request::UpTo(largest_held(available_memory()))),
         [flag] if flag == "--quick" => Ok(Request::Quick),
         [part] if part == "placed" => Ok(Request::Placed),
         [part] if part == "workers" => Ok(Request::Workers),
@@ -148,12 +144,18 @@ fn keep(request: Request, rows: &mut Vec<Row>) -> Result<(), String> {
     write_table(PAGE, "scaling", &columns::table(rows))
 }
 
+/// Lights of the largest set that so much memory holds, [`LARGEST`] at most.
+fn largest_held(available: u64) -> usize {
+    let held = powers_of_ten(LARGEST).filter(|&lights| fits(lights, available).is_ok());
+    held.last().unwrap_or(LARGEST)
+}
+
 /// Whether sets of so many lights can be measured in so much memory.
 ///
 /// # Errors
 /// One line that says what they need.
 fn fits(lights: usize, available: u64) -> Result<(), String> {
-    let needed = (lights as u64).saturating_mul(BYTES_A_LIGHT);
+    let needed = measure::bytes(lights);
     if needed <= available {
         return Ok(());
     }
@@ -184,10 +186,18 @@ mod tests {
 
     #[test]
     fn too_many_lights_for_the_memory_are_refused() {
-        let refused = fits(100_000_000, 24 << 30).expect_err("in 24 GB");
+        let refused = fits(100_000_000, 16 << 30).expect_err("in 16 GB");
         assert!(refused.starts_with("100000000 lights: "), "{refused}");
         assert!(refused.lines().count() == 1, "{refused}");
-        assert_eq!(fits(10_000_000, 24 << 30), Ok(()), "these fit");
+        assert_eq!(fits(10_000_000, 16 << 30), Ok(()), "these fit");
+    }
+
+    #[test]
+    fn the_largest_set_is_one_that_the_memory_holds() {
+        for (gigabytes, lights) in [(1, 1_000_000), (16, 10_000_000), (22, LARGEST)] {
+            assert_eq!(largest_held(gigabytes << 30), lights, "in {gigabytes} GB");
+        }
+        assert!(fits(largest_held(0), 0).is_err(), "no memory");
     }
 
     #[test]
@@ -201,7 +211,7 @@ mod tests {
             let error = of(wrong).expect_err(wrong);
             assert!(error.starts_with(&format!("{wrong}: expected")), "{error}");
         }
-        assert_eq!(request(&[]), Ok(Request::UpTo(LARGEST)), "none");
+        assert!(matches!(request(&[]), Ok(Request::UpTo(_))), "none");
     }
 
     #[test]
