@@ -6,6 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::packages::libraries;
+use crate::processor_time::children_seconds;
 use crate::steps::{Outcome, StepResult, cargo, output, root, run};
 
 /// What encloses the line in each README.
@@ -20,9 +21,6 @@ const SOFTWARE_FLOATS: Features = (
     "`libm` alone",
     &["--no-default-features", "--features", "libm"],
 );
-
-/// Ticks of `/proc/self/stat` a second.
-const TICKS: f64 = 100.0;
 
 /// Compares the written counts of dependencies with those of cargo, or measures and writes.
 ///
@@ -125,20 +123,6 @@ fn build_seconds(name: &str, (_, arguments): Features) -> Result<f64, String> {
     Ok(children_seconds().unwrap_or_default() - before)
 }
 
-/// Processor time of all processes that this one waited for, which other work on the machine
-/// changes little. None without Linux.
-fn children_seconds() -> Option<f64> {
-    Some(ticks(&fs::read_to_string("/proc/self/stat").ok()?)? / TICKS)
-}
-
-/// Fields 16 and 17 of `/proc/self/stat`, together; the second, a name, may hold spaces.
-fn ticks(stat: &str) -> Option<f64> {
-    let (_, fields) = stat.rsplit_once(") ")?;
-    let fields: Vec<&str> = fields.split(' ').collect();
-    let number = |i: usize| fields.get(i)?.parse::<f64>().ok();
-    Some(number(13)? + number(14)?)
-}
-
 /// The processor and the compiler.
 fn machine() -> Result<String, String> {
     let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -153,13 +137,6 @@ fn machine() -> Result<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_time_of_children_is_found() {
-        let stat = "7 (a ) b) S 1 2 3 4 5 6 7 8 9 10 11 12 250 50 20 0";
-        assert_eq!(ticks(stat), Some(300.0), "user and system");
-        assert_eq!(ticks("7 (a) S 1"), None, "too short");
-    }
 
     #[test]
     fn every_readme_has_a_place() {

@@ -24,6 +24,7 @@ mod mutants;
 mod no_std;
 mod oldest;
 mod packages;
+mod processor_time;
 mod programs;
 mod ptx;
 mod references;

@@ -5,6 +5,8 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::processor_time::children_seconds;
+
 /// How a step ended that did not fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -49,6 +51,7 @@ impl Steps {
     pub fn run(&mut self, name: &str, step: impl FnOnce() -> StepResult) {
         println!("==> {name}");
         let start = Instant::now();
+        let before = children_seconds();
         let result = step();
         let seconds = start.elapsed().as_secs();
         let reason = |why: String| Reason {
@@ -57,7 +60,11 @@ impl Steps {
         };
         match result {
             Ok(Outcome::Passed) => {
-                println!("    passed in {seconds} s");
+                let work = children_seconds().zip(before);
+                let work = work.map_or(String::new(), |(after, before)| {
+                    format!(", {:.0} s of processor time", after - before)
+                });
+                println!("    passed in {seconds} s{work}");
                 self.passed += 1;
             }
             Ok(Outcome::Skipped(why)) => {
