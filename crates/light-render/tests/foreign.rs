@@ -110,8 +110,9 @@ fn assert_looks_like(name: &str, scene: &Scene) {
         light_samples: LIGHT_SAMPLES,
         ..Shot::default()
     };
-    let runs: Vec<_> = (0..RUNS)
-        .map(|seed| shot.render(scene, seed).film.develop())
+    let runs: Vec<_> = shot
+        .render_each(scene, 0..=RUNS - 1)
+        .map(|rendering| rendering.film.develop())
         .collect();
     let theirs = image(&format!("{name}.exr"));
     let at_scale = |side| {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test crate uses a part of this")]
 
 use core::num::NonZeroU32;
+use core::ops::RangeInclusive;
 
 use light_render::integrator::{Estimator, Integrator, PathSettings};
 use light_render::{AnyLightSampler, RenderSettings, Rendering, SamplerKind, View, World, render};
@@ -133,33 +134,48 @@ impl Shot {
 
     /// Renders `scene` with this seed.
     pub(crate) fn render(&self, scene: &Scene, seed: u32) -> Rendering {
+        let mut pictures = self.render_each(scene, seed..=seed);
+        pictures.next().expect("one seed")
+    }
+
+    /// Renders `scene` with each of the seeds, in their order. What no seed changes is built once.
+    pub(crate) fn render_each(
+        &self,
+        scene: &Scene,
+        seeds: RangeInclusive<u32>,
+    ) -> impl Iterator<Item = Rendering> {
         let camera = scene.camera_or_default();
         let world = World::new(scene.clone()).expect("valid lights");
         let view = View::new(&camera, self.size, self.size).expect("a valid view");
         let sampler = AnyLightSampler::new(self.sampler, world.lights()).expect("valid lights");
-        let settings = RenderSettings {
-            samples: 0..self.spp,
-            time_limit: None,
-            seed,
-            path: PathSettings {
-                max_depth: self.max_depth,
-                estimator: self.estimator,
-                light_samples: self.light_samples,
-                integrator: self.integrator.unwrap_or(Integrator::fitting(&world)),
-            },
+        let path = PathSettings {
+            max_depth: self.max_depth,
+            estimator: self.estimator,
+            light_samples: self.light_samples,
+            integrator: self.integrator.unwrap_or(Integrator::fitting(&world)),
         };
-        let rendering = render(&world, &view, &sampler, &settings, |_| ());
-        assert_eq!(rendering.rejected, 0, "every sample is finite");
-        rendering
+        let spp = self.spp;
+        seeds.map(move |seed| {
+            let settings = RenderSettings {
+                samples: 0..spp,
+                time_limit: None,
+                seed,
+                path,
+            };
+            let rendering = render(&world, &view, &sampler, &settings, |_| ());
+            assert_eq!(rendering.rejected, 0, "every sample is finite");
+            rendering
+        })
     }
 
     /// The mean of the picture over pixels, and its standard error from sixteen independent
     /// pictures.
     pub(crate) fn mean(&self, scene: &Scene) -> (DVec3, DVec3) {
         const RUNS: u32 = 16;
-        let means: Vec<DVec3> = (0..RUNS)
-            .map(|seed| {
-                let pixels = self.render(scene, seed).film.develop();
+        let means: Vec<DVec3> = self
+            .render_each(scene, 0..=RUNS - 1)
+            .map(|rendering| {
+                let pixels = rendering.film.develop();
                 pixels.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / pixels.len() as f64
             })
             .collect();
