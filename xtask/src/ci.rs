@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: everything that a machine can check without being asked twice.
 
 use crate::check::WorkspaceTests;
-use crate::steps::{Outcome, Steps, cargo, run};
+use crate::steps::Steps;
 use crate::tools::Install;
 use crate::{
     api, check, counts, crates, dependencies, embedded, fuzz, no_std, oldest, packages, tint,
@@ -19,10 +19,6 @@ pub fn add_steps(steps: &mut Steps, tests: WorkspaceTests) {
     packages::add_steps(steps);
     steps.run("dependencies of each crate alone", || crates::crates(&[]));
     dependencies::add_steps(steps, Install::Forbidden);
-    steps.run("conformance", || {
-        let vectors = ["run", "--quiet", "--package", "light-conformance"];
-        run(&mut cargo(vectors)).map(|()| Outcome::Passed)
-    });
     steps.run("fuzz targets, a few seconds each", || {
         fuzz::smoke(FUZZ_SECONDS)
     });

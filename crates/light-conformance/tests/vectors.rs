@@ -8,7 +8,8 @@ use light_conformance::{check_folder, default_folder};
 fn nothing_fails() {
     let reports = check_folder(&default_folder()).expect("the vectors are part of the project");
     let text: String = reports.iter().map(ToString::to_string).collect();
-    assert!(reports.iter().all(|r| r.failed == 0), "{text}");
+    let is_good = reports.iter().all(|r| r.failed == 0 && r.unchecked == 0);
+    assert!(is_good, "{text}");
     let lines: usize = reports.iter().map(|r| r.passed + r.exempt).sum();
     assert_eq!((reports.len(), lines), (14, 11_964), "{text}");
 }
