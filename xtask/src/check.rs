@@ -2,7 +2,9 @@
 
 use crate::arrows;
 use crate::circles;
-use crate::features::{FEATURE_SETS, SOFTWARE_FLOATS, for_each_set, together};
+use crate::features::{
+    FEATURE_SETS, SOFTWARE_FLOAT_TESTS, SOFTWARE_FLOATS, for_each_set, together,
+};
 use crate::references;
 use crate::steps::{Outcome, StepResult, Steps, cargo, output, run};
 
@@ -59,7 +61,8 @@ fn format() -> StepResult {
     })
 }
 
-/// The tests of the crates that work without std, without it.
+/// The unit tests of the crates that work without std, and the tests of what they compute by float
+/// functions, without std.
 fn software_floats() -> StepResult {
     let selection = together(SOFTWARE_FLOATS);
     let mut tree = cargo([
@@ -74,7 +77,12 @@ fn software_floats() -> StepResult {
             "a test dependency turns on std of light-math: cargo tree --edges features".into(),
         );
     }
-    let mut test = cargo(["test", "--quiet"]);
+    let mut test = cargo(["test", "--quiet", "--lib"]);
+    test.args(
+        SOFTWARE_FLOAT_TESTS
+            .iter()
+            .flat_map(|name| ["--test", name]),
+    );
     run(test.args(&selection)).map(|()| Outcome::Passed)
 }
 
