@@ -40,6 +40,13 @@ pub struct FeatureSet {
 }
 
 impl FeatureSet {
+    /// Whether the package is one of those on which no other library depends: their sets compile
+    /// every library, with each of its features on and off.
+    #[must_use]
+    pub fn is_of_a_whole(&self) -> bool {
+        WHOLES.contains(&self.package)
+    }
+
     /// The arguments of cargo that choose this set of this package alone.
     #[must_use]
     pub fn arguments(&self) -> [&'static str; 5] {
@@ -52,6 +59,9 @@ impl FeatureSet {
         ]
     }
 }
+
+/// The libraries with feature sets on which no other one depends.
+const WHOLES: [&str; 2] = ["lights", "light-gpu"];
 
 /// Every crate alone, at least without std and with every feature that it has. The default features
 /// are checked with the workspace.
@@ -205,10 +215,14 @@ mod tests {
     use super::*;
     use crate::steps::root;
 
+    fn manifest(package: &str) -> String {
+        let path = root().join("crates").join(package).join("Cargo.toml");
+        std::fs::read_to_string(path).expect("a manifest")
+    }
+
     /// The names in the `[features]` table of a package's manifest.
     fn features_of(package: &str) -> Vec<String> {
-        let path = root().join("crates").join(package).join("Cargo.toml");
-        let manifest = std::fs::read_to_string(path).expect("a manifest");
+        let manifest = manifest(package);
         let table = manifest.split("[features]").nth(1).unwrap_or_default();
         let table = table.split("\n[").next().unwrap_or_default();
         let names = table.lines().filter_map(|line| line.split_once(" = "));
@@ -256,6 +270,27 @@ mod tests {
                 sets.iter().any(|s| s.needs != Needs::Std),
                 "{name}: no set without std"
             );
+        }
+    }
+
+    #[test]
+    fn every_library_is_below_a_whole() {
+        let manifests: Vec<String> = FEATURE_SETS
+            .iter()
+            .map(|set| manifest(set.package))
+            .collect();
+        let is_named = |words: &str| manifests.iter().any(|manifest| manifest.contains(words));
+        for set in FEATURE_SETS.iter().filter(|set| !set.is_of_a_whole()) {
+            let package = set.package;
+            let dependency = format!("\n{package} = {{ workspace");
+            assert!(is_named(&dependency), "no library depends on {package}");
+            for feature in set.features.split(',') {
+                let forwarded = is_named(&format!("\"{package}/{feature}\""));
+                assert!(
+                    forwarded,
+                    "no feature of another library is {package}/{feature}"
+                );
+            }
         }
     }
 }

@@ -25,7 +25,8 @@ pub fn add_steps(steps: &mut Steps) {
     );
 }
 
-/// Builds every set without std for the bare target, with the installed toolchain or with Debian's.
+/// Builds the libraries, whole, without std for the bare target, with the installed toolchain or
+/// with Debian's.
 fn check_bare_target() -> StepResult {
     if is_installed(TARGET)? {
         println!("    with the installed target");
@@ -57,7 +58,7 @@ pub fn is_installed(target: &str) -> Result<bool, String> {
 }
 
 fn build_all(build: &(dyn Fn(Needs) -> Command + Sync)) -> StepResult {
-    let without_std = |set: &FeatureSet| set.needs != Needs::Std;
+    let without_std = |set: &FeatureSet| set.is_of_a_whole() && set.needs != Needs::Std;
     for_each_set(without_std, |set| {
         let mut command = build(set.needs);
         command
