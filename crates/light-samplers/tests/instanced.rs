@@ -100,9 +100,15 @@ fn taken_apart_opening(set: &SamplerCase, few: usize, most_opened: usize) -> Ren
         .expect("within reach");
     let skies: Vec<_> = infinite.iter().map(|(_, bounds)| *bounds).collect();
     let all = bounded.iter().map(|(id, _)| *id);
+    let ids: Vec<LightId> = all.chain(infinite.iter().map(|(id, _)| *id)).collect();
+    let mut own = vec![LightId(u32::MAX); ids.len()];
+    for (light, id) in (0..).map(LightId).zip(&ids) {
+        own[id.index()] = light;
+    }
     Renumbered {
         sampler: InstancedBvhLightSampler::new(tree, &skies).expect("valid bounds"),
-        ids: all.chain(infinite.iter().map(|(id, _)| *id)).collect(),
+        ids,
+        own,
     }
 }
 
@@ -139,10 +145,11 @@ fn back(extent: &LightExtent, turn: Quat, scale: f32, translation: Vec3) -> Ligh
     }
 }
 
-/// A sampler whose light `i` has the id `ids[i]`.
+/// A sampler whose light `i` has the id `ids[i]`; `own` is the other way round.
 struct Renumbered {
     sampler: InstancedBvhLightSampler,
     ids: Vec<LightId>,
+    own: Vec<LightId>,
 }
 
 impl Renumbered {
@@ -152,8 +159,8 @@ impl Renumbered {
     }
 
     fn own(&self, light: LightId) -> LightId {
-        let mut own = (0..).zip(&self.ids).filter(|(_, id)| **id == light);
-        LightId(own.next().map_or(u32::MAX, |(own, _)| own))
+        let own = self.own.get(light.index());
+        own.copied().unwrap_or(LightId(u32::MAX))
     }
 }
 

@@ -29,6 +29,8 @@ enum Fault {
     SameU,
     KnowsAll,
     ChoosesUnknown,
+    /// Nothing is chosen for one `u` of 256, although the pmfs add up to one.
+    LosesSome,
     /// None: two of five choices.
     MakesFewer,
     MakesMore,
@@ -55,6 +57,9 @@ impl LightSampler for Broken {
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
+        if self.fault == Fault::LosesSome && fraction::choose(256, u).0 == 100 {
+            return None;
+        }
         let (light, rest) = fraction::choose(self.count, u);
         let beyond = u32::from(self.fault == Fault::ChoosesUnknown);
         Some(SampledLight {
@@ -115,7 +120,7 @@ fn each_law_finds_its_fault() {
     const UNKNOWN: &str = "of an unknown light";
     let frequencies = frequencies_match_and_u_stays_uniform;
     let several = several_choices_follow_their_pmf;
-    let cases: [(Law, Fault, &str); 14] = [
+    let cases: [(Law, Fault, &str); 16] = [
         (sampled_pmf_is_the_queried_pmf, Fault::HalfPmf, WRONG_PMF),
         (
             sampled_pmf_is_the_queried_pmf,
@@ -123,6 +128,12 @@ fn each_law_finds_its_fault() {
             UNKNOWN,
         ),
         (pmfs_and_none_sum_to_one, Fault::HalfPmf, "the pmfs sum to"),
+        (
+            pmfs_and_none_sum_to_one,
+            Fault::LosesSome,
+            "none is returned with",
+        ),
+        (frequencies, Fault::LosesSome, "were chosen"),
         (
             contributing_lights_can_be_chosen,
             Fault::NeverTheLast,
