@@ -1,4 +1,4 @@
-//! The libraries as packages: each holds its licences and builds from what it holds, against the
+//! The libraries as packages: each holds its licences and compiles from what it holds, against the
 //! packages of the others.
 
 use std::fs;
@@ -12,7 +12,7 @@ use crate::steps::{Outcome, StepResult, Steps, cargo, is_there, output, root};
 /// What each package holds beside its code.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Those that take minutes to build: their packages are made, and the tests build their code.
+/// Those that take long to compile: their packages are made, and the tests build their code.
 const SLOW: [&str; 2] = ["light-render", "light-scene"];
 
 /// The first release of cargo that checks packages of a workspace against each other.
@@ -56,7 +56,7 @@ fn packages() -> StepResult {
     if !is_there("tar") {
         return Ok(Outcome::Skipped("no tar to unpack them".into()));
     }
-    match package(&[&quick[..], &slow[..]].concat()).and_then(|()| build_packages(&quick)) {
+    match package(&[&quick[..], &slow[..]].concat()).and_then(|()| check_packages(&quick)) {
         Ok(()) => Ok(Outcome::Passed),
         Err(error) if is_without_registry(&error) => Ok(Outcome::Skipped(
             "the packages of others are not on this machine: cargo fetch".into(),
@@ -72,9 +72,9 @@ fn package(names: &[&str]) -> Result<(), String> {
     output(command.args(names.iter().flat_map(|&name| ["--package", name]))).map(|_| ())
 }
 
-/// Builds packages from what is in them. Not by cargo's own check, which a second time takes what
-/// it unpacked the first time.
-fn build_packages(names: &[&str]) -> Result<(), String> {
+/// Compiles packages from what is in them, as far as errors show. Not by cargo's own check, which a
+/// second time takes what it unpacked the first time.
+fn check_packages(names: &[&str]) -> Result<(), String> {
     let folder = root().join("target/packages");
     let failed = |e: io::Error| format!("{}: {e}", folder.display());
     if folder.exists() {
@@ -94,11 +94,11 @@ fn build_packages(names: &[&str]) -> Result<(), String> {
     }
     fs::write(folder.join("Cargo.toml"), manifest).map_err(failed)?;
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).map_err(failed)?;
-    let mut build = cargo(["build", "--offline", "--quiet", "--workspace"]);
-    build
+    let mut check = cargo(["check", "--offline", "--quiet", "--workspace"]);
+    check
         .arg("--target-dir")
         .arg(root().join("target/packages-build"));
-    output(build.current_dir(&folder)).map(|_| ())
+    output(check.current_dir(&folder)).map(|_| ())
 }
 
 /// Whether cargo lacks the package of somebody else; our own are never fetched.
