@@ -65,8 +65,8 @@ pub fn sampled_pmf_is_the_queried_pmf(set: &SamplerCase, sampler: &impl LightSam
 /// If the law does not hold.
 pub fn pmfs_and_none_sum_to_one(set: &SamplerCase, sampler: &impl LightSampler) {
     // Stratified u: a sampler that maps each light to an interval misses by less than one stratum a
-    // light. Frequencies have a law of their own, with more samples.
-    const STRATA: u32 = 1024;
+    // light.
+    const STRATA: u32 = 4096;
     let mut rng = Rng::new(32);
     for query in queries(set) {
         let sum: f64 = set
