@@ -26,7 +26,7 @@ pub struct CoarseCell {
     pub(super) key: CellKey,
     pub(super) shape: Vec<CopiedNode>,
     pub(super) factors: Vec<[u8; WIDTH]>,
-    /// The visible share of each child's lights, in 255ths.
+    /// The code of the visible share of each child's lights.
     pub(super) seen: Vec<[u8; WIDTH]>,
     pub(super) rays: CoarseRays,
 }
