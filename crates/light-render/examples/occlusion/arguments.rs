@@ -1,5 +1,6 @@
 use clap::Parser;
 
+use super::gloss::Gloss;
 use super::methods::{METHODS, Method, method};
 use super::place::{Place, occluded};
 
@@ -10,6 +11,10 @@ pub(super) struct Arguments {
     /// and large, by default.
     #[arg(long, value_delimiter = ',', default_values_t = occluded())]
     pub(super) scenes: Vec<Place>,
+    /// What all diffuse surfaces become: coat:ALPHA, the same under a clear coat, or metal:ALPHA,
+    /// silver, each of this roughness.
+    #[arg(long)]
+    pub(super) gloss: Option<Gloss>,
     /// Choices by their place in the list of all, from 0 on, with commas between; the first is what
     /// the others are set against.
     #[arg(long, value_delimiter = ',', value_parser = method)]

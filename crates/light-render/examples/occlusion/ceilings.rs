@@ -20,7 +20,7 @@ pub(super) fn ceilings(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     println!("{title} |\n{line} |");
     for &scene in &arguments.scenes {
         let start = Instant::now();
-        let (world, view) = load(scene, arguments.receivers)?;
+        let (world, view) = load(scene, arguments.gloss, arguments.receivers)?;
         eprintln!("{scene}: {} lights", world.lights().len());
         let variance = scene_variance(&world, &view, arguments.strata, 1)?;
         print!(

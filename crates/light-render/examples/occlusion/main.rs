@@ -16,6 +16,7 @@ use clap::Parser;
 mod arguments;
 mod ceilings;
 mod figure;
+mod gloss;
 mod means;
 mod methods;
 mod pictures;

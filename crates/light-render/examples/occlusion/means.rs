@@ -25,7 +25,7 @@ pub(super) fn means(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     }
     println!("{title} |\n{line} |");
     for &scene in &arguments.scenes {
-        let (world, view) = load(scene, arguments.size)?;
+        let (world, view) = load(scene, arguments.gloss, arguments.size)?;
         let bench = PictureBench::new(world, view)?;
         let uniform = AnyLightSampler::new(SamplerKind::Uniform, bench.world().lights())?;
         let path = paths(arguments.max_depth, NonZeroU32::MIN);

@@ -30,7 +30,7 @@ pub(super) fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     println!("{title} |\n{line} |");
     for &scene in &arguments.scenes {
         let start = Instant::now();
-        let (world, view) = load(scene, arguments.size)?;
+        let (world, view) = load(scene, arguments.gloss, arguments.size)?;
         let bench = PictureBench::new(world, view)?;
         let lights = bench.world().lights();
         let samplers: Vec<AnyLightSampler> = methods

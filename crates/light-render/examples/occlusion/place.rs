@@ -5,6 +5,8 @@ use core::str::FromStr;
 use light_render::{View, World};
 use light_scene::{BuiltinScene, OcclusionKind, OcclusionScene};
 
+use super::gloss::Gloss;
+
 /// A built-in scene, or one generated with another seed or number of lamps.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Place {
@@ -54,12 +56,16 @@ impl fmt::Display for Place {
 /// A scene, seen by its camera.
 pub(super) fn load(
     scene: Place,
+    gloss: Option<Gloss>,
     (width, height): (u32, u32),
 ) -> Result<(World, View), Box<dyn Error>> {
-    let scene = match scene {
+    let mut scene = match scene {
         Place::Builtin(scene) => scene.load(),
         Place::Generated(scene) => scene.load(),
     };
+    if let Some(gloss) = gloss {
+        scene.materials.iter_mut().for_each(|m| gloss.apply(m));
+    }
     let view = View::new(&scene.camera_or_default(), width, height)?;
     Ok((World::new(scene)?, view))
 }
