@@ -2,11 +2,10 @@
 
 use crate::arrows;
 use crate::circles;
-use crate::features::{
-    FEATURE_SETS, SOFTWARE_FLOAT_TESTS, SOFTWARE_FLOATS, for_each_set, together,
-};
+use crate::features::{FEATURE_SETS, for_each_set};
 use crate::references;
-use crate::steps::{Outcome, StepResult, Steps, cargo, output, run};
+use crate::software_floats::software_floats;
+use crate::steps::{Outcome, StepResult, Steps, cargo, run};
 
 /// Who runs `cargo test --workspace`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,31 +58,6 @@ fn format() -> StepResult {
         let manifest = format!("{folder}/Cargo.toml");
         passes(&["fmt", "--all", "--check", "--manifest-path", &manifest])
     })
-}
-
-/// The unit tests of the crates that work without std, and the tests of what they compute by float
-/// functions, without std.
-fn software_floats() -> StepResult {
-    let selection = together(SOFTWARE_FLOATS);
-    let mut tree = cargo([
-        "tree",
-        "--edges",
-        "features,normal,dev",
-        "--invert",
-        "light-math",
-    ]);
-    if output(tree.args(&selection))?.contains("light-math feature \"std\"") {
-        return Err(
-            "a test dependency turns on std of light-math: cargo tree --edges features".into(),
-        );
-    }
-    let mut test = cargo(["test", "--quiet", "--lib"]);
-    test.args(
-        SOFTWARE_FLOAT_TESTS
-            .iter()
-            .flat_map(|name| ["--test", name]),
-    );
-    run(test.args(&selection)).map(|()| Outcome::Passed)
 }
 
 /// Documents the crates that have feature sets, with the same features each.
@@ -142,5 +116,47 @@ mod tests {
         found.retain(|path| !path.is_empty());
         found.sort();
         assert_eq!(found, OTHER_WORKSPACES, "folders with a workspace");
+    }
+
+    /// Demands that the `parent` of each file below a folder names it: else nobody compiles it.
+    fn assert_each_file_is_a_module(folder: &Path, parent: &str) {
+        let text = read_to_string(folder.join(parent)).expect("the file of a module");
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let stem = path.file_stem().expect("a name").to_string_lossy();
+            let is_here = path.file_name().is_some_and(|name| name == parent);
+            let declares =
+                |line: &str| line.trim_end_matches(';').ends_with(&format!("mod {stem}"));
+            assert!(
+                is_here || text.lines().any(declares),
+                "no module is {}",
+                path.display()
+            );
+            if path.is_dir() {
+                assert_each_file_is_a_module(&path, "mod.rs");
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_of_integration_tests_is_compiled_in_one_program() {
+        for entry in fs::read_dir(root().join("crates")).expect("a folder of crates") {
+            let tests = entry.expect("an entry").path().join("tests");
+            let Ok(targets) = fs::read_dir(&tests) else {
+                continue;
+            };
+            let targets: Vec<_> = targets
+                .map(|target| target.expect("an entry").path())
+                .collect();
+            for target in &targets {
+                if target.is_dir() {
+                    assert_each_file_is_a_module(target, "main.rs");
+                } else if targets.len() > 1 {
+                    let says_why = read_to_string(target)
+                        .is_ok_and(|text| text.contains("A program of its own"));
+                    assert!(says_why, "a module of {}?", target.display());
+                }
+            }
+        }
     }
 }

@@ -141,36 +141,6 @@ pub const SOFTWARE_FLOATS: &[FeatureSet] = &[
     alloc("light-photometry", "libm,alloc"),
 ];
 
-/// The tests that run a second time with [`SOFTWARE_FLOATS`], beside the unit tests: pinned values,
-/// closed forms, and of each crate laws of what it computes by float functions. Other tests compare
-/// parts of a crate with each other, by the same float functions, and take the most time.
-pub const SOFTWARE_FLOAT_TESTS: &[&str] = &[
-    // light-math, light-bvh: the same bits on every machine.
-    "value_stability",
-    // light-math
-    "distributions",
-    "solid_angles",
-    "warps",
-    // light-bounds
-    "contribution",
-    // light-bvh
-    "reference_properties",
-    "wide",
-    // light-samplers
-    "known_probabilities",
-    "visibility",
-    // light-sources
-    "conversions",
-    "far_from_the_origin",
-    "known_values",
-    "photometric",
-    // light-media
-    "closed_forms",
-    // light-photometry
-    "eulumdat",
-    "lm63",
-];
-
 /// The arguments of cargo that choose these sets together, each of another package.
 #[must_use]
 pub fn together(sets: &[FeatureSet]) -> Vec<String> {

@@ -29,6 +29,7 @@ mod programs;
 mod ptx;
 mod references;
 mod rust_gpu;
+mod software_floats;
 mod steps;
 mod tint;
 mod tools;

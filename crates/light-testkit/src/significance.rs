@@ -8,13 +8,13 @@ use core::sync::atomic::{AtomicU32, Ordering};
 /// result has to be before it counts as a fault.
 pub const FAMILY_ERROR: f64 = 1e-3;
 
-/// The most test programs (one for the unit tests of a crate, one for each file of its `tests/`)
-/// that take statistical tests. A test of this crate counts them.
-pub const PROGRAMS: u32 = 36;
+/// The most test programs (one for the unit tests of a crate, one for its integration tests) that
+/// take statistical tests. A test of this crate counts them.
+pub const PROGRAMS: u32 = 18;
 
 /// The most single tests (one chi-squared, one Kolmogorov-Smirnov, one mean) that a program takes:
 /// more of them panic.
-pub const TESTS_PER_PROGRAM: u32 = 1 << 15;
+pub const TESTS_PER_PROGRAM: u32 = 1 << 16;
 
 /// The chance that one single test fails although the code is right: [`FAMILY_ERROR`] divided
 /// evenly (Bonferroni).

@@ -1,7 +1,7 @@
 //! Measures how marches through media converge and draws it for `docs/light-media.md`:
 //! `cargo xtask march-convergence`. Prints the slopes, and how far trackers are from the truth.
 
-#[path = "../../tests/support/convergence.rs"]
+#[path = "../../tests/integration/support/convergence.rs"]
 mod convergence;
 mod drawing;
 mod figures;

@@ -1,0 +1,6 @@
+//! The integration tests of light-gpu, as one program.
+
+mod light_rows;
+mod page;
+mod rows;
+mod shaders;
