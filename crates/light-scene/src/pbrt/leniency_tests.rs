@@ -216,3 +216,21 @@ fn checkerboards_have_sharp_checks() {
     let expected = "Texture \"checkerboard\" of dimension 3 was taken as its mean";
     assert_eq!(warnings(&solid), [expected], "named");
 }
+
+#[test]
+fn unknown_kinds_are_told_with_those_that_exist() {
+    let scene = read_world(&format!(
+        "LightSource \"spto\" \"rgb I\" [1 1 1] Material \"difuse\" {TRIANGLE} Shape \"shpere\""
+    ));
+    assert_eq!((scene.lights.len(), scene.meshes.len()), (0, 1), "the rest");
+    let expected = [
+        "LightSource \"spto\" is not understood and was left out: expected distant, goniometric, \
+         infinite, point, projection or spot",
+        "material \"difuse\" is not understood and was taken as diffuse: expected coatedconductor, \
+         coateddiffuse, conductor, dielectric, diffuse, diffusetransmission, interface, mix or \
+         thindielectric",
+        "Shape \"shpere\" is not understood and was left out: expected bilinearmesh, curve, \
+         cylinder, disk, loopsubdiv, plymesh, sphere or trianglemesh",
+    ];
+    assert_eq!(warnings(&scene), expected, "each once");
+}

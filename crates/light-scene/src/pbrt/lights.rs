@@ -99,7 +99,10 @@ impl Reader {
             "infinite" => self.infinite(typed, unscaled(transform), scale)?,
             other => {
                 let what = format!("LightSource \"{other}\"");
-                self.warn(at, &what, "is not understood and was left out");
+                let expected = "is not understood and was left out: expected distant, goniometric, \
+                                infinite, point, projection or spot";
+                self.warn(at, &what, expected);
+                parameters.accept_all();
                 return Ok(());
             }
         };

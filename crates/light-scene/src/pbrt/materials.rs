@@ -51,11 +51,10 @@ impl Reader {
             "interface" | "" => Surface::Interface,
             other => {
                 let what = format!("material \"{other}\"");
-                self.warn(
-                    typed.at,
-                    &what,
-                    "is not understood and was taken as diffuse",
-                );
+                let expected = "is not understood and was taken as diffuse: expected \
+                                coatedconductor, coateddiffuse, conductor, dielectric, diffuse, \
+                                diffusetransmission, interface, mix or thindielectric";
+                self.warn(typed.at, &what, expected);
                 Surface::Diffuse {
                     reflectance: self.color(typed, "reflectance", 0.5),
                 }

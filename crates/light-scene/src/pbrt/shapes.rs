@@ -45,7 +45,10 @@ impl Reader {
             other => {
                 let Some(quadric) = quadric else {
                     let what = format!("Shape \"{other}\"");
-                    self.warn(at, &what, "is not understood and was left out");
+                    let expected = "is not understood and was left out: expected bilinearmesh, \
+                                    curve, cylinder, disk, loopsubdiv, plymesh, sphere or \
+                                    trianglemesh";
+                    self.warn(at, &what, expected);
                     typed.parameters.accept_all();
                     return Ok(());
                 };
