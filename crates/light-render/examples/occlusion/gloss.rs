@@ -22,13 +22,13 @@ enum Kind {
 impl Gloss {
     /// Changes a material that is diffuse.
     pub(super) fn apply(self, material: &mut Material) {
-        let Surface::Diffuse { reflectance } = &material.surface else {
+        let Surface::Diffuse { reflectance } = material.surface else {
             return;
         };
         let alpha = Vec2::splat(self.alpha);
         material.surface = match self.kind {
             Kind::Coat => Surface::CoatedDiffuse {
-                reflectance: reflectance.clone(),
+                reflectance,
                 eta: 1.5,
                 alpha,
             },
