@@ -1,4 +1,4 @@
-//! What the benches in `benches/`, the counts in `examples/counts.rs` and the tables of the pages
+//! What the benches in `benches/`, the counts in `bin/counts.rs` and the tables of the pages
 //! share: queries, measuring times, and where tables are written.
 
 pub mod city;

@@ -36,13 +36,14 @@ pub fn counts(arguments: &[String]) -> StepResult {
 /// Instructions a call, by name.
 type Counts = BTreeMap<String, u64>;
 
-/// Runs `benches/examples/counts.rs`, which lists its names, under callgrind, once a name.
+/// Runs `benches/src/bin/counts.rs`, which lists its names, under callgrind, once a name.
 fn measure() -> Result<Counts, String> {
-    let example = ["--package", "benches", "--example", "counts"];
+    // Not an example: that would compile the renderer too, for other examples.
+    let program = ["--package", "benches", "--bin", "counts"];
     run(&mut cargo(
-        ["build", "--quiet", "--release"].iter().chain(&example),
+        ["build", "--quiet", "--release"].iter().chain(&program),
     ))?;
-    let program = root().join("target/release/examples/counts");
+    let program = root().join("target/release/counts");
     let names = output(&mut Command::new(&program))?;
     let names: Vec<(&str, &str)> = (names.lines())
         .filter_map(|line| line.split_once(' '))
