@@ -1,7 +1,6 @@
 //! Light from lights of every kind, scattered at one point: closed forms and quadrature, with and
 //! without the weights of multiple importance sampling.
 
-use crate::support::ball::{Ball, CENTRE, RADIUS};
 use light_math::glam::{Affine3A, Vec3};
 use light_media::PhaseFunction;
 use light_media::phase::HenyeyGreenstein;
@@ -17,6 +16,8 @@ use light_sources::{
     SceneSphere, SurfaceColor, UniformInfiniteLightDesc,
 };
 use light_testkit::{Cap, Estimate, Rng};
+
+use crate::support::ball::{Ball, CENTRE, RADIUS};
 
 const HALF_SIZE: f32 = 4.0;
 const G: f32 = 0.5;

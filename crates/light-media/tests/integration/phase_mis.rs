@@ -1,7 +1,6 @@
 //! Light samples and phase samples, weighted, have the mean of either and less noise than light
 //! samples alone.
 
-use crate::support::ball::{Ball, CENTRE, RADIUS};
 use light_math::fraction;
 use light_math::glam::{Affine3A, Vec2, Vec3};
 use light_media::phase::HenyeyGreenstein;
@@ -16,6 +15,8 @@ use light_sources::{
     SceneSphere, SurfaceColor, UniformInfiniteLightDesc,
 };
 use light_testkit::{Estimate, Rng};
+
+use crate::support::ball::{Ball, CENTRE, RADIUS};
 
 #[test]
 fn both_strategies_have_one_mean_and_together_less_noise() {

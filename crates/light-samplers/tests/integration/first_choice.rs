@@ -1,13 +1,14 @@
 //! The choice between the tree and the lights at infinity follows a refit, and every method gives
 //! the same probabilities.
 
-use crate::support::lamp_over_floor::{floor, lamp};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::{InfiniteBounds, LightExtent, LightId};
 use light_samplers::{
     BvhLightSampler, BvhLightSamplerRef, LightChoices, LightSampler, SampledLight,
 };
+
+use crate::support::lamp_over_floor::{floor, lamp};
 
 fn lights(phi: f32, radiance: f32) -> [LightExtent; 2] {
     let sky = LightExtent::Infinite(InfiniteBounds::uniform(radiance));

@@ -1,7 +1,6 @@
 //! Contexts that ask for some groups of lights: a light outside is never chosen, one inside is
 //! where it contributes.
 
-use crate::support::lamp_over_floor::{floor, lamp};
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::Aabb;
 use light_samplers::light_bounds::light_math::fraction::stratum;
@@ -12,6 +11,8 @@ use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, GroupedLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
+
+use crate::support::lamp_over_floor::{floor, lamp};
 
 const LAMPS: u16 = 700;
 

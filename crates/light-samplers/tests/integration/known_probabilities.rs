@@ -1,7 +1,6 @@
 //! Three lights whose probabilities follow from their powers: two lamps of 1 W and 3 W in one
 //! place, and a sun.
 
-use crate::support::lamp_over_floor::{floor, lamp};
 use light_bvh::LightBvhOptions;
 use light_samplers::light_bounds::glam::Vec3;
 use light_samplers::light_bounds::light_math::fraction::{stratum, to_f64};
@@ -10,6 +9,8 @@ use light_samplers::{
     BvhLightSampler, ExhaustiveLightSampler, LightSampler, PowerLightSampler,
     ReferenceBvhLightSampler, UniformLightSampler,
 };
+
+use crate::support::lamp_over_floor::{floor, lamp};
 
 const LAMP_1_W: LightId = LightId(0);
 const SUN: LightId = LightId(1);
