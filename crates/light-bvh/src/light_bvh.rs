@@ -50,22 +50,15 @@ impl LightBvh {
         lights: &[LightExtent],
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
-        Self::build_with_moments(lights, options).map(|(tree, _)| tree)
-    }
-
-    /// The same, and the moments of all its lights together, whose power is a share of the tree's.
-    pub(crate) fn build_with_moments(
-        lights: &[LightExtent],
-        options: &LightBvhOptions,
-    ) -> Result<(Self, Moments), LightBvhError> {
         expect_addressable(lights.len())?;
         let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
         let leaves = Lights::new(lights, scan.power);
-        Ok(Self::build_of_leaves(lights, &scan, options, &leaves))
+        Ok(Self::build_of_leaves(lights, &scan, options, &leaves).0)
     }
 
     /// A tree whose topology is that of `lights`, which are valid, and whose leaves have the
-    /// moments of `leaves`.
+    /// moments of `leaves`; and the moments of all of them together, whose power is a share of the
+    /// tree's.
     pub(crate) fn build_of_leaves(
         lights: &[LightExtent],
         scan: &Scan,
@@ -76,7 +69,7 @@ impl LightBvh {
         let mut nodes = topology.nodes();
         let (moments, slots) = join(
             lights.len(),
-            || refit::fill(&mut nodes, &order, leaves),
+            || refit::fill(&mut nodes, 0, &order, leaves),
             || topology.slots(&order, lights.len()),
         );
         let tree = Self {
@@ -101,16 +94,9 @@ impl LightBvh {
     /// lights as the tree was built for, and [`LightBvhError::NoPlace`] for the first one that
     /// emits, or is bounded, and was not when the tree was built. The tree does not change then.
     pub fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
-        self.refit_with_moments(lights).map(|_| ())
-    }
-
-    /// The same, and the moments of all its lights together.
-    pub(crate) fn refit_with_moments(
-        &mut self,
-        lights: &[LightExtent],
-    ) -> Result<Moments, LightBvhError> {
         let power = self.scan_refit(lights)?.power;
-        Ok(self.refit_to_leaves(power, &Lights::new(lights, power)))
+        self.refit_to_leaves(power, &Lights::new(lights, power));
+        Ok(())
     }
 
     /// Validates the lights of a refit.
@@ -124,9 +110,9 @@ impl LightBvh {
     }
 
     /// Refits the tree to leaves that are valid, of so much power together.
-    pub(crate) fn refit_to_leaves(&mut self, power: f64, leaves: &impl LeafMoments) -> Moments {
+    pub(crate) fn refit_to_leaves(&mut self, power: f64, leaves: &impl LeafMoments) {
         self.power = rounded(power);
-        refit::fill(&mut self.nodes, &self.order, leaves)
+        refit::fill(&mut self.nodes, 0, &self.order, leaves);
     }
 
     /// What queries need, borrowed.

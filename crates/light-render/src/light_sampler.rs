@@ -197,7 +197,7 @@ impl AnyLightSampler {
             Self::BvhInCells(sampler) => sampler.lights().tree().depth(),
             Self::BvhPlaced(sampler) => {
                 let depths = sampler.tree().prototypes().iter();
-                let lower = depths.map(|prototype| prototype.tree().depth()).max();
+                let lower = depths.map(|prototype| prototype.depth()).max();
                 sampler.tree().top().depth() + lower.unwrap_or(0)
             }
         }

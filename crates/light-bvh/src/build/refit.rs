@@ -33,12 +33,18 @@ pub(crate) fn scan(lights: &[LightExtent], slots: &[u32]) -> Result<Scan, LightB
 }
 
 /// Encodes the moments of all nodes, whose places are set; returns those of all `lights` together.
-pub(crate) fn fill<L: LeafMoments>(nodes: &mut [WideNode], order: &[u32], lights: &L) -> Moments {
+///
+/// The root is node `first`; `order` ends with the lights of these nodes.
+pub(crate) fn fill<L: LeafMoments>(
+    nodes: &mut [WideNode],
+    first: usize,
+    order: &[u32],
+    lights: &L,
+) -> Moments {
     let filling = Filling { lights, order };
+    let room = &mut [Moments::NOTHING; BATCH];
     match nodes.split_first_mut() {
-        Some((root, below)) => {
-            filling.subtree(root, below, 1, order.len(), &mut [Moments::NOTHING; BATCH])
-        }
+        Some((root, below)) => filling.subtree(root, below, first + 1, order.len(), room),
         None => Moments::NOTHING,
     }
 }

@@ -6,7 +6,8 @@ use crate::LightBvhError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstancedLightBvhError {
-    /// There are more placements than the tree can address: 2^28.
+    /// There are more parts of placements than the tree can address: 2^28, counted as if all
+    /// placements had the parts of the prototype of most, rounded up to a power of two.
     TooManyPlacements,
     /// A placement names a prototype that is not there, or in a refit another one than before.
     Prototype {
@@ -35,7 +36,7 @@ pub enum InstancedLightBvhError {
 impl fmt::Display for InstancedLightBvhError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooManyPlacements => f.write_str("more than 2^28 placements"),
+            Self::TooManyPlacements => f.write_str("more than 2^28 parts of placements"),
             Self::Prototype { placement } => {
                 write!(
                     f,

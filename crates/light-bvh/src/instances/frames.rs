@@ -2,18 +2,19 @@ use alloc::vec::Vec;
 
 use light_bounds::LightId;
 
+use crate::instances::leaf_ids::LeafIds;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::light_bvh::LightBvh;
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::descent::{AfterLevels, ChosenEntry, Prefetch};
-use crate::simd::{prefetch, prefetch_item};
+use crate::simd::prefetch;
 
 /// The frames of all placements.
 ///
-/// Where no placement is opened they are in the order of the upper tree, so that those of a node
-/// are side by side and are prefetched before one of them is chosen. Otherwise most entries of that
-/// order are lights, and the frames are in the order of the placements.
+/// Where placements are what the upper tree holds they are in its order, so that those of a node
+/// are side by side and are prefetched before one of them is chosen. Otherwise several entries of
+/// that order share a frame, or are lights, and the frames are in the order of the placements.
 #[derive(Clone, Debug)]
 pub(crate) struct Frames {
     rows: Vec<PlacedFrame>,
@@ -21,9 +22,10 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    /// The frames of placements that are in their own order, and leaves of the upper tree `top`.
-    pub(crate) fn new(frames: Vec<PlacedFrame>, top: &LightBvh, is_any_open: bool) -> Self {
-        if is_any_open {
+    /// The frames of placements that are in their own order, and perhaps `are_leaves` of the upper
+    /// tree `top`.
+    pub(crate) fn new(frames: Vec<PlacedFrame>, top: &LightBvh, are_leaves: bool) -> Self {
+        if !are_leaves {
             return Self {
                 rows: frames,
                 is_in_tree_order: false,
@@ -57,27 +59,21 @@ impl Frames {
         self.rows.get(index)
     }
 
-    /// Prefetches that of a placement.
-    #[inline(always)]
-    pub(crate) fn prefetch(&self, placement: u32, top: &LightBvhRef<'_>) {
-        if let Some(frame) = self.of(placement, top) {
-            prefetch_item(frame);
-        }
-    }
-
-    /// That of the placement that was chosen, `None` if a light was.
+    /// That of the placement of which a part was chosen, and the part; `None` if a light was.
     #[inline(always)]
     pub(crate) fn chosen(
         &self,
         chosen: &ChosenEntry,
         top: &LightBvhRef<'_>,
-    ) -> Option<&PlacedFrame> {
-        let index = if self.is_in_tree_order {
-            chosen.entry
+        ids: LeafIds,
+    ) -> Option<(&PlacedFrame, usize)> {
+        let (index, part) = if self.is_in_tree_order {
+            (chosen.entry, 0)
         } else {
-            top.light(chosen.entry)?.index()
+            let (placement, part) = ids.part(top.light(chosen.entry)?.0);
+            (placement as usize, part)
         };
-        self.rows.get(index)
+        Some((self.rows.get(index)?, part))
     }
 }
 

@@ -41,9 +41,12 @@ impl InstancedLightBvh {
         if let Some(leaf) = self.openings().leaf(light) {
             return top.pmf_for(receiver, *groups, leaf);
         }
-        self.frames().prefetch(light.placement, &top);
-        let placed = top.pmf_for(receiver, *groups, LightId(light.placement));
-        positive_product(placed, self.pmf_in(light, receiver, *groups))
+        let Some((leaf, frame, prototype)) = self.leaf(light) else {
+            return 0.0;
+        };
+        let placed = top.pmf_for(receiver, *groups, leaf);
+        let pmf = pmf_in(light.light, frame, prototype, receiver, *groups);
+        positive_product(placed, pmf)
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
@@ -71,10 +74,11 @@ impl InstancedLightBvh {
                 return Some(light);
             }
         }
-        let frame = self.frames().chosen(placed, &top)?;
+        let (frame, part) = self.frames().chosen(placed, &top, self.ids())?;
         let prototype = self.prototype(frame)?;
         let query = Descent {
-            tree: &prototype.tree().view().wanting(groups),
+            tree: &prototype.view().wanting(groups),
+            root: prototype.parts().get(part)?.root(),
             u: placed.u,
             prefetch: AfterLevels::OF_PROTOTYPE,
         };
@@ -86,24 +90,27 @@ impl InstancedLightBvh {
         })?;
         Some(SampledPlacedLight::of(frame.placement, placed.pmf, &chosen))
     }
+}
 
-    /// Probability of a light given its placement.
-    #[inline(always)]
-    fn pmf_in(&self, light: PlacedLight, receiver: &ContextReceiver, groups: LightGroups) -> f32 {
-        let Some((frame, prototype)) = self.placed(light.placement) else {
-            return 0.0;
-        };
-        let query = Ascent {
-            tree: &prototype.tree().view().wanting(groups),
-            light: light.light,
-        };
-        dispatch(InPrototype {
-            frame,
-            prototype,
-            receiver,
-            query,
-        })
-    }
+/// Probability of a light given the part of a placement that it is in.
+#[inline(always)]
+fn pmf_in(
+    light: LightId,
+    frame: &PlacedFrame,
+    prototype: &LightPrototype,
+    receiver: &ContextReceiver,
+    groups: LightGroups,
+) -> f32 {
+    let query = Ascent {
+        tree: &prototype.view().wanting(groups),
+        light,
+    };
+    dispatch(InPrototype {
+        frame,
+        prototype,
+        receiver,
+        query,
+    })
 }
 
 /// A query of the tree of a placed prototype: the receiver is moved into its frame in the same
@@ -149,9 +156,11 @@ impl InstancedLightBvhAt<'_> {
         if let Some(leaf) = self.tree.openings().leaf(light) {
             return self.top.pmf(leaf);
         }
-        let top = self.tree.top().view();
-        self.tree.frames().prefetch(light.placement, &top);
-        let placed = self.top.pmf(LightId(light.placement));
-        positive_product(placed, self.tree.pmf_in(light, receiver, *groups))
+        let Some((leaf, frame, prototype)) = self.tree.leaf(light) else {
+            return 0.0;
+        };
+        let placed = self.top.pmf(leaf);
+        let pmf = pmf_in(light.light, frame, prototype, receiver, *groups);
+        positive_product(placed, pmf)
     }
 }

@@ -1,12 +1,14 @@
 use alloc::vec::Vec;
+use core::iter;
 
 use light_bounds::{LightExtent, LightGroups, LightId};
 use light_math::float::positive_product;
 
 use crate::build::options::LightBvhOptions;
-use crate::build::scan::is_addressable;
+use crate::importance::receiver::NoReceiver;
 use crate::instances::error::InstancedLightBvhError;
 use crate::instances::frames::Frames;
+use crate::instances::leaf_ids::LeafIds;
 use crate::instances::light_ranges::LightRanges;
 use crate::instances::openings::Openings;
 use crate::instances::overlaps::placements_to_open;
@@ -19,14 +21,15 @@ use crate::light_bvh::LightBvh;
 
 /// A tree of trees: lights that are placed many times are stored once.
 ///
-/// The leaves of the upper tree are placements of prototypes, each with a rotation, one scale and a
-/// translation. A node of it knows the moments of the placed groups as a node of [`LightBvh`] knows
-/// those of lights, and a choice goes on from a leaf to the root of a prototype, with the receiver
-/// in the frame of that. 24 to 29 bytes a light of a prototype, and about 84 a placement.
+/// Prototypes are placed with a rotation, one scale and a translation. The leaves of the upper tree
+/// are the [parts](LightPrototype) of placements. A node of it knows the moments of these groups as
+/// a node of [`LightBvh`] knows those of lights, and a choice goes on from a leaf to the root of a
+/// part, with the receiver in the frame of the prototype. 24 to 29 bytes a light of a prototype,
+/// about 84 a placement, and 25 for each further part of one.
 ///
 /// Placements that reach into others are opened when the tree is built: their lights are leaves of
 /// the upper tree, as if they were copied, about 40 bytes each. At most 2^20 lights are, of those
-/// placements first that reach into most others.
+/// placements first that reach into most parts of others.
 ///
 /// The laws are those of [`LightBvh`]: a sampled pmf has the bits of the queried one, a light that
 /// can contribute has a pmf above 0, and the pmfs and the probability of `None` add up to 1.
@@ -64,6 +67,7 @@ use crate::light_bvh::LightBvh;
 #[derive(Clone, Debug)]
 pub struct InstancedLightBvh {
     top: LightBvh,
+    ids: LeafIds,
     frames: Frames,
     openings: Openings,
     prototypes: Vec<LightPrototype>,
@@ -74,7 +78,7 @@ impl InstancedLightBvh {
     /// The tree of `prototypes` where `placements` place them.
     ///
     /// # Errors
-    /// More than 2^28 placements; the first one of a prototype that is not there, or with a light
+    /// More than 2^28 parts of placements; the first one of a prototype that is not there, or with a light
     /// beyond ±1e36.
     pub fn build(
         prototypes: Vec<LightPrototype>,
@@ -108,9 +112,6 @@ impl InstancedLightBvh {
         options: &LightBvhOptions,
         most_opened: usize,
     ) -> Result<Self, InstancedLightBvhError> {
-        if !is_addressable(placements.len()) {
-            return Err(InstancedLightBvhError::TooManyPlacements);
-        }
         for (placement, placed) in (0..).zip(placements) {
             if placed.prototype as usize >= prototypes.len() {
                 return Err(InstancedLightBvhError::Prototype { placement });
@@ -119,19 +120,22 @@ impl InstancedLightBvh {
         let placed = Placed::new(&prototypes, placements)?;
         let closed = placed.build(options, &Openings::NONE)?;
         let opened = placements_to_open(&closed, &placed, most_opened);
-        let openings = Openings::new(&prototypes, placements, &opened);
+        let openings = Openings::new(&prototypes, placements, placed.groups.len(), &opened);
         let top = if openings.is_empty() {
             closed
         } else {
             placed.build(options, &openings)?
         };
-        let frames = Frames::new(placed.frames, &top, !openings.is_empty());
+        let ids = placed.ids;
+        let are_leaves = openings.is_empty() && ids.are_placements();
+        let frames = Frames::new(placed.frames, &top, are_leaves);
         let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
         let ranges = LightRanges::new(placements.iter().map(count));
         let mut prototypes = prototypes;
         openings.forget_unopened(&mut prototypes, placements);
         Ok(Self {
             top,
+            ids,
             frames,
             openings,
             ranges,
@@ -160,7 +164,8 @@ impl InstancedLightBvh {
         }
         let placed = Placed::new(&self.prototypes, placements)?;
         placed.refit(&mut self.top, &self.openings)?;
-        self.frames = Frames::new(placed.frames, &self.top, !self.openings.is_empty());
+        let are_leaves = self.openings.is_empty() && self.ids.are_placements();
+        self.frames = Frames::new(placed.frames, &self.top, are_leaves);
         Ok(())
     }
 
@@ -199,7 +204,9 @@ impl InstancedLightBvh {
         }
         let of_lights = self.openings.lights().iter();
         let of_lights = of_lights.map(|light| groups[light.placement as usize]);
-        let groups: Vec<_> = groups.iter().copied().chain(of_lights).collect();
+        let of_parts = groups.iter();
+        let of_parts = of_parts.flat_map(|&groups| iter::repeat_n(groups, self.ids.each()));
+        let groups: Vec<_> = of_parts.chain(of_lights).collect();
         self.top.set_groups(&groups).map_err(|_| refused)
     }
 
@@ -211,9 +218,11 @@ impl InstancedLightBvh {
         if let Some(light) = self.openings.light(&placed) {
             return Some(light);
         }
-        let (_, prototype) = self.placed(placed.light.0)?;
-        let chosen = prototype.tree().view().sample_emitter(placed.u)?;
-        Some(SampledPlacedLight::of(placed.light.0, placed.pmf, &chosen))
+        let (placement, part) = self.ids.part(placed.light.0);
+        let (_, prototype) = self.placed(placement)?;
+        let root = prototype.parts().get(part)?.root();
+        let chosen = prototype.view().sample_below(&NoReceiver, root, placed.u)?;
+        Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
     }
 
     /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
@@ -222,11 +231,11 @@ impl InstancedLightBvh {
         if let Some(leaf) = self.openings.leaf(light) {
             return self.top.view().pmf_emitter(leaf);
         }
-        let Some((_, prototype)) = self.placed(light.placement) else {
+        let Some((leaf, _, prototype)) = self.leaf(light) else {
             return 0.0;
         };
-        let placed = self.top.view().pmf_emitter(LightId(light.placement));
-        positive_product(placed, prototype.tree().view().pmf_emitter(light.light))
+        let placed = self.top.view().pmf_emitter(leaf);
+        positive_product(placed, prototype.view().pmf_emitter(light.light))
     }
 
     /// How many lights there are, those of each placement counted.
@@ -251,7 +260,8 @@ impl InstancedLightBvh {
         self.ranges.light(index)
     }
 
-    /// The upper tree, whose lights are placements, and after them the lights of opened ones.
+    /// The upper tree, whose lights are parts of placements, those of a placement one after the
+    /// other, and after all of them the lights of opened placements.
     #[must_use]
     pub const fn top(&self) -> &LightBvh {
         &self.top
@@ -273,7 +283,7 @@ impl InstancedLightBvh {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let prototypes = self.prototypes.iter();
-        let prototypes: usize = prototypes.map(|p| p.tree().bytes()).sum();
+        let prototypes: usize = prototypes.map(LightPrototype::bytes).sum();
         let placements = size_of_val(self.frames.all()) + self.ranges.bytes();
         let placements = placements + self.openings.bytes();
         self.top.bytes() + placements + prototypes
@@ -281,6 +291,21 @@ impl InstancedLightBvh {
 
     pub(crate) const fn openings(&self) -> &Openings {
         &self.openings
+    }
+
+    pub(crate) const fn ids(&self) -> LeafIds {
+        self.ids
+    }
+
+    /// The leaf that a light is in, its placement, and its prototype; `None` if it has no place.
+    #[inline(always)]
+    pub(crate) fn leaf(
+        &self,
+        light: PlacedLight,
+    ) -> Option<(LightId, &PlacedFrame, &LightPrototype)> {
+        let (frame, prototype) = self.placed(light.placement)?;
+        let part = prototype.part_of(light.light)?;
+        Some((self.ids.leaf(light.placement, part), frame, prototype))
     }
 
     /// A placement and its prototype.

@@ -8,14 +8,15 @@ use crate::instances::placement::Placement;
 use crate::instances::prototype::LightPrototype;
 use crate::node::wide_node::NOWHERE;
 
-/// The opened placements: their lights are leaves of the upper tree, after all placements.
+/// The opened placements: their lights are leaves of the upper tree, after the parts of all
+/// placements.
 #[derive(Clone, Debug)]
 pub(crate) struct Openings {
     /// The leaf of the first light of each placement, [`NOWHERE`] if it is not opened; empty if
     /// none is.
     first: Vec<u32>,
-    /// How many leaves are placements.
-    placements: u32,
+    /// How many leaves are parts of placements.
+    parts: u32,
     /// The lights that the leaves after them are.
     lights: Vec<PlacedLight>,
 }
@@ -24,15 +25,16 @@ impl Openings {
     /// No placement is opened.
     pub(crate) const NONE: Self = Self {
         first: Vec::new(),
-        placements: 0,
+        parts: 0,
         lights: Vec::new(),
     };
 
-    /// All lights of the `opened` ones among `placements`. Leaves have 32 bits.
+    /// All lights of the `opened` ones among `placements`, after so many parts. Leaves have 32 bits.
     #[expect(clippy::cast_possible_truncation, reason = "at most 2^28 leaves")]
     pub(crate) fn new(
         prototypes: &[LightPrototype],
         placements: &[Placement],
+        parts: usize,
         opened: &[u32],
     ) -> Self {
         if opened.is_empty() {
@@ -41,14 +43,14 @@ impl Openings {
         let mut first = vec![NOWHERE; placements.len()];
         let mut lights = Vec::new();
         for &placement in opened {
-            first[placement as usize] = (placements.len() + lights.len()) as u32;
+            first[placement as usize] = (parts + lights.len()) as u32;
             let prototype = &prototypes[placements[placement as usize].prototype as usize];
             let ids = (0..prototype.len() as u32).map(LightId);
             lights.extend(ids.map(|light| PlacedLight { placement, light }));
         }
         Self {
             first,
-            placements: placements.len() as u32,
+            parts: parts as u32,
             lights,
         }
     }
@@ -63,9 +65,9 @@ impl Openings {
     }
 
     /// Whether the placement is opened.
-    pub(crate) fn is_open(&self, placement: usize) -> bool {
+    pub(crate) fn is_open(&self, placement: u32) -> bool {
         self.first
-            .get(placement)
+            .get(placement as usize)
             .is_some_and(|&leaf| leaf != NOWHERE)
     }
 
@@ -74,14 +76,14 @@ impl Openings {
     pub(crate) fn leaf(&self, light: PlacedLight) -> Option<LightId> {
         let first = *self.first.get(light.placement as usize)?;
         let leaf = first.checked_add(light.light.0)?;
-        let place = leaf.checked_sub(self.placements)?;
+        let place = leaf.checked_sub(self.parts)?;
         (self.lights.get(place as usize) == Some(&light)).then_some(LightId(leaf))
     }
 
-    /// The chosen light, unless a placement was chosen.
+    /// The chosen light, unless a part was chosen.
     #[inline(always)]
     pub(crate) fn light(&self, chosen: &SampledLight) -> Option<SampledPlacedLight> {
-        let place = chosen.light.0.checked_sub(self.placements)?;
+        let place = chosen.light.0.checked_sub(self.parts)?;
         let light = *self.lights.get(place as usize)?;
         let SampledLight { pmf, u, .. } = *chosen;
         Some(SampledPlacedLight { light, pmf, u })
@@ -94,7 +96,7 @@ impl Openings {
         placements: &[Placement],
     ) {
         let mut is_needed = vec![false; prototypes.len()];
-        for (index, placement) in placements.iter().enumerate() {
+        for (index, placement) in (0..).zip(placements) {
             is_needed[placement.prototype as usize] |= self.is_open(index);
         }
         for (prototype, is_needed) in prototypes.iter_mut().zip(is_needed) {

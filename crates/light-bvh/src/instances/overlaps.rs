@@ -6,13 +6,12 @@ use core::cmp::Reverse;
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
-use crate::build::scan::is_addressable;
+use crate::build::topology::low_word;
 use crate::instances::placed::Placed;
-use crate::instances::placed_moments::PlacedGroup;
 use crate::light_bvh::LightBvh;
 use crate::parallel::table;
 
-/// Of how many placements a placement is told apart by how many of them it reaches into.
+/// Of how many parts of others a placement is told apart by how many of them it reaches into.
 const MOST_COUNTED: u32 = 16;
 
 /// How many nodes the search for them reads.
@@ -23,16 +22,17 @@ const MOST_NODES: u32 = 256;
 const LEAST_DEPTH: f32 = 0.125;
 
 /// The placements whose lights become leaves of the upper tree, in ascending order: with `most`
-/// lights at most, those first that reach into most others. `closed` is the tree of all placements.
+/// lights at most, those first that reach into most parts of others. `closed` is the tree of all.
 pub(crate) fn placements_to_open(closed: &LightBvh, placed: &Placed<'_>, most: usize) -> Vec<u32> {
     let lights = |placement: usize| {
         let prototype = placed.placements[placement].prototype;
         placed.prototypes[prototype as usize].lights.len()
     };
-    let overlaps = table(placed.groups.len(), |i| {
-        let is_lit = placed.groups[i].power() > 0.0;
-        if is_lit && (1..=most).contains(&lights(i)) {
-            Search::of(closed, &placed.groups, i)
+    let overlaps = table(placed.placements.len(), |i| {
+        let placement = low_word(i);
+        let bounds = placed.bounds(placement);
+        if !bounds.is_empty() && (1..=most).contains(&lights(i)) {
+            Search::of(closed, placed, placement, bounds)
         } else {
             0
         }
@@ -47,7 +47,7 @@ pub(crate) fn placements_to_open(closed: &LightBvh, placed: &Placed<'_>, most: u
     let mut count = 0;
     for (_, lights, placement) in wanted {
         let more = count + lights;
-        if more <= most && is_addressable(placed.groups.len() + more) {
+        if more <= most && placed.ids.fit(placed.placements.len(), more) {
             count = more;
             opened.push(placement);
         }
@@ -56,22 +56,25 @@ pub(crate) fn placements_to_open(closed: &LightBvh, placed: &Placed<'_>, most: u
     opened
 }
 
-/// A count of the placements that one reaches into.
+/// A count of the parts of others that a placement reaches into.
 struct Search<'a> {
     tree: &'a LightBvh,
-    groups: &'a [PlacedGroup],
-    placement: usize,
+    placed: &'a Placed<'a>,
+    placement: u32,
+    bounds: Aabb,
     found: u32,
     nodes: u32,
 }
 
 impl<'a> Search<'a> {
-    /// Into how many others `placement` reaches, as far as they are counted.
-    fn of(tree: &'a LightBvh, groups: &'a [PlacedGroup], placement: usize) -> u32 {
+    /// Into how many parts of others `placement` reaches, as far as they are counted. Its lights
+    /// are in `bounds`.
+    fn of(tree: &'a LightBvh, placed: &'a Placed<'_>, placement: u32, bounds: Aabb) -> u32 {
         let mut search = Self {
             tree,
-            groups,
+            placed,
             placement,
+            bounds,
             found: 0,
             nodes: 0,
         };
@@ -84,18 +87,18 @@ impl<'a> Search<'a> {
             return;
         };
         self.nodes += 1;
-        let bounds = *self.groups[self.placement].bounds();
         for (k, child) in node.lit_boxes() {
             if self.found >= MOST_COUNTED || self.nodes >= MOST_NODES {
                 return;
             }
-            if !overlap(&bounds, &child) {
+            if !overlap(&self.bounds, &child) {
                 continue;
             }
             if let Some(light) = k.checked_sub(usize::from(node.inner)) {
-                let other = self.tree.order[node.light_base as usize + light] as usize;
-                let is_other = other != self.placement;
-                let reaches = overlap(&bounds, self.groups[other].bounds());
+                let other = self.tree.order[node.light_base as usize + light];
+                let is_other = self.placed.ids.part(other).0 != self.placement;
+                let bounds = self.placed.groups[other as usize].bounds();
+                let reaches = overlap(&self.bounds, bounds);
                 self.found += u32::from(is_other && reaches);
             } else {
                 self.in_node(node.child_base as usize + k);

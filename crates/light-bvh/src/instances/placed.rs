@@ -10,6 +10,7 @@ use crate::build::scan::Scan;
 use crate::build::topology::low_word;
 use crate::importance::position::FAR;
 use crate::instances::error::InstancedLightBvhError;
+use crate::instances::leaf_ids::LeafIds;
 use crate::instances::openings::Openings;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::PlacedLight;
@@ -26,7 +27,9 @@ use crate::simd::prefetch;
 pub(crate) struct Placed<'a> {
     pub(crate) prototypes: &'a [LightPrototype],
     pub(crate) placements: &'a [Placement],
+    pub(crate) ids: LeafIds,
     pub(crate) frames: Vec<PlacedFrame>,
+    /// Those of all leaves that are parts of placements; dark where a prototype has fewer parts.
     pub(crate) groups: Vec<PlacedGroup>,
 }
 
@@ -34,27 +37,39 @@ impl<'a> Placed<'a> {
     /// The placements, whose prototypes are there.
     ///
     /// # Errors
-    /// The first placement of a light beyond the reach of a tree.
+    /// More parts than a tree can address; the first placement of a light beyond the reach of a
+    /// tree.
     pub(crate) fn new(
         prototypes: &'a [LightPrototype],
         placements: &'a [Placement],
     ) -> Result<Self, InstancedLightBvhError> {
+        let ids = LeafIds::new(prototypes);
+        if !ids.fit(placements.len(), 0) {
+            return Err(InstancedLightBvhError::TooManyPlacements);
+        }
         let prototype = |p: &Placement| &prototypes[p.prototype as usize];
         let frames = table(placements.len(), |i| {
             PlacedFrame::new(low_word(i), &placements[i], prototype(&placements[i]))
         });
-        let groups = table(placements.len(), |i| {
-            let placement = &placements[i];
-            PlacedGroup::new(prototype(placement), &frames[i], placement)
+        let groups = table(ids.of(placements.len()), |leaf| {
+            let (i, part) = ids.part(low_word(leaf));
+            let (placement, frame) = (&placements[i as usize], &frames[i as usize]);
+            let prototype = prototype(placement);
+            let part = prototype.parts().get(part);
+            part.map_or(PlacedGroup::DARK, |part| {
+                PlacedGroup::new(prototype, part, frame, placement)
+            })
         });
-        for (placement, group) in (0..).zip(&groups) {
+        for (leaf, group) in (0..).zip(&groups) {
             if group.power() > 0.0 && !is_within_reach(group.bounds()) {
+                let (placement, _) = ids.part(leaf);
                 return Err(InstancedLightBvhError::TooFar { placement });
             }
         }
         Ok(Self {
             prototypes,
             placements,
+            ids,
             frames,
             groups,
         })
@@ -97,25 +112,28 @@ impl<'a> Placed<'a> {
         Ok(())
     }
 
-    /// The placement that a leaf is, or is a light of.
-    #[expect(clippy::cast_possible_truncation, reason = "at most 2^28 placements")]
+    /// The placement that a leaf is a part of, or a light.
     fn placement_of(&self, leaf: usize, openings: &Openings) -> u32 {
-        match leaf.checked_sub(self.placements.len()) {
+        match leaf.checked_sub(self.groups.len()) {
             Some(place) => openings.lights()[place].placement,
-            None => leaf as u32,
+            None => self.ids.part(low_word(leaf)).0,
         }
     }
 
-    /// What the builder reads of all leaves. Those of opened placements themselves have no place.
+    /// What the builder reads of all leaves. Parts of opened placements have no place, and none
+    /// have those that a prototype lacks.
     fn extents(&self, openings: &Openings) -> Vec<LightExtent> {
-        let placements = self.placements.len();
-        table(placements + openings.lights().len(), |leaf| {
-            if let Some(place) = leaf.checked_sub(placements) {
-                self.extent_of_light(&openings.lights()[place])
-            } else if openings.is_open(leaf) {
-                LightExtent::Infinite(InfiniteBounds::uniform(0.0))
-            } else {
+        let groups = self.groups.len();
+        table(groups + openings.lights().len(), |leaf| {
+            if let Some(place) = leaf.checked_sub(groups) {
+                return self.extent_of_light(&openings.lights()[place]);
+            }
+            let (placement, part) = self.ids.part(low_word(leaf));
+            let (prototype, ..) = self.placement(placement);
+            if part < prototype.parts().len() && !openings.is_open(placement) {
                 self.groups[leaf].extent()
+            } else {
+                LightExtent::Infinite(InfiniteBounds::uniform(0.0))
             }
         })
     }
@@ -127,7 +145,7 @@ impl<'a> Placed<'a> {
         let Some(bounds) = light.bounded() else {
             return *light;
         };
-        let all = self.groups[id.placement as usize].bounds();
+        let all = self.bounds(id.placement);
         let turned = Turned::new(prototype, frame, placement);
         let center = turned.place(bounds.bounds.center());
         let is_lit = all.min.x <= all.max.x;
@@ -144,12 +162,23 @@ impl<'a> Placed<'a> {
         })
     }
 
+    /// The box of all lights of a placement; empty if none is on.
+    pub(crate) fn bounds(&self, placement: u32) -> Aabb {
+        let first = self.ids.leaf(placement, 0).index();
+        let parts = self.groups[first..].iter().take(self.ids.each());
+        parts.fold(Aabb::EMPTY, |all, part| all.union(*part.bounds()))
+    }
+
     /// The moments of one light, with a share of a power of which `inv_power` is one over.
     fn moments_of_light(&self, id: &PlacedLight, inv_power: f64) -> Moments {
         let (prototype, frame, placement) = self.placement(id.placement);
         let light = &prototype.lights[id.light.index()];
-        let whole = &self.groups[id.placement as usize];
-        let light = whole.of_light(prototype, frame, placement, light);
+        let Some(part) = prototype.part_of(id.light) else {
+            return Moments::NOTHING;
+        };
+        let group = &self.groups[self.ids.leaf(id.placement, part).index()];
+        let part = &prototype.parts()[part];
+        let light = group.of_light(prototype, part, frame, placement, light);
         light.moments(inv_power)
     }
 

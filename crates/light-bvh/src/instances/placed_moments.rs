@@ -4,52 +4,55 @@ use light_math::glam::{Mat3, Vec3};
 
 use crate::build::group_extent::group_extent;
 use crate::build::lights::phi;
+use crate::instances::part::Part;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placement::Placement;
 use crate::instances::prototype::LightPrototype;
 use crate::node::moments::Moments;
 
-/// A placed prototype, or one light of it, as a leaf of the upper tree.
+/// A placed part of a prototype, or one light of it, as a leaf of the upper tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedGroup {
     /// With the peak intensity as a share of [`whole`](Self::whole).
     moments: Moments,
     /// The power of its lights.
     power: f64,
-    /// The power of all lights of the placement.
+    /// The power of all lights of the part.
     whole: f64,
 }
 
 impl PlacedGroup {
-    const DARK: Self = Self {
+    pub(crate) const DARK: Self = Self {
         moments: Moments::NOTHING,
         power: 0.0,
         whole: 0.0,
     };
 
-    /// The lights of `prototype` as `placement` places them, which `frame` is made of.
+    /// The lights of a part of `prototype` as `placement` places them, which `frame` is made of.
     pub(crate) fn new(
         prototype: &LightPrototype,
+        part: &Part,
         frame: &PlacedFrame,
         placement: &Placement,
     ) -> Self {
-        let inner = &prototype.moments;
-        let power = f64::from(prototype.tree().power()) * f64::from(placement.power);
+        let inner = &part.moments;
+        let power = f64::from(part.power) * f64::from(placement.power);
         if !(inner.power > 0.0 && power > 0.0) {
             return Self::DARK;
         }
         let turned = Turned::new(prototype, frame, placement);
         Self {
-            moments: turned.moments(inner, turned.whole_box()),
+            moments: turned.moments(inner, turned.whole_box(part)),
             power,
             whole: power,
         }
     }
 
-    /// `light`, one of those of `prototype` that are together as this says.
+    /// `light`, one of those of a part of `prototype` that are together as this says.
     pub(crate) fn of_light(
         &self,
         prototype: &LightPrototype,
+        part: &Part,
         frame: &PlacedFrame,
         placement: &Placement,
         light: &LightExtent,
@@ -58,7 +61,7 @@ impl PlacedGroup {
         if !(self.power > 0.0 && power > 0.0) {
             return Self::DARK;
         }
-        let inner = Moments::of_light(light, 1.0 / f64::from(prototype.tree().power()));
+        let inner = Moments::of_light(light, 1.0 / f64::from(part.power));
         let turned = Turned::new(prototype, frame, placement);
         let Aabb { min, max } = turned.box_of(&inner.bounds);
         let all = self.bounds();
@@ -182,11 +185,11 @@ impl<'a> Turned<'a> {
         }
     }
 
-    /// A box around all lights: the turned box of all, and those of the root's children, what is in
-    /// both.
-    fn whole_box(&self) -> Aabb {
-        let whole = self.turned(&self.prototype.moments.bounds);
-        let parts = self.prototype.child_boxes();
+    /// A box around all lights of a part: the turned box of all, and those of the root's children,
+    /// what is in both.
+    fn whole_box(&self, part: &Part) -> Aabb {
+        let whole = self.turned(&part.moments.bounds);
+        let parts = part.child_boxes(self.prototype.view().nodes());
         let parts = parts.map(|inner| self.turned(&inner));
         let parts = parts.fold(Aabb::EMPTY, Aabb::union);
         Aabb {

@@ -1,25 +1,37 @@
+use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::LightExtent;
+use light_bounds::{InfiniteBounds, LightExtent, LightId};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use crate::LightBvhError;
-use crate::build::options::LightBvhOptions;
+use crate::build::lights::{Lights, phi};
+use crate::build::options::{DarkLights, LightBvhOptions};
+use crate::build::scan::{Scan, expect_addressable, is_held};
+use crate::instances::by_direction;
+use crate::instances::part::Part;
 use crate::light_bvh::LightBvh;
-use crate::node::moments::Moments;
+use crate::node::wide_node::NOWHERE;
+use crate::query::bvh_ref::LightBvhRef;
 
 /// How many lights of opened placements a tree holds: those of a flat tree of 28 MB.
 pub(crate) const MOST_OPENED: usize = 1 << 20;
 
-/// Lights that are placed any number of times and stored once: a tree in coordinates of its own.
+/// Lights that are placed any number of times and stored once, in coordinates of their own: a tree,
+/// or one for each face of a box.
+///
+/// Each of these parts is a leaf of the tree of trees wherever the prototype is placed. Lights are
+/// divided where they emit in two to six directions, and face outward: each wall of a house is a
+/// part.
 #[derive(Clone, Debug)]
 pub struct LightPrototype {
-    tree: LightBvh,
+    /// The trees of all parts, one behind the other.
+    trees: LightBvh,
+    /// At least one.
+    parts: Vec<Part>,
     /// The lights, for placements that are opened; empty if none is.
     pub(crate) lights: Vec<LightExtent>,
-    /// Of all lights together; their power is a share of the tree's.
-    pub(crate) moments: Moments,
     /// The middle of the box of all lights; the origin if none is on.
     pub(crate) center: Vec3,
     /// Half of the sum of the sides of that box.
@@ -42,65 +54,125 @@ impl LightPrototype {
     /// # Errors
     /// As for [`LightBvh::build`].
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
-        let (tree, moments) = LightBvh::build_with_moments(lights, options)?;
-        let lights = if lights.len() <= MOST_OPENED {
-            lights.to_vec()
-        } else {
-            Vec::new()
+        expect_addressable(lights.len())?;
+        let all = scan(lights, options.dark)?;
+        let numbers = by_direction::parts(lights, |light| {
+            light.bounded().is_some() && is_held(phi(light), options.dark)
+        });
+        let mut trees = LightBvh {
+            slots: vec![NOWHERE; lights.len()],
+            ..LightBvh::default()
         };
-        Ok(Self::of(tree, lights, moments))
+        let mut parts = Vec::new();
+        match numbers.iter().max() {
+            None => parts.push(Part::build(&mut trees, lights, &all, options)),
+            Some(&last) => {
+                for part in 0..=last {
+                    let own = alone(lights, |light| numbers[light] == part);
+                    let sums = scan(&own, options.dark)?;
+                    parts.push(Part::build(&mut trees, &own, &sums, options));
+                }
+            }
+        }
+        let mut prototype = Self {
+            trees,
+            parts,
+            lights: Vec::new(),
+            center: Vec3::ZERO,
+            half_width: 0.0,
+        };
+        if lights.len() <= MOST_OPENED {
+            prototype.lights = lights.to_vec();
+        }
+        prototype.measure();
+        Ok(prototype)
     }
 
-    fn of(tree: LightBvh, lights: Vec<LightExtent>, moments: Moments) -> Self {
-        let bounds = &moments.bounds;
+    /// Refits the trees: see [`LightBvh::refit`].
+    pub(crate) fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
+        let all = self.trees.scan_refit(lights)?;
+        let is_whole = self.parts.len() == 1;
+        for part in &mut self.parts {
+            let power = if is_whole {
+                all.power
+            } else {
+                let slots = &self.trees.slots;
+                let own = alone(lights, |light| part.has(slots[light]));
+                scan(&own, DarkLights::Kept)?.power
+            };
+            part.refit(&mut self.trees, &Lights::new(lights, power), power);
+        }
+        if !self.lights.is_empty() {
+            self.lights.copy_from_slice(lights);
+        }
+        self.measure();
+        Ok(())
+    }
+
+    /// Measures the box of all lights.
+    fn measure(&mut self) {
+        let boxes = self.parts.iter().map(|part| part.moments.bounds);
+        let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
         let (center, size) = if bounds.is_empty() {
             (Vec3::ZERO, Vec3::ZERO)
         } else {
             (bounds.center(), bounds.diagonal())
         };
-        Self {
-            tree,
-            lights,
-            moments,
-            center,
-            half_width: 0.5 * size.element_sum(),
-        }
-    }
-
-    /// Refits the tree: see [`LightBvh::refit`].
-    pub(crate) fn refit(&mut self, lights: &[LightExtent]) -> Result<(), LightBvhError> {
-        let moments = self.tree.refit_with_moments(lights)?;
-        let tree = core::mem::take(&mut self.tree);
-        let mut kept = core::mem::take(&mut self.lights);
-        if !kept.is_empty() {
-            kept.copy_from_slice(lights);
-        }
-        *self = Self::of(tree, kept, moments);
-        Ok(())
-    }
-
-    /// The tree of the lights.
-    #[must_use]
-    pub const fn tree(&self) -> &LightBvh {
-        &self.tree
+        self.center = center;
+        self.half_width = 0.5 * size.element_sum();
     }
 
     /// How many lights there are, with those that are off.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.tree.slots.len()
+        self.trees.slots.len()
     }
 
     /// Whether there is no light.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.tree.slots.is_empty()
+        self.trees.slots.is_empty()
     }
 
-    /// The boxes of the children of the root, which hold all lights that are on.
-    pub(crate) fn child_boxes(&self) -> impl Iterator<Item = Aabb> {
-        let root = self.tree.nodes.first();
-        root.into_iter()
-            .flat_map(|root| root.lit_boxes().map(|(_, bounds)| bounds))
+    /// Levels of nodes of the deepest tree.
+    #[must_use]
+    pub fn depth(&self) -> usize {
+        self.trees.depth()
     }
+
+    /// Bytes that queries may touch.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.trees.bytes()
+    }
+
+    /// The parts, at least one.
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The part that a light is in, if it has a place.
+    #[inline(always)]
+    pub(crate) fn part_of(&self, light: LightId) -> Option<usize> {
+        let slot = self.view().slot(light);
+        self.parts.iter().position(|part| part.has(slot))
+    }
+
+    /// The trees of all parts; that of a part starts at its root.
+    #[inline(always)]
+    pub(crate) fn view(&self) -> LightBvhRef<'_> {
+        self.trees.view()
+    }
+}
+
+fn scan(lights: &[LightExtent], dark: DarkLights) -> Result<Scan, LightBvhError> {
+    Scan::new(lights, 0, dark, &|_, _| Ok(()))
+}
+
+/// The lights of one part: the others are off, and at infinity.
+fn alone(lights: &[LightExtent], is_own: impl Fn(usize) -> bool) -> Vec<LightExtent> {
+    let off = LightExtent::Infinite(InfiniteBounds::uniform(0.0));
+    let lights = lights.iter().enumerate();
+    let own = lights.map(|(light, &extent)| if is_own(light) { extent } else { off });
+    own.collect()
 }

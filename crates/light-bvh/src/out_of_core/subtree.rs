@@ -34,7 +34,7 @@ impl PlacedGroup {
         let (ids, lights) = self.group.read()?;
         let (topology, order) = build(&lights, &self.group.sums.scan, options, self.depth);
         let mut nodes = topology.nodes();
-        let moments = refit::fill(&mut nodes, &order, &Lights::new(&lights, power));
+        let moments = refit::fill(&mut nodes, 0, &order, &Lights::new(&lights, power));
         Ok(Subtree {
             nodes,
             ids: order.iter().map(|&k| ids[k as usize]).collect(),

@@ -46,6 +46,8 @@ pub(crate) struct ChosenEntry {
 /// The choice of a light.
 pub(crate) struct Descent<'a, 'b, P> {
     pub(crate) tree: &'b LightBvhRef<'a>,
+    /// The node that it starts at.
+    pub(crate) root: usize,
     pub(crate) u: u64,
     pub(crate) prefetch: P,
 }
@@ -55,8 +57,13 @@ impl<P: Prefetch> Query for Descent<'_, '_, P> {
 
     #[inline(always)]
     fn run<R: Receiver>(self, receiver: &R) -> Self::Output {
-        let Self { tree, u, prefetch } = self;
-        tree.light_of(&tree.descend(receiver, &prefetch, 0, 1.0, u)?)
+        let Self {
+            tree,
+            root,
+            u,
+            prefetch,
+        } = self;
+        tree.light_of(&tree.descend(receiver, &prefetch, root, 1.0, u)?)
     }
 }
 

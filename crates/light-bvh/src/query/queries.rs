@@ -33,8 +33,24 @@ impl LightBvhRef<'_> {
         u: u64,
     ) -> Option<SampledLight> {
         let tree = &self.wanting(groups);
-        let prefetch = AfterLevels::OF_TREE;
-        dispatch(QueryFor(receiver, Descent { tree, u, prefetch }))
+        tree.sample_below(receiver, 0, u)
+    }
+
+    /// The same from the node `root` on.
+    #[inline(always)]
+    pub(crate) fn sample_below<R: KeptReceiver>(
+        &self,
+        receiver: &R,
+        root: usize,
+        u: u64,
+    ) -> Option<SampledLight> {
+        let query = Descent {
+            tree: self,
+            root,
+            u,
+            prefetch: AfterLevels::OF_TREE,
+        };
+        dispatch(QueryFor(receiver, query))
     }
 
     /// The same as an entry of the order.

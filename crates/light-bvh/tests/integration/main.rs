@@ -21,6 +21,7 @@ mod out_of_core;
 mod placed_edges;
 mod placed_far;
 mod placed_open;
+mod placed_parts;
 mod queries;
 mod receivers;
 mod reference_faults;

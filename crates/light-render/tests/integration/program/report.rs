@@ -98,8 +98,13 @@ fn a_page_shows_what_its_json_says() {
         page.contains("prefers-color-scheme: dark"),
         "light and dark"
     );
+    // Any letters may follow each other in a picture.
+    let mut parts = page.split("data:image/png;base64,");
+    let first = parts.next().unwrap_or_default();
+    let behind = parts.filter_map(|part| Some(part.split_once('"')?.1));
+    let text: String = core::iter::once(first).chain(behind).collect();
     for foreign in ["http", "<script", "url(", "@import", "<link"] {
-        assert!(!page.contains(foreign), "{foreign}: all is in the page");
+        assert!(!text.contains(foreign), "{foreign}: all is in the page");
     }
 
     let f = |value: &Value| value.as_f64().expect("a number");
