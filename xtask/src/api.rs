@@ -5,7 +5,7 @@
 //! anchor a member.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::features::FEATURE_SETS;
 use crate::steps::{Outcome, StepResult, cargo, root, run};
@@ -28,6 +28,9 @@ const MEMBERS: [&str; 6] = [
 /// The libraries without feature sets.
 const WITHOUT_FEATURES: [&str; 3] = ["light-sets", "light-scene", "light-render"];
 
+/// It has no items of its own.
+const FACADE: &str = "lights";
+
 /// In the title of a page that only leads to another one.
 const REDIRECTION: &str = "<title>Redirection</title>";
 
@@ -49,11 +52,8 @@ pub fn api(arguments: &[String]) -> StepResult {
         [flag] if flag == "--write" => true,
         _ => return Err("usage: cargo xtask api [--write]".into()),
     };
-    let packages = FEATURE_SETS.iter().map(|set| set.package);
-    // The facade has no items of its own.
-    let mut packages: Vec<&str> = packages.filter(|&package| package != "lights").collect();
-    packages.dedup();
-    packages.extend(WITHOUT_FEATURES);
+    let packages = packages();
+    document(&packages)?;
     let mut changed = Vec::new();
     for package in packages {
         let listed = listing(package)?;
@@ -76,24 +76,48 @@ pub fn api(arguments: &[String]) -> StepResult {
     }
 }
 
+/// The packages with a list.
+fn packages() -> Vec<&'static str> {
+    let mut packages: Vec<&str> = FEATURE_SETS.iter().map(|set| set.package).collect();
+    packages.dedup();
+    packages.retain(|&package| package != FACADE);
+    packages.extend(WITHOUT_FEATURES);
+    packages
+}
+
+/// The arguments of `cargo doc` for all libraries with all their features, together, so that each
+/// crate is compiled once.
+#[must_use]
+pub fn selection() -> Vec<&'static str> {
+    let packages = packages().into_iter().chain([FACADE]);
+    let packages = packages.flat_map(|package| ["--package", package]);
+    ["--lib", "--all-features"]
+        .into_iter()
+        .chain(packages)
+        .collect()
+}
+
+/// The folder of the pages of a package.
+fn pages(package: &str) -> PathBuf {
+    root().join("target/doc").join(package.replace('-', "_"))
+}
+
+/// Writes the pages of the packages.
+fn document(packages: &[&str]) -> Result<(), String> {
+    for package in packages {
+        let pages = pages(package);
+        // Pages of items that are gone would stay.
+        if pages.exists() {
+            fs::remove_dir_all(&pages).map_err(|e| format!("{}: {e}", pages.display()))?;
+        }
+    }
+    run(cargo(["doc", "--quiet", "--no-deps"]).args(selection()))
+}
+
 /// The count of the public items of a package, and a line for each, in alphabetical order.
 fn listing(package: &str) -> Result<String, String> {
-    let pages = root().join("target/doc").join(package.replace('-', "_"));
-    // Pages of items that are gone would stay.
-    if pages.exists() {
-        fs::remove_dir_all(&pages).map_err(|e| format!("{}: {e}", pages.display()))?;
-    }
-    run(&mut cargo([
-        "doc",
-        "--quiet",
-        "--lib",
-        "--no-deps",
-        "--all-features",
-        "--package",
-        package,
-    ]))?;
     let mut items = Vec::new();
-    add_items(&pages, &package.replace('-', "_"), &mut items)?;
+    add_items(&pages(package), &package.replace('-', "_"), &mut items)?;
     items.sort();
     let mut text = format!("{package}: {} public items\n\n", items.len());
     for item in items {
