@@ -1,6 +1,8 @@
 //! What tests of the default tree share.
 
+#[cfg(feature = "std")]
 pub(crate) mod double;
+#[cfg(feature = "std")]
 pub(crate) mod two_rooms;
 
 use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
