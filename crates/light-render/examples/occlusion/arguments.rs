@@ -29,7 +29,8 @@ pub(super) struct Arguments {
     #[arg(long, default_value_t = 2048)]
     pub(super) reference: u32,
     /// Render so many upright strips alone, evenly over the picture, that show a quarter of it: each
-    /// figure is an estimate of that of the whole. Cells are those of the whole.
+    /// figure is an estimate of that of the whole, better from many narrow strips than from a few,
+    /// which meet too many or none of the noisiest pixels. Cells are those of the whole.
     #[arg(long, default_value_t = 0)]
     pub(super) strips: u32,
     /// Pictures of other seeds that each figure is the mean of.
