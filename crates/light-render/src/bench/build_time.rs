@@ -1,8 +1,6 @@
-use core::time::Duration;
 use std::time::Instant;
 
-/// How long to go on.
-const TIME: Duration = Duration::from_millis(600);
+use super::TIME_PER_MEASUREMENT;
 
 /// Milliseconds of the fastest of several builds, and what was built.
 pub(super) fn build_time<T>(make: impl FnMut() -> T) -> (f64, T) {
@@ -12,7 +10,7 @@ pub(super) fn build_time<T>(make: impl FnMut() -> T) -> (f64, T) {
         let start = Instant::now();
         let built = make();
         best = best.min(start.elapsed().as_secs_f64() * 1e3);
-        if begin.elapsed() > TIME {
+        if begin.elapsed() > TIME_PER_MEASUREMENT {
             return (best, built);
         }
     }

@@ -1,14 +1,14 @@
 use core::hint::black_box;
-use core::time::Duration;
 use std::time::Instant;
 
 use lights::bounds::{LightId, LightSampleContext};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::TIME_PER_MEASUREMENT;
 use super::candidate::Candidate;
 
-/// Passes over all points that every sampler gets at least, and how long to go on.
+/// Passes over all points that every sampler gets at least.
 const MIN_PASSES: usize = 9;
 
 /// Increment of `u` between passes: the fraction of the golden ratio, which keeps passes apart.
@@ -16,7 +16,6 @@ const TURN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Queries that are timed together.
 const RUN: usize = 64;
-const TIME_PER_CANDIDATE: Duration = Duration::from_millis(600);
 
 /// Nanoseconds a query: the fastest of many passes, in short runs, which a busy machine disturbs
 /// least.
@@ -46,7 +45,7 @@ pub(super) fn queries(
         .collect();
     let mut times = vec![Times::default(); candidates.len()];
     let begin = Instant::now();
-    let limit = TIME_PER_CANDIDATE * u32::try_from(candidates.len()).unwrap_or(u32::MAX);
+    let limit = TIME_PER_MEASUREMENT * u32::try_from(candidates.len()).unwrap_or(u32::MAX);
     let mut passes = 0;
     while passes < MIN_PASSES || begin.elapsed() < limit {
         passes += 1;
