@@ -10,7 +10,7 @@ use light_render::{AnyLightSampler, SamplerKind};
 use super::arguments::Arguments;
 use super::figure::figure;
 use super::place::load;
-use super::shot::{paths, picture, shot};
+use super::shot::{paths, picture, pixels_over_rendered, shot};
 
 /// A table of relMSE, seconds and their product.
 pub(super) fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
@@ -51,7 +51,7 @@ pub(super) fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         ];
         let reference: Vec<_> = a.iter().zip(&b).map(|(a, b)| 0.5 * (*a + *b)).collect();
         // Pixels that are not rendered are 0, and count in means.
-        let pixels = if arguments.strips > 0 { 4.0 } else { 1.0 };
+        let pixels = pixels_over_rendered(arguments.strips, arguments.size.0);
         let floor = pixels * pixels * bench.tenth_of_mean(&reference);
         let relative = bench.error(&reference, floor);
         let own = 0.5 * pixels * relative.of_pair(&a, &b);

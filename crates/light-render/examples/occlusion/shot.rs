@@ -44,6 +44,19 @@ pub(super) fn picture(
     Ok(picture)
 }
 
+/// Columns of each of so many strips, which are about a quarter of the picture together.
+fn columns(strips: u32, width: u32) -> u32 {
+    (width / (4 * strips)).max(1)
+}
+
+/// The pixels of a picture over those that its strips show; 1 without strips.
+pub(super) fn pixels_over_rendered(strips: u32, width: u32) -> f64 {
+    if strips == 0 {
+        return 1.0;
+    }
+    f64::from(width) / f64::from(columns(strips, width) * strips)
+}
+
 /// A picture, or its strips in an empty one, with the seconds of the whole.
 pub(super) fn shot(
     arguments: &Arguments,
@@ -64,7 +77,7 @@ pub(super) fn shot(
         path,
     };
     let (width, height) = bench.view().resolution();
-    let columns = (width / (4 * strips)).max(1);
+    let columns = columns(strips, width);
     let mut picture = TimedPicture {
         pixels: vec![Vec3::ZERO; (width * height) as usize],
         seconds: 0.0,
@@ -78,8 +91,7 @@ pub(super) fn shot(
         let view = bench.view().with_crop(crop)?;
         let timer = CpuTimer::start();
         let film = render(bench.world(), &view, sampler, &settings, |_| ()).film;
-        let parts = f64::from(width) / f64::from(columns * strips);
-        picture.seconds += parts * timer.seconds();
+        picture.seconds += pixels_over_rendered(strips, width) * timer.seconds();
         let rows = picture.pixels.chunks_mut(width as usize);
         for (row, part) in rows.zip(film.develop().chunks(columns as usize)) {
             row[left as usize..][..part.len()].copy_from_slice(part);
