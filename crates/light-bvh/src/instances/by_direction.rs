@@ -64,7 +64,7 @@ pub(crate) fn parts(
     }
 }
 
-/// Whether these parts are to be parts.
+/// Whether parts of these sums face outward, and are told apart better than parts by position.
 fn are_apart(parts: &[Sums]) -> bool {
     let whole = parts.iter().copied().reduce(Sums::and).unwrap_or_default();
     let lit = || parts.iter().filter(|part| part.weight > 0.0);
@@ -100,12 +100,9 @@ fn directions<'a>(lights: impl Iterator<Item = &'a LightExtent> + Clone) -> Opti
 fn nearest(directions: &[Vec3], axis: Vec3) -> (usize, f32) {
     let cosines = directions.iter().map(|direction| direction.dot(axis));
     let none = (0, f32::NEG_INFINITY);
-    cosines.enumerate().fold(
-        none,
-        |best, (k, cos)| {
-            if cos > best.1 { (k, cos) } else { best }
-        },
-    )
+    cosines
+        .enumerate()
+        .fold(none, |best, next| if next.1 > best.1 { next } else { best })
 }
 
 /// The axis of a light that emits to one side of a plane only.

@@ -2,6 +2,7 @@ use light_bounds::{LightGroups, LightId, LightSampleContext};
 use light_math::float::positive_product;
 
 use crate::importance::context_receiver::ContextReceiver;
+use crate::importance::receiver::NoReceiver;
 use crate::instances::instanced_bvh::InstancedLightBvh;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
@@ -58,6 +59,34 @@ impl InstancedLightBvh {
             receiver,
             top: self.top().view().at(&receiver),
         }
+    }
+
+    /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is
+    /// empty.
+    #[must_use]
+    pub fn sample_emitter(&self, u: u64) -> Option<SampledPlacedLight> {
+        let placed = self.top().view().sample_emitter(u)?;
+        if let Some(light) = self.openings().light(&placed) {
+            return Some(light);
+        }
+        let (placement, part) = self.ids().part(placed.light.0);
+        let (_, prototype) = self.placed(placement)?;
+        let root = prototype.parts().get(part)?.root();
+        let chosen = prototype.view().sample_below(&NoReceiver, root, placed.u)?;
+        Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
+    }
+
+    /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
+    #[must_use]
+    pub fn pmf_emitter(&self, light: PlacedLight) -> f32 {
+        if let Some(leaf) = self.openings().leaf(light) {
+            return self.top().view().pmf_emitter(leaf);
+        }
+        let Some((leaf, _, prototype)) = self.leaf(light) else {
+            return 0.0;
+        };
+        let placed = self.top().view().pmf_emitter(leaf);
+        positive_product(placed, prototype.view().pmf_emitter(light.light))
     }
 
     /// The light of an opened placement, or one light of a placement, that was chosen.

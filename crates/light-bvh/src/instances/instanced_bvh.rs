@@ -2,10 +2,8 @@ use alloc::vec::Vec;
 use core::iter;
 
 use light_bounds::{LightExtent, LightGroups, LightId};
-use light_math::float::positive_product;
 
 use crate::build::options::LightBvhOptions;
-use crate::importance::receiver::NoReceiver;
 use crate::instances::error::InstancedLightBvhError;
 use crate::instances::frames::Frames;
 use crate::instances::leaf_ids::LeafIds;
@@ -14,7 +12,7 @@ use crate::instances::openings::Openings;
 use crate::instances::overlaps::placements_to_open;
 use crate::instances::placed::Placed;
 use crate::instances::placed_frame::PlacedFrame;
-use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
+use crate::instances::placed_light::PlacedLight;
 use crate::instances::placement::Placement;
 use crate::instances::prototype::{LightPrototype, MOST_OPENED};
 use crate::light_bvh::LightBvh;
@@ -78,8 +76,8 @@ impl InstancedLightBvh {
     /// The tree of `prototypes` where `placements` place them.
     ///
     /// # Errors
-    /// More than 2^28 parts of placements; the first one of a prototype that is not there, or with a light
-    /// beyond ±1e36.
+    /// More than 2^28 parts of placements; the first placement of a prototype that is not there, or
+    /// with a light beyond ±1e36.
     pub fn build(
         prototypes: Vec<LightPrototype>,
         placements: &[Placement],
@@ -208,34 +206,6 @@ impl InstancedLightBvh {
         let of_parts = of_parts.flat_map(|&groups| iter::repeat_n(groups, self.ids.each()));
         let groups: Vec<_> = of_parts.chain(of_lights).collect();
         self.top.set_groups(&groups).map_err(|_| refused)
-    }
-
-    /// One light to emit from, about in proportion to its peak intensity; `None` if the tree is
-    /// empty.
-    #[must_use]
-    pub fn sample_emitter(&self, u: u64) -> Option<SampledPlacedLight> {
-        let placed = self.top.view().sample_emitter(u)?;
-        if let Some(light) = self.openings.light(&placed) {
-            return Some(light);
-        }
-        let (placement, part) = self.ids.part(placed.light.0);
-        let (_, prototype) = self.placed(placement)?;
-        let root = prototype.parts().get(part)?.root();
-        let chosen = prototype.view().sample_below(&NoReceiver, root, placed.u)?;
-        Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
-    }
-
-    /// Probability that [`sample_emitter`](Self::sample_emitter) returns `light`, to the bit.
-    #[must_use]
-    pub fn pmf_emitter(&self, light: PlacedLight) -> f32 {
-        if let Some(leaf) = self.openings.leaf(light) {
-            return self.top.view().pmf_emitter(leaf);
-        }
-        let Some((leaf, _, prototype)) = self.leaf(light) else {
-            return 0.0;
-        };
-        let placed = self.top.view().pmf_emitter(leaf);
-        positive_product(placed, prototype.view().pmf_emitter(light.light))
     }
 
     /// How many lights there are, those of each placement counted.
