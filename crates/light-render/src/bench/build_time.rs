@@ -1,6 +1,6 @@
 use std::time::Instant;
 
-use super::TIME_PER_MEASUREMENT;
+use super::repetition::TIME_PER_MEASUREMENT;
 
 /// Milliseconds of the fastest of several builds, and what was built.
 pub(super) fn build_time<T>(make: impl FnMut() -> T) -> (f64, T) {

@@ -21,6 +21,7 @@ mod pixel_variance;
 mod query;
 mod receiver;
 mod refits;
+mod repetition;
 mod row;
 mod scene;
 mod scene_query;
@@ -50,19 +51,12 @@ pub use timing::QueryTime;
 pub use variance::{Ceiling, Variance};
 pub use variance_split::{LightMoments, VarianceSplit};
 
-use core::time::Duration;
-
 use light_sets::BenchSet;
 
 use crate::AnyLightSamplerError;
 use candidate::Candidate;
 use measure::Plan;
 use query::Query;
-
-/// How long builds and queries of one sampler are repeated for the fastest. Nobody compares the
-/// times of a debug build, as that of tests: a few repetitions do.
-const TIME_PER_MEASUREMENT: Duration =
-    Duration::from_millis(if cfg!(debug_assertions) { 20 } else { 600 });
 
 /// One row for each sampler, all measured in this run and in turns, so that their ratios are valid
 /// on a busy machine.

@@ -5,8 +5,8 @@ use lights::bounds::{LightId, LightSampleContext};
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::TIME_PER_MEASUREMENT;
 use super::candidate::Candidate;
+use super::repetition::TIME_PER_MEASUREMENT;
 
 /// Passes over all points that every sampler gets at least.
 const MIN_PASSES: usize = 9;
