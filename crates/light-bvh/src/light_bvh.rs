@@ -51,7 +51,7 @@ impl LightBvh {
         options: &LightBvhOptions,
     ) -> Result<Self, LightBvhError> {
         expect_addressable(lights.len())?;
-        let scan = Scan::new(lights, 0, options.dark, &|_, _| Ok(()))?;
+        let scan = Scan::of(lights, options.dark)?;
         let leaves = Lights::new(lights, scan.power);
         Ok(Self::build_of_leaves(lights, &scan, options, &leaves).0)
     }

@@ -59,6 +59,14 @@ impl Scan {
         self.centers = self.centers.extend(center);
     }
 
+    /// Validates all lights of a tree.
+    ///
+    /// # Errors
+    /// The first light with invalid bounds, or a coordinate beyond the reach of the tree.
+    pub(crate) fn of(lights: &[LightExtent], dark: DarkLights) -> Result<Self, LightBvhError> {
+        Self::new(lights, 0, dark, &|_, _| Ok(()))
+    }
+
     /// Validates `lights`, of which `first` is the id of the first one; `check` may refuse more of
     /// them.
     ///

@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use light_bounds::LightId;
 
 use crate::instances::leaf_ids::LeafIds;
+use crate::instances::openings::Openings;
 use crate::instances::placed_frame::PlacedFrame;
 use crate::light_bvh::LightBvh;
 use crate::node::wide_node::{WIDTH, WideNode};
@@ -22,10 +23,15 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    /// The frames of placements that are in their own order, and perhaps `are_leaves` of the upper
-    /// tree `top`.
-    pub(crate) fn new(frames: Vec<PlacedFrame>, top: &LightBvh, are_leaves: bool) -> Self {
-        if !are_leaves {
+    /// The frames of placements that are in their own order, of which `ids` and `openings` say what
+    /// the leaves of the upper tree `top` are.
+    pub(crate) fn new(
+        frames: Vec<PlacedFrame>,
+        top: &LightBvh,
+        ids: LeafIds,
+        openings: &Openings,
+    ) -> Self {
+        if !(ids.are_placements() && openings.is_empty()) {
             return Self {
                 rows: frames,
                 is_in_tree_order: false,

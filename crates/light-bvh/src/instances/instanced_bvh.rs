@@ -125,8 +125,7 @@ impl InstancedLightBvh {
             placed.build(options, &openings)?
         };
         let ids = placed.ids;
-        let are_leaves = openings.is_empty() && ids.are_placements();
-        let frames = Frames::new(placed.frames, &top, are_leaves);
+        let frames = Frames::new(placed.frames, &top, ids, &openings);
         let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
         let ranges = LightRanges::new(placements.iter().map(count));
         let mut prototypes = prototypes;
@@ -162,8 +161,7 @@ impl InstancedLightBvh {
         }
         let placed = Placed::new(&self.prototypes, placements)?;
         placed.refit(&mut self.top, &self.openings)?;
-        let are_leaves = self.openings.is_empty() && self.ids.are_placements();
-        self.frames = Frames::new(placed.frames, &self.top, are_leaves);
+        self.frames = Frames::new(placed.frames, &self.top, self.ids, &self.openings);
         Ok(())
     }
 

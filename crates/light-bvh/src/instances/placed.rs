@@ -204,8 +204,7 @@ fn is_within_reach(bounds: &Aabb) -> bool {
 }
 
 fn scan(extents: &[LightExtent], dark: DarkLights) -> Result<Scan, InstancedLightBvhError> {
-    Scan::new(extents, 0, dark, &|_, _| Ok(()))
-        .map_err(|_| InstancedLightBvhError::TooManyPlacements)
+    Scan::of(extents, dark).map_err(|_| InstancedLightBvhError::TooManyPlacements)
 }
 
 /// The leaves of the upper tree.

@@ -55,7 +55,7 @@ impl LightPrototype {
     /// As for [`LightBvh::build`].
     pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         expect_addressable(lights.len())?;
-        let all = scan(lights, options.dark)?;
+        let all = Scan::of(lights, options.dark)?;
         let numbers = by_direction::parts(lights, |light| {
             light.bounded().is_some() && is_held(phi(light), options.dark)
         });
@@ -69,7 +69,7 @@ impl LightPrototype {
             Some(&last) => {
                 for part in 0..=last {
                     let own = alone(lights, |light| numbers[light] == part);
-                    let sums = scan(&own, options.dark)?;
+                    let sums = Scan::of(&own, options.dark)?;
                     parts.push(Part::build(&mut trees, &own, &sums, options));
                 }
             }
@@ -98,7 +98,7 @@ impl LightPrototype {
             } else {
                 let slots = &self.trees.slots;
                 let own = alone(lights, |light| part.has(slots[light]));
-                scan(&own, DarkLights::Kept)?.power
+                Scan::of(&own, DarkLights::Kept)?.power
             };
             part.refit(&mut self.trees, &Lights::new(lights, power), power);
         }
@@ -163,10 +163,6 @@ impl LightPrototype {
     pub(crate) fn view(&self) -> LightBvhRef<'_> {
         self.trees.view()
     }
-}
-
-fn scan(lights: &[LightExtent], dark: DarkLights) -> Result<Scan, LightBvhError> {
-    Scan::new(lights, 0, dark, &|_, _| Ok(()))
 }
 
 /// The lights of one part: the others are off, and at infinity.

@@ -190,7 +190,7 @@ impl OutOfCoreBuild {
         };
         let scan = Scan {
             power,
-            ..Scan::new(&extents, 0, options.dark, &|_, _| Ok(()))?
+            ..Scan::of(&extents, options.dark)?
         };
         let (topology, order) = build(&extents, &scan, &options, Self::LEVELS_BELOW);
         let mut groups: Vec<Option<Group>> = groups.into_iter().map(Some).collect();

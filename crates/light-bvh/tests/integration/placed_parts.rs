@@ -150,7 +150,7 @@ fn parts_obey_the_laws() {
     }
 }
 
-/// All lights of a tree, and some that are not there.
+/// All lights of a tree.
 fn all(tree: &InstancedLightBvh) -> impl Iterator<Item = PlacedLight> + '_ {
     (0..tree.light_count()).map(|index| tree.light_of_index(index).expect("a light"))
 }
