@@ -5,81 +5,85 @@ use light_bounds::LightId;
 use crate::instances::leaf_ids::LeafIds;
 use crate::instances::openings::Openings;
 use crate::instances::placed_frame::PlacedFrame;
+use crate::instances::placement::Placement;
 use crate::light_bvh::LightBvh;
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::descent::{AfterLevels, ChosenEntry, Prefetch};
+use crate::query::descent::{AfterLevels, Prefetch};
 use crate::simd::prefetch;
 
 /// The frames of all placements.
 ///
-/// Where placements are what the upper tree holds they are in its order, so that those of a node
-/// are side by side and are prefetched before one of them is chosen. Otherwise several entries of
-/// that order share a frame, or are lights, and the frames are in the order of the placements.
+/// They are in the order of the upper tree, one for each entry, so that those of a node are side by
+/// side and are prefetched before one of them is chosen. Where some entries are lights of opened
+/// placements, frames are in the order of the placements.
 #[derive(Clone, Debug)]
 pub(crate) struct Frames {
     rows: Vec<PlacedFrame>,
     is_in_tree_order: bool,
+    /// The prototype of each placement.
+    prototypes: Vec<u32>,
 }
 
 impl Frames {
-    /// The frames of placements that are in their own order, of which `ids` and `openings` say what
-    /// the leaves of the upper tree `top` are.
+    /// The frames of `placements`, which are in their own order, and of which `ids` and `openings`
+    /// say what the leaves of the upper tree `top` are.
     pub(crate) fn new(
         frames: Vec<PlacedFrame>,
+        placements: &[Placement],
         top: &LightBvh,
         ids: LeafIds,
         openings: &Openings,
     ) -> Self {
-        if !(ids.are_placements() && openings.is_empty()) {
-            return Self {
-                rows: frames,
-                is_in_tree_order: false,
-            };
-        }
-        let mut rows = Vec::with_capacity(frames.len());
-        rows.extend(top.order.iter().map(|&leaf| frames[leaf as usize]));
-        // Dark placements without a place come last.
-        let view = top.view();
-        let has_no_place = |frame: &PlacedFrame| view.entry(LightId(frame.placement)).is_none();
-        rows.extend(frames.into_iter().filter(has_no_place));
+        let prototypes = placements.iter().map(|placement| placement.prototype);
+        let prototypes = prototypes.collect();
+        let is_in_tree_order = openings.is_empty();
+        let rows = if is_in_tree_order {
+            let leaves = top.order.iter();
+            leaves.map(|&leaf| frames[ids.placement(leaf)]).collect()
+        } else {
+            frames
+        };
         Self {
             rows,
-            is_in_tree_order: true,
+            is_in_tree_order,
+            prototypes,
         }
     }
 
-    /// All of them, in any order.
-    pub(crate) fn all(&self) -> &[PlacedFrame] {
-        &self.rows
+    /// The prototype of each placement.
+    pub(crate) fn prototypes(&self) -> &[u32] {
+        &self.prototypes
     }
 
-    /// That of a placement, `None` if it has no place.
-    #[inline(always)]
-    pub(crate) fn of(&self, placement: u32, top: &LightBvhRef<'_>) -> Option<&PlacedFrame> {
-        let index = if self.is_in_tree_order {
-            top.entry(LightId(placement))?
-        } else {
-            placement as usize
-        };
-        self.rows.get(index)
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.rows) + size_of_val(&*self.prototypes)
     }
 
-    /// That of the placement of which a part was chosen, and the part; `None` if a light was.
+    /// That of a leaf which is a part of a placement; `None` if it has no place.
     #[inline(always)]
-    pub(crate) fn chosen(
+    pub(crate) fn of(
         &self,
-        chosen: &ChosenEntry,
+        leaf: LightId,
         top: &LightBvhRef<'_>,
         ids: LeafIds,
-    ) -> Option<(&PlacedFrame, usize)> {
-        let (index, part) = if self.is_in_tree_order {
-            (chosen.entry, 0)
+    ) -> Option<&PlacedFrame> {
+        self.of_entry(top.entry(leaf)?, leaf, ids)
+    }
+
+    /// That of an entry of the upper tree, which is this leaf.
+    #[inline(always)]
+    pub(crate) fn of_entry(
+        &self,
+        entry: usize,
+        leaf: LightId,
+        ids: LeafIds,
+    ) -> Option<&PlacedFrame> {
+        self.rows.get(if self.is_in_tree_order {
+            entry
         } else {
-            let (placement, part) = ids.part(top.light(chosen.entry)?.0);
-            (placement as usize, part)
-        };
-        Some((self.rows.get(index)?, part))
+            ids.placement(leaf.0)
+        })
     }
 }
 
@@ -90,13 +94,9 @@ impl Prefetch for &Frames {
         if level < AfterLevels::OF_TREE.0 || tree.is_small() {
             return;
         }
-        if self.is_in_tree_order {
-            tree.prefetch_nodes_below(node);
-            if node.inner < node.count {
-                prefetch::<WIDTH, _>(&self.rows, node.light_base);
-            }
-        } else {
-            tree.prefetch_below(node);
+        tree.prefetch_below(node);
+        if self.is_in_tree_order && node.inner < node.count {
+            prefetch::<WIDTH, _>(&self.rows, node.light_base);
         }
     }
 }

@@ -70,7 +70,7 @@ impl InstancedLightBvh {
             return Some(light);
         }
         let (placement, part) = self.ids().part(placed.light.0);
-        let (_, prototype) = self.placed(placement)?;
+        let prototype = self.prototype(placement)?;
         let root = prototype.parts().get(part)?.root();
         let chosen = prototype.view().sample_below(&NoReceiver, root, placed.u)?;
         Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
@@ -103,8 +103,10 @@ impl InstancedLightBvh {
                 return Some(light);
             }
         }
-        let (frame, part) = self.frames().chosen(placed, &top, self.ids())?;
-        let prototype = self.prototype(frame)?;
+        let leaf = top.light(placed.entry)?;
+        let (placement, part) = self.ids().part(leaf.0);
+        let frame = self.frames().of_entry(placed.entry, leaf, self.ids())?;
+        let prototype = self.prototypes().get(frame.prototype())?;
         let query = Descent {
             tree: &prototype.view().wanting(groups),
             root: prototype.parts().get(part)?.root(),
@@ -117,7 +119,7 @@ impl InstancedLightBvh {
             receiver,
             query,
         })?;
-        Some(SampledPlacedLight::of(frame.placement, placed.pmf, &chosen))
+        Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
     }
 }
 

@@ -111,7 +111,7 @@ impl InstancedLightBvh {
         most_opened: usize,
     ) -> Result<Self, InstancedLightBvhError> {
         for (placement, placed) in (0..).zip(placements) {
-            if placed.prototype as usize >= prototypes.len() {
+            if placed.prototype as usize >= prototypes.len().min(PlacedFrame::PROTOTYPES) {
                 return Err(InstancedLightBvhError::Prototype { placement });
             }
         }
@@ -125,7 +125,7 @@ impl InstancedLightBvh {
             placed.build(options, &openings)?
         };
         let ids = placed.ids;
-        let frames = Frames::new(placed.frames, &top, ids, &openings);
+        let frames = Frames::new(placed.frames, placements, &top, ids, &openings);
         let count = |placement: &Placement| prototypes[placement.prototype as usize].len();
         let ranges = LightRanges::new(placements.iter().map(count));
         let mut prototypes = prototypes;
@@ -147,21 +147,19 @@ impl InstancedLightBvh {
     /// Another number of placements, or another prototype of one; a light beyond ±1e36; a placement
     /// that was dark and has no place. The tree does not change then.
     pub fn refit(&mut self, placements: &[Placement]) -> Result<(), InstancedLightBvhError> {
-        let frames = self.frames.all();
-        if placements.len() != frames.len() {
-            let expected = frames.len();
+        let prototypes = self.frames.prototypes();
+        if placements.len() != prototypes.len() {
+            let expected = prototypes.len();
             return Err(InstancedLightBvhError::OtherPlacements { expected });
         }
-        let is_other = |frame: &&PlacedFrame| {
-            placements[frame.placement as usize].prototype != frame.prototype
-        };
-        let others = frames.iter().filter(is_other);
-        if let Some(placement) = others.map(|frame| frame.placement).min() {
-            return Err(InstancedLightBvhError::Prototype { placement });
+        for ((placement, placed), &prototype) in (0..).zip(placements).zip(prototypes) {
+            if placed.prototype != prototype {
+                return Err(InstancedLightBvhError::Prototype { placement });
+            }
         }
         let placed = Placed::new(&self.prototypes, placements)?;
         placed.refit(&mut self.top, &self.openings)?;
-        self.frames = Frames::new(placed.frames, &self.top, self.ids, &self.openings);
+        self.frames = Frames::new(placed.frames, placements, &self.top, self.ids, &self.openings);
         Ok(())
     }
 
@@ -193,7 +191,7 @@ impl InstancedLightBvh {
     /// # Errors
     /// [`InstancedLightBvhError::OtherPlacements`] if these are not as many as the placements.
     pub fn set_groups(&mut self, groups: &[LightGroups]) -> Result<(), InstancedLightBvhError> {
-        let expected = self.frames.all().len();
+        let expected = self.frames.prototypes().len();
         let refused = InstancedLightBvhError::OtherPlacements { expected };
         if groups.len() != expected {
             return Err(refused);
@@ -252,7 +250,7 @@ impl InstancedLightBvh {
     pub fn bytes(&self) -> usize {
         let prototypes = self.prototypes.iter();
         let prototypes: usize = prototypes.map(LightPrototype::bytes).sum();
-        let placements = size_of_val(self.frames.all()) + self.ranges.bytes();
+        let placements = self.frames.bytes() + self.ranges.bytes();
         let placements = placements + self.openings.bytes();
         self.top.bytes() + placements + prototypes
     }
@@ -265,31 +263,28 @@ impl InstancedLightBvh {
         self.ids
     }
 
-    /// The leaf that a light is in, its placement, and its prototype; `None` if it has no place.
+    /// The leaf that a light is in, and the frame and the prototype of its placement; `None` if it
+    /// has no place.
     #[inline(always)]
     pub(crate) fn leaf(
         &self,
         light: PlacedLight,
     ) -> Option<(LightId, &PlacedFrame, &LightPrototype)> {
-        let (frame, prototype) = self.placed(light.placement)?;
+        let prototype = self.prototype(light.placement)?;
         let part = prototype.part_of(light.light)?;
-        Some((self.ids.leaf(light.placement, part), frame, prototype))
-    }
-
-    /// A placement and its prototype.
-    #[inline(always)]
-    pub(crate) fn placed(&self, placement: u32) -> Option<(&PlacedFrame, &LightPrototype)> {
-        let frame = self.frames.of(placement, &self.top.view())?;
-        Some((frame, self.prototype(frame)?))
-    }
-
-    pub(crate) const fn frames(&self) -> &Frames {
-        &self.frames
+        let leaf = self.ids.leaf(light.placement, part);
+        let frame = self.frames.of(leaf, &self.top.view(), self.ids)?;
+        Some((leaf, frame, prototype))
     }
 
     /// The prototype of a placement.
     #[inline(always)]
-    pub(crate) fn prototype(&self, frame: &PlacedFrame) -> Option<&LightPrototype> {
-        self.prototypes.get(frame.prototype as usize)
+    pub(crate) fn prototype(&self, placement: u32) -> Option<&LightPrototype> {
+        let prototype = *self.frames.prototypes().get(placement as usize)?;
+        self.prototypes.get(prototype as usize)
+    }
+
+    pub(crate) const fn frames(&self) -> &Frames {
+        &self.frames
     }
 }

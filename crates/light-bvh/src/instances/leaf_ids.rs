@@ -21,12 +21,6 @@ impl LeafIds {
         }
     }
 
-    /// Whether every placement is one leaf.
-    #[inline(always)]
-    pub(crate) const fn are_placements(self) -> bool {
-        self.shift == 0
-    }
-
     /// How many ids a placement has.
     pub(crate) const fn each(self) -> usize {
         1 << self.shift
@@ -47,6 +41,12 @@ impl LeafIds {
     #[expect(clippy::cast_possible_truncation, reason = "at most 2^28 leaves")]
     pub(crate) const fn leaf(self, placement: u32, part: usize) -> LightId {
         LightId((placement << self.shift) + part as u32)
+    }
+
+    /// The position of the placement that a leaf is a part of.
+    #[inline(always)]
+    pub(crate) const fn placement(self, leaf: u32) -> usize {
+        (leaf >> self.shift) as usize
     }
 
     /// The placement that a leaf is a part of, and which part.

@@ -49,7 +49,7 @@ impl<'a> Placed<'a> {
         }
         let prototype = |p: &Placement| &prototypes[p.prototype as usize];
         let frames = table(placements.len(), |i| {
-            PlacedFrame::new(low_word(i), &placements[i], prototype(&placements[i]))
+            PlacedFrame::new(&placements[i], prototype(&placements[i]))
         });
         let groups = table(ids.of(placements.len()), |leaf| {
             let (i, part) = ids.part(low_word(leaf));

@@ -1,3 +1,4 @@
+use light_math::float;
 use light_math::glam::{Mat3, Quat, Vec3};
 
 use crate::importance::context_receiver::ContextReceiver;
@@ -10,27 +11,30 @@ use crate::instances::prototype::LightPrototype;
 /// frame of a prototype, as a share of the coordinates.
 const ROUND_OFF: f32 = 1e-6;
 
-/// Where a prototype is placed, as queries need it: 48 bytes, on two cache lines at most.
+/// Where a prototype is placed, as queries need it: 32 bytes, two on a cache line.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
+#[repr(align(32))]
 pub(crate) struct PlacedFrame {
-    rotation: Quat,
+    /// The rotation as a unit quaternion whose largest component is above 0, and left out.
+    rotation: [f32; 3],
     /// Where the middle of the prototype's lights is placed.
     pub(crate) center: Vec3,
     /// One over the scale; negative if the prototype is mirrored.
     inv_scale: f32,
-    pub(crate) prototype: u32,
-    /// Which placement it is.
-    pub(crate) placement: u32,
-    /// How far placed lights may be from where they are computed to be, in lengths of the
-    /// prototype.
-    error: f32,
+    /// The prototype, and in the highest bits which component of the rotation is left out.
+    prototype: u32,
 }
 
-const _: () = assert!(size_of::<PlacedFrame>() == 48, "as documented");
+const _: () = assert!(size_of::<PlacedFrame>() == 32, "as documented");
+
+/// From which bit on a frame says which component of its rotation is left out.
+const LEFT_OUT: u32 = 30;
 
 impl PlacedFrame {
-    pub(crate) fn new(index: u32, placement: &Placement, prototype: &LightPrototype) -> Self {
+    /// How many prototypes can be placed.
+    pub(crate) const PROTOTYPES: usize = 1 << LEFT_OUT;
+
+    pub(crate) fn new(placement: &Placement, prototype: &LightPrototype) -> Self {
         let &Placement {
             rotation,
             scale,
@@ -38,22 +42,29 @@ impl PlacedFrame {
             ..
         } = placement;
         let inside = prototype.center;
-        let center = translation + rotation * (inside * scale);
-        let inv_scale = 1.0 / scale;
-        let coordinates = (norm(center) + norm(translation)) * inv_scale.abs();
+        let (left_out, others) = without_largest(rotation);
         Self {
-            rotation,
-            center,
-            inv_scale,
-            prototype: placement.prototype,
-            placement: index,
-            error: error(coordinates, size(prototype)),
+            rotation: others,
+            center: translation + rotation * (inside * scale),
+            inv_scale: 1.0 / scale,
+            prototype: placement.prototype | left_out << LEFT_OUT,
         }
+    }
+
+    /// Which prototype it is.
+    #[inline(always)]
+    pub(crate) const fn prototype(&self) -> usize {
+        (self.prototype & ((1 << LEFT_OUT) - 1)) as usize
+    }
+
+    #[inline(always)]
+    fn rotation(&self) -> Quat {
+        with_largest(self.prototype >> LEFT_OUT, self.rotation)
     }
 
     /// The axes of the prototype, as they are placed: unit vectors.
     pub(crate) fn axes(&self) -> Mat3 {
-        Mat3::from_quat(self.rotation)
+        Mat3::from_quat(self.rotation())
     }
 
     /// The factor of lengths; negative if the prototype is mirrored.
@@ -76,11 +87,38 @@ impl PlacedFrame {
         prototype: &LightPrototype,
     ) -> PlacedReceiver {
         let inside = prototype.center;
-        let frame = Frame::new(self.rotation, self.inv_scale, self.center, inside);
+        let frame = Frame::new(self.rotation(), self.inv_scale, self.center, inside);
         let receiver = receiver.in_frame(&frame);
         let away = norm(receiver.position() - inside);
-        let error = self.error + (RIGID_TOLERANCE + ROUND_OFF) * away;
+        // The translation has coordinates of at most those of the centre, and the root of 3 times
+        // the way from one to the other.
+        let size = size(prototype);
+        let coordinates = 2.0 * (norm(self.center) * self.inv_scale.abs() + size);
+        let error = error(coordinates, size) + (RIGID_TOLERANCE + ROUND_OFF) * away;
         PlacedReceiver::new(receiver, error, away + prototype.half_width)
+    }
+}
+
+/// The place of the largest component of a unit quaternion, and the others of the one that is the
+/// same rotation and has it above 0.
+fn without_largest(rotation: Quat) -> (u32, [f32; 3]) {
+    let [x, y, z, w] = rotation.normalize().to_array();
+    let all = [(0, x, [y, z, w]), (1, y, [x, z, w]), (2, z, [x, y, w]), (3, w, [x, y, z])];
+    let larger = |a: &(u32, f32, _), b: &(u32, f32, _)| a.1.abs().total_cmp(&b.1.abs());
+    let (place, largest, others) = all.into_iter().max_by(larger).unwrap_or(all[3]);
+    (place, others.map(|other| other * 1.0f32.copysign(largest)))
+}
+
+/// The rotation without whose component at `place` only the others are left. That one is at least
+/// half, so that its square, which is what they leave of 1, is known well.
+#[inline(always)]
+fn with_largest(place: u32, [a, b, c]: [f32; 3]) -> Quat {
+    let largest = float::sqrt(1.0 - (a * a + b * b + c * c));
+    match place {
+        0 => Quat::from_xyzw(largest, a, b, c),
+        1 => Quat::from_xyzw(a, largest, b, c),
+        2 => Quat::from_xyzw(a, b, largest, c),
+        _ => Quat::from_xyzw(a, b, c, largest),
     }
 }
 
