@@ -103,7 +103,12 @@ impl PlacedFrame {
 /// same rotation and has it above 0.
 fn without_largest(rotation: Quat) -> (u32, [f32; 3]) {
     let [x, y, z, w] = rotation.normalize().to_array();
-    let all = [(0, x, [y, z, w]), (1, y, [x, z, w]), (2, z, [x, y, w]), (3, w, [x, y, z])];
+    let all = [
+        (0, x, [y, z, w]),
+        (1, y, [x, z, w]),
+        (2, z, [x, y, w]),
+        (3, w, [x, y, z]),
+    ];
     let larger = |a: &(u32, f32, _), b: &(u32, f32, _)| a.1.abs().total_cmp(&b.1.abs());
     let (place, largest, others) = all.into_iter().max_by(larger).unwrap_or(all[3]);
     (place, others.map(|other| other * 1.0f32.copysign(largest)))
