@@ -107,6 +107,7 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
         }
     }
 
+    #[cfg_attr(target_os = "none", inline(never))]
     pub(crate) fn sample(&self, u: u64) -> Option<SampledLight> {
         if self.infinite.is_empty() {
             return self.tree.sample(u);
