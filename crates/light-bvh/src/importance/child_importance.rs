@@ -35,6 +35,12 @@ pub(crate) const BOX_EMISSION: f32 = 297.0;
 /// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
 pub(crate) const STEP_EDGE: f32 = 4.87;
 
+/// How many times its variance the square of an emission or of a height is at least, and the squared
+/// distance the squared width, where the lights of a group may count by their powers alone. Chosen
+/// by V and by time: see `docs/light-bvh.md`.
+#[cfg(feature = "alloc")]
+pub(crate) const FAR_SQ: f32 = 16.0;
+
 /// From a point to a child.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Displacement {
@@ -69,6 +75,22 @@ impl ChildView {
         let within = LaneMask::when(beyond < BOX_EMISSION * (hx + hy + hz) + edge);
         // The mean of lights that differ proves nothing.
         within.or(self.soft).or(self.both_sides)
+    }
+
+    /// Whether a point gets from each light of the child about the same share of its power: from a
+    /// group of ramps that is far away and faces the point.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn is_uniform(&self) -> bool {
+        let [hx, hy, hz] = self.extent;
+        let width = hx + hy + hz;
+        let width_sq = width * width;
+        let beyond = self.axis_dot_mean + self.offset * self.dist;
+        let variance = GROUP_BY_POSITION * width_sq + (self.spread * self.spread) * self.dist_sq;
+        self.is_ramp_group().and_not(self.both_sides).is_set()
+            && beyond < 0.0
+            && FAR_SQ * width_sq < self.dist_sq
+            && FAR_SQ * variance < beyond * beyond
     }
 
     /// Whether the child is a group of lights none of which emits in a step.

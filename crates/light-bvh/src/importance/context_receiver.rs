@@ -70,6 +70,18 @@ impl ContextReceiver {
         with_kind!(self, receiver => receiver.position())
     }
 
+    /// Whether the lights of a child may give it other shares of their powers: `false` where all are
+    /// in about the same direction and at about the same distance.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn tells_apart(&self, child: &ChildView) -> bool {
+        match self {
+            Self::Surface(surface) => surface.tells_apart(child),
+            Self::Medium(_) => !child.is_uniform(),
+            Self::Glossy(_) | Self::TwoSided(_) | Self::Segment(_) => true,
+        }
+    }
+
     /// The same receiver in another frame.
     #[cfg(feature = "alloc")]
     #[inline(always)]

@@ -1,6 +1,8 @@
 use light_math::float;
 use light_math::glam::Vec3;
 
+#[cfg(feature = "alloc")]
+use crate::importance::child_importance::FAR_SQ;
 use crate::importance::child_view::ChildView;
 use crate::lane_math::{LaneMask, dot, larger};
 
@@ -96,6 +98,13 @@ impl HalfHeight {
     #[inline(always)]
     pub(crate) fn either_side(&self, slack: f32) -> f32 {
         larger(slack, self.root())
+    }
+
+    /// Whether all lights are above the plane, at about the same height.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn is_uniform(&self) -> bool {
+        self.mean > 0.0 && FAR_SQ * self.variance < self.mean * self.mean
     }
 
     #[cfg_attr(target_os = "none", inline(never))]

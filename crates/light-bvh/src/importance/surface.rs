@@ -46,6 +46,13 @@ impl SurfaceReceiver {
     pub(crate) fn expected_height(&self, child: &ChildView) -> f32 {
         self.horizon.half_height(child).above(child.slack)
     }
+
+    /// Whether the child's lights give other shares of their powers.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn tells_apart(&self, child: &ChildView) -> bool {
+        !(child.is_uniform() && self.horizon.half_height(child).is_uniform())
+    }
 }
 
 impl Receiver for SurfaceReceiver {

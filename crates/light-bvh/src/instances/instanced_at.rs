@@ -4,14 +4,11 @@ use light_math::float::positive_product;
 use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::receiver::NoReceiver;
 use crate::instances::instanced_bvh::InstancedLightBvh;
-use crate::instances::placed_frame::PlacedFrame;
 use crate::instances::placed_light::{PlacedLight, SampledPlacedLight};
-use crate::instances::prototype::LightPrototype;
-use crate::query::ascent::Ascent;
+use crate::instances::placed_part::PlacedPart;
 use crate::query::bvh_at::LightBvhAt;
 use crate::query::descent::{AfterLevels, ChosenEntry, Descent};
-use crate::query::into_receiver::{InGroups, KeptReceiver, Query};
-use crate::simd::{VectorWork, dispatch};
+use crate::query::into_receiver::InGroups;
 
 /// A tree of trees as one context sees it: the root is evaluated once for all queries.
 ///
@@ -42,12 +39,11 @@ impl InstancedLightBvh {
         if let Some(leaf) = self.openings().leaf(light) {
             return top.pmf_for(receiver, *groups, leaf);
         }
-        let Some((leaf, frame, prototype)) = self.leaf(light) else {
+        let Some((leaf, part)) = self.part(light, receiver) else {
             return 0.0;
         };
         let placed = top.pmf_for(receiver, *groups, leaf);
-        let pmf = pmf_in(light.light, frame, prototype, receiver, *groups);
-        positive_product(placed, pmf)
+        positive_product(placed, part.pmf(light.light, receiver, *groups))
     }
 
     /// The tree as `ctx` sees it: the root is evaluated once for all queries.
@@ -89,6 +85,24 @@ impl InstancedLightBvh {
         positive_product(placed, prototype.view().pmf_emitter(light.light))
     }
 
+    /// The leaf that a light is in, and the part of a placement that this is; `None` if the light has
+    /// no place.
+    #[inline(always)]
+    fn part(
+        &self,
+        light: PlacedLight,
+        receiver: &ContextReceiver,
+    ) -> Option<(LightId, PlacedPart<'_>)> {
+        let (leaf, frame, prototype) = self.leaf(light)?;
+        let top = self.top().view();
+        let part = PlacedPart {
+            frame,
+            prototype,
+            is_told_apart: top.tells_apart(receiver, top.slot(leaf) as usize),
+        };
+        Some((leaf, part))
+    }
+
     /// The light of an opened placement, or one light of a placement, that was chosen.
     #[inline(always)]
     fn sample_in(
@@ -113,53 +127,13 @@ impl InstancedLightBvh {
             u: placed.u,
             prefetch: AfterLevels::OF_PROTOTYPE,
         };
-        let chosen = dispatch(InPrototype {
+        let part = PlacedPart {
             frame,
             prototype,
-            receiver,
-            query,
-        })?;
+            is_told_apart: top.tells_apart(receiver, placed.slot),
+        };
+        let chosen = part.answer(receiver, query)?;
         Some(SampledPlacedLight::of(placement, placed.pmf, &chosen))
-    }
-}
-
-/// Probability of a light given the part of a placement that it is in.
-#[inline(always)]
-fn pmf_in(
-    light: LightId,
-    frame: &PlacedFrame,
-    prototype: &LightPrototype,
-    receiver: &ContextReceiver,
-    groups: LightGroups,
-) -> f32 {
-    let query = Ascent {
-        tree: &prototype.view().wanting(groups),
-        light,
-    };
-    dispatch(InPrototype {
-        frame,
-        prototype,
-        receiver,
-        query,
-    })
-}
-
-/// A query of the tree of a placed prototype: the receiver is moved into its frame in the same
-/// function, where it stays in registers.
-struct InPrototype<'a, Q> {
-    frame: &'a PlacedFrame,
-    prototype: &'a LightPrototype,
-    receiver: &'a ContextReceiver,
-    query: Q,
-}
-
-impl<Q: Query> VectorWork for InPrototype<'_, Q> {
-    type Output = Q::Output;
-
-    #[inline(always)]
-    fn run(self) -> Q::Output {
-        let inside = self.frame.receiver(self.receiver, self.prototype);
-        inside.run(self.query)
     }
 }
 
@@ -187,11 +161,9 @@ impl InstancedLightBvhAt<'_> {
         if let Some(leaf) = self.tree.openings().leaf(light) {
             return self.top.pmf(leaf);
         }
-        let Some((leaf, frame, prototype)) = self.tree.leaf(light) else {
+        let Some((leaf, part)) = self.tree.part(light, receiver) else {
             return 0.0;
         };
-        let placed = self.top.pmf(leaf);
-        let pmf = pmf_in(light.light, frame, prototype, receiver, *groups);
-        positive_product(placed, pmf)
+        positive_product(self.top.pmf(leaf), part.pmf(light.light, receiver, *groups))
     }
 }

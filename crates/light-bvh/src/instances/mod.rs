@@ -14,6 +14,7 @@ pub(crate) mod placed;
 pub(crate) mod placed_frame;
 pub(crate) mod placed_light;
 pub(crate) mod placed_moments;
+pub(crate) mod placed_part;
 pub(crate) mod placed_receiver;
 pub(crate) mod placement;
 pub(crate) mod prototype;

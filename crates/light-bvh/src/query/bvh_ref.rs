@@ -1,5 +1,9 @@
 use light_bounds::{LightGroups, LightId};
 
+#[cfg(feature = "alloc")]
+use crate::importance::child_view::NodeFrame;
+#[cfg(feature = "alloc")]
+use crate::importance::context_receiver::ContextReceiver;
 use crate::importance::receiver::Receiver;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 use crate::query::weights::Weights;
@@ -90,6 +94,18 @@ impl<'a> LightBvhRef<'a> {
         if let Some(groups) = self.groups.get(index) {
             weights.keep(groups, self.wanted);
         }
+    }
+
+    /// Whether `receiver` may get other shares of the powers of the lights in a slot.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn tells_apart(&self, receiver: &ContextReceiver, slot: usize) -> bool {
+        let Some(node) = self.nodes.get(slot / WIDTH) else {
+            return true;
+        };
+        let frame = NodeFrame::in_codes(node, receiver.position());
+        let child = frame.child(&node.child_codes(slot % WIDTH), node.has_sheets());
+        receiver.tells_apart(&child)
     }
 
     /// The nodes, the root first.

@@ -2,6 +2,8 @@ use light_bounds::SampledLight;
 use light_math::float::positive_product;
 
 use crate::importance::receiver::Receiver;
+#[cfg(feature = "alloc")]
+use crate::node::wide_node::WIDTH;
 use crate::node::wide_node::{MAX_DEPTH, WideNode};
 use crate::query::bvh_ref::{Child, LightBvhRef};
 use crate::query::into_receiver::Query;
@@ -39,6 +41,9 @@ impl Prefetch for AfterLevels {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChosenEntry {
     pub(crate) entry: usize,
+    /// Its place in the tree: that of a child of a node.
+    #[cfg(feature = "alloc")]
+    pub(crate) slot: usize,
     pub(crate) pmf: f32,
     pub(crate) u: u64,
 }
@@ -106,7 +111,15 @@ impl LightBvhRef<'_> {
             pmf = positive_product(pmf, choice.probability);
             u = choice.u;
             match self.child(node, choice.child) {
-                Child::Entry(entry) => return Some(ChosenEntry { entry, pmf, u }),
+                Child::Entry(entry) => {
+                    return Some(ChosenEntry {
+                        entry,
+                        #[cfg(feature = "alloc")]
+                        slot: WIDTH * index + choice.child,
+                        pmf,
+                        u,
+                    });
+                }
                 Child::Node(child) => index = child,
             }
         }
@@ -140,7 +153,13 @@ impl LightBvhRef<'_> {
         let pmf = positive_product(pmf, choice.probability);
         let u = choice.u;
         match self.child(self.nodes().get(node as usize)?, choice.child) {
-            Child::Entry(entry) => Some(ChosenEntry { entry, pmf, u }),
+            Child::Entry(entry) => Some(ChosenEntry {
+                entry,
+                #[cfg(feature = "alloc")]
+                slot: WIDTH * node as usize + choice.child,
+                pmf,
+                u,
+            }),
             Child::Node(child) => self.descend(receiver, prefetch, child, pmf, u),
         }
     }
@@ -148,7 +167,7 @@ impl LightBvhRef<'_> {
     /// The light of a chosen entry.
     #[inline(always)]
     pub(crate) fn light_of(&self, chosen: &ChosenEntry) -> Option<SampledLight> {
-        let &ChosenEntry { entry, pmf, u } = chosen;
+        let &ChosenEntry { entry, pmf, u, .. } = chosen;
         let light = self.light(entry)?;
         Some(SampledLight { light, pmf, u })
     }

@@ -1,5 +1,5 @@
-//! Placed lights far from the origin of their prototype: none that contributes is lost to the
-//! rounding of the transform.
+//! Placed lights far from the origin of their prototype, of which none that contributes is lost to
+//! the rounding of the transform, and far from the receiver, where they count by their powers.
 
 use light_bvh::light_bounds::light_math::Aabb;
 use light_bvh::light_bounds::light_math::glam::{Quat, Vec3};
@@ -53,6 +53,68 @@ fn lights_at_a_horizon_are_found() {
     }
     assert!(lit > 1000, "{lit} receivers are lit");
     assert_eq!(lost, 0, "of {lit} lit receivers");
+}
+
+/// A wall of windows as a street lies before it: of lights that are far away and all in front the
+/// powers tell all, of others the places do.
+#[test]
+fn lights_of_a_far_wall_count_by_their_powers() {
+    let mut rng = Rng::new(6);
+    let windows: Vec<_> = (0..100)
+        .map(|_| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(Vec3::new(0.0, rng.f32(), rng.f32())),
+                w: Vec3::X,
+                phi: rng.log_range(0.1, 10.0),
+                cos_theta_o: 1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        })
+        .collect();
+    let prototype = LightPrototype::new(&windows).expect("valid lights");
+    let placed = [Vec3::ZERO, 1e3 * Vec3::NEG_X].map(|at| Placement::at(0, at));
+    let tree = InstancedLightBvh::build(vec![prototype], &placed).expect("a tree");
+    let share = |placement, light, pmf: &dyn Fn(PlacedLight) -> f32| {
+        let all = (0..100).map(|light| PlacedLight {
+            placement,
+            light: LightId(light),
+        });
+        let sum: f32 = all.clone().map(pmf).sum();
+        let light = all.clone().nth(light).expect("a window");
+        (pmf(light), pmf(light) / sum)
+    };
+    let is_by_power = |ctx: &LightSampleContext, placement| {
+        let here = tree.at(ctx);
+        (0..100).all(|light| {
+            let (pmf, of_wall) = share(placement, light, &|light| tree.pmf(ctx, light));
+            let (_, by_power) = share(placement, light, &|light| tree.pmf_emitter(light));
+            let (at, _) = share(placement, light, &|light| here.pmf(light));
+            assert_eq!(at, pmf, "light {light} of wall {placement}, {ctx:?}");
+            assert!(pmf > 0.0, "light {light} of wall {placement}, {ctx:?}");
+            (of_wall - by_power).abs() <= 1e-5 * by_power
+        })
+    };
+    let surface = |p, n| LightSampleContext::surface(p, n, n);
+    let near = Vec3::new(2.0, 0.5, 0.5);
+    let away = Vec3::new(200.0, 0.5, 0.5);
+    for ctx in [surface(near, Vec3::NEG_X), LightSampleContext::medium(near)] {
+        assert!(!is_by_power(&ctx, 0), "the near one, {ctx:?}");
+        assert!(is_by_power(&ctx, 1), "the other, {ctx:?}");
+    }
+    for ctx in [surface(away, Vec3::NEG_X), LightSampleContext::medium(away)] {
+        assert!(is_by_power(&ctx, 0), "{ctx:?}");
+    }
+    assert!(
+        !is_by_power(&surface(away, Vec3::Z), 0),
+        "half below the horizon"
+    );
+    assert!(
+        !is_by_power(&surface(Vec3::new(0.5, 200.0, 0.5), Vec3::NEG_Y), 0),
+        "aside"
+    );
+    let both = LightSampleContext::two_sided(away, Vec3::NEG_X, Vec3::NEG_X);
+    assert!(!is_by_power(&both, 0), "other receivers look at each light");
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the nearest float")]
