@@ -65,9 +65,7 @@ fn spread_of(nodes: &[WideNode], index: usize, steps: &mut Steps) -> GroupSpread
     let between = f64::from((square - mean.length_squared()).max(0.0));
     let variance = within + between * scale * scale;
     let common = (axis.length_squared() + offset * offset) / emission_sq.max(f32::MIN_POSITIVE);
-    let disagreement = 1.0 + (1.0 - common).clamp(0.0, 1.0);
-    let root = float::sqrt(float::sqrt(disagreement));
-    let spread_sq = variance * f64::from(disagreement * root);
+    let spread_sq = spread_sq(variance, (1.0 - common).clamp(0.0, 1.0));
     if spread_sq > 0.0 {
         for (k, group) in groups.iter().enumerate().take(usize::from(node.inner)) {
             let weight = f64::from(weight(k)) * f64::from(node.gain());
@@ -79,6 +77,15 @@ fn spread_of(nodes: &[WideNode], index: usize, steps: &mut Steps) -> GroupSpread
         variance,
         spread_sq,
     }
+}
+
+/// The square of what the builder minimises: see [`degradation`](crate::LightBvh::degradation). Of
+/// lights of this variance of position, and of emission by a share of that of lights in all
+/// directions.
+pub(crate) fn spread_sq(variance: f64, disagreement: f32) -> f64 {
+    let factor = 1.0 + disagreement;
+    let root = float::sqrt(float::sqrt(factor));
+    variance * f64::from(factor * root)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a ratio near 1")]

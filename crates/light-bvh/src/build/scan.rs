@@ -1,4 +1,4 @@
-use light_bounds::{LightExtent, LightId};
+use light_bounds::{InfiniteBounds, LightExtent, LightId};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
@@ -127,6 +127,11 @@ impl Scan {
         }
         Ok(scan)
     }
+}
+
+/// An extent in the place of a light that gets no place in the tree.
+pub(crate) fn not_held() -> LightExtent {
+    LightExtent::Infinite(InfiniteBounds::uniform(0.0))
 }
 
 /// Whether a light of power `phi` gets a place in the tree.

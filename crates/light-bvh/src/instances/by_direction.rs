@@ -8,6 +8,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::build::lights::phi;
+use crate::build::quality::spread_sq;
 
 /// The most parts: the faces of a box.
 const MOST_PARTS: usize = 6;
@@ -148,11 +149,9 @@ impl Sums {
         }
     }
 
-    /// The square of what the builder minimises: see [`degradation`](crate::LightBvh::degradation).
     fn spread_sq(&self) -> f64 {
-        let disagreement = 1.0 + rounded(self.axis.variance(self.weight));
-        let root = float::sqrt(float::sqrt(disagreement));
-        self.position.variance(self.weight) * f64::from(disagreement * root)
+        let disagreement = rounded(self.axis.variance(self.weight));
+        spread_sq(self.position.variance(self.weight), disagreement)
     }
 
     /// The spread as a share of that of `whole`, times the share of the weight.

@@ -9,7 +9,8 @@ pub enum InstancedLightBvhError {
     /// There are more parts of placements than the tree can address: 2^28, counted as if all
     /// placements had the parts of the prototype of most, rounded up to a power of two.
     TooManyPlacements,
-    /// A placement names a prototype that is not there, or in a refit another one than before.
+    /// A placement names a prototype that is not there, or not among the first 2^30, or in a refit
+    /// another one than before.
     Prototype {
         /// Which placement.
         placement: u32,
@@ -40,7 +41,7 @@ impl fmt::Display for InstancedLightBvhError {
             Self::Prototype { placement } => {
                 write!(
                     f,
-                    "placement {placement}: not one of the prototypes, or another"
+                    "placement {placement}: no such prototype, or in a refit another one"
                 )
             }
             Self::TooFar { placement } => {

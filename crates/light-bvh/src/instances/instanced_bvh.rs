@@ -76,8 +76,8 @@ impl InstancedLightBvh {
     /// The tree of `prototypes` where `placements` place them.
     ///
     /// # Errors
-    /// More than 2^28 parts of placements; the first placement of a prototype that is not there, or
-    /// with a light beyond ±1e36.
+    /// More than 2^28 parts of placements; the first placement of a prototype that is not among the
+    /// first 2^30, or with a light beyond ±1e36.
     pub fn build(
         prototypes: Vec<LightPrototype>,
         placements: &[Placement],

@@ -1,12 +1,12 @@
 use alloc::vec::Vec;
 
-use light_bounds::{InfiniteBounds, LightBounds, LightExtent};
+use light_bounds::{LightBounds, LightExtent};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use crate::build::lights::{LeafMoments, phi};
 use crate::build::options::{DarkLights, LightBvhOptions};
-use crate::build::scan::Scan;
+use crate::build::scan::{Scan, not_held};
 use crate::build::topology::low_word;
 use crate::importance::position::FAR;
 use crate::instances::error::InstancedLightBvhError;
@@ -133,7 +133,7 @@ impl<'a> Placed<'a> {
             if part < prototype.parts().len() && !openings.is_open(placement) {
                 self.groups[leaf].extent()
             } else {
-                LightExtent::Infinite(InfiniteBounds::uniform(0.0))
+                not_held()
             }
         })
     }

@@ -1,14 +1,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use light_bounds::{InfiniteBounds, LightExtent, LightId};
+use light_bounds::{LightExtent, LightId};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
 use crate::LightBvhError;
 use crate::build::lights::{Lights, phi};
 use crate::build::options::{DarkLights, LightBvhOptions};
-use crate::build::scan::{Scan, expect_addressable, is_held};
+use crate::build::scan::{Scan, expect_addressable, is_held, not_held};
 use crate::instances::by_direction;
 use crate::instances::part::Part;
 use crate::light_bvh::LightBvh;
@@ -165,10 +165,9 @@ impl LightPrototype {
     }
 }
 
-/// The lights of one part: the others are off, and at infinity.
+/// The lights of one part, without the others.
 fn alone(lights: &[LightExtent], is_own: impl Fn(usize) -> bool) -> Vec<LightExtent> {
-    let off = LightExtent::Infinite(InfiniteBounds::uniform(0.0));
     let lights = lights.iter().enumerate();
-    let own = lights.map(|(light, &extent)| if is_own(light) { extent } else { off });
+    let own = lights.map(|(light, &extent)| if is_own(light) { extent } else { not_held() });
     own.collect()
 }
