@@ -1,8 +1,10 @@
 //! The small pieces of which a light sample is made: directions, tables, warps, importance.
 
+mod settings;
+
 use core::hint::black_box;
 
-use benches::{Queries, criterion, queries_of, squares};
+use benches::{Queries, queries_of, squares};
 use criterion::{Criterion, criterion_group, criterion_main};
 use light_testkit::light_sets::SetKind;
 use light_testkit::{Rng, SamplerCase};
@@ -89,7 +91,7 @@ fn importance(c: &mut Criterion) {
 
 criterion_group! {
     name = pieces;
-    config = criterion();
+    config = settings::criterion();
     targets = directions, tables, importance
 }
 criterion_main!(pieces);

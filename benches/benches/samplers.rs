@@ -1,7 +1,9 @@
 //! Light samplers: a sample, a pmf of a light that was sampled, and the build, each beside the
 //! reference.
 
-use benches::{Queries, criterion, queries_of};
+mod settings;
+
+use benches::{Queries, queries_of};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
 use light_testkit::SamplerCase;
@@ -125,7 +127,7 @@ fn build(c: &mut Criterion) {
 
 criterion_group! {
     name = samplers;
-    config = criterion();
+    config = settings::criterion();
     targets = sample_and_pmf, build
 }
 criterion_main!(samplers);

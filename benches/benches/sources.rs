@@ -1,6 +1,8 @@
 //! Every light and shape: a sample toward a point, and its density.
 
-use benches::{Queries, criterion};
+mod settings;
+
+use benches::Queries;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lights::bounds::{LightId, LightSampleContext};
 use lights::glam::{Affine3A, Vec2, Vec3};
@@ -199,7 +201,7 @@ fn sources(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = criterion();
+    config = settings::criterion();
     targets = sources
 }
 criterion_main!(benches);

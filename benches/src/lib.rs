@@ -1,5 +1,5 @@
 //! What the benches in `benches/`, the counts in `bin/counts.rs` and the tables of the pages
-//! share: queries, measuring times, and where tables are written.
+//! share: queries, memory and times, and where tables are written.
 
 pub mod city;
 pub mod exact_variance;
@@ -7,9 +7,6 @@ pub mod page;
 pub mod peak_memory;
 pub mod thread_time;
 
-use std::time::Duration;
-
-use criterion::Criterion;
 use light_testkit::{Rng, SamplerCase};
 use lights::bounds::LightSampleContext;
 use lights::glam::Vec2;
@@ -53,14 +50,4 @@ pub fn queries_of(set: &SamplerCase) -> Queries<(LightSampleContext, u64)> {
 #[must_use]
 pub fn squares() -> Queries<Vec2> {
     Queries::new(Rng::vec2)
-}
-
-/// Criterion with short measuring times: the whole suite runs in a few minutes.
-#[must_use]
-pub fn criterion() -> Criterion {
-    Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_millis(1200))
-        .sample_size(30)
-        .configure_from_args()
 }
