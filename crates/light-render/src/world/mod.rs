@@ -83,6 +83,8 @@ impl World {
     /// When a light is invalid, a transform makes a sphere an ellipsoid or an object flat, or there
     /// are too many lights in all instances.
     pub fn new(mut scene: Scene) -> Result<Self, WorldError> {
+        // First: the box takes time for each copy.
+        Objects::refuse_copies(&scene)?;
         let bounds = scene.bounds();
         let objects = Objects::take(&mut scene)?.instanced;
         let Scene {

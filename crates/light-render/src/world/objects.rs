@@ -29,6 +29,24 @@ struct Part {
 }
 
 impl Objects {
+    /// Refuses an object with too many emissive quadrics, which are copied for every instance.
+    /// Unlike [`take`](Self::take), which counts what parts and stretched ones become, it takes no
+    /// time a copy.
+    pub(super) fn refuse_copies(scene: &Scene) -> Result<(), WorldError> {
+        let mut counts = vec![0_usize; scene.prototypes.len()];
+        for instance in &scene.instances {
+            counts[instance.prototype.0 as usize] += 1;
+        }
+        for (prototype, count) in scene.prototypes.iter().zip(counts) {
+            let quadrics = prototype.quadrics.iter();
+            let emissive = quadrics.filter(|quadric| scene.is_emissive(quadric.material));
+            if emissive.count().saturating_mul(count) > MAX_EMISSIVE_COPIES {
+                return Err(too_many_copies(&prototype.name));
+            }
+        }
+        Ok(())
+    }
+
     /// Takes the objects out of `scene`. Emissive quadrics are copied for every instance, because
     /// each is a light of its own that takes no more memory than a transform; objects with a single
     /// instance and small ones are copied too, and emissive meshes as those are.
@@ -54,10 +72,7 @@ impl Objects {
                 .sum();
             left = left
                 .checked_sub(emissive)
-                .ok_or_else(|| WorldError::Copies {
-                    name: name.clone(),
-                    most: MAX_EMISSIVE_COPIES,
-                })?;
+                .ok_or_else(|| too_many_copies(&name))?;
             // Lights add up where they coincide.
             let all_count = !lamps.is_empty() || instanced.has_fractional_opacity(scene);
             instanced.meshes.extend(lamps);
@@ -95,6 +110,13 @@ impl Objects {
         }
         tessellate_emissive_parts(scene);
         Ok(objects)
+    }
+}
+
+fn too_many_copies(name: &str) -> WorldError {
+    WorldError::Copies {
+        name: name.into(),
+        most: MAX_EMISSIVE_COPIES,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use light_render::{World, WorldError};
 use light_scene::glam::{Affine3A, Vec3};
-use light_scene::{Alpha, Color, Emission, Instance, Material, Prototype, Quadric};
+use light_scene::{Alpha, Color, Emission, Instance, Material, Prototype, Quadric, QuadricPart};
 
 use super::{flattened, green, grove, world};
 use crate::support::{Shot, agree, cornell};
@@ -94,28 +94,40 @@ fn impossible_objects_are_refused() {
     let flat = "object tree: expected transforms that do not make it flat";
     assert_eq!(error.as_deref(), Some(flat), "flat");
 
-    // Quadrics that emit are copied for each instance.
-    let mut scene = cornell();
-    let lamp = scene.add_material(Material {
-        emission: Some(Emission::one_sided(Vec3::ONE)),
-        ..green()
-    });
-    let mut chandelier = Prototype::new("chandelier", Vec::new());
-    let bulb = Quadric::sphere("bulb", lamp, Affine3A::IDENTITY);
-    chandelier.quadrics = vec![bulb; 1_000];
-    let prototype = scene.add_prototype(chandelier);
-    let instance = Instance {
-        prototype,
-        transform: Affine3A::IDENTITY,
+    // Quadrics that emit are copied for each instance, parts of them as triangles.
+    let chandeliers = |part: Option<QuadricPart>, bulbs: usize, instances: usize| {
+        let mut scene = cornell();
+        let lamp = scene.add_material(Material {
+            emission: Some(Emission::one_sided(Vec3::ONE)),
+            ..green()
+        });
+        let mut chandelier = Prototype::new("chandelier", Vec::new());
+        let bulb = Quadric::sphere("bulb", lamp, Affine3A::IDENTITY);
+        chandelier.quadrics = vec![Quadric { part, ..bulb }; bulbs];
+        let prototype = scene.add_prototype(chandelier);
+        let instance = Instance {
+            prototype,
+            transform: Affine3A::IDENTITY,
+        };
+        scene.instances.resize(instances, instance);
+        World::new(scene).err()
     };
-    scene.instances.resize(40_000, instance);
-    let error = World::new(scene).err();
+    let error = Some(WorldError::Copies {
+        name: "chandelier".into(),
+        most: 1 << 25,
+    });
     assert_eq!(
+        chandeliers(None, 1_000, 40_000),
         error,
-        Some(WorldError::Copies {
-            name: "chandelier".into(),
-            most: 1 << 25
-        }),
         "1,000 spheres 40,000 times"
+    );
+    let half = Some(QuadricPart {
+        turn: 0.5,
+        v: [0.0, 1.0],
+    });
+    assert_eq!(
+        chandeliers(half, 10, 820),
+        error,
+        "10 halves of spheres, of 4,096 triangles each, 820 times"
     );
 }
