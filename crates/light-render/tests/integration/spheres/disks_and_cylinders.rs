@@ -51,7 +51,7 @@ fn rays_meet_what_they_meet_of_triangles() {
 pub(crate) fn assert_rays_agree(mut scene: Scene, what: &str) {
     // Nothing else.
     scene.meshes.clear();
-    let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 1024))];
+    let [round, fine] = [world(scene.clone()), world(tessellated(&scene, 512))];
     let lattice = |i: u32, g: Vec3| (g * i as f32).fract();
     let (mut met, mut differ) = (0, 0);
     for i in 1..20_000 {
