@@ -1,7 +1,10 @@
 //! The committed inputs of the fuzz targets, and their first random inputs, on stable.
 
+use core::num::NonZero;
+use core::sync::atomic::{AtomicUsize, Ordering};
 use std::fs;
 use std::path::Path;
+use std::thread;
 
 use light_testkit::Rng;
 use light_testkit::fuzz::TARGETS;
@@ -31,6 +34,7 @@ fn what_is_near_the_corpus_passes() {
     /// Neighbours of each input.
     const NEIGHBOURS: usize = 40;
     let mut rng = Rng::new(2);
+    let mut inputs = Vec::new();
     for (name, target) in TARGETS {
         for input in corpus(name) {
             for _ in 0..NEIGHBOURS {
@@ -38,10 +42,23 @@ fn what_is_near_the_corpus_passes() {
                 for _ in 0..=rng.below(4) {
                     change(&mut bytes, &mut rng);
                 }
-                target(&bytes);
+                inputs.push((target, bytes));
             }
         }
     }
+    // The longest test of the workspace: all cores share it.
+    let next = AtomicUsize::new(0);
+    let run = || {
+        while let Some((target, bytes)) = inputs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            target(bytes);
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(run);
+        }
+    });
 }
 
 /// Replaces a byte, takes some out, repeats some, or cuts.
