@@ -6,6 +6,7 @@ const LIGHT_BENT: f32 = 0.1894306;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
 const LIGHT_CUT_THRESHOLD: f32 = 0.08;
 const LIGHT_DISTANCE: f32 = 0.09;
+const LIGHT_DOUBT: f32 = 0.2;
 const LIGHT_FAINT_POWER: f32 = 168.0;
 const LIGHT_FAR: f32 = 1e36;
 const LIGHT_GLOSSY_DISTANCE: f32 = 0.03;
@@ -322,8 +323,8 @@ struct LightNode {
     // The largest power of a child, as a share of the tree's.
     gain: f32,
     has_sheets: bool,
-    // Whether a subtree is small in codes of the node.
-    has_small: bool,
+    // Whether codes of the node describe a subtree coarsely.
+    has_rough: bool,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -381,7 +382,7 @@ fn light_node(first: u32) -> LightNode {
     // The two top bits of the gain are flags.
     node.gain = bitcast<f32>((links.z & 0x3fffu) << 16u);
     node.has_sheets = (links.z & 0x8000u) != 0u;
-    node.has_small = (links.z & 0x4000u) != 0u;
+    node.has_rough = (links.z & 0x4000u) != 0u;
     return node;
 }
 
@@ -580,6 +581,18 @@ fn light_emitted(c: LightChildren, height: vec4<f32>, lift: vec4<f32>) -> vec4<f
     let inv_dist_sq = 1.0 / c.dist_sq;
     let near = 1.0 + LIGHT_NEARNESS * (width_sq * inv_dist_sq);
     return (((c.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * (emitted * scale);
+}
+
+// Whether the weight of a child that emits in a step may be off by more than LIGHT_DOUBT, one
+// standard deviation as a share of the weights of the node, of which it has `share`.
+fn light_is_doubtful(c: LightChildren, share: vec4<f32>) -> vec4<bool> {
+    let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
+    let beyond = along + c.offset * c.dist;
+    let width = light_width(c);
+    let cap = (0.25 * LIGHT_UNIT) * (LIGHT_UNIT - c.offset);
+    let variance = cap * (width * width) + (c.spread * c.spread) * c.dist_sq;
+    let root = sqrt(beyond * beyond + variance);
+    return c.step & (share * (root + beyond) > LIGHT_DOUBT * sqrt(variance));
 }
 
 // How much more or less a glossy surface reflects toward its viewer than a matt one.
@@ -834,16 +847,18 @@ fn light_parts(weights: LightWeights) -> LightParts {
 }
 
 // The weights of the children of a node. A subtree that is small in codes of the node, and near,
-// counts by the weights of its own children; if it has several, it has at least its near share.
+// counts by the weights of its own children; if it has several, it has at least its near share. So
+// does a subtree of lights that emit in steps, at the edge of which the receiver is.
 fn light_resolved_weights(
     tree: LightTree,
     node: ptr<function, LightNode>,
     receiver: LightReceiver,
 ) -> LightWeights {
     var weights = light_trusted_weights(node, receiver);
-    if !(*node).has_small {
+    if !(*node).has_rough {
         return weights;
     }
+    let doubtful = light_doubtful_children(node, receiver, weights);
     let reach = LIGHT_NEAR_SMALL / (*node).inv_scale + light_reach(receiver);
     var groups = 0u;
     for (var k = 0u; k < (*node).inner; k++) {
@@ -851,16 +866,20 @@ fn light_resolved_weights(
         let lane = k & 3u;
         let index = (*node).child_base + k;
         let is_small = light_is_small(node, word, lane);
-        if is_small && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
+        let is_doubtful = ((doubtful >> k) & 1u) == 1u;
+        let has_weight = weights.lanes[word][lane] > 0.0 && index < tree.node_count;
+        if (is_small || is_doubtful) && has_weight {
             var child = light_node(tree.nodes + 14u * index);
             let away = child.origin - receiver.p;
             let near = reach + 255.0 / child.inv_scale;
-            if dot(away, away) < near * near {
+            let is_near = is_small && dot(away, away) < near * near;
+            if is_near || is_doubtful {
                 let own = light_trusted_weights(&child, receiver);
                 let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
                 let weight = light_positive_product(own.total, scale);
                 weights.lanes[word][lane] = min(weight, LIGHT_MAX / 16.0);
-                groups |= select(0u, 1u << k, child.count > 1u && weight > 0.0);
+                let is_group = is_near && child.count > 1u && weight > 0.0;
+                groups |= select(0u, 1u << k, is_group);
             }
         }
     }
@@ -871,6 +890,24 @@ fn light_resolved_weights(
         weights.lanes[word] = select(lanes, max(lanes, vec4<f32>(least)), is_group);
     }
     return light_with_least_share(weights);
+}
+
+// The children whose weights are doubtful, a bit each.
+fn light_doubtful_children(
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+    weights: LightWeights,
+) -> u32 {
+    let frame = light_frame_in_codes(*node, receiver.p);
+    let inv_total = 1.0 / max(weights.total, LIGHT_MIN);
+    var doubtful = 0u;
+    for (var word = 0u; 4u * word < (*node).inner; word++) {
+        let children = light_children(node, frame, word);
+        let is_doubtful = light_is_doubtful(children, weights.lanes[word] * inv_total);
+        let bits = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), is_doubtful);
+        doubtful |= (bits.x | bits.y | bits.z | bits.w) << (4u * word);
+    }
+    return doubtful;
 }
 
 // Whether a child that is a node is small in codes of this one.

@@ -3,7 +3,7 @@
 use crate::cut::grow::MAX_REVISION;
 use crate::cut::light_cut;
 use crate::importance::child_importance::{
-    BOX_EMISSION, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
+    BOX_EMISSION, DOUBT, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
 };
 use crate::importance::child_view::{DISTANCE, ROUND_OFF};
 use crate::importance::glossy::{self, MIN_ALPHA, MIN_COS, MIN_DIFFUSE, MIN_HALF_SQ, WIDENING};
@@ -14,16 +14,17 @@ use crate::importance::sheet;
 use crate::node::sheet_code::CORRELATION;
 use crate::node::spread_code::LEAST_SPREAD;
 use crate::node::wide_node::{FAINT_POWER, SMALL_EXTENT};
-use crate::query::small_subtrees::{NEAR_SHARE, NEAR_SMALL};
+use crate::query::look_ahead::{NEAR_SHARE, NEAR_SMALL};
 use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 32] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 33] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
     ("DISTANCE", DISTANCE),
+    ("DOUBT", DOUBT),
     ("FAINT_POWER", FAINT_POWER as f32),
     ("FAR", FAR),
     ("GLOSSY_DISTANCE", glossy::DISTANCE),

@@ -80,7 +80,7 @@ impl Query for Grow<'_, '_> {
                 break;
             };
             let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
-            tree.resolve_small(node, receiver, &mut weights);
+            tree.look_ahead(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;

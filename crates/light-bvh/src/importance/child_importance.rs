@@ -35,6 +35,11 @@ pub(crate) const BOX_EMISSION: f32 = 297.0;
 /// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
 pub(crate) const STEP_EDGE: f32 = 4.87;
 
+/// How far the weight of a subtree whose lights emit in steps may be off, one standard deviation, as
+/// a share of the weights of its node: one that may be off by more is looked into. Chosen by V and by
+/// time: see `docs/light-bvh.md`.
+pub(crate) const DOUBT: f32 = 0.2;
+
 /// How many times its variance the square of an emission or of a height is at least, and the squared
 /// distance the squared width, where the lights of a group may count by their powers alone. Chosen
 /// by V and by time: see `docs/light-bvh.md`.
@@ -93,6 +98,30 @@ impl ChildView {
             && FAR_SQ * variance < beyond * beyond
     }
 
+    /// How much of the squared width of a child that emits in a step counts as variance: the solid
+    /// angle of its cap.
+    #[inline(always)]
+    fn cap(&self) -> f32 {
+        (0.25 * UNIT) * (UNIT - self.offset)
+    }
+
+    /// Above 0 where the weight of a child that emits in a step may be off by more than
+    /// [`DOUBT`], if it is `share` of the weights of its node.
+    ///
+    /// The receiver gets all that lights so far away may give with a probability of about
+    /// `f = (1 - beyond / root) / 2`, and otherwise nothing. One standard deviation of that is
+    /// `sqrt((1 - f) / f)` times the mean, which is the weight: `(root + beyond) / sqrt(variance)`.
+    #[inline(always)]
+    pub(crate) fn step_doubt(&self, share: f32) -> f32 {
+        let [hx, hy, hz] = self.extent;
+        let beyond = self.axis_dot_mean + self.offset * self.dist;
+        let width = hx + hy + hz;
+        let variance = self.cap() * (width * width) + (self.spread * self.spread) * self.dist_sq;
+        let root = float::sqrt(beyond * beyond + variance);
+        let doubt = share * (root + beyond) - DOUBT * float::sqrt(variance);
+        self.step.keep(doubt)
+    }
+
     /// Whether the child is a group of lights none of which emits in a step.
     #[inline(always)]
     pub(crate) const fn is_ramp_group(&self) -> LaneMask {
@@ -134,9 +163,8 @@ impl ChildView {
         // The emission times the distance: all divisions come at the end.
         let beyond = from.axis_dot_mean + self.offset * from.dist + lift;
         let width = hx + hy + hz;
-        let cap = (0.25 * UNIT) * (UNIT - self.offset);
         let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
-        let by_position = self.step.select(cap, ramp);
+        let by_position = self.step.select(self.cap(), ramp);
         let width_sq = width * width;
         let variance = by_position * width_sq + (self.spread * self.spread) * from.dist_sq;
         let root = float::sqrt(beyond * beyond + variance);

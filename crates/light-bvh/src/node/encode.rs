@@ -1,7 +1,8 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::wide_node::{HAS_SHEETS, HAS_SMALL, WIDTH, WideNode, encode_power};
+use crate::node::spread_code::SpreadCode;
+use crate::node::wide_node::{HAS_ROUGH, HAS_SHEETS, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
@@ -52,9 +53,14 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
-        if self.small_subtrees().next().is_some() {
-            self.gain |= HAS_SMALL;
+        if self.subtrees().any(|k| self.is_rough(k)) {
+            self.gain |= HAS_ROUGH;
         }
+    }
+
+    /// Whether codes of the node describe a child that is a node coarsely.
+    fn is_rough(&self, k: usize) -> bool {
+        self.is_small(k) || SpreadCode(self.spread[k]).step().is_set()
     }
 
     #[inline(always)]

@@ -1,3 +1,5 @@
+use core::ops::Range;
+
 #[cfg(feature = "alloc")]
 use light_math::Aabb;
 #[cfg(feature = "alloc")]
@@ -47,9 +49,9 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// bits of exponent and three of mantissa, less their value for 0.
 ///
 /// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
-/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is small: its extents are 1
-/// in codes, or at most 15 where its power is at most a 1024th of the largest. Near it the subtree's
-/// own node tells more.
+/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is rough, so that its own node
+/// may tell more. It is small, its extents are 1 in codes, or at most 15 where its power is at most a
+/// 1024th of the largest; or its lights emit in steps.
 ///
 /// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
 /// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
@@ -90,8 +92,9 @@ pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 /// The bit of [`WideNode::gain`] that is set where a child is a sheet.
 pub(crate) const HAS_SHEETS: u16 = 1 << 15;
 
-/// The bit of [`WideNode::gain`] that is set where a subtree is small in codes of the node.
-pub(crate) const HAS_SMALL: u16 = 1 << 14;
+/// The bit of [`WideNode::gain`] that is set where a subtree is rough: small in codes of the node, or
+/// of lights that emit in steps.
+pub(crate) const HAS_ROUGH: u16 = 1 << 14;
 
 /// The largest extent of a faint subtree that is small. All bits are set: the bits of three extents
 /// together are above it where one of them is.
@@ -123,7 +126,7 @@ impl WideNode {
     #[inline]
     #[must_use]
     pub(crate) const fn gain(&self) -> f32 {
-        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_SMALL)) as u32) << 16)
+        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_ROUGH)) as u32) << 16)
     }
 
     /// Whether a child may be a group of lights in a thin slanted sheet.
@@ -132,10 +135,10 @@ impl WideNode {
         self.gain & HAS_SHEETS != 0
     }
 
-    /// Whether a child is a subtree so small that codes of the node describe it coarsely.
+    /// Whether codes of the node describe a subtree coarsely.
     #[inline(always)]
-    pub(crate) const fn has_small(&self) -> bool {
-        self.gain & HAS_SMALL != 0
+    pub(crate) const fn has_rough(&self) -> bool {
+        self.gain & HAS_ROUGH != 0
     }
 
     /// The children that are on, and boxes that hold their lights.
@@ -153,15 +156,19 @@ impl WideNode {
         })
     }
 
-    /// These children.
+    /// The children that are nodes.
     #[inline]
-    pub(crate) fn small_subtrees(&self) -> impl Iterator<Item = usize> + use<'_> {
+    pub(crate) fn subtrees(&self) -> Range<usize> {
+        0..usize::from(self.inner).min(WIDTH)
+    }
+
+    /// Whether a child is so small that codes of the node describe its place coarsely.
+    #[inline]
+    pub(crate) const fn is_small(&self, k: usize) -> bool {
         let [x, y, z] = &self.extent;
-        (0..usize::from(self.inner).min(WIDTH)).filter(|&k| {
-            let extent = x[k] | y[k] | z[k];
-            // No extent is 0.
-            extent == 1 || (extent <= SMALL_EXTENT && self.power[k] <= FAINT_POWER)
-        })
+        let extent = x[k] | y[k] | z[k];
+        // No extent is 0.
+        extent == 1 || (extent <= SMALL_EXTENT && self.power[k] <= FAINT_POWER)
     }
 }
 

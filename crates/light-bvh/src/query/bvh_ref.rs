@@ -83,7 +83,7 @@ impl<'a> LightBvhRef<'a> {
         receiver: &R,
     ) -> Weights {
         let mut weights = Weights::new(node, receiver);
-        self.resolve_small(node, receiver, &mut weights);
+        self.look_ahead(node, receiver, &mut weights);
         self.leave_out(index, &mut weights);
         weights
     }

@@ -7,9 +7,9 @@ pub(crate) mod bvh_at;
 pub(crate) mod bvh_ref;
 pub(crate) mod descent;
 pub(crate) mod into_receiver;
+pub(crate) mod look_ahead;
 mod queries;
 pub(crate) mod select;
-pub(crate) mod small_subtrees;
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
 mod vector_width_tests;
 pub(crate) mod weights;

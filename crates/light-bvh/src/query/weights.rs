@@ -29,7 +29,7 @@ pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
 
 /// Whether the codes of four children are loaded at once. A GPU does not compute children side by
 /// side, and each of its loads costs the same, of a byte or a word.
-const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
+pub(crate) const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
 
 /// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]

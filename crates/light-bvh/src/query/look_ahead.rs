@@ -1,13 +1,15 @@
-//! Subtrees that are small in codes of their node, where a receiver is near them: their own nodes
-//! tell more than the codes do.
+//! Subtrees whose own nodes tell more than their codes: those that are small in codes of their node,
+//! where a receiver is near them, and those of lights that emit in steps, at their edge.
 
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
+use crate::importance::child_view::NodeFrame;
 use crate::importance::receiver::Receiver;
-use crate::node::wide_node::WideNode;
+use crate::node::child_codes::ChildCodes;
+use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::weights::{LARGEST_WEIGHT, Weights, total};
+use crate::query::weights::{LARGEST_WEIGHT, READS_WORDS, Weights, total};
 use crate::simd::{VectorWork, dispatch};
 
 /// Within how many codes a small subtree is not described well enough by them.
@@ -22,46 +24,52 @@ pub(crate) const NEAR_SMALL: f32 = 16.0;
 pub(crate) const NEAR_SHARE: f32 = 0.125;
 
 impl LightBvhRef<'_> {
-    /// Lets each child of `node` that is a small subtree and near count by the weights of its own
-    /// children for `receiver`.
+    /// Lets each child of `node` that it describes coarsely for `receiver` count by the weights of its
+    /// own children: a small subtree that is near, and one at whose edge of emission the receiver is.
     #[inline(always)]
-    pub(crate) fn resolve_small<R: Receiver>(
+    pub(crate) fn look_ahead<R: Receiver>(
         &self,
         node: &WideNode,
         receiver: &R,
         weights: &mut Weights,
     ) {
-        if !node.has_small() {
+        if !node.has_rough() {
             return;
         }
         // Without an operating system the stack is short.
         if cfg!(target_os = "none") {
-            self.resolve_near(node, receiver, weights);
+            self.look_into_rough(node, receiver, weights);
         } else {
             // A copy: what a function may change through a reference is in memory.
             let mut resolved = *weights;
-            self.resolve_near(node, receiver, &mut resolved);
+            self.look_into_rough(node, receiver, &mut resolved);
             *weights = resolved;
         }
     }
 
-    /// A function of its own: nodes without small subtrees, which are most, pay for one test.
+    /// A function of its own: nodes without rough subtrees, which are most, pay for one test.
     #[cold]
     #[inline(never)]
-    fn resolve_near<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
-        // Bit k: child k is a group of several lights.
+    fn look_into_rough<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
+        let doubtful = dispatch(Doubtful {
+            node,
+            position: receiver.position(),
+            weights,
+        });
+        // Bit k: child k is a group of several lights, and near.
         let mut groups = 0u32;
-        for k in node.small_subtrees() {
+        for k in node.subtrees() {
             let index = node.child_base as usize + k;
             let Some(child) = self.nodes().get(index) else {
                 return;
             };
-            let is_near = is_near(node, child, receiver.position(), receiver.reach());
-            if is_near && weights.lanes[k] > 0.0 {
+            let is_near =
+                node.is_small(k) && is_near(node, child, receiver.position(), receiver.reach());
+            if (is_near || doubtful >> k & 1 == 1) && weights.lanes[k] > 0.0 {
                 let gain = child.gain() / node.gain();
                 let own = self.total_weight(index, child, receiver, (weights.inv_unit, gain));
                 weights.lanes[k] = own.min(LARGEST_WEIGHT);
-                groups |= u32::from(child.count > 1 && own > 0.0) << k;
+                groups |= u32::from(is_near && child.count > 1 && own > 0.0) << k;
             }
         }
         let least = (total(&weights.lanes) * NEAR_SHARE).min(LARGEST_WEIGHT);
@@ -87,6 +95,55 @@ impl LightBvhRef<'_> {
         let mut weights = dispatch(NodeWeights { node, receiver });
         self.leave_out(index, &mut weights);
         positive_product(weights.total, weights.scale_to(inv_unit, gain))
+    }
+}
+
+/// The children that emit in steps and whose weight may be off by more than `DOUBT`, a bit each.
+struct Doubtful<'a> {
+    node: &'a WideNode,
+    position: Vec3,
+    weights: &'a Weights,
+}
+
+impl VectorWork for Doubtful<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32 {
+        self.bits()
+    }
+}
+
+impl Doubtful<'_> {
+    // Without an operating system the stack is short: what this has there is free again before a
+    // subtree is looked into.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    fn bits(&self) -> u32 {
+        let frame = NodeFrame::in_codes(self.node, self.position);
+        let inv_total = 1.0 / self.weights.total;
+        let mut bits = 0;
+        if READS_WORDS {
+            for quarter in 0..WIDTH / 4 {
+                let four = self.node.four_children(quarter);
+                for j in 0..4 {
+                    let k = 4 * quarter + j;
+                    bits |= self.bit(&frame, &four.child_codes(j), k, inv_total);
+                }
+            }
+        } else {
+            for k in 0..WIDTH {
+                bits |= self.bit(&frame, &self.node.child_codes(k), k, inv_total);
+            }
+        }
+        bits
+    }
+
+    #[inline(always)]
+    fn bit(&self, frame: &NodeFrame, codes: &ChildCodes, k: usize, inv_total: f32) -> u32 {
+        let child = frame.child(codes, false);
+        let doubt = child.step_doubt(self.weights.lanes[k] * inv_total);
+        u32::from(doubt > 0.0) << k
     }
 }
 
@@ -181,6 +238,41 @@ mod tests {
                 .sum();
             assert!(of_house > 0.01, "house {k}: {of_house}");
         }
+    }
+
+    /// A ceiling of lamps that shine straight down in narrow cones, of which one or none lights a place
+    /// on the floor.
+    fn ceiling(side: u16) -> LightBvh {
+        let lamp = |i: u16| {
+            let at = Vec3::new(f32::from(i % side), f32::from(i / side), 3.0);
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(at),
+                w: Vec3::NEG_Z,
+                phi: 1.0,
+                cos_theta_o: 0.99,
+                cos_theta_e: 1.0,
+                two_sided: false,
+            })
+        };
+        let lights: Vec<_> = (0..side * side).map(lamp).collect();
+        LightBvh::build(&lights).expect("valid lights")
+    }
+
+    #[test]
+    fn the_one_lamp_of_a_ceiling_that_shines_here_is_found() {
+        let tree = ceiling(20);
+        let mut sum = 0.0;
+        for light in (0..400).map(LightId) {
+            let at = Vec3::new((light.0 % 20) as f32, (light.0 / 20) as f32, 0.0);
+            let below = LightSampleContext::surface(at + 0.2, Vec3::Z, Vec3::Z);
+            let pmf = tree.pmf(&below, light);
+            assert!(pmf > 0.05, "below {light:?}: {pmf}");
+            sum += pmf;
+            assert_eq!(tree.view().at(&below).pmf(light), pmf, "{light:?} here");
+            let sampled = tree.sample(&below, 1 << 63).expect("a lamp");
+            assert_eq!(sampled.pmf, tree.pmf(&below, sampled.light), "{sampled:?}");
+        }
+        assert!(sum / 400.0 > 0.5, "{}", sum / 400.0);
     }
 
     #[test]
