@@ -847,8 +847,9 @@ fn light_parts(weights: LightWeights) -> LightParts {
 }
 
 // The weights of the children of a node. A subtree that is small in codes of the node, and near,
-// counts by the weights of its own children; if it has several, it has at least its near share. So
-// does a subtree of lights that emit in steps, at the edge of which the receiver is.
+// counts by the weights of its own children; if it has several, it has at least its near share. A
+// subtree of lights that emit in steps, at the edge of which the receiver is, counts by its own
+// children too.
 fn light_resolved_weights(
     tree: LightTree,
     node: ptr<function, LightNode>,

@@ -4,12 +4,11 @@
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::NodeFrame;
 use crate::importance::receiver::Receiver;
-use crate::node::child_codes::ChildCodes;
-use crate::node::wide_node::{WIDTH, WideNode};
+use crate::node::wide_node::WideNode;
 use crate::query::bvh_ref::LightBvhRef;
-use crate::query::weights::{LARGEST_WEIGHT, READS_WORDS, Weights, total};
+use crate::query::doubtful::Doubtful;
+use crate::query::weights::{LARGEST_WEIGHT, Weights, total};
 use crate::simd::{VectorWork, dispatch};
 
 /// Within how many codes a small subtree is not described well enough by them.
@@ -95,55 +94,6 @@ impl LightBvhRef<'_> {
         let mut weights = dispatch(NodeWeights { node, receiver });
         self.leave_out(index, &mut weights);
         positive_product(weights.total, weights.scale_to(inv_unit, gain))
-    }
-}
-
-/// The children that emit in steps and whose weight may be off by more than `DOUBT`, a bit each.
-struct Doubtful<'a> {
-    node: &'a WideNode,
-    position: Vec3,
-    weights: &'a Weights,
-}
-
-impl VectorWork for Doubtful<'_> {
-    type Output = u32;
-
-    #[inline(always)]
-    fn run(self) -> u32 {
-        self.bits()
-    }
-}
-
-impl Doubtful<'_> {
-    // Without an operating system the stack is short: what this has there is free again before a
-    // subtree is looked into.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    fn bits(&self) -> u32 {
-        let frame = NodeFrame::in_codes(self.node, self.position);
-        let inv_total = 1.0 / self.weights.total;
-        let mut bits = 0;
-        if READS_WORDS {
-            for quarter in 0..WIDTH / 4 {
-                let four = self.node.four_children(quarter);
-                for j in 0..4 {
-                    let k = 4 * quarter + j;
-                    bits |= self.bit(&frame, &four.child_codes(j), k, inv_total);
-                }
-            }
-        } else {
-            for k in 0..WIDTH {
-                bits |= self.bit(&frame, &self.node.child_codes(k), k, inv_total);
-            }
-        }
-        bits
-    }
-
-    #[inline(always)]
-    fn bit(&self, frame: &NodeFrame, codes: &ChildCodes, k: usize, inv_total: f32) -> u32 {
-        let child = frame.child(codes, false);
-        let doubt = child.step_doubt(self.weights.lanes[k] * inv_total);
-        u32::from(doubt > 0.0) << k
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod ascent;
 pub(crate) mod bvh_at;
 pub(crate) mod bvh_ref;
 pub(crate) mod descent;
+mod doubtful;
 pub(crate) mod into_receiver;
 pub(crate) mod look_ahead;
 mod queries;

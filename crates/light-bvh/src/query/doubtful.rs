@@ -1,0 +1,58 @@
+//! Which subtrees of lights that emit in steps a receiver is at the edge of.
+
+use light_math::glam::Vec3;
+
+use crate::importance::child_view::NodeFrame;
+use crate::node::child_codes::ChildCodes;
+use crate::node::wide_node::{WIDTH, WideNode};
+use crate::query::weights::{READS_WORDS, Weights};
+use crate::simd::VectorWork;
+
+/// The children that emit in steps and whose weight may be off by more than `DOUBT`, a bit each.
+pub(crate) struct Doubtful<'a> {
+    pub(crate) node: &'a WideNode,
+    pub(crate) position: Vec3,
+    pub(crate) weights: &'a Weights,
+}
+
+impl VectorWork for Doubtful<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32 {
+        self.bits()
+    }
+}
+
+impl Doubtful<'_> {
+    // Without an operating system the stack is short: what this has there is free again before a
+    // subtree is looked into.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    fn bits(&self) -> u32 {
+        let frame = NodeFrame::in_codes(self.node, self.position);
+        let inv_total = 1.0 / self.weights.total;
+        let mut bits = 0;
+        if READS_WORDS {
+            for quarter in 0..WIDTH / 4 {
+                let four = self.node.four_children(quarter);
+                for j in 0..4 {
+                    let k = 4 * quarter + j;
+                    bits |= self.bit(&frame, &four.child_codes(j), k, inv_total);
+                }
+            }
+        } else {
+            for k in 0..WIDTH {
+                bits |= self.bit(&frame, &self.node.child_codes(k), k, inv_total);
+            }
+        }
+        bits
+    }
+
+    #[inline(always)]
+    fn bit(&self, frame: &NodeFrame, codes: &ChildCodes, k: usize, inv_total: f32) -> u32 {
+        let child = frame.child(codes, false);
+        let doubt = child.step_doubt(self.weights.lanes[k] * inv_total);
+        u32::from(doubt > 0.0) << k
+    }
+}
