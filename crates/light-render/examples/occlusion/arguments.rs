@@ -1,11 +1,11 @@
 use clap::Parser;
 
 use super::gloss::Gloss;
-use super::methods::{METHODS, Method, method};
+use super::methods::{Method, method};
 use super::place::{Place, occluded};
 
 /// Measures choices of lights where most lights are hidden.
-#[derive(Debug, Parser)]
+#[derive(Clone, Debug, Parser)]
 pub(super) struct Arguments {
     /// The scenes, with commas between: names, or KIND:LAMPS:SEED; all kinds of occlusion, small
     /// and large, by default.
@@ -16,25 +16,26 @@ pub(super) struct Arguments {
     #[arg(long)]
     pub(super) gloss: Option<Gloss>,
     /// Choices by their place in the list of all, from 0 on, with commas between; the first is what
-    /// the others are set against.
-    #[arg(long, value_delimiter = ',', value_parser = method)]
-    methods: Vec<&'static Method>,
+    /// the others are set against. 4 and 5 are cells wherever lights are hidden.
+    #[arg(long, value_delimiter = ',', value_parser = method, default_value = "0,1,2,3")]
+    pub(super) methods: Vec<&'static Method>,
     /// Samples a pixel, with commas between.
     #[arg(long, value_delimiter = ',', default_values_t = [16, 64, 256, 1024])]
     pub(super) samples: Vec<u32>,
     /// Width and height of the pictures.
-    #[arg(long, default_value = "96x64", value_parser = size)]
+    #[arg(long, default_value = "384x256", value_parser = size)]
     pub(super) size: (u32, u32),
     /// Samples a pixel of each half of the reference.
-    #[arg(long, default_value_t = 2048)]
+    #[arg(long, default_value_t = 768)]
     pub(super) reference: u32,
     /// Render so many upright strips alone, evenly over the picture, that show a quarter of it: each
     /// figure is an estimate of that of the whole, better from many narrow strips than from a few,
-    /// which meet too many or none of the noisiest pixels. Cells are those of the whole.
-    #[arg(long, default_value_t = 0)]
+    /// which meet too many or none of the noisiest pixels. Cells are those of the whole. With 0 the
+    /// whole is rendered.
+    #[arg(long, default_value_t = 32)]
     pub(super) strips: u32,
-    /// Pictures of other seeds that each figure is the mean of.
-    #[arg(long, default_value_t = 2)]
+    /// Pictures of other seeds that each figure is the mean of; at least two with --means.
+    #[arg(long, default_value_t = 1)]
     pub(super) seeds: u32,
     /// Segments of the longest path: 2 is direct light.
     #[arg(long, default_value_t = 2)]
@@ -52,16 +53,6 @@ pub(super) struct Arguments {
     /// With --ceilings: the points of each light are the square of this.
     #[arg(long, default_value_t = 3)]
     pub(super) strata: u16,
-}
-
-impl Arguments {
-    /// The choices that are compared: all if none is named.
-    pub(super) fn methods(&self) -> Vec<&'static Method> {
-        if self.methods.is_empty() {
-            return METHODS.iter().collect();
-        }
-        self.methods.clone()
-    }
 }
 
 /// `WIDTHxHEIGHT`.

@@ -12,14 +12,19 @@ use super::figure::figure;
 use super::place::load;
 use super::shot::{paths, picture};
 
-/// A table of means and their standard errors, one for each method.
+/// A table of means and their standard errors, one for each method: of whole pictures.
 pub(super) fn means(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let methods = arguments.methods();
+    let arguments = &Arguments {
+        strips: 0,
+        seeds: arguments.seeds.max(2),
+        ..arguments.clone()
+    };
+    let methods = &arguments.methods;
     let samples = arguments.samples.first().copied().unwrap_or(1);
     println!("{} pictures of {samples} samples a pixel.", arguments.seeds);
     let mut title = "| scene | uniform choices".to_owned();
     let mut line = "| --- | ---".to_owned();
-    for method in &methods {
+    for method in methods {
         title += &format!(" | {} | standard errors", method.name);
         line += " | --- | ---";
     }

@@ -15,7 +15,7 @@ use super::shot::{paths, picture, pixels_over_rendered, shot};
 /// A table of relMSE, seconds and their product.
 pub(super) fn pictures(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let half = arguments.reference;
-    let methods = arguments.methods();
+    let methods = &arguments.methods;
     println!("Reference: two halves of {half} samples a pixel.");
     let mut title = "| scene | samples | reference".to_owned();
     let mut line = "| --- | --- | ---".to_owned();

@@ -3,7 +3,8 @@ use core::borrow::Borrow;
 use lights::bounds::{LightId, LightSampleContext};
 use lights::bvh::visibility::CellKey;
 use lights::glam::{Vec2, Vec3};
-use lights::sources::PdfCoverage;
+use lights::sources::shape::Shape;
+use lights::sources::{AreaLight, LightRef, PdfCoverage};
 use rayon::prelude::*;
 
 use super::cell_size::CellSize;
@@ -46,9 +47,19 @@ impl Place {
     /// nothing toward this place.
     pub(super) fn sees(&self, world: &World, light: LightId, u: Vec2) -> Option<bool> {
         let Self { surface, ctx } = self;
-        let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete)?;
-        let is_lit = sample.l != Vec3::ZERO;
-        is_lit.then(|| !world.occluded(surface, sample.wi, sample.p_light))
+        let (wi, p_light) = match world.lights().get(light)? {
+            // By area: to choose a point by solid angle takes as long as the ray.
+            LightRef::Triangle(light) => {
+                let at = light.shape().sample(u)?.at;
+                let wi = (at.p - ctx.p).try_normalize()?;
+                (light.l(&at, -wi, &()) != Vec3::ZERO).then_some((wi, at.p))?
+            }
+            _ => {
+                let sample = world.sample_light(light, ctx, u, PdfCoverage::Complete)?;
+                (sample.l != Vec3::ZERO).then_some((sample.wi, sample.p_light))?
+            }
+        };
+        Some(!world.occluded(surface, wi, p_light))
     }
 }
 

@@ -9,7 +9,7 @@ use super::film_point::FilmPoint;
 use crate::{View, World};
 
 /// Coarse cells that fewer pixels show are plain.
-pub(super) const FEWEST_OF_COARSE: usize = 4;
+pub(super) const FEWEST_OF_COARSE: usize = 2;
 
 /// Fine cells that fewer pixels show have no factors of their own.
 pub(super) const FEWEST_OF_FINE: usize = 1;
@@ -18,17 +18,20 @@ pub(super) const FEWEST_OF_FINE: usize = 1;
 const COARSE_PLACES: usize = 128;
 
 /// Places of a fine cell, at most.
-const FINE_PLACES: usize = 16;
+const FINE_PLACES: usize = 8;
 
 /// Rays for each pixel that shows a coarse cell, to lights that the tree chooses; so a cell takes
 /// a share of the time of its pixels, however small it is.
-const EXPLORING_RAYS_PER_PIXEL: f32 = 24.0;
+const EXPLORING_RAYS_PER_PIXEL: f32 = 40.0;
 
 /// The same to lights that the factors learnt so far choose, in each of two rounds.
 const GUIDED_RAYS_PER_PIXEL: f32 = 3.0;
 
-/// The same for a fine cell.
-const FINE_RAYS_PER_PIXEL: f32 = 8.0;
+/// The same for a fine cell of which the coarse one knows nothing.
+const FINE_RAYS_PER_PIXEL: f32 = 16.0;
+
+/// The part of them that fine cells take, by the scenes of `docs/occlusion.md`.
+const MEAN_DOUBT: f32 = 0.5;
 
 /// If cells with factors cover no more than this share of the pixels, they cost more than they
 /// gain.
@@ -128,7 +131,7 @@ fn places(world: &World, view: &View, sightings: &[Sighting], most: usize) -> Ve
     places
 }
 
-/// How many rays at most fill a cell that so many pixels show, and its fine cells.
+/// About how many rays fill a cell that so many pixels show, and its fine cells.
 pub(super) fn rays_of_cell(pixels: f32) -> u32 {
     let FillOptions {
         first_rays,
@@ -137,7 +140,7 @@ pub(super) fn rays_of_cell(pixels: f32) -> u32 {
         ..
     } = rays_of(pixels);
     let coarse = first_rays.max(exploring_rays) + 2 * guided_rays;
-    coarse + at_most(u32::MAX, FINE_RAYS_PER_PIXEL, pixels)
+    coarse + at_most(u32::MAX, MEAN_DOUBT * FINE_RAYS_PER_PIXEL, pixels)
 }
 
 /// How many rays a cell is filled by that so many pixels show.

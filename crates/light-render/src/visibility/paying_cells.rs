@@ -21,7 +21,7 @@ const CELLS_PER_PROBE: usize = 10;
 
 /// The cost of a ray of filling, in samples from the root at one vertex: by the thread seconds of
 /// pictures.
-const RAY_COST: f64 = 0.4;
+const RAY_COST: f64 = 0.35;
 
 /// The cost of a sample in a cell, in samples from the root.
 const SAMPLE_COST: f64 = 1.05;

@@ -32,7 +32,8 @@ impl CoarseCell {
     ///
     /// The other arguments, and what the result depends on, are those of [`fill`](Self::fill). Rays
     /// of this cell from places in the fine one count for it. Its own go to the lights whose
-    /// visibility those leave open.
+    /// visibility those leave open, and are as many as that is worth: none where each light is known
+    /// to be seen or hidden.
     #[must_use]
     pub fn fill_fine<P: Borrow<LightSampleContext>>(
         &self,
@@ -65,7 +66,8 @@ impl CoarseCell {
             log: RayLog::default(),
         };
         let cell = CellFactors::of(&self.shape, &ray_factors);
-        rays.in_cell(0, options.fine_rays, cell, |_, _, _| ());
+        let count = share_of(options.fine_rays, doubt(&self.shape, &mean, &known));
+        rays.in_cell(0, count, cell, |_, _, _| ());
         if rays.log.rays().is_empty() {
             return without_factors;
         }
@@ -111,6 +113,34 @@ fn ray_weight(visibility: f32) -> f32 {
     sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
 }
 
+/// How uncertain the result of a ray is, over the root of the visible share that lights are chosen
+/// by: means over all closed children, by importance. From 0 to 1.
+fn doubt(shape: &[CopiedNode], mean: &[[f32; WIDTH]], shares: &[[f32; WIDTH]]) -> f32 {
+    let (mut deviation, mut chosen) = (0.0, 0.0);
+    for ((copied, mean), shares) in shape.iter().zip(mean).zip(shares) {
+        for child in (0..WIDTH).filter(|&child| copied.copy_of(child).is_none()) {
+            let share = shares[child];
+            deviation += mean[child] * sqrt(share * (1.0 - share));
+            chosen += mean[child] * sqrt(share);
+        }
+    }
+    if chosen > 0.0 {
+        deviation / chosen
+    } else {
+        0.0
+    }
+}
+
+/// A share of so many rays, to the next lower number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "from 0 to `rays`"
+)]
+fn share_of(rays: u32, share: f32) -> u32 {
+    (rays as f32 * share) as u32
+}
+
 /// Adds each ray to the deepest child on its path that the cell knows.
 fn add(counts: &mut [NodeCounts], shape: &[CopiedNode], rays: impl Iterator<Item = Ray>) {
     for ray in rays {
@@ -121,5 +151,30 @@ fn add(counts: &mut [NodeCounts], shape: &[CopiedNode], rays: impl Iterator<Item
             child = ray.child(level);
         }
         counts[place][child].add(ray.is_seen());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doubt_is_left_where_lights_are_neither_seen_nor_hidden() {
+        let of = |shares: [f32; 2]| {
+            let row = |values: &[f32; 2]| {
+                core::array::from_fn(|child| values.get(child).copied().unwrap_or(0.0))
+            };
+            doubt(
+                &[CopiedNode::default()],
+                &[row(&[3.0, 1.0])],
+                &[row(&shares)],
+            )
+        };
+        assert_eq!(of([1.0, 0.0]), 0.0, "all is known");
+        assert_eq!(of([0.0, 0.0]), 0.0, "nothing arrives");
+        assert_eq!(of([0.25, 0.25]), sqrt(0.75), "a quarter of both");
+        assert_eq!(of([1.0, 0.36]), 0.48 / 3.6, "the root of it of one");
+        assert_eq!(share_of(192, 0.5), 96);
+        assert_eq!(share_of(1, 0.99), 0);
     }
 }

@@ -44,11 +44,10 @@ pub(super) struct RayLog {
     dark: usize,
 }
 
-/// The rays that filled a coarse cell, and the fine cell of each of their places.
+/// The rays that filled a coarse cell, in the order of the fine cells that they start in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CoarseRays {
-    rays: Vec<Ray>,
-    places: Vec<CellKey>,
+    rays: Vec<(CellKey, Ray)>,
 }
 
 impl RayLog {
@@ -84,20 +83,20 @@ impl RayLog {
 
 impl CoarseRays {
     /// No rays.
-    pub(super) const NONE: Self = Self {
-        rays: Vec::new(),
-        places: Vec::new(),
-    };
+    pub(super) const NONE: Self = Self { rays: Vec::new() };
 
-    /// The rays of this log from `places`, each in the fine cell of its key.
-    pub(super) fn new(log: RayLog, places: Vec<CellKey>) -> Self {
-        let rays = log.rays;
-        Self { rays, places }
+    /// The rays of this log from places in these fine cells.
+    pub(super) fn new(log: &RayLog, places: &[CellKey]) -> Self {
+        let with_cell = |ray: &Ray| Some((*places.get(ray.place())?, *ray));
+        let mut rays: Vec<_> = log.rays.iter().filter_map(with_cell).collect();
+        rays.sort_by_key(|ray| ray.0);
+        Self { rays }
     }
 
     /// Those from places in a fine cell.
     pub(super) fn of(&self, fine: CellKey) -> impl Iterator<Item = Ray> {
-        let is_own = move |ray: &Ray| self.places.get(ray.place()) == Some(&fine);
-        self.rays.iter().copied().filter(is_own)
+        let first = self.rays.partition_point(|ray| ray.0 < fine);
+        let own = self.rays[first..].iter();
+        own.take_while(move |ray| ray.0 == fine).map(|ray| ray.1)
     }
 }
