@@ -10,7 +10,7 @@ use super::{ChoiceEstimates, census, fill, paying_cells};
 use crate::{View, World};
 
 /// Pixels of the largest picture that is measured for cells nobody asked for, so that they take
-/// less than 3.1 GB.
+/// less than 4.0 GB.
 const MOST_PIXELS: usize = 1 << 21;
 
 /// Which lights are seen from the surfaces that a camera sees, in cells of space: pure functions of
