@@ -41,7 +41,7 @@ impl CoarseCell {
     /// The cell keeps 16 bytes a ray for its fine cells: see
     /// [`without_rays`](Self::without_rays). The same arguments and the same results of
     /// `visible` give the same bytes on every machine: random numbers come from the key, and all
-    /// sums have a fixed order. The measurements used 128 places in a coarse cell and 16 in a fine
+    /// sums have a fixed order. The measurements used 128 places in a coarse cell and 8 in a fine
     /// one.
     ///
     /// # Source
