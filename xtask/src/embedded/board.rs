@@ -93,6 +93,15 @@ impl Builder {
         })
     }
 
+    /// The name and version of the compiler.
+    pub(super) fn compiler(&self) -> Result<String, String> {
+        let mut rustc = match &self.toolchain {
+            Some(toolchain) => toolchain.rustc(),
+            None => rustc(),
+        };
+        Ok(output(rustc.arg("--version"))?.trim().to_owned())
+    }
+
     /// A build for the board.
     pub(super) fn cargo_build(&self) -> Command {
         let target = self.board.target;
@@ -133,10 +142,14 @@ impl Builder {
     }
 }
 
+/// The compiler of the installed toolchain.
+fn rustc() -> Command {
+    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
 /// The linker of the installed toolchain, or Debian's.
 fn linker() -> Result<PathBuf, String> {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let sysroot = output(Command::new(rustc).args(["--print", "sysroot"]))?;
+    let sysroot = output(rustc().args(["--print", "sysroot"]))?;
     let targets = fs::read_dir(Path::new(sysroot.trim()).join("lib/rustlib"));
     let targets = targets.map_err(|e| e.to_string())?.flatten();
     let mut linkers = targets.map(|target| target.path().join("bin/rust-lld"));

@@ -151,6 +151,8 @@ fn check(
         Ok(builder) => builder,
         Err(reason) => return Ok(Outcome::Skipped(reason)),
     };
+    // Bytes of code and stack are those of one compiler.
+    println!("    {}", builder.compiler()?);
     output(&mut build(builder.cargo_build()))?;
     let mut measured = Vec::new();
     for (&firmware, host) in PROGRAMS.iter().zip(hosts) {
