@@ -38,14 +38,25 @@ pub(super) fn factors(
     codes
 }
 
+/// The mean importance and the share of each closed child.
+pub(super) fn closed_children<'a>(
+    shape: &'a [CopiedNode],
+    mean: &'a [[f32; WIDTH]],
+    share: &'a [[f32; WIDTH]],
+) -> impl Iterator<Item = (f32, f32)> + 'a {
+    let nodes = shape.iter().zip(mean).zip(share);
+    nodes.flat_map(|((copied, mean), share)| {
+        let closed = (0..WIDTH).filter(|&child| copied.copy_of(child).is_none());
+        closed.map(|child| (mean[child], share[child]))
+    })
+}
+
 /// The mean of the shares of all closed children, by importance; 1 if nothing has importance.
 fn mean_share(shape: &[CopiedNode], mean: &[[f32; WIDTH]], share: &[[f32; WIDTH]]) -> f32 {
     let (mut all, mut kept) = (0.0, 0.0);
-    for ((copied, mean), share) in shape.iter().zip(mean).zip(share) {
-        for child in (0..WIDTH).filter(|&child| copied.copy_of(child).is_none()) {
-            all += mean[child];
-            kept += mean[child] * share[child];
-        }
+    for (importance, share) in closed_children(shape, mean, share) {
+        all += importance;
+        kept += importance * share;
     }
     if all > 0.0 { kept / all } else { 1.0 }
 }

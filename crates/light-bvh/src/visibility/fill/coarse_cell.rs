@@ -88,9 +88,8 @@ impl CoarseCell {
         }
         let cell = Self::learnt(tree, key, places, options, &rays.log);
         let fine = |place: &P| CellKey::fine(place.borrow(), key.size());
-        let starts: Vec<CellKey> = places.iter().map(fine).collect();
         Self {
-            rays: CoarseRays::new(&rays.log, &starts),
+            rays: CoarseRays::new(rays.log, places.iter().map(fine).collect()),
             ..cell
         }
     }

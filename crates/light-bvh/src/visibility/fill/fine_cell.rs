@@ -9,7 +9,7 @@ use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::visibility::cell_factors::{CellFactors, CopiedNode, copied_nodes};
 use crate::visibility::cell_key::CellKey;
-use crate::visibility::fill::bottom_up::factors;
+use crate::visibility::fill::bottom_up::{closed_children, factors};
 use crate::visibility::fill::coarse_cell::CoarseCell;
 use crate::visibility::fill::counts::NodeCounts;
 use crate::visibility::fill::mean_importance::mean_importance;
@@ -107,22 +107,24 @@ impl FineCell {
     }
 }
 
-/// The weight of rays to lights of this visible share: the standard deviation of the result of one
-/// ray, and a little for lights that are surely seen.
+/// The standard deviation of the result of one ray to lights of this visible share.
+fn ray_deviation(visibility: f32) -> f32 {
+    sqrt(visibility * (1.0 - visibility))
+}
+
+/// The weight of rays to lights of this visible share: their deviation, and a little for lights that
+/// are surely seen.
 fn ray_weight(visibility: f32) -> f32 {
-    sqrt(visibility * (1.0 - visibility)) + 0.02 * visibility
+    ray_deviation(visibility) + 0.02 * visibility
 }
 
 /// How uncertain the result of a ray is, over the root of the visible share that lights are chosen
 /// by: means over all closed children, by importance. From 0 to 1.
 fn doubt(shape: &[CopiedNode], mean: &[[f32; WIDTH]], shares: &[[f32; WIDTH]]) -> f32 {
     let (mut deviation, mut chosen) = (0.0, 0.0);
-    for ((copied, mean), shares) in shape.iter().zip(mean).zip(shares) {
-        for child in (0..WIDTH).filter(|&child| copied.copy_of(child).is_none()) {
-            let share = shares[child];
-            deviation += mean[child] * sqrt(share * (1.0 - share));
-            chosen += mean[child] * sqrt(share);
-        }
+    for (importance, share) in closed_children(shape, mean, shares) {
+        deviation += importance * ray_deviation(share);
+        chosen += importance * sqrt(share);
     }
     if chosen > 0.0 {
         deviation / chosen

@@ -44,10 +44,12 @@ pub(super) struct RayLog {
     dark: usize,
 }
 
-/// The rays that filled a coarse cell, in the order of the fine cells that they start in.
+/// The rays that filled a coarse cell, in the order of the fine cells that they start in, and the
+/// fine cell of each place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CoarseRays {
-    rays: Vec<(CellKey, Ray)>,
+    rays: Vec<Ray>,
+    places: Vec<CellKey>,
 }
 
 impl RayLog {
@@ -83,20 +85,23 @@ impl RayLog {
 
 impl CoarseRays {
     /// No rays.
-    pub(super) const NONE: Self = Self { rays: Vec::new() };
+    pub(super) const NONE: Self = Self {
+        rays: Vec::new(),
+        places: Vec::new(),
+    };
 
-    /// The rays of this log from places in these fine cells.
-    pub(super) fn new(log: &RayLog, places: &[CellKey]) -> Self {
-        let with_cell = |ray: &Ray| Some((*places.get(ray.place())?, *ray));
-        let mut rays: Vec<_> = log.rays.iter().filter_map(with_cell).collect();
-        rays.sort_by_key(|ray| ray.0);
-        Self { rays }
+    /// The rays of this log from `places`, each in the fine cell of its key.
+    pub(super) fn new(log: RayLog, places: Vec<CellKey>) -> Self {
+        let mut rays = log.rays;
+        rays.sort_by_key(|ray| places.get(ray.place()));
+        Self { rays, places }
     }
 
     /// Those from places in a fine cell.
     pub(super) fn of(&self, fine: CellKey) -> impl Iterator<Item = Ray> {
-        let first = self.rays.partition_point(|ray| ray.0 < fine);
-        let own = self.rays[first..].iter();
-        own.take_while(move |ray| ray.0 == fine).map(|ray| ray.1)
+        let cell = move |ray: &Ray| self.places.get(ray.place());
+        let first = self.rays.partition_point(|ray| cell(ray) < Some(&fine));
+        let rays = self.rays[first..].iter().copied();
+        rays.take_while(move |ray| cell(ray) == Some(&fine))
     }
 }
