@@ -583,16 +583,19 @@ fn light_emitted(c: LightChildren, height: vec4<f32>, lift: vec4<f32>) -> vec4<f
     return (((c.power * inv_dist_sq) * (height * inv_dist_sq)) * near) * (emitted * scale);
 }
 
-// Whether the weight of a child that emits in a step may be off by more than LIGHT_DOUBT, one
-// standard deviation as a share of the weights of the node, of which it has `share`.
+// Whether the weight of a child may be off by more than LIGHT_DOUBT of the weights of the node, of
+// which it has `share`: of a step by one standard deviation, of a ramp by its squared angular size.
 fn light_is_doubtful(c: LightChildren, share: vec4<f32>) -> vec4<bool> {
     let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
     let beyond = along + c.offset * c.dist;
     let width = light_width(c);
+    let width_sq = width * width;
     let cap = (0.25 * LIGHT_UNIT) * (LIGHT_UNIT - c.offset);
-    let variance = cap * (width * width) + (c.spread * c.spread) * c.dist_sq;
+    let variance = cap * width_sq + (c.spread * c.spread) * c.dist_sq;
     let root = sqrt(beyond * beyond + variance);
-    return c.step & (share * (root + beyond) > LIGHT_DOUBT * sqrt(variance));
+    let doubt = select(width_sq, root + beyond, c.step);
+    let unit = select(c.dist_sq, sqrt(variance), c.step);
+    return share * doubt > LIGHT_DOUBT * unit;
 }
 
 // How much more or less a glossy surface reflects toward its viewer than a matt one.
@@ -848,8 +851,8 @@ fn light_parts(weights: LightWeights) -> LightParts {
 
 // The weights of the children of a node. A subtree that is small in codes of the node, and near,
 // counts by the weights of its own children; if it has several, it has at least its near share. A
-// subtree of lights that emit in steps, at the edge of which the receiver is, counts by its own
-// children too.
+// subtree of lights that emit in steps, at the edge of which the receiver is, and a large one that
+// is near count by their own children too.
 fn light_resolved_weights(
     tree: LightTree,
     node: ptr<function, LightNode>,
@@ -874,7 +877,8 @@ fn light_resolved_weights(
             let away = child.origin - receiver.p;
             let near = reach + 255.0 / child.inv_scale;
             let is_near = is_small && dot(away, away) < near * near;
-            if is_near || is_doubtful {
+            let is_step_or_large = light_is_step(node, word, lane) || child.inner == 16u;
+            if is_near || (is_doubtful && is_step_or_large) {
                 let own = light_trusted_weights(&child, receiver);
                 let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
                 let weight = light_positive_product(own.total, scale);
@@ -909,6 +913,11 @@ fn light_doubtful_children(
         doubtful |= (bits.x | bits.y | bits.z | bits.w) << (4u * word);
     }
     return doubtful;
+}
+
+// Whether a light of a child emits in a step.
+fn light_is_step(node: ptr<function, LightNode>, word: u32, lane: u32) -> bool {
+    return (((*node).rows[10][word] >> (8u * lane)) & 0x80u) != 0u;
 }
 
 // Whether a child that is a node is small in codes of this one.

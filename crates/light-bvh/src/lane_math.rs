@@ -39,7 +39,6 @@ impl LaneMask {
         Self((x >> 31) as u32)
     }
 
-    #[cfg(any(test, feature = "alloc"))]
     pub(crate) const fn is_set(self) -> bool {
         self.0 != 0
     }

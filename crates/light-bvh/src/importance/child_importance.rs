@@ -35,9 +35,8 @@ pub(crate) const BOX_EMISSION: f32 = 297.0;
 /// 2.6291 of the least spread. A flat light ends at its edge: it is given as much.
 pub(crate) const STEP_EDGE: f32 = 4.87;
 
-/// How far the weight of a subtree whose lights emit in steps may be off, one standard deviation, as
-/// a share of the weights of its node: one that may be off by more is looked into. Chosen by V and by
-/// time: see `docs/light-bvh.md`.
+/// How far the weight of a subtree may be off, as a share of the weights of its node: one that may be
+/// off by more is looked into. Chosen by V and by time: see `docs/light-bvh.md`.
 pub(crate) const DOUBT: f32 = 0.2;
 
 /// How many times its variance the square of an emission or of a height is at least, and the squared
@@ -72,12 +71,11 @@ impl ChildView {
     #[cfg_attr(target_os = "none", inline)]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn may_reach(&self) -> LaneMask {
-        let [hx, hy, hz] = self.extent;
-        let beyond = self.axis_dot_mean + self.offset * self.dist;
+        let beyond = self.beyond(&self.displacement());
         // Round-off is less than 0.001 times the distance, which the codes leave: see their
         // margins.
         let edge = (STEP_EDGE * self.spread) * self.dist;
-        let within = LaneMask::when(beyond < BOX_EMISSION * (hx + hy + hz) + edge);
+        let within = LaneMask::when(beyond < BOX_EMISSION * self.width() + edge);
         // The mean of lights that differ proves nothing.
         within.or(self.soft).or(self.both_sides)
     }
@@ -87,11 +85,9 @@ impl ChildView {
     #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn is_uniform(&self) -> bool {
-        let [hx, hy, hz] = self.extent;
-        let width = hx + hy + hz;
-        let width_sq = width * width;
-        let beyond = self.axis_dot_mean + self.offset * self.dist;
-        let variance = GROUP_BY_POSITION * width_sq + (self.spread * self.spread) * self.dist_sq;
+        let width_sq = self.width_sq();
+        let beyond = self.beyond(&self.displacement());
+        let variance = self.emission_variance(width_sq, self.dist_sq);
         self.is_ramp_group().and_not(self.both_sides).is_set()
             && beyond < 0.0
             && FAR_SQ * width_sq < self.dist_sq
@@ -105,21 +101,49 @@ impl ChildView {
         (0.25 * UNIT) * (UNIT - self.offset)
     }
 
-    /// Above 0 where the weight of a child that emits in a step may be off by more than
-    /// [`DOUBT`], if it is `share` of the weights of its node.
+    /// The sum of the half extents, and its square.
+    #[inline(always)]
+    pub(crate) fn width(&self) -> f32 {
+        let [hx, hy, hz] = self.extent;
+        hx + hy + hz
+    }
+
+    #[inline(always)]
+    pub(crate) fn width_sq(&self) -> f32 {
+        let width = self.width();
+        width * width
+    }
+
+    /// By how much the mean emission misses a point, times the distance: negative where it reaches.
+    #[inline(always)]
+    fn beyond(&self, from: &Displacement) -> f32 {
+        from.axis_dot_mean + self.offset * from.dist
+    }
+
+    /// The variance of that: by the positions of the lights, and by their axes and offsets.
+    #[inline(always)]
+    fn emission_variance(&self, width_sq: f32, dist_sq: f32) -> f32 {
+        let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
+        let by_position = self.step.select(self.cap(), ramp);
+        by_position * width_sq + (self.spread * self.spread) * dist_sq
+    }
+
+    /// Above 0 where the weight of a group may be off by more than [`DOUBT`], if it is `share` of the
+    /// weights of its node.
     ///
-    /// The receiver gets all that lights so far away may give with a probability of about
+    /// Of a step the receiver gets all that lights so far away may give with a probability of about
     /// `f = (1 - beyond / root) / 2`, and otherwise nothing. One standard deviation of that is
     /// `sqrt((1 - f) / f)` times the mean, which is the weight: `(root + beyond) / sqrt(variance)`.
+    /// A ramp is taken to be off by its squared angular size, squared width over squared distance.
     #[inline(always)]
-    pub(crate) fn step_doubt(&self, share: f32) -> f32 {
-        let [hx, hy, hz] = self.extent;
-        let beyond = self.axis_dot_mean + self.offset * self.dist;
-        let width = hx + hy + hz;
-        let variance = self.cap() * (width * width) + (self.spread * self.spread) * self.dist_sq;
+    pub(crate) fn doubt(&self, share: f32) -> f32 {
+        let width_sq = self.width_sq();
+        let beyond = self.beyond(&self.displacement());
+        let variance = self.emission_variance(width_sq, self.dist_sq);
         let root = float::sqrt(beyond * beyond + variance);
-        let doubt = share * (root + beyond) - DOUBT * float::sqrt(variance);
-        self.step.keep(doubt)
+        let doubt = self.step.select(root + beyond, width_sq);
+        let unit = self.step.select(float::sqrt(variance), self.dist_sq);
+        share * doubt - DOUBT * unit
     }
 
     /// Whether the child is a group of lights none of which emits in a step.
@@ -159,14 +183,10 @@ impl ChildView {
     #[cfg_attr(target_os = "none", inline)]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn weight(&self, from: &Displacement, height: f32, lift: f32) -> f32 {
-        let [hx, hy, hz] = self.extent;
         // The emission times the distance: all divisions come at the end.
-        let beyond = from.axis_dot_mean + self.offset * from.dist + lift;
-        let width = hx + hy + hz;
-        let ramp = self.soft.select(GROUP_BY_POSITION, RAMP_BY_POSITION);
-        let by_position = self.step.select(self.cap(), ramp);
-        let width_sq = width * width;
-        let variance = by_position * width_sq + (self.spread * self.spread) * from.dist_sq;
+        let beyond = self.beyond(from) + lift;
+        let width_sq = self.width_sq();
+        let variance = self.emission_variance(width_sq, from.dist_sq);
         let root = float::sqrt(beyond * beyond + variance);
         let ramp = root - self.both_sides.clear(beyond);
         let scale = self.step.select(UNIT * from.dist / root, 1.0);

@@ -109,7 +109,9 @@ impl NodeFrame {
     }
 
     /// The child of these codes, of a node that has `sheets` or none.
-    #[inline(always)]
+    // Software floats take much code.
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
     pub(crate) fn child(&self, codes: &ChildCodes, sheets: bool) -> ChildView {
         let Self { origin, code, .. } = *self;
         let mean = [

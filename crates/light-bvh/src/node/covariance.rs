@@ -8,14 +8,18 @@ use crate::node::sheet_code::SheetCode;
 /// that counts as a slanted sheet: lamps in a plane across their axis see none of it.
 const LEAST_DEPTH: f32 = 0.03;
 
-/// The least length of the mean axis of such a group, whose lights face about the same way.
+/// The least length of the mean axis of lights that face about the same way.
 const LEAST_AXIS: f32 = 0.6;
 
 /// The largest determinant of its correlations: 0 of a plane, 1 of an evenly filled box.
 const LARGEST_DETERMINANT: f32 = 0.05;
 
-/// The least number of lights of such a group: few are correlated by chance.
+/// The least number of lights of such a sheet: few are correlated by chance.
 const LEAST_LIGHTS: u32 = 16;
+
+/// The least number of lights of a large group, which face about the same way. Chosen by V and by
+/// instructions: see `docs/light-bvh.md`.
+const LARGE_LIGHTS: u32 = 1024;
 
 /// The covariance of the positions of a group of lights, over a squared length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +77,23 @@ impl Covariance {
         }
     }
 
+    /// Whether these are so many lights or more, which face about the same way if `axis` is the mean
+    /// of their axes.
+    fn are_alike(&self, lights: u32, axis: Vec3) -> bool {
+        self.lights >= lights && axis.length_squared() >= LEAST_AXIS * LEAST_AXIS
+    }
+
+    /// Whether these are many lights that face about the same way.
+    pub(crate) fn is_large(&self, axis: Vec3) -> bool {
+        self.are_alike(LARGE_LIGHTS, axis)
+    }
+
     /// The code of a thin slanted sheet of lights that face about the same way, if it is one.
     pub(crate) fn sheet(&self, axis: Vec3) -> Option<SheetCode> {
-        let length_sq = axis.length_squared();
-        if self.lights < LEAST_LIGHTS || !(length_sq >= LEAST_AXIS * LEAST_AXIS) {
+        if !self.are_alike(LEAST_LIGHTS, axis) {
             return None;
         }
+        let length_sq = axis.length_squared();
         let v = self.variance;
         let product = v * Vec3::new(v.y, v.z, v.x);
         let root = Vec3::from_array(product.to_array().map(float::sqrt));

@@ -1,7 +1,6 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{HAS_ROUGH, HAS_SHEETS, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
@@ -53,14 +52,15 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
-        if self.subtrees().any(|k| self.is_rough(k)) {
+        let mut subtrees = self.subtrees().zip(all);
+        if subtrees.any(|(k, child)| self.is_rough(k, child)) {
             self.gain |= HAS_ROUGH;
         }
     }
 
     /// Whether codes of the node describe a child that is a node coarsely.
-    fn is_rough(&self, k: usize) -> bool {
-        self.is_small(k) || SpreadCode(self.spread[k]).step().is_set()
+    fn is_rough(&self, k: usize, child: &Moments) -> bool {
+        self.is_small(k) || self.is_step(k) || child.is_large()
     }
 
     #[inline(always)]

@@ -133,6 +133,11 @@ impl Moments {
         }
     }
 
+    /// Whether it is a group of many flat lights, or points, that face about the same way.
+    pub(crate) fn is_large(&self) -> bool {
+        self.shape != Shape::Steps && self.covariance.is_large(self.axis)
+    }
+
     /// The moments of several groups together; those that are off do not count.
     pub(crate) fn join(parts: &[Self]) -> Self {
         let parts = || parts.iter().filter(|p| p.power > 0.0);

@@ -1,6 +1,7 @@
 //! How far the emission of a child varies, and its shape, in a byte.
 
 use crate::lane_math::LaneMask;
+use crate::node::wide_node::WideNode;
 
 /// How much of the squared deviation of axis and offset, and of 1 more, counts as variance of a
 /// ramp, in codes. Chosen by V.
@@ -57,6 +58,14 @@ impl SpreadCode {
     #[expect(clippy::cast_sign_loss, reason = "6 bits")]
     pub(crate) const fn value(self) -> f32 {
         f32::from_bits((((self.wide() & 63) as u32) << 20) + LEAST_BITS)
+    }
+}
+
+impl WideNode {
+    /// Whether a light of child `k` emits in a step.
+    #[inline]
+    pub(crate) const fn is_step(&self, k: usize) -> bool {
+        SpreadCode(self.spread[k]).step().is_set()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which subtrees of lights that emit in steps a receiver is at the edge of.
+//! Which subtrees a receiver is at the edge of, or near.
 
 use light_math::glam::Vec3;
 
@@ -8,7 +8,7 @@ use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::weights::{READS_WORDS, Weights};
 use crate::simd::VectorWork;
 
-/// The children that emit in steps and whose weight may be off by more than `DOUBT`, a bit each.
+/// The children whose weight may be off by more than `DOUBT`, a bit each.
 pub(crate) struct Doubtful<'a> {
     pub(crate) node: &'a WideNode,
     pub(crate) position: Vec3,
@@ -52,7 +52,7 @@ impl Doubtful<'_> {
     #[inline(always)]
     fn bit(&self, frame: &NodeFrame, codes: &ChildCodes, k: usize, inv_total: f32) -> u32 {
         let child = frame.child(codes, false);
-        let doubt = child.step_doubt(self.weights.lanes[k] * inv_total);
+        let doubt = child.doubt(self.weights.lanes[k] * inv_total);
         u32::from(doubt > 0.0) << k
     }
 }

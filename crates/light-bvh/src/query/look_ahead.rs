@@ -1,5 +1,6 @@
-//! Subtrees whose own nodes tell more than their codes: those that are small in codes of their node,
-//! where a receiver is near them, and those of lights that emit in steps, at their edge.
+//! Subtrees whose own nodes tell more than their codes: those that are small in codes of their node
+//! and those of many lights, where a receiver is near them, and those of lights that emit in steps,
+//! at their edge.
 
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
@@ -24,7 +25,8 @@ pub(crate) const NEAR_SHARE: f32 = 0.125;
 
 impl LightBvhRef<'_> {
     /// Lets each child of `node` that it describes coarsely for `receiver` count by the weights of its
-    /// own children: a small subtree that is near, and one at whose edge of emission the receiver is.
+    /// own children: a small or a large subtree that is near, and one at whose edge of emission the
+    /// receiver is.
     #[inline(always)]
     pub(crate) fn look_ahead<R: Receiver>(
         &self,
@@ -64,7 +66,9 @@ impl LightBvhRef<'_> {
             };
             let is_near =
                 node.is_small(k) && is_near(node, child, receiver.position(), receiver.reach());
-            if (is_near || doubtful >> k & 1 == 1) && weights.lanes[k] > 0.0 {
+            let is_doubtful =
+                doubtful >> k & 1 == 1 && (node.is_step(k) || child.has_subtrees_only());
+            if (is_near || is_doubtful) && weights.lanes[k] > 0.0 {
                 let gain = child.gain() / node.gain();
                 let own = self.total_weight(index, child, receiver, (weights.inv_unit, gain));
                 weights.lanes[k] = own.min(LARGEST_WEIGHT);
@@ -223,6 +227,42 @@ mod tests {
             assert_eq!(sampled.pmf, tree.pmf(&below, sampled.light), "{sampled:?}");
         }
         assert!(sum / 400.0 > 0.5, "{}", sum / 400.0);
+    }
+
+    /// Small panels that shine straight down from a large ceiling: those about the receiver give nearly
+    /// all light.
+    #[test]
+    fn the_panels_of_a_large_ceiling_that_are_near_are_found() {
+        const SIDE: u16 = 150;
+        let at = |i: u16| Vec3::new(f32::from(i % SIDE), f32::from(i / SIDE), 3.0);
+        let panel = |i| {
+            LightExtent::Bounded(LightBounds {
+                bounds: Aabb::from_point(at(i)),
+                w: Vec3::NEG_Z,
+                phi: 1.0,
+                cos_theta_o: 1.0,
+                cos_theta_e: 0.0,
+                two_sided: false,
+            })
+        };
+        let panels: Vec<_> = (0..SIDE * SIDE).map(panel).collect();
+        let tree = LightBvh::build(&panels).expect("valid lights");
+        let mut rng = Rng::new(6);
+        let mut sum = 0.0;
+        for _ in 0..20 {
+            let p = Vec3::new(15.0 + 120.0 * rng.f32(), 15.0 + 120.0 * rng.f32(), 0.0);
+            let here = LightSampleContext::surface(p, Vec3::Z, Vec3::Z);
+            let (mut squares, mut total) = (0.0, 0.0);
+            tree.view().for_each_pmf(&here, |LightId(i), pmf| {
+                let way = at(u16::try_from(i).expect("few")) - p;
+                let gives = 9.0 / (way.length_squared() * way.length_squared());
+                total += f64::from(gives);
+                squares += f64::from(gives * gives / pmf);
+            });
+            sum += squares / (total * total) - 1.0;
+        }
+        let variance = sum / 20.0;
+        assert!(variance < 0.16, "{variance}");
     }
 
     #[test]
