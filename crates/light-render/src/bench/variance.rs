@@ -8,8 +8,16 @@ use super::contributions::{Contributions, contributors};
 use super::statistics::Summary;
 use super::variance_split::{LightMoments, VarianceSplit};
 
-/// Calls of `k` samples that the variance at one point is estimated from.
-const CALLS: usize = 16;
+/// Calls of `k` samples at all points together.
+///
+/// Where few points have most of the variance, as beside a lamp that is estimated too low, few calls
+/// there do not tell whether several samples of a call are noisier than one.
+const CALLS: usize = 1 << 18;
+
+/// Calls that the variance at one of `points` is estimated from.
+fn calls_at_each(points: usize) -> usize {
+    (CALLS / points.max(1)).clamp(16, 1024)
+}
 
 /// Relative variance over the points that any light reaches; all numbers are NaN where there is no
 /// such point.
@@ -111,6 +119,7 @@ pub(super) fn repeated(
     points: usize,
     k: u32,
 ) -> Variance {
+    let calls = calls_at_each(points);
     let at_points = contributions.contexts()[..points]
         .par_iter()
         .enumerate()
@@ -121,13 +130,13 @@ pub(super) fn repeated(
             let mut rng = Pcg64Mcg::seed_from_u64(i as u64);
             let mut squares = 0.0;
             let here = candidate.sampler().at(ctx, k);
-            for _ in 0..CALLS {
+            for _ in 0..calls {
                 let mut mean = 0.0;
                 for sample in here.samples(rng.next_u64()) {
                     let f = contributions.moments(i, sample.light).mean;
                     mean += f / f64::from(sample.pmf) / f64::from(k);
                 }
-                squares += (mean - total) * (mean - total) / CALLS as f64;
+                squares += (mean - total) * (mean - total) / calls as f64;
             }
             AtPoint {
                 total,
