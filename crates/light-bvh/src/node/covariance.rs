@@ -9,7 +9,7 @@ use crate::node::sheet_code::SheetCode;
 const LEAST_DEPTH: f32 = 0.03;
 
 /// The least length of the mean axis of lights that face about the same way.
-const LEAST_AXIS: f32 = 0.6;
+pub(crate) const LEAST_AXIS: f32 = 0.6;
 
 /// The largest determinant of its correlations: 0 of a plane, 1 of an evenly filled box.
 const LARGEST_DETERMINANT: f32 = 0.05;
@@ -17,8 +17,8 @@ const LARGEST_DETERMINANT: f32 = 0.05;
 /// The least number of lights of such a sheet: few are correlated by chance.
 const LEAST_LIGHTS: u32 = 16;
 
-/// The least number of lights of a large group, which face about the same way. Chosen by V and by
-/// instructions: see `docs/light-bvh.md`.
+/// The least number of lights of a large group. Chosen by V and by instructions: see
+/// `docs/light-bvh.md`.
 const LARGE_LIGHTS: u32 = 1024;
 
 /// The covariance of the positions of a group of lights, over a squared length.
@@ -77,23 +77,17 @@ impl Covariance {
         }
     }
 
-    /// Whether these are so many lights or more, which face about the same way if `axis` is the mean
-    /// of their axes.
-    fn are_alike(&self, lights: u32, axis: Vec3) -> bool {
-        self.lights >= lights && axis.length_squared() >= LEAST_AXIS * LEAST_AXIS
-    }
-
-    /// Whether these are many lights that face about the same way.
-    pub(crate) fn is_large(&self, axis: Vec3) -> bool {
-        self.are_alike(LARGE_LIGHTS, axis)
+    /// Whether these are many lights.
+    pub(crate) const fn is_large(&self) -> bool {
+        self.lights >= LARGE_LIGHTS
     }
 
     /// The code of a thin slanted sheet of lights that face about the same way, if it is one.
     pub(crate) fn sheet(&self, axis: Vec3) -> Option<SheetCode> {
-        if !self.are_alike(LEAST_LIGHTS, axis) {
+        let length_sq = axis.length_squared();
+        if self.lights < LEAST_LIGHTS || !(length_sq >= LEAST_AXIS * LEAST_AXIS) {
             return None;
         }
-        let length_sq = axis.length_squared();
         let v = self.variance;
         let product = v * Vec3::new(v.y, v.z, v.x);
         let root = Vec3::from_array(product.to_array().map(float::sqrt));

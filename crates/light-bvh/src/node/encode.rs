@@ -52,15 +52,21 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
-        let mut subtrees = self.subtrees().zip(all);
-        if subtrees.any(|(k, child)| self.is_rough(k, child)) {
+        if self.subtrees().any(|k| self.is_rough(k)) || self.is_large(all) {
             self.gain |= HAS_ROUGH;
         }
     }
 
     /// Whether codes of the node describe a child that is a node coarsely.
-    fn is_rough(&self, k: usize, child: &Moments) -> bool {
-        self.is_small(k) || self.is_step(k) || child.is_large()
+    fn is_rough(&self, k: usize) -> bool {
+        self.is_small(k) || self.is_step(k)
+    }
+
+    /// Whether a child of many lights is a node, and the lights of all children face about the same
+    /// way.
+    fn is_large(&self, children: &[Moments]) -> bool {
+        let mut subtrees = children.iter().take(self.subtrees().end);
+        subtrees.any(Moments::is_large) && Moments::face_alike(children)
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@ use light_bounds::{LightBounds, LightExtent};
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
-use crate::node::covariance::Covariance;
+use crate::node::covariance::{Covariance, LEAST_AXIS};
 use crate::node::light_emission::{Emission, Lobe, Shape};
 use crate::node::sheet_code::SheetCode;
 
@@ -133,9 +133,16 @@ impl Moments {
         }
     }
 
-    /// Whether it is a group of many flat lights, or points, that face about the same way.
+    /// Whether it is a group of many flat lights or points.
     pub(crate) fn is_large(&self) -> bool {
-        self.shape != Shape::Steps && self.covariance.is_large(self.axis)
+        self.shape != Shape::Steps && self.covariance.is_large()
+    }
+
+    /// Whether the lights of several groups face about the same way, all together.
+    pub(crate) fn face_alike(parts: &[Self]) -> bool {
+        let power: f32 = parts.iter().map(|p| p.power).sum();
+        let axis: Vec3 = parts.iter().map(|p| p.power * p.axis).sum();
+        axis.length() >= LEAST_AXIS * power
     }
 
     /// The moments of several groups together; those that are off do not count.

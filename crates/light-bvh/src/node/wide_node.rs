@@ -51,7 +51,8 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
 /// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is rough, so that its own node
 /// may tell more. It is small, its extents are 1 in codes, or at most 15 where its power is at most a
-/// 1024th of the largest; or its lights emit in steps; or they are many that face the same way.
+/// 1024th of the largest; or its lights emit in steps; or they are many, of a node whose lights all
+/// face about the same way.
 ///
 /// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
 /// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
@@ -93,7 +94,7 @@ pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 pub(crate) const HAS_SHEETS: u16 = 1 << 15;
 
 /// The bit of [`WideNode::gain`] that is set where a subtree is rough: small in codes of the node, of
-/// lights that emit in steps, or of many that face the same way.
+/// lights that emit in steps, or of many in a node whose lights face about the same way.
 pub(crate) const HAS_ROUGH: u16 = 1 << 14;
 
 /// The largest extent of a faint subtree that is small. All bits are set: the bits of three extents
