@@ -101,13 +101,14 @@ impl ChildView {
         (0.25 * UNIT) * (UNIT - self.offset)
     }
 
-    /// The sum of the half extents, and its square.
+    /// The sum of the half extents.
     #[inline(always)]
-    pub(crate) fn width(&self) -> f32 {
+    fn width(&self) -> f32 {
         let [hx, hy, hz] = self.extent;
         hx + hy + hz
     }
 
+    /// The squared width.
     #[inline(always)]
     pub(crate) fn width_sq(&self) -> f32 {
         let width = self.width();

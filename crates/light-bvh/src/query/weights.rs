@@ -75,9 +75,7 @@ impl Weights {
         let mut angular_size_sq = [0.0; WIDTH];
         let frame = NodeFrame::in_codes(node, receiver.position());
         let note = |k: usize, child: &ChildView| {
-            let [hx, hy, hz] = child.extent;
-            let width = hx + hy + hz;
-            angular_size_sq[k] = width * width * (1.0 / child.dist_sq);
+            angular_size_sq[k] = child.width_sq() * (1.0 / child.dist_sq);
         };
         let weights = Self::in_frame(node, receiver, &frame, false, note);
         if !is_trusted(weights.total, &frame, receiver) {
