@@ -21,10 +21,13 @@ const LIGHT_MIN_ALPHA: f32 = 0.01;
 const LIGHT_MIN_COS: f32 = 0.001;
 const LIGHT_MIN_DIFFUSE: f32 = 0.02;
 const LIGHT_MIN_HALF_SQ: f32 = 1e-5;
+const LIGHT_MORE_ODDS: f32 = 4.0;
+const LIGHT_MOST: f32 = 0.9375;
 const LIGHT_NEAREST: f32 = 1e-8;
 const LIGHT_NEARNESS: f32 = 0.2;
 const LIGHT_NEAR_SHARE: f32 = 0.125;
 const LIGHT_NEAR_SMALL: f32 = 16.0;
+const LIGHT_ODDS: f32 = 8.0;
 const LIGHT_PLACES: f32 = 4.0;
 const LIGHT_RAMP_BY_POSITION: f32 = 11.0;
 const LIGHT_ROUND_OFF: f32 = 1e-5;
@@ -496,24 +499,16 @@ fn light_importance(receiver: LightReceiver, c: LightChildren, inv_unit: f32) ->
 
 // One or two sides, matt or glossy.
 fn light_surface_importance(receiver: LightReceiver, c: LightChildren) -> vec4<f32> {
-    // Half of the mean height over the horizon, and of what the box adds to it.
-    let n = 0.5 * receiver.n;
-    let mean = n.x * c.mean_x + n.y * c.mean_y + n.z * c.mean_z;
-    let support_x = abs(n.x) * c.extent_x;
-    let support_y = abs(n.y) * c.extent_y;
-    let support_z = abs(n.z) * c.extent_z;
-    let support = support_x + support_y + support_z;
-    let squares = support_x * support_x + support_y * support_y + support_z * support_z;
-    let root = sqrt(mean * mean + LIGHT_HEIGHT * squares);
+    let half = light_half_height(receiver, c);
     let reaches = light_may_reach(c);
     if receiver.kind == LIGHT_TWO_SIDED {
-        let height = 2.0 * max(c.slack, root);
+        let height = 2.0 * max(c.slack, half.root);
         return select(vec4<f32>(0.0), light_emitted(c, height, vec4<f32>(0.0)), reaches);
     }
-    let height = max(c.slack, mean + root);
+    let height = max(c.slack, half.mean + half.root);
     // Of a group that straddles the horizon, what is above it lies higher than the mean.
     let along = c.axis_x * receiver.n.x + c.axis_y * receiver.n.y + c.axis_z * receiver.n.z;
-    let raised = max(vec4<f32>(0.0), support - mean) * along;
+    let raised = max(vec4<f32>(0.0), half.support - half.mean) * along;
     let lift = select(vec4<f32>(0.0), raised, c.soft & !c.step);
     var weight = light_emitted(c, height, lift);
     if any(c.sheet) {
@@ -522,7 +517,8 @@ fn light_surface_importance(receiver: LightReceiver, c: LightChildren) -> vec4<f
     if receiver.kind == LIGHT_GLOSSY {
         weight *= light_reflected(receiver, c, height);
     }
-    return select(vec4<f32>(0.0), weight, (mean + support > -c.slack) & reaches);
+    let is_above = half.mean + half.support > -c.slack;
+    return select(vec4<f32>(0.0), weight, is_above & reaches);
 }
 
 // What children that are thin sheets emit: of their lights those above the horizon count.
@@ -553,26 +549,17 @@ fn light_sheet_emitted(c: LightChildren, n: vec3<f32>, height: vec4<f32>) -> vec
 
 // Whether any light of the child may emit toward the receiver.
 fn light_may_reach(c: LightChildren) -> vec4<bool> {
-    let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
-    let beyond = along + c.offset * c.dist;
     let edge = (LIGHT_STEP_EDGE * c.spread) * c.dist;
-    let is_within = beyond < LIGHT_BOX_EMISSION * light_width(c) + edge;
+    let is_within = light_emission_beyond(c) < LIGHT_BOX_EMISSION * light_width(c) + edge;
     return is_within | c.soft | c.both_sides;
 }
 
 // What the children emit to a point over whose horizon they are at `height`.
 fn light_emitted(c: LightChildren, height: vec4<f32>, lift: vec4<f32>) -> vec4<f32> {
-    let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
-    let beyond = along + c.offset * c.dist + lift;
+    let beyond = light_emission_beyond(c) + lift;
     let width = light_width(c);
     let width_sq = width * width;
-    let cap = (0.25 * LIGHT_UNIT) * (LIGHT_UNIT - c.offset);
-    let ramp = select(
-        vec4<f32>(LIGHT_RAMP_BY_POSITION),
-        vec4<f32>(LIGHT_GROUP_BY_POSITION),
-        c.soft,
-    );
-    let variance = select(ramp, cap, c.step) * width_sq + (c.spread * c.spread) * c.dist_sq;
+    let variance = light_emission_variance(c, width_sq);
     let root = sqrt(beyond * beyond + variance);
     // root - beyond, which a driver's rounding must not make 0.
     let one_side = select(root - beyond, variance / (root + abs(beyond)), beyond > vec4<f32>(0.0));
@@ -586,16 +573,70 @@ fn light_emitted(c: LightChildren, height: vec4<f32>, lift: vec4<f32>) -> vec4<f
 // Whether the weight of a child may be off by more than LIGHT_DOUBT of the weights of the node, of
 // which it has `share`: of a step by one standard deviation, of a ramp by its squared angular size.
 fn light_is_doubtful(c: LightChildren, share: vec4<f32>) -> vec4<bool> {
-    let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
-    let beyond = along + c.offset * c.dist;
+    let beyond = light_emission_beyond(c);
     let width = light_width(c);
     let width_sq = width * width;
-    let cap = (0.25 * LIGHT_UNIT) * (LIGHT_UNIT - c.offset);
-    let variance = cap * width_sq + (c.spread * c.spread) * c.dist_sq;
-    let root = sqrt(beyond * beyond + variance);
-    let doubt = select(width_sq, root + beyond, c.step);
-    let unit = select(c.dist_sq, sqrt(variance), c.step);
+    let root = sqrt(beyond * beyond + light_emission_variance(c, width_sq));
+    let doubt = select(width_sq, share * (root + beyond), c.step);
+    let unit = select(c.dist_sq, LIGHT_DOUBT * (root - beyond), c.step);
     return share * doubt > LIGHT_DOUBT * unit;
+}
+
+// How likely it is that light of the children reaches the receiver at all: that its lights emit
+// toward it, and are above its horizon.
+fn light_likelihood(receiver: LightReceiver, c: LightChildren) -> vec4<f32> {
+    let beyond = light_emission_beyond(c);
+    let width = light_width(c);
+    let root = sqrt(beyond * beyond + light_emission_variance(c, width * width));
+    let emitted = select(0.5 - 0.5 * beyond / root, vec4<f32>(1.0), c.both_sides);
+    switch receiver.kind {
+        case LIGHT_SEGMENT: {
+            return vec4<f32>(1.0);
+        }
+        case LIGHT_MEDIUM, LIGHT_TWO_SIDED: {
+            return emitted;
+        }
+        default: {
+            let height = light_half_height(receiver, c);
+            return emitted * (0.5 + 0.5 * height.mean / height.root);
+        }
+    }
+}
+
+// By how much the mean emission misses the receiver, times the distance.
+fn light_emission_beyond(c: LightChildren) -> vec4<f32> {
+    let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
+    return along + c.offset * c.dist;
+}
+
+// The variance of that.
+fn light_emission_variance(c: LightChildren, width_sq: vec4<f32>) -> vec4<f32> {
+    let cap = (0.25 * LIGHT_UNIT) * (LIGHT_UNIT - c.offset);
+    let ramp = select(
+        vec4<f32>(LIGHT_RAMP_BY_POSITION),
+        vec4<f32>(LIGHT_GROUP_BY_POSITION),
+        c.soft,
+    );
+    return select(ramp, cap, c.step) * width_sq + (c.spread * c.spread) * c.dist_sq;
+}
+
+// Half of the mean height over the horizon, half of what the box adds to it, and the root of the
+// mean square of half of the height.
+struct LightHeight {
+    mean: vec4<f32>,
+    support: vec4<f32>,
+    root: vec4<f32>,
+}
+
+fn light_half_height(receiver: LightReceiver, c: LightChildren) -> LightHeight {
+    let n = 0.5 * receiver.n;
+    let mean = n.x * c.mean_x + n.y * c.mean_y + n.z * c.mean_z;
+    let support_x = abs(n.x) * c.extent_x;
+    let support_y = abs(n.y) * c.extent_y;
+    let support_z = abs(n.z) * c.extent_z;
+    let support = support_x + support_y + support_z;
+    let squares = support_x * support_x + support_y * support_y + support_z * support_z;
+    return LightHeight(mean, support, sqrt(mean * mean + LIGHT_HEIGHT * squares));
 }
 
 // How much more or less a glossy surface reflects toward its viewer than a matt one.
@@ -849,11 +890,62 @@ fn light_parts(weights: LightWeights) -> LightParts {
     return parts;
 }
 
+// The weights of the children of a node.
+fn light_resolved_weights(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+) -> LightWeights {
+    return light_capped(tree, node, receiver, light_weights_ahead(tree, node, receiver));
+}
+
+// The same where a child that has most of them leaves some of the choices to the others, if it is
+// uncertain whether its light reaches the receiver.
+fn light_capped(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+    weights: LightWeights,
+) -> LightWeights {
+    let most = LIGHT_MOST * weights.total;
+    var k = 0u;
+    while k < 16u && !(weights.lanes[k >> 2u][k & 3u] > most) {
+        k++;
+    }
+    let word = k >> 2u;
+    let lane = k & 3u;
+    let is_group = k < (*node).inner;
+    if k == 16u || (is_group && !light_has_lights(tree, (*node).child_base + k)) {
+        return weights;
+    }
+    let children = light_children(node, light_frame_in_codes(*node, receiver.p), word);
+    let likelihood = light_likelihood(receiver, children)[lane];
+    if !(likelihood < 1.0) {
+        return weights;
+    }
+    let of_group = select(1.0, LIGHT_MORE_ODDS, is_group);
+    let of_step = select(1.0, LIGHT_MORE_ODDS, light_is_step(node, word, lane));
+    let odds = LIGHT_ODDS * of_group * of_step;
+    let weight = weights.lanes[word][lane];
+    var capped = weights;
+    capped.lanes[word][lane] = 0.0;
+    let rest = light_total(capped.lanes);
+    let cap = rest * (odds * sqrt(likelihood / (1.0 - likelihood)));
+    capped.lanes[word][lane] = select(weight, cap, cap > 0.0 && cap < weight);
+    capped.total = light_total(capped.lanes);
+    return capped;
+}
+
+// Whether a node holds single lights.
+fn light_has_lights(tree: LightTree, index: u32) -> bool {
+    return index < tree.node_count && light_node(tree.nodes + 14u * index).inner < 16u;
+}
+
 // The weights of the children of a node. A subtree that is small in codes of the node, and near,
 // counts by the weights of its own children; if it has several, it has at least its near share. A
 // subtree of lights that emit in steps, at the edge of which the receiver is, and a large one that
 // is near count by their own children too.
-fn light_resolved_weights(
+fn light_weights_ahead(
     tree: LightTree,
     node: ptr<function, LightNode>,
     receiver: LightReceiver,

@@ -15,11 +15,12 @@ use crate::node::sheet_code::CORRELATION;
 use crate::node::spread_code::LEAST_SPREAD;
 use crate::node::wide_node::{FAINT_POWER, SMALL_EXTENT};
 use crate::query::look_ahead::{NEAR_SHARE, NEAR_SMALL};
-use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM};
+use crate::query::uncertain::{MORE_ODDS, ODDS};
+use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM, MOST};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 33] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 36] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
@@ -39,10 +40,13 @@ pub const QUERY_CONSTANTS: [(&str, f32); 33] = [
     ("MIN_COS", MIN_COS),
     ("MIN_DIFFUSE", MIN_DIFFUSE),
     ("MIN_HALF_SQ", MIN_HALF_SQ),
+    ("MORE_ODDS", MORE_ODDS),
+    ("MOST", MOST),
     ("NEAREST", NEAREST),
     ("NEARNESS", NEARNESS),
     ("NEAR_SHARE", NEAR_SHARE),
     ("NEAR_SMALL", NEAR_SMALL),
+    ("ODDS", ODDS),
     ("PLACES", PLACES as f32),
     ("RAMP_BY_POSITION", RAMP_BY_POSITION),
     ("ROUND_OFF", ROUND_OFF),

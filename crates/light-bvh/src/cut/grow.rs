@@ -82,6 +82,7 @@ impl Query for Grow<'_, '_> {
             let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
             tree.look_ahead(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
+            tree.cap_uncertain(node, receiver, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }

@@ -177,6 +177,7 @@ impl CutNodes {
             lanes: self.weights[index],
             total: self.totals[index],
             inv_unit: self.inv_unit,
+            ..Weights::NONE
         }
     }
 

@@ -68,7 +68,8 @@ impl ChildView {
 
     /// Whether any light of the child may emit toward the receiver's position. Sound there only:
     /// not for other points of a segment.
-    #[cfg_attr(target_os = "none", inline)]
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(all(target_os = "none", not(soft_floats)), inline)]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn may_reach(&self) -> LaneMask {
         let beyond = self.beyond(&self.displacement());
@@ -102,7 +103,8 @@ impl ChildView {
     }
 
     /// The sum of the half extents.
-    #[inline(always)]
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
     fn width(&self) -> f32 {
         let [hx, hy, hz] = self.extent;
         hx + hy + hz
@@ -116,7 +118,8 @@ impl ChildView {
     }
 
     /// By how much the mean emission misses a point, times the distance: negative where it reaches.
-    #[inline(always)]
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
     fn beyond(&self, from: &Displacement) -> f32 {
         from.axis_dot_mean + self.offset * from.dist
     }
@@ -129,22 +132,38 @@ impl ChildView {
         by_position * width_sq + (self.spread * self.spread) * dist_sq
     }
 
+    /// The root of the square of `beyond` and its variance.
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
+    fn root(&self, beyond: f32, width_sq: f32, dist_sq: f32) -> f32 {
+        let variance = self.emission_variance(width_sq, dist_sq);
+        float::sqrt(beyond * beyond + variance)
+    }
+
     /// Above 0 where the weight of a group may be off by more than [`DOUBT`], if it is `share` of the
     /// weights of its node.
     ///
     /// Of a step the receiver gets all that lights so far away may give with a probability of about
-    /// `f = (1 - beyond / root) / 2`, and otherwise nothing. One standard deviation of that is
-    /// `sqrt((1 - f) / f)` times the mean, which is the weight: `(root + beyond) / sqrt(variance)`.
-    /// A ramp is taken to be off by its squared angular size, squared width over squared distance.
+    /// [`f`](Self::likelihood), and otherwise nothing. One standard deviation of that is
+    /// `sqrt((1 - f) / f)` times the mean, which is the weight. A ramp is taken to be off by its
+    /// squared angular size, squared width over squared distance.
     #[inline(always)]
     pub(crate) fn doubt(&self, share: f32) -> f32 {
-        let width_sq = self.width_sq();
         let beyond = self.beyond(&self.displacement());
-        let variance = self.emission_variance(width_sq, self.dist_sq);
-        let root = float::sqrt(beyond * beyond + variance);
-        let doubt = self.step.select(root + beyond, width_sq);
-        let unit = self.step.select(float::sqrt(variance), self.dist_sq);
+        let width_sq = self.width_sq();
+        let root = self.root(beyond, width_sq, self.dist_sq);
+        let doubt = self.step.select(share * (root + beyond), width_sq);
+        let unit = self.step.select(DOUBT * (root - beyond), self.dist_sq);
         share * doubt - DOUBT * unit
+    }
+
+    /// How likely it is that some light of the child is emitted toward the receiver's position:
+    /// `(1 - beyond / root) / 2`.
+    #[cfg_attr(soft_floats, inline(never))]
+    pub(crate) fn likelihood(&self) -> f32 {
+        let beyond = self.beyond(&self.displacement());
+        let root = self.root(beyond, self.width_sq(), self.dist_sq);
+        self.both_sides.select(1.0, 0.5 - 0.5 * beyond / root)
     }
 
     /// Whether the child is a group of lights none of which emits in a step.
@@ -187,8 +206,7 @@ impl ChildView {
         // The emission times the distance: all divisions come at the end.
         let beyond = self.beyond(from) + lift;
         let width_sq = self.width_sq();
-        let variance = self.emission_variance(width_sq, from.dist_sq);
-        let root = float::sqrt(beyond * beyond + variance);
+        let root = self.root(beyond, width_sq, from.dist_sq);
         let ramp = root - self.both_sides.clear(beyond);
         let scale = self.step.select(UNIT * from.dist / root, 1.0);
         let inv_dist_sq = 1.0 / from.dist_sq;

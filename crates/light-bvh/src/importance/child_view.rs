@@ -2,7 +2,7 @@ use light_math::float::{self, inverse_power_of_two};
 use light_math::glam::Vec3;
 
 use crate::lane_math::{LaneMask, dot};
-use crate::node::child_codes::ChildCodes;
+use crate::node::child_codes::{ChildCodes, READS_WORDS};
 use crate::node::sheet_code::SheetCode;
 use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
@@ -74,7 +74,8 @@ pub(crate) struct NodeFrame {
 
 impl NodeFrame {
     /// A code of the node is the unit: the quickest.
-    #[inline(always)]
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
     pub(crate) fn in_codes(node: &WideNode, position: Vec3) -> Self {
         Self {
             origin: (Vec3::from(node.origin) - position) * node.inv_scale,
@@ -106,6 +107,18 @@ impl NodeFrame {
     #[inline(always)]
     pub(crate) fn is_near(&self, reach: f32) -> bool {
         self.origin.abs().element_sum() + reach * self.inv_unit < 8_388_608.0
+    }
+
+    /// Child `k` of `node`, which has `sheets` or none.
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
+    pub(crate) fn child_at(&self, node: &WideNode, k: usize, sheets: bool) -> ChildView {
+        let codes = if READS_WORDS {
+            node.four_children(k / 4).child_codes(k % 4)
+        } else {
+            node.child_codes(k)
+        };
+        self.child(&codes, sheets)
     }
 
     /// The child of these codes, of a node that has `sheets` or none.
@@ -172,7 +185,8 @@ impl ChildView {
 
 /// The mean squared distance of a box about `mean` of which `variance` is the share of its squared
 /// width that counts. Above 0, because no extent is 0.
-#[inline(always)]
+#[cfg_attr(soft_floats, inline(never))]
+#[cfg_attr(not(soft_floats), inline(always))]
 pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32) -> f32 {
     let [x, y, z] = mean;
     let width = extent[0] + extent[1] + extent[2];

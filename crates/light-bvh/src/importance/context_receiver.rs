@@ -110,7 +110,7 @@ impl Receiver for AnyKind<'_> {
         self.0.position()
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn reach(&self) -> f32 {
         with_kind!(self.0, receiver => receiver.reach())
     }
@@ -118,5 +118,9 @@ impl Receiver for AnyKind<'_> {
     #[inline(never)]
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
         with_kind!(self.0, receiver => receiver.weigh(child, inv_unit))
+    }
+
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        with_kind!(self.0, receiver => receiver.likelihood(child))
     }
 }

@@ -119,6 +119,10 @@ impl Receiver for GlossyReceiver {
         let height = self.surface.expected_height(child);
         self.surface.weigh(child, inv_unit) * self.reflected(child, height)
     }
+
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        self.surface.likelihood(child)
+    }
 }
 
 #[cfg(test)]

@@ -89,9 +89,16 @@ impl HalfHeight {
 
     /// About the mean height of lights, those below counting as 0; at least `slack`. Above 0 even
     /// where the support just reaches the horizon.
-    #[inline(always)]
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
     pub(crate) fn above(&self, slack: f32) -> f32 {
         larger(slack, self.mean + self.root())
+    }
+
+    /// How likely it is that a light is above the plane.
+    #[inline]
+    pub(crate) fn likelihood(&self) -> f32 {
+        0.5 + 0.5 * self.mean / self.root()
     }
 
     /// About half of the mean distance of lights from the plane, up or down; at least `slack`.

@@ -42,4 +42,8 @@ impl Receiver for MediumReceiver {
     fn weigh(&self, child: &ChildView, _: f32) -> f32 {
         child.fluence(&child.displacement())
     }
+
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        child.likelihood()
+    }
 }

@@ -23,6 +23,13 @@ pub trait Receiver: Copy {
     /// `inv_unit` converts lengths to those of the child. To be computed for all children together
     /// it has to be `#[inline]`, without branches.
     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32;
+
+    /// How likely it is that light of the child reaches the receiver at all, of `[0, 1]`; 1 of a
+    /// receiver that does not know.
+    #[inline]
+    fn likelihood(&self, _child: &ChildView) -> f32 {
+        1.0
+    }
 }
 
 /// No receiver: groups count by the power that their node encodes.

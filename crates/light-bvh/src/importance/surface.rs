@@ -73,4 +73,9 @@ impl Receiver for SurfaceReceiver {
         let is_above = height.is_above(child.slack);
         is_above.and(child.may_reach()).keep(weight)
     }
+
+    #[cfg_attr(soft_floats, inline(never))]
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        child.likelihood() * self.horizon.half_height(child).likelihood()
+    }
 }

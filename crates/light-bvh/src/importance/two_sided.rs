@@ -54,4 +54,8 @@ impl Receiver for TwoSidedReceiver {
         let weight = child.weight(&child.displacement(), 2.0 * half, 0.0);
         child.may_reach().keep(weight)
     }
+
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        child.likelihood()
+    }
 }

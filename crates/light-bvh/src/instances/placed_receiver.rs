@@ -84,4 +84,8 @@ impl<R: Receiver> Receiver for Widened<R> {
         };
         self.receiver.weigh(&child, inv_unit)
     }
+
+    fn likelihood(&self, child: &ChildView) -> f32 {
+        self.receiver.likelihood(child)
+    }
 }

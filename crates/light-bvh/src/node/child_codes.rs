@@ -1,5 +1,9 @@
 use crate::node::wide_node::{WIDTH, WideNode};
 
+/// Whether the codes of four children are loaded at once. A GPU does not compute children side by
+/// side, and each of its loads costs the same, of a byte or a word.
+pub(crate) const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
+
 /// The codes of one child of a [`WideNode`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChildCodes {

@@ -85,6 +85,7 @@ impl<'a> LightBvhRef<'a> {
         let mut weights = Weights::new(node, receiver);
         self.look_ahead(node, receiver, &mut weights);
         self.leave_out(index, &mut weights);
+        self.cap_uncertain(node, receiver, &mut weights);
         weights
     }
 
@@ -104,7 +105,7 @@ impl<'a> LightBvhRef<'a> {
             return true;
         };
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let child = frame.child(&node.child_codes(slot % WIDTH), node.has_sheets());
+        let child = frame.child_at(node, slot % WIDTH, node.has_sheets());
         receiver.tells_apart(&child)
     }
 

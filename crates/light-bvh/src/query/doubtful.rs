@@ -2,10 +2,10 @@
 
 use light_math::glam::Vec3;
 
-use crate::importance::child_view::NodeFrame;
-use crate::node::child_codes::ChildCodes;
+use crate::importance::child_view::{ChildView, NodeFrame};
+use crate::node::child_codes::READS_WORDS;
 use crate::node::wide_node::{WIDTH, WideNode};
-use crate::query::weights::{READS_WORDS, Weights};
+use crate::query::weights::Weights;
 use crate::simd::VectorWork;
 
 /// The children whose weight may be off by more than `DOUBT`, a bit each.
@@ -38,20 +38,20 @@ impl Doubtful<'_> {
                 let four = self.node.four_children(quarter);
                 for j in 0..4 {
                     let k = 4 * quarter + j;
-                    bits |= self.bit(&frame, &four.child_codes(j), k, inv_total);
+                    let child = frame.child(&four.child_codes(j), false);
+                    bits |= self.bit(&child, k, inv_total);
                 }
             }
         } else {
             for k in 0..WIDTH {
-                bits |= self.bit(&frame, &self.node.child_codes(k), k, inv_total);
+                bits |= self.bit(&frame.child_at(self.node, k, false), k, inv_total);
             }
         }
         bits
     }
 
     #[inline(always)]
-    fn bit(&self, frame: &NodeFrame, codes: &ChildCodes, k: usize, inv_total: f32) -> u32 {
-        let child = frame.child(codes, false);
+    fn bit(&self, child: &ChildView, k: usize, inv_total: f32) -> u32 {
         let doubt = child.doubt(self.weights.lanes[k] * inv_total);
         u32::from(doubt > 0.0) << k
     }

@@ -34,17 +34,8 @@ impl LightBvhRef<'_> {
         receiver: &R,
         weights: &mut Weights,
     ) {
-        if !node.has_rough() {
-            return;
-        }
-        // Without an operating system the stack is short.
-        if cfg!(target_os = "none") {
-            self.look_into_rough(node, receiver, weights);
-        } else {
-            // A copy: what a function may change through a reference is in memory.
-            let mut resolved = *weights;
-            self.look_into_rough(node, receiver, &mut resolved);
-            *weights = resolved;
+        if node.has_rough() {
+            weights.change(|weights| self.look_into_rough(node, receiver, weights));
         }
     }
 

@@ -11,6 +11,7 @@ pub(crate) mod into_receiver;
 pub(crate) mod look_ahead;
 mod queries;
 pub(crate) mod select;
+pub(crate) mod uncertain;
 #[cfg(all(test, feature = "std", target_arch = "x86_64"))]
 mod vector_width_tests;
 pub(crate) mod weights;

@@ -187,7 +187,7 @@ mod tests {
         Weights {
             lanes,
             total: total(&lanes),
-            inv_unit: 1.0,
+            ..Weights::NONE
         }
     }
 

@@ -4,6 +4,7 @@ use light_math::glam::Vec4;
 use crate::importance::child_view::{ChildView, NodeFrame};
 use crate::importance::receiver::Receiver;
 use crate::lane_math::{LaneMask, larger, reduce};
+use crate::node::child_codes::READS_WORDS;
 use crate::node::wide_node::{WIDTH, WideNode};
 use crate::simd::{VectorWork, dispatch};
 
@@ -20,16 +21,15 @@ const LEAST_TOTAL_NEAR: f32 = 1e-30;
 /// low. Chosen by V: see `docs/light-bvh.md`.
 pub(crate) const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
+/// The share of the weights of its node from which on a child is capped, if it is uncertain.
+pub(crate) const MOST: f32 = 0.9375;
+
 /// The largest weight of a child that is a sum of other weights: the sum of all is finite.
 pub(crate) const LARGEST_WEIGHT: f32 = f32::MAX / WIDTH as f32;
 
 /// How much more a nearer node may count per unit of its weight: where distances differ by more
 /// than 2^30, weights lose their proportion and keep their sign.
 pub(crate) const MAX_ZOOM: f32 = 1_073_741_824.0;
-
-/// Whether the codes of four children are loaded at once. A GPU does not compute children side by
-/// side, and each of its loads costs the same, of a byte or a word.
-pub(crate) const READS_WORDS: bool = cfg!(target_arch = "nvptx64");
 
 /// The importance of each child of a node to a receiver.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,8 @@ pub(crate) struct Weights {
     pub(crate) total: f32,
     /// One over the unit of length that the weights are in.
     pub(crate) inv_unit: f32,
+    /// Whether one child, or four together, have more than [`MOST`] of the sum.
+    pub(crate) lopsided: bool,
 }
 
 impl Weights {
@@ -48,6 +50,7 @@ impl Weights {
         lanes: [0.0; WIDTH],
         total: 0.0,
         inv_unit: 1.0,
+        lopsided: false,
     };
 
     /// The weights of the children of `node` for `receiver`.
@@ -105,7 +108,7 @@ impl Weights {
         for weight in &mut self.lanes {
             *weight = LaneMask::when(*weight > 0.0).keep(larger(*weight, least));
         }
-        self.total = total(&self.lanes);
+        self.sum_up();
     }
 
     /// Sets the weights of children without a light in a `wanted` group to 0.
@@ -115,7 +118,32 @@ impl Weights {
         for (weight, groups) in self.lanes.iter_mut().zip(groups) {
             *weight = LaneMask::when(groups.is_wanted(wanted)).keep(*weight);
         }
+        self.sum_up();
+    }
+
+    /// Lets a function that is not inlined change the weights.
+    #[inline(always)]
+    pub(crate) fn change(&mut self, by: impl FnOnce(&mut Self)) {
+        // Where lanes are in registers a copy, for what a function may change through a reference is in
+        // memory. A GPU copies by bytes, and without an operating system the stack is short.
+        if cfg!(any(target_os = "none", target_arch = "nvptx64")) {
+            by(self);
+        } else {
+            let mut changed = *self;
+            by(&mut changed);
+            *self = changed;
+        }
+    }
+
+    /// Sets what is told of all lanes together.
+    #[cfg_attr(soft_floats, inline(never))]
+    #[cfg_attr(not(soft_floats), inline(always))]
+    pub(crate) fn sum_up(&mut self) {
         self.total = total(&self.lanes);
+        if !cfg!(soft_floats) {
+            let most = Vec4::splat(MOST * self.total);
+            self.lopsided = sums(&self.lanes).cmpgt(most).any();
+        }
     }
 
     /// About the irradiance by the lights of `node`, of which these are the weights, where all
@@ -170,7 +198,7 @@ impl Weights {
             }
         } else {
             for (k, weight) in lanes.iter_mut().enumerate() {
-                let child = frame.child(&node.child_codes(k), sheets);
+                let child = frame.child_at(node, k, sheets);
                 *weight = receiver.weigh(&child, frame.inv_unit);
                 note(k, &child);
             }
@@ -179,6 +207,7 @@ impl Weights {
             lanes,
             total: 0.0,
             inv_unit: frame.inv_unit,
+            lopsided: false,
         };
         weights.raise_to_least_share();
         weights
@@ -239,9 +268,15 @@ pub(crate) fn total(lanes: &[f32; WIDTH]) -> f32 {
         // The same sums in a loop: less code.
         return reduce(*lanes, |a, b| a + b);
     }
-    let four = |first: usize| Vec4::from_slice(&lanes[first..]);
-    let sums = (four(0) + four(8)) + (four(4) + four(12));
+    let sums = sums(lanes);
     (sums.x + sums.z) + (sums.y + sums.w)
+}
+
+/// The sum of all lanes in four parts.
+#[inline(always)]
+fn sums(lanes: &[f32; WIDTH]) -> Vec4 {
+    let four = |first: usize| Vec4::from_slice(&lanes[first..]);
+    (four(0) + four(8)) + (four(4) + four(12))
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ mod tests {
         Weights {
             lanes,
             total: total(&lanes),
-            inv_unit: 1.0,
+            ..Weights::NONE
         }
     }
 
