@@ -16,6 +16,8 @@ const LIGHT_LEAST_SHARE: f32 = 0.0009765625;
 const LIGHT_LEAST_SPREAD: f32 = 0.51961523;
 const LIGHT_LEAST_TOTAL: f32 = 1e-10;
 const LIGHT_MAX_REVISION: f32 = 16.0;
+const LIGHT_MAX_STEP_REVISION: f32 = 2.0;
+const LIGHT_MAX_STEP_RISE: f32 = 4.0;
 const LIGHT_MAX_ZOOM: f32 = 1073741800.0;
 const LIGHT_MIN_ALPHA: f32 = 0.01;
 const LIGHT_MIN_COS: f32 = 0.001;
@@ -1012,6 +1014,11 @@ fn light_is_step(node: ptr<function, LightNode>, word: u32, lane: u32) -> bool {
     return (((*node).rows[10][word] >> (8u * lane)) & 0x80u) != 0u;
 }
 
+// Whether a light of any child emits in a step.
+fn light_has_steps(node: ptr<function, LightNode>) -> bool {
+    return any(((*node).rows[10] & vec4<u32>(0x80808080u)) != vec4<u32>(0u));
+}
+
 // Whether a child that is a node is small in codes of this one.
 fn light_is_small(node: ptr<function, LightNode>, word: u32, lane: u32) -> bool {
     let extents = (*node).rows[3][word] | (*node).rows[4][word] | (*node).rows[5][word];
@@ -1112,7 +1119,7 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
     cut.inv_unit = 1.0;
     var totals: array<f32, LIGHT_CUT_NODES>;
     var count = select(0u, 1u, tree.node_count > 0u);
-    var limit = 0.0;
+    var root_total = 0.0;
     // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
     for (var index = 0u; index < count; index++) {
         var node = light_node(tree.nodes + 14u * cut.nodes[index]);
@@ -1122,14 +1129,14 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
         }
         weights = light_cut_scaled(weights, node.gain, cut.inv_unit);
         if index == 0u {
-            limit = LIGHT_CUT_THRESHOLD * light_total(weights.lanes);
+            root_total = light_total(weights.lanes);
         } else {
-            weights = light_cut_revised(weights, totals[index]);
+            weights = light_cut_revised(weights, totals[index], root_total, light_has_steps(&node));
         }
         var opened = 0u;
         for (var k = 0u; k < node.inner; k++) {
             let rough = weights.lanes[k >> 2u][k & 3u] * weights.angular_size_sq[k >> 2u][k & 3u];
-            opened |= select(0u, 1u << k, rough > limit);
+            opened |= select(0u, 1u << k, rough > LIGHT_CUT_THRESHOLD * root_total);
         }
         // A node whose children do not all fit opens none.
         if count + countOneBits(opened) > LIGHT_CUT_NODES {
@@ -1271,11 +1278,19 @@ fn light_cut_times(weights: LightWeights, factor: f32) -> LightWeights {
     return scaled;
 }
 
-// Weights of an opened node, together within LIGHT_MAX_REVISION of what the group was estimated at.
-// Choices within the node do not need it: there only ratios count.
-fn light_cut_revised(weights: LightWeights, expected: f32) -> LightWeights {
+// Weights of an opened node, together within some times what the group was estimated at. Choices
+// within the node do not need it: there only ratios count.
+fn light_cut_revised(
+    weights: LightWeights,
+    expected: f32,
+    root_total: f32,
+    has_steps: bool,
+) -> LightWeights {
     let ratio = min(expected / max(light_total(weights.lanes), LIGHT_MIN), LIGHT_MAX);
-    let revision = min(ratio * LIGHT_MAX_REVISION, max(ratio / LIGHT_MAX_REVISION, 1.0));
+    let rise = 1.0 + LIGHT_MAX_STEP_RISE * (root_total / max(expected, LIGHT_MIN));
+    let most = select(LIGHT_MAX_REVISION, min(rise, LIGHT_MAX_REVISION), has_steps);
+    let less = select(LIGHT_MAX_REVISION, LIGHT_MAX_STEP_REVISION, has_steps);
+    let revision = min(ratio * most, max(ratio / less, 1.0));
     return light_cut_times(weights, revision);
 }
 

@@ -1,6 +1,6 @@
 //! What a port of the queries to another language has to know.
 
-use crate::cut::grow::MAX_REVISION;
+use crate::cut::grow::{MAX_REVISION, MAX_STEP_REVISION, MAX_STEP_RISE};
 use crate::cut::light_cut;
 use crate::importance::child_importance::{
     BOX_EMISSION, DOUBT, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
@@ -20,7 +20,7 @@ use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM, MOST};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 36] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 38] = [
     ("BENT", BENT),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
@@ -35,6 +35,8 @@ pub const QUERY_CONSTANTS: [(&str, f32); 36] = [
     ("LEAST_SPREAD", LEAST_SPREAD),
     ("LEAST_TOTAL", LEAST_TOTAL),
     ("MAX_REVISION", MAX_REVISION),
+    ("MAX_STEP_REVISION", MAX_STEP_REVISION),
+    ("MAX_STEP_RISE", MAX_STEP_RISE),
     ("MAX_ZOOM", MAX_ZOOM),
     ("MIN_ALPHA", MIN_ALPHA),
     ("MIN_COS", MIN_COS),

@@ -16,6 +16,13 @@ use crate::simd::dispatch;
 /// the receiver, or a beam beside it, would take nearly all of the choices from the other groups.
 pub(crate) const MAX_REVISION: f32 = 16.0;
 
+/// How many times less a group may count where lights emit in steps: children at the edges of their
+/// beams tell no more than the mean of all. Chosen by V: see `docs/light-bvh.md`.
+pub(crate) const MAX_STEP_REVISION: f32 = 2.0;
+
+/// How many times the weights of the root such a group may count more. Chosen by V.
+pub(crate) const MAX_STEP_RISE: f32 = 4.0;
+
 impl<'a> LightBvhRef<'a> {
     /// A cut through the tree for `receiver`, for several choices there.
     #[must_use]
@@ -72,7 +79,7 @@ impl Query for Grow<'_, '_> {
             into: cut,
         } = self;
         let mut count = usize::from(!tree.is_empty());
-        let mut limit = 0.0;
+        let (mut root_total, mut limit) = (0.0, 0.0);
         let mut index = 0;
         // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
         while index < count {
@@ -89,7 +96,14 @@ impl Query for Grow<'_, '_> {
             tree.prefetch_below(node);
             let mut scale = weights.scale_to(cut.inv_unit, node.gain());
             if index > 0 {
-                let revision = revision(weights.total * scale, cut.totals[index]);
+                let expected = cut.totals[index];
+                let (least, most) = if node.has_steps() {
+                    let rise = MAX_STEP_RISE * (root_total / expected);
+                    (1.0 / MAX_STEP_REVISION, MAX_REVISION.min(1.0 + rise))
+                } else {
+                    (1.0 / MAX_REVISION, MAX_REVISION)
+                };
+                let revision = revision(weights.total * scale, expected, least, most);
                 scale = positive_product(scale, revision).min(f32::MAX);
             }
             let lanes = &mut weights.lanes;
@@ -98,7 +112,8 @@ impl Query for Grow<'_, '_> {
             }
             if index == 0 {
                 // Not a number counts as 0.
-                limit = detail.threshold.max(0.0) * total(lanes);
+                root_total = total(lanes);
+                limit = detail.threshold.max(0.0) * root_total;
             }
             let open_weights = open_weights(lanes, &angular_size_sq, node.inner);
             let mask = mask_above(&open_weights, limit);
@@ -152,12 +167,12 @@ impl CutNodes {
     }
 }
 
-/// The factor that brings the weights of a node, `total` together, within [`MAX_REVISION`] of what
-/// the group was estimated at, `expected`.
+/// The factor that brings the weights of a node, `total` together, between `least` and `most` times
+/// what the group was estimated at, `expected`.
 #[inline(always)]
-fn revision(total: f32, expected: f32) -> f32 {
+fn revision(total: f32, expected: f32, least: f32, most: f32) -> f32 {
     let ratio = (expected / total.max(f32::MIN_POSITIVE)).min(f32::MAX);
-    (ratio * MAX_REVISION).min((ratio * (1.0 / MAX_REVISION)).max(1.0))
+    (ratio * most).min((ratio * least).max(1.0))
 }
 
 /// How rough the estimate of each child is: its weight times the square of its angular size; 0 for
@@ -276,10 +291,10 @@ mod tests {
             (0.5, f32::MIN_POSITIVE, f32::MIN_POSITIVE * 16.0),
             (0.0, 1.0, 0.0),
         ] {
-            let revised = total * revision(total, expected);
+            let revised = total * revision(total, expected, 1.0 / 16.0, 16.0);
             assert_eq!(revised, counts_for, "{total} for {expected}");
         }
-        let revised = f32::MIN_POSITIVE * revision(f32::MIN_POSITIVE, f32::MAX);
+        let revised = f32::MIN_POSITIVE * revision(f32::MIN_POSITIVE, f32::MAX, 1.0 / 16.0, 16.0);
         assert!(revised > 0.0 && revised < f32::MAX, "{revised}");
     }
 

@@ -67,11 +67,18 @@ impl WideNode {
     pub(crate) const fn is_step(&self, k: usize) -> bool {
         SpreadCode(self.spread[k]).step().is_set()
     }
+
+    /// Whether a light of any child does.
+    #[inline]
+    pub(crate) const fn has_steps(&self) -> bool {
+        u128::from_ne_bytes(self.spread) & (u128::MAX / 0xff * 0x80) != 0
+    }
 }
 
 #[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
+    use crate::node::wide_node::WIDTH;
 
     #[test]
     fn codes_come_back_and_spreads_are_rounded_up() {
@@ -95,5 +102,17 @@ mod tests {
         assert!((122.0..123.0).contains(&largest), "the largest: {largest}");
         let least_sq = LEAST_SPREAD * LEAST_SPREAD;
         assert!((least_sq - RAMP_BY_SPREAD).abs() < 1e-7, "of a flat light");
+    }
+
+    #[test]
+    fn a_node_has_steps_if_one_child_does() {
+        let mut node = WideNode::EMPTY;
+        node.spread.fill(SpreadCode::new(122.0, false, true).0);
+        assert!(!node.has_steps(), "all are ramps");
+        for k in 0..WIDTH {
+            let ramp = core::mem::replace(&mut node.spread[k], SpreadCode::new(0.0, true, false).0);
+            assert!(node.has_steps(), "{k}");
+            node.spread[k] = ramp;
+        }
     }
 }
