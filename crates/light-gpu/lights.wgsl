@@ -916,8 +916,8 @@ fn light_capped(
     }
     let word = k >> 2u;
     let lane = k & 3u;
-    let is_group = k < (*node).inner;
-    if k == 16u || (is_group && !light_has_lights(tree, (*node).child_base + k)) {
+    let is_subtree = k < (*node).inner;
+    if k == 16u || (is_subtree && !light_has_lights(tree, (*node).child_base + k)) {
         return weights;
     }
     let children = light_children(node, light_frame_in_codes(*node, receiver.p), word);
@@ -925,8 +925,8 @@ fn light_capped(
     if !(likelihood < 1.0) {
         return weights;
     }
-    let of_group = select(1.0, LIGHT_MORE_ODDS, is_group);
-    let of_step = select(1.0, LIGHT_MORE_ODDS, light_is_step(node, word, lane));
+    let of_group = select(1.0, LIGHT_MORE_ODDS, children.soft[lane]);
+    let of_step = select(1.0, LIGHT_MORE_ODDS, children.step[lane]);
     let odds = LIGHT_ODDS * of_group * of_step;
     let weight = weights.lanes[word][lane];
     var capped = weights;

@@ -30,28 +30,30 @@ impl LightBvhRef<'_> {
     ) {
         // Where floats are routines the sum does not tell.
         if cfg!(soft_floats) || weights.lopsided {
-            weights.change(|weights| self.cap(node, receiver, weights));
+            weights.change(|weights| self.cap_largest(node, receiver, weights));
         }
     }
 
-    /// If the child gives all light with a probability of `f`, and otherwise none, variance is least
+    /// Lets the child that has most of the weights count for no more than [`ODDS`] allow.
+    ///
+    /// If a child gives all light with a probability of `f`, and otherwise none, variance is least
     /// where it is chosen with odds of `sqrt(f / (1 - f))`. As the weights have it, it would be chosen
     /// nearly always, however small `f` is, where it is far nearer than the others.
     #[cold]
     #[inline(never)]
-    fn cap<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
+    fn cap_largest<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
         let most = MOST * weights.total;
         let Some(k) = weights.lanes.iter().position(|&weight| weight > most) else {
             return;
         };
-        let is_group = k < usize::from(node.inner);
-        let child = self.nodes().get(node.child_base as usize + k);
-        if is_group && child.is_none_or(WideNode::has_subtrees_only) {
+        let below = self.nodes().get(node.child_base as usize + k);
+        if k < usize::from(node.inner) && below.is_none_or(WideNode::has_subtrees_only) {
             return;
         }
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let likelihood = receiver.likelihood(&frame.child_at(node, k, node.has_sheets()));
-        let odds = ODDS_OF[usize::from(is_group) + usize::from(node.is_step(k))];
+        let child = frame.child_at(node, k, node.has_sheets());
+        let likelihood = receiver.likelihood(&child);
+        let odds = ODDS_OF[usize::from(child.soft.is_set()) + usize::from(child.step.is_set())];
         let best = float::sqrt(likelihood / (1.0 - likelihood));
         let weight = core::mem::take(&mut weights.lanes[k]);
         let cap = total(&weights.lanes) * (odds * best);
