@@ -909,33 +909,52 @@ fn light_capped(
     receiver: LightReceiver,
     weights: LightWeights,
 ) -> LightWeights {
-    let most = LIGHT_MOST * weights.total;
+    let k = light_child_above(weights, LIGHT_MOST * weights.total);
+    if k == 16u {
+        return weights;
+    }
+    let weight = weights.lanes[k >> 2u][k & 3u];
+    var capped = weights;
+    capped.lanes[k >> 2u][k & 3u] = 0.0;
+    let rest = light_total(capped.lanes);
+    capped.lanes[k >> 2u][k & 3u] = light_cap(tree, node, receiver, k, weight, rest);
+    capped.total = light_total(capped.lanes);
+    return capped;
+}
+
+// The first child whose weight is above `limit`, or 16.
+fn light_child_above(weights: LightWeights, limit: f32) -> u32 {
     var k = 0u;
-    while k < 16u && !(weights.lanes[k >> 2u][k & 3u] > most) {
+    while k < 16u && !(weights.lanes[k >> 2u][k & 3u] > limit) {
         k++;
     }
-    let word = k >> 2u;
-    let lane = k & 3u;
-    let is_subtree = k < (*node).inner;
-    if k == 16u || (is_subtree && !light_has_lights(tree, (*node).child_base + k)) {
-        return weights;
+    return k;
+}
+
+// What child k counts for if the weights of all others are `rest` together: at most its largest
+// odds allow.
+fn light_cap(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+    k: u32,
+    weight: f32,
+    rest: f32,
+) -> f32 {
+    if k < (*node).inner && !light_has_lights(tree, (*node).child_base + k) {
+        return weight;
     }
-    let children = light_children(node, light_frame_in_codes(*node, receiver.p), word);
+    let lane = k & 3u;
+    let children = light_children(node, light_frame_in_codes(*node, receiver.p), k >> 2u);
     let likelihood = light_likelihood(receiver, children)[lane];
     if !(likelihood < 1.0) {
-        return weights;
+        return weight;
     }
     let of_group = select(1.0, LIGHT_MORE_ODDS, children.soft[lane]);
     let of_step = select(1.0, LIGHT_MORE_ODDS, children.step[lane]);
     let odds = LIGHT_ODDS * of_group * of_step;
-    let weight = weights.lanes[word][lane];
-    var capped = weights;
-    capped.lanes[word][lane] = 0.0;
-    let rest = light_total(capped.lanes);
     let cap = rest * (odds * sqrt(likelihood / (1.0 - likelihood)));
-    capped.lanes[word][lane] = select(weight, cap, cap > 0.0 && cap < weight);
-    capped.total = light_total(capped.lanes);
-    return capped;
+    return select(weight, cap, cap > 0.0 && cap < weight);
 }
 
 // Whether a node holds single lights.
@@ -1107,6 +1126,10 @@ struct LightCut {
     count: u32,
     // Of all weights.
     sum: f32,
+    // A child that has most of them, and by what its weight is multiplied: 16 times the place of its
+    // node, and which of its children.
+    capped: u32,
+    cap: f32,
     // One over the root's unit of length.
     inv_unit: f32,
 }
@@ -1117,13 +1140,14 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
     cut.tree = tree;
     cut.receiver = receiver;
     cut.inv_unit = 1.0;
+    cut.capped = LIGHT_NOWHERE;
     var totals: array<f32, LIGHT_CUT_NODES>;
     var count = select(0u, 1u, tree.node_count > 0u);
     var root_total = 0.0;
     // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
     for (var index = 0u; index < count; index++) {
         var node = light_node(tree.nodes + 14u * cut.nodes[index]);
-        var weights = light_resolved_weights(tree, &node, receiver);
+        var weights = light_weights_ahead(tree, &node, receiver);
         if index == 0u {
             cut.inv_unit = weights.inv_unit;
         }
@@ -1154,6 +1178,7 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
         cut.sum += totals[index];
     }
     cut.count = count;
+    light_cut_cap(&cut, &totals);
     let scale = min((65536.0 - f32(LIGHT_CUT_NODES)) / cut.sum, LIGHT_MAX);
     var left_over = 65536u;
     for (var index = 0u; index < count; index++) {
@@ -1169,6 +1194,45 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
         cut.ends[index] = end;
     }
     return cut;
+}
+
+// Leaves some of the choices to the others where one child has most of the weights of the cut, and it
+// is uncertain whether its light reaches the receiver.
+fn light_cut_cap(
+    cut: ptr<function, LightCut>,
+    totals: ptr<function, array<f32, LIGHT_CUT_NODES>>,
+) {
+    let most = LIGHT_MOST * (*cut).sum;
+    var index = 0u;
+    while index < (*cut).count && !((*totals)[index] > most) {
+        index++;
+    }
+    if index == (*cut).count {
+        return;
+    }
+    let tree = (*cut).tree;
+    var node = light_node(tree.nodes + 14u * (*cut).nodes[index]);
+    var weights = light_cut_weights(cut, &node, index);
+    // What its weights count for in the cut.
+    let revision = (*totals)[index] / weights.total;
+    let k = light_child_above(weights, most / revision);
+    if k == 16u {
+        return;
+    }
+    let weight = weights.lanes[k >> 2u][k & 3u] * revision;
+    weights.lanes[k >> 2u][k & 3u] = 0.0;
+    let in_node = light_total(weights.lanes) * revision;
+    var rest = in_node;
+    for (var other = 0u; other < (*cut).count; other++) {
+        rest += select((*totals)[other], 0.0, other == index);
+    }
+    let capped = light_cap(tree, &node, (*cut).receiver, k, weight, rest);
+    if capped < weight {
+        (*cut).capped = 16u * index + k;
+        (*cut).cap = capped / weight;
+        (*totals)[index] = in_node + capped;
+        (*cut).sum = rest + capped;
+    }
 }
 
 // A light. For several choices it takes light_fraction_stratum of each.
@@ -1257,9 +1321,16 @@ fn light_cut_weights(
     node: ptr<function, LightNode>,
     index: u32,
 ) -> LightWeights {
-    let weights = light_resolved_weights((*cut).tree, node, (*cut).receiver);
+    let weights = light_weights_ahead((*cut).tree, node, (*cut).receiver);
     let scaled = light_cut_scaled(weights, (*node).gain, (*cut).inv_unit);
-    return light_cut_unopened(scaled, (*cut).opened[index]);
+    var unopened = light_cut_unopened(scaled, (*cut).opened[index]);
+    if (*cut).capped >> 4u == index {
+        let k = (*cut).capped & 15u;
+        let weight = unopened.lanes[k >> 2u][k & 3u];
+        unopened.lanes[k >> 2u][k & 3u] = light_positive_product(weight, (*cut).cap);
+        unopened.total = light_total(unopened.lanes);
+    }
+    return unopened;
 }
 
 // Weights of a node in the root's unit.

@@ -22,6 +22,13 @@ pub(crate) fn dot([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> f32 {
     ax * bx + ay * by + az * bz
 }
 
+/// About how likely a number is above 0, of which the mean and the root of the mean square are known.
+#[cfg_attr(soft_floats, inline(never))]
+#[cfg_attr(not(soft_floats), inline(always))]
+pub(crate) fn likely_above_zero(mean: f32, root: f32) -> f32 {
+    0.5 + 0.5 * mean / root
+}
+
 /// All ones or all zeros: a condition of a lane, in as many bits as the numbers that it selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LaneMask(u32);

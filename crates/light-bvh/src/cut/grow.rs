@@ -9,7 +9,8 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query, QueryFor};
-use crate::query::weights::{Weights, total};
+use crate::query::uncertain::is_between_zero_and;
+use crate::query::weights::{MOST, Weights, total};
 use crate::simd::dispatch;
 
 /// How many times less or more an opened group may count than it was estimated: a few lights near
@@ -89,7 +90,6 @@ impl Query for Grow<'_, '_> {
             let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
             tree.look_ahead(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
-            tree.cap_uncertain(node, receiver, &mut weights);
             if index == 0 {
                 cut.inv_unit = weights.inv_unit;
             }
@@ -140,11 +140,42 @@ impl Query for Grow<'_, '_> {
             index += 1;
         }
         cut.count = index;
+        let most = MOST * cut.sum;
+        if let Some(index) = cut.totals[..index].iter().position(|&total| total > most) {
+            cut.cap_uncertain(tree, receiver, index);
+        }
         cut.share_parts();
     }
 }
 
 impl CutNodes {
+    /// Leaves some of the choices to the others where one child has most of the weights of the cut, and
+    /// its lights may not reach the receiver: a child of the node that has most of them.
+    #[cold]
+    #[inline(never)]
+    fn cap_uncertain<R: Receiver>(&mut self, tree: &LightBvhRef<'_>, receiver: &R, index: usize) {
+        let most = MOST * self.sum;
+        let largest = self.weights[index].iter().position(|&weight| weight > most);
+        let (Some(k), Some(node)) = (largest, tree.nodes().get(self.nodes[index] as usize)) else {
+            return;
+        };
+        let Some(odds) = tree.most_odds(node, receiver, k) else {
+            return;
+        };
+        let weight = core::mem::take(&mut self.weights[index][k]);
+        let cap = self.sum_up(index) * odds;
+        let is_capped = is_between_zero_and(weight, cap);
+        self.weights[index][k] = if is_capped { cap } else { weight };
+        self.sum_up(index);
+    }
+
+    /// Sets the sums after weights of a node have changed; the sum of all.
+    fn sum_up(&mut self, index: usize) -> f32 {
+        self.totals[index] = total(&self.weights[index]);
+        self.sum = self.totals[..self.count].iter().sum();
+        self.sum
+    }
+
     /// Shares the parts of the choice between the nodes, by [`discrete`](light_math::discrete)'s
     /// rule.
     #[inline(always)]

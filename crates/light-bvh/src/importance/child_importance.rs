@@ -2,7 +2,7 @@ use light_math::float;
 use light_math::glam::Vec3;
 
 use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
-use crate::lane_math::{LaneMask, dot, larger};
+use crate::lane_math::{LaneMask, dot, larger, likely_above_zero};
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
 /// axis. Chosen by V: see `docs/light-bvh.md`.
@@ -163,7 +163,8 @@ impl ChildView {
     pub(crate) fn likelihood(&self) -> f32 {
         let beyond = self.beyond(&self.displacement());
         let root = self.root(beyond, self.width_sq(), self.dist_sq);
-        self.both_sides.select(1.0, 0.5 - 0.5 * beyond / root)
+        self.both_sides
+            .select(1.0, likely_above_zero(-beyond, root))
     }
 
     /// Whether the child is a group of lights none of which emits in a step.

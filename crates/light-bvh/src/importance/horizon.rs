@@ -4,7 +4,7 @@ use light_math::glam::Vec3;
 #[cfg(feature = "alloc")]
 use crate::importance::child_importance::FAR_SQ;
 use crate::importance::child_view::ChildView;
-use crate::lane_math::{LaneMask, dot, larger};
+use crate::lane_math::{LaneMask, dot, larger, likely_above_zero};
 
 /// How much of the squared half extents of a child, along the normal, counts as variance of its
 /// height over the horizon: a little more than that of lights which fill the box evenly, 1/3.
@@ -98,7 +98,7 @@ impl HalfHeight {
     /// How likely it is that a light is above the plane.
     #[inline]
     pub(crate) fn likelihood(&self) -> f32 {
-        0.5 + 0.5 * self.mean / self.root()
+        likely_above_zero(self.mean, self.root())
     }
 
     /// About half of the mean distance of lights from the plane, up or down; at least `slack`.

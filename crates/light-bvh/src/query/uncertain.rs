@@ -34,11 +34,6 @@ impl LightBvhRef<'_> {
         }
     }
 
-    /// Lets the child that has most of the weights count for no more than [`ODDS`] allow.
-    ///
-    /// If a child gives all light with a probability of `f`, and otherwise none, variance is least
-    /// where it is chosen with odds of `sqrt(f / (1 - f))`. As the weights have it, it would be chosen
-    /// nearly always, however small `f` is, where it is far nearer than the others.
     #[cold]
     #[inline(never)]
     fn cap_largest<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
@@ -46,25 +41,51 @@ impl LightBvhRef<'_> {
         let Some(k) = weights.lanes.iter().position(|&weight| weight > most) else {
             return;
         };
-        let below = self.nodes().get(node.child_base as usize + k);
-        if k < usize::from(node.inner) && below.is_none_or(WideNode::has_subtrees_only) {
+        let Some(odds) = self.most_odds(node, receiver, k) else {
             return;
-        }
-        let frame = NodeFrame::in_codes(node, receiver.position());
-        let child = frame.child_at(node, k, node.has_sheets());
-        let likelihood = receiver.likelihood(&child);
-        let odds = ODDS_OF[usize::from(child.soft.is_set()) + usize::from(child.step.is_set())];
-        let best = float::sqrt(likelihood / (1.0 - likelihood));
+        };
         let weight = core::mem::take(&mut weights.lanes[k]);
-        let cap = total(&weights.lanes) * (odds * best);
+        let cap = total(&weights.lanes) * odds;
         // Not by the smaller one: what comes next need not wait for `cap`.
-        if cap > 0.0 && cap < weight {
+        if is_between_zero_and(weight, cap) {
             weights.lanes[k] = cap;
             weights.sum_up();
         } else {
             weights.lanes[k] = weight;
         }
     }
+
+    /// The largest odds of child `k`; `None` of a group of subtrees.
+    ///
+    /// If a child gives all light with a probability of `f`, and otherwise none, variance is least
+    /// where it is chosen with odds of `sqrt(f / (1 - f))`. As the weights have it, it would be chosen
+    /// nearly always, however small `f` is, where it is far nearer than the others.
+    // On a GPU one function for both places that call it.
+    #[cfg_attr(target_arch = "nvptx64", inline(never))]
+    #[cfg_attr(not(target_arch = "nvptx64"), inline(always))]
+    pub(crate) fn most_odds<R: Receiver>(
+        &self,
+        node: &WideNode,
+        receiver: &R,
+        k: usize,
+    ) -> Option<f32> {
+        let below = self.nodes().get(node.child_base as usize + k);
+        if k < usize::from(node.inner) && below.is_none_or(WideNode::has_subtrees_only) {
+            return None;
+        }
+        let frame = NodeFrame::in_codes(node, receiver.position());
+        let child = frame.child_at(node, k, node.has_sheets());
+        let likelihood = receiver.likelihood(&child);
+        let odds = ODDS_OF[usize::from(child.soft.is_set()) + usize::from(child.step.is_set())];
+        Some(odds * float::sqrt(likelihood / (1.0 - likelihood)))
+    }
+}
+
+/// Whether `x` is above 0 and below `limit`, both not negative: a test of integers, for the bits of
+/// such floats have their order, and those of what is not a number come after them.
+#[inline(always)]
+pub(crate) const fn is_between_zero_and(limit: f32, x: f32) -> bool {
+    0 < x.to_bits() && x.to_bits() < limit.to_bits()
 }
 
 #[cfg(all(test, feature = "alloc"))]
