@@ -1147,7 +1147,7 @@ fn light_tree_cut(tree: LightTree, receiver: LightReceiver) -> LightCut {
     // Breadth first: the cap, if it is reached, cuts all branches at the same depth.
     for (var index = 0u; index < count; index++) {
         var node = light_node(tree.nodes + 14u * cut.nodes[index]);
-        var weights = light_weights_ahead(tree, &node, receiver);
+        var weights = light_cut_own_weights(tree, &node, receiver);
         if index == 0u {
             cut.inv_unit = weights.inv_unit;
         }
@@ -1321,7 +1321,7 @@ fn light_cut_weights(
     node: ptr<function, LightNode>,
     index: u32,
 ) -> LightWeights {
-    let weights = light_weights_ahead((*cut).tree, node, (*cut).receiver);
+    let weights = light_cut_own_weights((*cut).tree, node, (*cut).receiver);
     let scaled = light_cut_scaled(weights, (*node).gain, (*cut).inv_unit);
     var unopened = light_cut_unopened(scaled, (*cut).opened[index]);
     if (*cut).capped >> 4u == index {
@@ -1331,6 +1331,19 @@ fn light_cut_weights(
         unopened.total = light_total(unopened.lanes);
     }
     return unopened;
+}
+
+// Weights of a node, in which children are capped where lights emit in steps.
+fn light_cut_own_weights(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+) -> LightWeights {
+    let weights = light_weights_ahead(tree, node, receiver);
+    if !light_has_steps(node) {
+        return weights;
+    }
+    return light_capped(tree, node, receiver, weights);
 }
 
 // Weights of a node in the root's unit.
