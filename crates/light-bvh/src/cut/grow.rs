@@ -90,7 +90,7 @@ impl Query for Grow<'_, '_> {
             let (mut weights, angular_size_sq) = Weights::with_angular_size(node, receiver);
             tree.look_ahead(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
-            // By the whole cut, below, only where no light is a beam: chosen by V.
+            // Children of other nodes are capped by the whole cut alone, below. Chosen by V.
             if node.has_steps() {
                 tree.cap_uncertain(node, receiver, &mut weights);
             }

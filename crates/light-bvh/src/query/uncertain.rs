@@ -34,6 +34,8 @@ impl LightBvhRef<'_> {
         }
     }
 
+    /// Lets the child that has most of the weights, if one has, count for no more than its largest odds
+    /// allow. A function of its own: other nodes pay for one test.
     #[cold]
     #[inline(never)]
     fn cap_largest<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
