@@ -9,7 +9,6 @@ use crate::importance::receiver::Receiver;
 use crate::node::wide_node::WIDTH;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::into_receiver::{IntoReceiver, KeptReceiver, Query, QueryFor};
-use crate::query::uncertain::is_between_zero_and;
 use crate::query::weights::{MOST, Weights, total};
 use crate::simd::dispatch;
 
@@ -91,7 +90,8 @@ impl Query for Grow<'_, '_> {
             tree.look_ahead(node, receiver, &mut weights);
             tree.leave_out(cut.nodes[index] as usize, &mut weights);
             // Children of other nodes are capped by the whole cut alone, below. Chosen by V.
-            if node.has_steps() {
+            let has_steps = node.has_steps();
+            if has_steps {
                 tree.cap_uncertain(node, receiver, &mut weights);
             }
             if index == 0 {
@@ -101,7 +101,7 @@ impl Query for Grow<'_, '_> {
             let mut scale = weights.scale_to(cut.inv_unit, node.gain());
             if index > 0 {
                 let expected = cut.totals[index];
-                let (least, most) = if node.has_steps() {
+                let (least, most) = if has_steps {
                     let rise = MAX_STEP_RISE * (root_total / expected);
                     (1.0 / MAX_STEP_REVISION, MAX_REVISION.min(1.0 + rise))
                 } else {
@@ -163,13 +163,9 @@ impl CutNodes {
         let (Some(k), Some(node)) = (largest, tree.nodes().get(self.nodes[index] as usize)) else {
             return;
         };
-        let Some(odds) = tree.most_odds(node, receiver, k) else {
-            return;
-        };
         let weight = core::mem::take(&mut self.weights[index][k]);
-        let cap = self.sum_up(index) * odds;
-        let is_capped = is_between_zero_and(weight, cap);
-        self.weights[index][k] = if is_capped { cap } else { weight };
+        let rest = self.sum_up(index);
+        self.weights[index][k] = tree.capped(node, receiver, k, (weight, rest));
         self.sum_up(index);
     }
 

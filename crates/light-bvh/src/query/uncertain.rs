@@ -43,17 +43,28 @@ impl LightBvhRef<'_> {
         let Some(k) = weights.lanes.iter().position(|&weight| weight > most) else {
             return;
         };
-        let Some(odds) = self.most_odds(node, receiver, k) else {
-            return;
-        };
         let weight = core::mem::take(&mut weights.lanes[k]);
-        let cap = total(&weights.lanes) * odds;
-        // Not by the smaller one: what comes next need not wait for `cap`.
-        if is_between_zero_and(weight, cap) {
-            weights.lanes[k] = cap;
-            weights.sum_up();
-        } else {
-            weights.lanes[k] = weight;
+        let rest = total(&weights.lanes);
+        weights.lanes[k] = self.capped(node, receiver, k, (weight, rest));
+        weights.sum_up();
+    }
+
+    /// What child `k` of `node`, of this `weight`, counts for where those of all others are `rest`
+    /// together: no more than its largest odds allow.
+    // On a GPU one function for both places that call it.
+    #[cfg_attr(target_arch = "nvptx64", inline(never))]
+    #[cfg_attr(not(target_arch = "nvptx64"), inline(always))]
+    pub(crate) fn capped<R: Receiver>(
+        &self,
+        node: &WideNode,
+        receiver: &R,
+        k: usize,
+        (weight, rest): (f32, f32),
+    ) -> f32 {
+        let odds = self.most_odds(node, receiver, k);
+        match odds.map(|odds| rest * odds) {
+            Some(cap) if is_between_zero_and(weight, cap) => cap,
+            _ => weight,
         }
     }
 
@@ -62,15 +73,8 @@ impl LightBvhRef<'_> {
     /// If a child gives all light with a probability of `f`, and otherwise none, variance is least
     /// where it is chosen with odds of `sqrt(f / (1 - f))`. As the weights have it, it would be chosen
     /// nearly always, however small `f` is, where it is far nearer than the others.
-    // On a GPU one function for both places that call it.
-    #[cfg_attr(target_arch = "nvptx64", inline(never))]
-    #[cfg_attr(not(target_arch = "nvptx64"), inline(always))]
-    pub(crate) fn most_odds<R: Receiver>(
-        &self,
-        node: &WideNode,
-        receiver: &R,
-        k: usize,
-    ) -> Option<f32> {
+    #[inline(always)]
+    fn most_odds<R: Receiver>(&self, node: &WideNode, receiver: &R, k: usize) -> Option<f32> {
         let below = self.nodes().get(node.child_base as usize + k);
         if k < usize::from(node.inner) && below.is_none_or(WideNode::has_subtrees_only) {
             return None;
@@ -86,7 +90,7 @@ impl LightBvhRef<'_> {
 /// Whether `x` is above 0 and below `limit`, both not negative: a test of integers, for the bits of
 /// such floats have their order, and those of what is not a number come after them.
 #[inline(always)]
-pub(crate) const fn is_between_zero_and(limit: f32, x: f32) -> bool {
+const fn is_between_zero_and(limit: f32, x: f32) -> bool {
     0 < x.to_bits() && x.to_bits() < limit.to_bits()
 }
 
