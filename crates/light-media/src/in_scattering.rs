@@ -5,7 +5,7 @@ use crate::transmittance;
 use light_bounds::{LightId, LightSampleContext};
 use light_math::glam::{Vec2, Vec3};
 use light_samplers::LightSampler;
-use light_sources::{ColorModel, Light, LightSet, LightType, PdfCoverage, Radiance};
+use light_sources::{ColorModel, Light, LightSet, PdfCoverage, Radiance};
 
 /// The visibility queries of the integrators.
 pub trait Visibility {
@@ -114,10 +114,11 @@ where
             return C::Radiance::BLACK;
         }
         let ray = Ray { o: at.p, d: li.wi };
-        let distance = match light.light_type() {
-            LightType::DeltaPosition | LightType::Area => at.p.distance(li.p_light),
-            // An unbounded medium lets nothing through from infinity.
-            LightType::DeltaDirection | LightType::Infinite => f32::INFINITY,
+        // An unbounded medium lets nothing through from infinity.
+        let distance = if light.light_type().is_infinite() {
+            f32::INFINITY
+        } else {
+            at.p.distance(li.p_light)
         };
         let step = self.shadow_step;
         let left = Span::new(0.0, distance).map_or(C::Radiance::splat(1.0), |span| {

@@ -42,8 +42,8 @@ pub trait Light<C: ColorModel> {
         coverage: PdfCoverage,
     ) -> Option<LightLiSample<C::Radiance>>;
 
-    /// Density in sr^-1 with which [`sample_li`](Self::sample_li) chooses `wi`; 0 for Dirac lights,
-    /// and for directions that miss the light.
+    /// Density in sr^-1 with which [`sample_li`](Self::sample_li) chooses `wi`; 0 for lights in one
+    /// point or one direction, and for directions that miss the light.
     fn pdf_li(&self, ctx: &LightSampleContext, wi: Vec3, coverage: PdfCoverage) -> f32;
 
     /// A ray that leaves the light, chosen by `u1` and `u2`, both uniform in `[0, 1)^2`.

@@ -10,7 +10,7 @@ pub struct LightLiSample<R> {
     pub l: R,
     /// Unit direction toward the light.
     pub wi: Vec3,
-    /// Density of `wi` in sr^-1, never 0; 1 for Dirac lights.
+    /// Density of `wi` in sr^-1, never 0; 1 for lights in one point or one direction.
     pub pdf: f32,
     /// The point on the light, where a shadow ray ends. For a light at infinity a point outside of
     /// the scene.

@@ -1,7 +1,8 @@
 /// The kind of a light by how its light arrives, which decides how MIS treats it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LightType {
-    /// All light comes from one point, which no ray hits: no multiple importance sampling.
+    /// All light comes from one point, which no ray hits, or from a surface that rays do not meet: no
+    /// multiple importance sampling.
     DeltaPosition,
     /// All light comes from one direction, which no ray has by chance.
     DeltaDirection,
@@ -12,17 +13,18 @@ pub enum LightType {
 }
 
 impl LightType {
-    /// Whether the light is a Dirac, so that only [`sample_li`](crate::Light::sample_li) can find
-    /// it.
+    /// Whether only [`sample_li`](crate::Light::sample_li) can find the light: a Dirac, or a surface
+    /// that rays do not meet.
     #[must_use]
     pub const fn is_delta(self) -> bool {
         matches!(self, Self::DeltaPosition | Self::DeltaDirection)
     }
 
-    /// Whether rays that leave the scene find the light.
+    /// Whether light arrives from infinitely far away: in one direction or, for rays that leave the
+    /// scene, in many.
     #[must_use]
     pub const fn is_infinite(self) -> bool {
-        matches!(self, Self::Infinite)
+        matches!(self, Self::DeltaDirection | Self::Infinite)
     }
 }
 
@@ -31,10 +33,10 @@ mod tests {
     use super::LightType::{Area, DeltaDirection, DeltaPosition, Infinite};
 
     #[test]
-    fn each_type_is_dirac_or_infinite_or_a_surface() {
+    fn each_type_is_a_dirac_or_not_and_near_or_not() {
         for (light_type, expected) in [
             (DeltaPosition, [true, false]),
-            (DeltaDirection, [true, false]),
+            (DeltaDirection, [true, true]),
             (Area, [false, false]),
             (Infinite, [false, true]),
         ] {

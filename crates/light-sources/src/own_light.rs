@@ -77,10 +77,7 @@ impl<C: ColorModel> OwnLight<C> {
     }
 
     pub(crate) fn is_infinite(&self) -> bool {
-        matches!(
-            self.light_type(),
-            LightType::DeltaDirection | LightType::Infinite
-        )
+        self.light_type().is_infinite()
     }
 
     pub(crate) fn l(

@@ -2,12 +2,7 @@ use crate::color::{ColorModel, Radiance};
 use crate::flux::Flux;
 use crate::glam::Vec3;
 use light_math::spectrum::photometric::K_M;
-
-/// The luminance of the primaries of sRGB.
-///
-/// # Source
-/// IEC 61966-2-1, the row Y of the matrix to XYZ.
-const LUMINANCE: Vec3 = Vec3::new(0.212_639, 0.715_168_7, 0.072_192_3);
+use light_math::spectrum::rec709_luminance;
 
 /// The colour model of linear RGB: three floats for an emission and for a radiance, no wavelengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,7 +69,7 @@ impl ColorModel for Rgb {
 
     fn flux_of_texel(rgb: Vec3) -> Flux {
         Flux {
-            luminous: K_M * LUMINANCE.dot(rgb),
+            luminous: K_M * rec709_luminance(rgb),
             radiant: rgb.average(),
         }
     }

@@ -234,17 +234,20 @@ mod tests {
         for (angle, start) in [(1e-3, 5e-4), (0.5, 0.0), (0.5, 0.5), (3.0, 1.0)] {
             let spot = spot(angle, start)?;
             let phi = spot.phi(&()).x;
+            let mut rays = 0;
             for i in 0..64u8 {
                 let u = Vec2::new(f32::from(i) / 64.0, f32::from(i % 8) / 8.0);
                 let Some(sample) = spot.sample_le(u, Vec2::new(u.y, 0.0), &()) else {
                     continue;
                 };
+                rays += 1;
                 let power = sample.l.x / (sample.pdf.pos * sample.pdf.dir);
                 assert!(
                     (power / phi - 1.0).abs() < 1e-6,
                     "{angle} {start}: {power}, {phi}"
                 );
             }
+            assert!(rays >= 60, "{angle} {start}: {rays} rays of 64");
         }
         Ok(())
     }

@@ -24,7 +24,8 @@ impl SurfaceReceiver {
     }
 
     /// The point `p` with the unit normal `n`.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub(crate) fn facing(p: Vec3, n: Vec3) -> Self {
         Self {
             p: near(p),

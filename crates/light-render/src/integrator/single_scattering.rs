@@ -3,7 +3,7 @@ use core::cell::Cell;
 use lights::glam::Vec3;
 use lights::media::{Span, StepSize, Visibility, VolumeIntegrator, VolumeLight};
 use lights::samplers::LightSampler;
-use lights::sources::{LightType, Rgb};
+use lights::sources::Rgb;
 
 use super::direct::{DirectLight, Vertex};
 use super::light_sum::LightSum;
@@ -57,8 +57,7 @@ pub(crate) fn trace_single_scattering<S: LightSampler>(
                 let numbers = stream.vertex(0);
                 let chosen = direct.choose(&query, &numbers);
                 let lit = direct.sample(&query, &chosen, &at, &numbers, stream, |light| {
-                    let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
-                    let target = is_near.then_some(light.p_light);
+                    let target = (!light.kind.is_infinite()).then_some(light.p_light);
                     let from = vertex.spawn(world, light.wi);
                     transmittance(world, from, target, &mut || flight.next_u())
                 });

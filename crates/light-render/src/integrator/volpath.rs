@@ -1,6 +1,5 @@
 use lights::glam::Vec3;
 use lights::samplers::LightSampler;
-use lights::sources::LightType;
 
 use super::PathSettings;
 use super::direct::Unshadowed;
@@ -45,8 +44,7 @@ pub(crate) fn trace_volume<S: LightSampler, L: LightSum>(
             break;
         }
         let arrived = |light: &Unshadowed| {
-            let is_near = matches!(light.kind, LightType::DeltaPosition | LightType::Area);
-            let target = is_near.then_some(light.p_light);
+            let target = (!light.kind.is_infinite()).then_some(light.p_light);
             let from = hit.vertex.spawn(world, light.wi);
             transmittance(world, from, target, &mut || flight.next_u())
         };

@@ -268,15 +268,18 @@ mod tests {
 
     #[test]
     fn the_normal_of_a_tiny_triangle_is_a_unit_vector() {
+        let mut with_normal = 0;
         for size in [1e-8, 1e-10, 1e-11, 1e-20] {
             let corners = [Vec3::ZERO, Vec3::X * size, Vec3::new(0.3, 0.4, 0.5) * size];
             let triangle = Triangle::from_corners(corners, Triangle::DEFAULT_UV);
             let Some(normal) = triangle.normal() else {
                 continue;
             };
+            with_normal += 1;
             let (length, tilt) = (normal.length(), normal.dot(Vec3::new(0.0, 0.4, 0.5)));
             assert!((length - 1.0).abs() < 1e-6, "size {size}: {normal}");
             assert!(tilt.abs() < 1e-3, "size {size}: {normal}");
         }
+        assert!(with_normal > 2, "{with_normal} of four");
     }
 }

@@ -2,7 +2,7 @@
 //! radiance that leaves them, skies alone one that arrives.
 
 use light_sources::glam::{Affine3A, Vec2, Vec3};
-use light_sources::light_bounds::{LightGroups, LightSampleContext};
+use light_sources::light_bounds::{LightGroups, LightId, LightSampleContext};
 use light_sources::light_math::SphereMap;
 use light_sources::shape::{AnyShape, ShapeDesc};
 use light_sources::*;
@@ -151,9 +151,20 @@ fn invisible_surfaces_are_found_by_samples_alone() {
         let mut builder = LightSetBuilder::new(scene);
         let desc = AreaLightDesc { shape, emission };
         builder.add(LightDesc::Area(desc)).expect("a light");
-        for (_, light) in builder.build().iter() {
-            assert_eq!(light.light_type(), expected, "{light:?}");
-        }
+        let set = builder.build();
+        let light = set.get(LightId(0)).expect("the triangle");
+        assert_eq!(light.light_type(), expected, "{light:?}");
+        let ctx = LightSampleContext::medium(Vec3::new(0.25, 0.25, 1.0));
+        let coverage = PdfCoverage::Complete;
+        let sample = light.sample_li(&ctx, Vec2::splat(0.5), &(), coverage);
+        let sample = sample.expect("a sample of either");
+        assert_eq!(
+            light.pdf_li(&ctx, sample.wi, coverage),
+            sample.pdf,
+            "{light:?}"
+        );
+        let met = light.hit(ctx.p, Vec3::NEG_Z).is_some();
+        assert_eq!(met, expected == LightType::Area, "{light:?}");
     }
 }
 
