@@ -116,7 +116,7 @@ fn build(c: &mut Criterion) {
             b.iter(|| BvhLightSampler::new(&extents));
         });
         group.bench_function(BenchmarkId::new("bvh-morton", name(&set)), |b| {
-            b.iter(|| BvhLightSampler::with(&extents, &LightBvhOptions::FAST));
+            b.iter(|| BvhLightSampler::with_options(&extents, &LightBvhOptions::FAST));
         });
         let mut tree = BvhLightSampler::new(&extents).expect("valid lights");
         group.bench_function(BenchmarkId::new("refit", name(&set)), |b| {

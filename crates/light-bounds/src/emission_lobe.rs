@@ -35,8 +35,8 @@ pub struct EmissionLine {
 }
 
 impl EmissionLobe {
-    /// Excess over 1 that rounding may give the length of a mean of unit vectors.
-    const LENGTH_TOLERANCE: f32 = 1e-3;
+    /// Excess over 1 that rounding may give the squared length of a mean of unit vectors.
+    pub(crate) const LENGTH_TOLERANCE: f32 = 1e-3;
 
     /// Least width of a beam, as one minus a cosine.
     const MIN_WIDTH: f32 = 1e-4;

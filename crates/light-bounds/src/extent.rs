@@ -68,9 +68,6 @@ pub struct InfiniteBounds {
 }
 
 impl InfiniteBounds {
-    /// Excess over 1 that rounding may give the length of a mean of unit vectors.
-    const LENGTH_TOLERANCE: f32 = 1e-3;
-
     /// The bounds of the same radiance from everywhere, in W·m⁻²·sr⁻¹.
     #[must_use]
     pub fn uniform(radiance: f32) -> Self {
@@ -100,7 +97,7 @@ impl InfiniteBounds {
         if !(self.fluence >= 0.0 && self.fluence.is_finite()) {
             return Err(InfiniteBoundsError::Fluence);
         }
-        if !(self.mean.length_squared() <= 1.0 + Self::LENGTH_TOLERANCE) {
+        if !(self.mean.length_squared() <= 1.0 + EmissionLobe::LENGTH_TOLERANCE) {
             return Err(InfiniteBoundsError::Mean);
         }
         let has_axis =

@@ -1,11 +1,8 @@
 use crate::medium::Medium;
 use crate::ray::{Ray, Span};
 use crate::step_size::{March, StepSize};
-use crate::transmittance;
+use crate::transmittance::{self, ROULETTE_BELOW};
 use light_sources::{ColorModel, Radiance};
-
-/// Below this transmittance a march continues with probability 1/2.
-const ROULETTE_BELOW: f32 = 1e-3;
 
 /// A march along a ray through a medium: equal steps, one random offset for all of them, the
 /// transmittance carried from point to point as a product.

@@ -7,6 +7,9 @@ use crate::tentative_collisions::{Collision, TentativeCollisions, null_share};
 use light_math::float;
 use light_sources::{ColorModel, Radiance};
 
+/// Below this transmittance a march or a track goes on with probability 1/2, and then counts twice.
+pub(crate) const ROULETTE_BELOW: f32 = 1e-3;
+
 /// The transmittance in closed form, if the medium has one.
 pub fn closed_form<C: ColorModel, M: Medium<C> + ?Sized>(
     medium: &M,
@@ -75,8 +78,7 @@ pub fn ratio_tracking<C: ColorModel, M: Medium<C> + ?Sized>(
     while let Some(Collision { t, sigma_maj }) = collisions.next(next_u) {
         let here = medium.coefficients(ray.at(t), wavelengths);
         left = left * null_share(here.sigma_t(), sigma_maj);
-        // Roulette: a small transmittance survives with probability 1/2.
-        if left.maximum() < 1e-3 {
+        if left.maximum() < ROULETTE_BELOW {
             if next_u() < 0.5 {
                 return C::Radiance::BLACK;
             }

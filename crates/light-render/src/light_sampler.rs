@@ -91,7 +91,7 @@ impl AnyLightSampler {
             }
             SamplerKind::Bvh => Self::Bvh(BvhLightSampler::new(extents)?),
             SamplerKind::BvhMorton => {
-                Self::Bvh(BvhLightSampler::with(extents, &LightBvhOptions::FAST)?)
+                Self::Bvh(BvhLightSampler::with_options(extents, &LightBvhOptions::FAST)?)
             }
         })
     }

@@ -26,14 +26,14 @@ impl BvhLightSampler {
     /// # Errors
     /// As for [`LightBvh::build`].
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
-        Self::with(lights, &LightBvhOptions::default())
+        Self::with_options(lights, &LightBvhOptions::default())
     }
 
     /// A sampler whose tree is built with `options`.
     ///
     /// # Errors
     /// As for [`LightBvh::build`].
-    pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
+    pub fn with_options(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         Ok(Self {
             tree: LightBvh::build_with(lights, options)?,
             infinite: emitting(lights, &[]).collect(),

@@ -4,7 +4,6 @@ use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
-use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
 
 /// The default hierarchy and its lights at infinity at one context.
@@ -113,13 +112,8 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
             return self.tree.sample(u);
         }
         let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
-        match self.infinite.first(u, self.in_tree, weight)? {
-            FirstChoice::Infinite(light) => Some(light),
-            FirstChoice::Others { pmf, u } => self.tree.sample(u).map(|light| SampledLight {
-                pmf: positive_product(pmf, light.pmf),
-                ..light
-            }),
-        }
+        let first = self.infinite.first(u, self.in_tree, weight)?;
+        first.then(|u| self.tree.sample(u))
     }
 
     pub(crate) fn pmf(&self, light: LightId) -> f32 {
@@ -127,10 +121,8 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
             return self.tree.pmf(light);
         }
         let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
-        match self.infinite.first_pmf(light, self.in_tree, weight) {
-            FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => positive_product(pmf, self.tree.pmf(light)),
-        }
+        let first = self.infinite.first_pmf(light, self.in_tree, weight);
+        first.then(|| self.tree.pmf(light))
     }
 }
 

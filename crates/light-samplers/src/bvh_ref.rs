@@ -1,10 +1,8 @@
 use light_bounds::{LightId, LightSampleContext, SampledLight};
 use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use light_bvh::{LightBvhAt, LightBvhRef};
-use light_math::float::positive_product;
 
 use crate::bvh_choices::BvhChoices;
-use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_lights::{InfiniteLight, InfiniteLights, InfiniteLightsError};
 use crate::{LightChoices, LightSampler};
 
@@ -166,25 +164,13 @@ impl LightSampler for BvhLightSamplerRef<'_> {
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
-        match self.infinite.first(u, self.power, fluence)? {
-            FirstChoice::Infinite(light) => Some(light),
-            FirstChoice::Others { pmf, u } => {
-                self.tree.sample_emitter(u).map(|light| SampledLight {
-                    pmf: positive_product(pmf, light.pmf),
-                    ..light
-                })
-            }
-        }
+        let first = self.infinite.first(u, self.power, InfiniteLight::fluence)?;
+        first.then(|u| self.tree.sample_emitter(u))
     }
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
-        match self.infinite.first_pmf(light, self.power, fluence) {
-            FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => positive_product(pmf, self.tree.pmf_emitter(light)),
-        }
+        let power = self.power;
+        let first = self.infinite.first_pmf(light, power, InfiniteLight::fluence);
+        first.then(|| self.tree.pmf_emitter(light))
     }
-}
-
-const fn fluence(light: &InfiniteLight) -> f32 {
-    light.bounds.fluence
 }

@@ -3,9 +3,7 @@ use alloc::vec::Vec;
 use light_bounds::{LightBounds, LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhError;
 use light_math::discrete;
-use light_math::float::positive_product;
 
-use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::id_count::{MOST, id_count};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 use crate::{LightChoices, LightSampler};
@@ -14,7 +12,7 @@ use crate::{LightChoices, LightSampler};
 /// number of lights.
 ///
 /// A tree approximates its probabilities. For tests, comparisons and a handful of lights. Reads
-/// `ctx.ns`, and all of a ray segment. Without a context lights are chosen in proportion to power.
+/// the normal of `ctx`, and all of a ray segment. Without a context lights are chosen in proportion to power.
 /// Lights at infinity share one uniform choice with all others.
 ///
 /// # Source
@@ -51,29 +49,21 @@ impl ExhaustiveLightSampler {
     }
 
     fn choose(&self, u: u64, weight: impl Fn(&LightBounds) -> f32) -> Option<SampledLight> {
-        match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => Some(sample),
-            FirstChoice::Others { pmf, u } => {
-                let weights = |index: usize| weight(&self.bounds[index]);
-                let chosen = discrete::sample_by(self.bounds.len(), weights, u)?;
-                Some(SampledLight {
-                    light: id(chosen.index),
-                    pmf: positive_product(pmf, chosen.pmf),
-                    u: chosen.u,
-                })
-            }
-        }
+        let weights = |index: usize| weight(&self.bounds[index]);
+        self.infinite.choose(u)?.then(|u| {
+            let chosen = discrete::sample_by(self.bounds.len(), weights, u)?;
+            Some(SampledLight {
+                light: id(chosen.index),
+                pmf: chosen.pmf,
+                u: chosen.u,
+            })
+        })
     }
 
     fn probability(&self, light: LightId, weight: impl Fn(&LightBounds) -> f32) -> f32 {
-        match self.infinite.first_pmf(light) {
-            FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => {
-                let weights = |index: usize| weight(&self.bounds[index]);
-                let within = discrete::pmf_by(self.bounds.len(), weights, light.index());
-                positive_product(pmf, within)
-            }
-        }
+        let weights = |index: usize| weight(&self.bounds[index]);
+        let first = self.infinite.first_pmf(light);
+        first.then(|| discrete::pmf_by(self.bounds.len(), weights, light.index()))
     }
 }
 

@@ -47,17 +47,33 @@ pub(crate) fn emitting<'a>(
         .map(LightId)
         .zip(lights)
         .filter_map(|(id, extent)| Some((id, *extent.infinite()?)));
-    let emitting = infinite.filter(|(_, bounds)| bounds.fluence > 0.0);
-    // Valid bounds have an axis of about length one: too rough for the test against the horizon.
-    emitting.map(|(light, mut bounds)| {
-        bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
+    infinite.filter_map(|(light, bounds)| {
         let groups = groups.get(light.index()).copied().unwrap_or_default();
-        InfiniteLight {
+        InfiniteLight::emitting(light, bounds, groups)
+    })
+}
+
+impl InfiniteLight {
+    /// A light with valid bounds, if it emits.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn emitting(
+        light: LightId,
+        mut bounds: InfiniteBounds,
+        groups: LightGroups,
+    ) -> Option<Self> {
+        // Valid bounds have an axis of about length one: too rough for the test against the horizon.
+        bounds.cone.w = direction(bounds.cone.w).unwrap_or(Vec3::Z);
+        (bounds.fluence > 0.0).then_some(Self {
             light,
             bounds,
             groups,
-        }
-    })
+        })
+    }
+
+    /// What counts where there is no receiver.
+    pub(crate) const fn fluence(&self) -> f32 {
+        self.bounds.fluence
+    }
 }
 
 impl<'a> InfiniteLights<'a> {
@@ -67,7 +83,7 @@ impl<'a> InfiniteLights<'a> {
             return Err(InfiniteLightsError::Order);
         }
         for &InfiniteLight { light, bounds, .. } in lights {
-            let bad = |error| InfiniteLightsError::Bounds { light, error };
+            let bad = |reason| InfiniteLightsError::Bounds { light, reason };
             bounds.validate().map_err(bad)?;
         }
         Ok(Self { lights })
@@ -159,7 +175,7 @@ pub enum InfiniteLightsError {
         /// Which light.
         light: LightId,
         /// Why.
-        error: InfiniteBoundsError,
+        reason: InfiniteBoundsError,
     },
 }
 
@@ -167,7 +183,7 @@ impl fmt::Display for InfiniteLightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Order => f.write_str("lights at infinity: not in ascending order of ids"),
-            Self::Bounds { light, error } => write!(f, "light {}: {error}", light.0),
+            Self::Bounds { light, reason } => write!(f, "light {}: {reason}", light.0),
         }
     }
 }

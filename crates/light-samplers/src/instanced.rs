@@ -2,15 +2,13 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use light_bounds::{
-    InfiniteBounds, InfiniteBoundsError, LightExtent, LightId, LightSampleContext, SampledLight,
+    InfiniteBounds, InfiniteBoundsError, LightGroups, LightId, LightSampleContext, SampledLight,
 };
 use light_bvh::{InstancedLightBvh, InstancedLightBvhError, PlacedLight, Placement};
-use light_math::float::positive_product;
 
 use crate::bvh_choices::BvhChoices;
-use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::id_count::MOST;
-use crate::infinite_lights::{InfiniteLight, InfiniteLights, emitting};
+use crate::infinite_lights::{InfiniteLight, InfiniteLights};
 use crate::placed_lights_at::{PlacedLightsAt, numbered};
 use crate::{LightChoices, LightSampler};
 
@@ -28,35 +26,19 @@ impl InstancedBvhLightSampler {
     /// A sampler of the lights of `tree` and of lights at infinity.
     ///
     /// # Errors
-    /// More than 2^32 lights, for which ids are too short; the first light at infinity with invalid
+    /// More than 2^32 - 1 lights, for which ids are too short; the first light at infinity with invalid
     /// bounds.
     pub fn new(
         tree: InstancedLightBvh,
         infinite: &[InfiniteBounds],
     ) -> Result<Self, InstancedBvhLightSamplerError> {
-        let placed = tree.light_count();
-        let first = u32::try_from(placed).ok();
-        let last = u32::try_from(placed + infinite.len() as u64).ok();
-        let (Some(first), Some(_)) = (first, last) else {
-            return Err(TOO_MANY);
-        };
-        for (light, bounds) in (first..).map(LightId).zip(infinite) {
-            let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
-            bounds.validate().map_err(bad)?;
-        }
-        let extents: Vec<_> = infinite
-            .iter()
-            .copied()
-            .map(LightExtent::Infinite)
-            .collect();
-        let infinite = emitting(&extents, &[]).map(|light| InfiniteLight {
-            light: LightId(light.light.0 + first),
-            ..light
-        });
-        Ok(Self {
-            tree,
-            infinite: infinite.collect(),
-        })
+        let first = u32::try_from(tree.light_count()).map_err(|_| TOO_MANY)?;
+        u32::try_from(infinite.len())
+            .ok()
+            .and_then(|count| first.checked_add(count))
+            .ok_or(TOO_MANY)?;
+        let ids = (first..).map(LightId);
+        Self::with_ids(tree, ids.zip(infinite.iter().copied()))
     }
 
     /// A sampler of the lights of `tree`, and of lights at infinity whose ids are among those of
@@ -64,7 +46,7 @@ impl InstancedBvhLightSampler {
     /// for them, where it is dark.
     ///
     /// # Errors
-    /// More than 2^32 lights; ids that are not in order, or not among those of the tree; the first
+    /// More than 2^32 - 1 lights; ids that are not in order, or not among those of the tree; the first
     /// light at infinity with invalid bounds.
     pub fn with_infinite_among(
         tree: InstancedLightBvh,
@@ -76,18 +58,24 @@ impl InstancedBvhLightSampler {
         if !is_sorted || infinite.last().is_some_and(|(last, _)| last.0 >= count) {
             return Err(InstancedBvhLightSamplerError::InfiniteIds);
         }
-        let all: Vec<_> = infinite.iter().map(|(_, bounds)| *bounds).collect();
-        let mut sampler = Self::new(tree, &all).map_err(|error| match error {
-            InstancedBvhLightSamplerError::Infinite { light, reason } => {
-                let (light, _) = infinite[(light.0 - count) as usize];
-                InstancedBvhLightSamplerError::Infinite { light, reason }
-            }
-            other => other,
-        })?;
-        for light in &mut sampler.infinite {
-            light.light = infinite[(light.light.0 - count) as usize].0;
+        Self::with_ids(tree, infinite.iter().copied())
+    }
+
+    /// A sampler of the lights of `tree` and of lights at infinity in ascending order of their ids.
+    fn with_ids(
+        tree: InstancedLightBvh,
+        infinite: impl Iterator<Item = (LightId, InfiniteBounds)>,
+    ) -> Result<Self, InstancedBvhLightSamplerError> {
+        let mut lights = Vec::new();
+        for (light, bounds) in infinite {
+            let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
+            bounds.validate().map_err(bad)?;
+            lights.extend(InfiniteLight::emitting(light, bounds, LightGroups::default()));
         }
-        Ok(sampler)
+        Ok(Self {
+            tree,
+            infinite: lights,
+        })
     }
 
     /// Refits the upper tree to placements that moved: see [`InstancedLightBvh::refit`].
@@ -148,29 +136,17 @@ impl LightSampler for InstancedBvhLightSampler {
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
-        match self.infinite().first(u, self.tree.power(), fluence)? {
-            FirstChoice::Infinite(light) => Some(light),
-            FirstChoice::Others { pmf, u } => {
-                let light = numbered(&self.tree, self.tree.sample_emitter(u)?)?;
-                let pmf = positive_product(pmf, light.pmf);
-                Some(SampledLight { pmf, ..light })
-            }
-        }
+        let (infinite, power) = (self.infinite(), self.tree.power());
+        let first = infinite.first(u, power, InfiniteLight::fluence)?;
+        first.then(|u| numbered(&self.tree, self.tree.sample_emitter(u)?))
     }
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
-        match self.infinite().first_pmf(light, self.tree.power(), fluence) {
-            FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => match self.placed_light(light) {
-                Some(light) => positive_product(pmf, self.tree.pmf_emitter(light)),
-                None => 0.0,
-            },
-        }
+        let (infinite, power) = (self.infinite(), self.tree.power());
+        let first = infinite.first_pmf(light, power, InfiniteLight::fluence);
+        let pmf = |light| self.tree.pmf_emitter(light);
+        first.then(|| self.placed_light(light).map_or(0.0, pmf))
     }
-}
-
-const fn fluence(light: &InfiniteLight) -> f32 {
-    light.bounds.fluence
 }
 
 /// More lights than ids.
@@ -183,7 +159,7 @@ const TOO_MANY: InstancedBvhLightSamplerError =
 pub enum InstancedBvhLightSamplerError {
     /// There are more lights than ids of 32 bits.
     TooManyLights {
-        /// How many ids there are.
+        /// How many there may be.
         most: usize,
     },
     /// Lights at infinity are not in the order of their ids, or not among those of the tree.

@@ -106,7 +106,7 @@ pub enum PowerLightSamplerError {
     },
     /// There are more lights than ids.
     TooManyLights {
-        /// How many ids there are.
+        /// How many there may be.
         most: usize,
     },
 }

@@ -2,14 +2,13 @@ use light_bounds::{LightExtent, LightId, LightSampleContext, SampledLight};
 use light_bvh::LightBvhError;
 use light_bvh::reference::ReferenceLightBvh;
 
-use crate::first_choice::{FirstChoice, FirstPmf};
 use crate::infinite_shares::{HasOthers, InfiniteShares};
 use crate::{LightChoices, LightSampler};
 
 /// The light hierarchy as published: lights at infinity and the reference tree share one uniform
 /// choice.
 ///
-/// Reads `ctx.ns`, and all of a ray segment. Without a context, lights of the tree are chosen in
+/// Reads the normal of `ctx`, and all of a ray segment. Without a context, lights of the tree are chosen in
 /// proportion to power. 68 bytes a light; a query takes two importances a level.
 ///
 /// # Source
@@ -50,22 +49,12 @@ impl ReferenceBvhLightSampler {
         u: u64,
         in_tree: impl FnOnce(&ReferenceLightBvh, u64) -> Option<SampledLight>,
     ) -> Option<SampledLight> {
-        match self.infinite.choose(u)? {
-            FirstChoice::Infinite(sample) => Some(sample),
-            FirstChoice::Others { pmf, u } => {
-                let sample = in_tree(&self.tree, u)?;
-                let pmf = pmf * sample.pmf;
-                Some(SampledLight { pmf, ..sample })
-            }
-        }
+        self.infinite.choose(u)?.then(|u| in_tree(&self.tree, u))
     }
 
     #[inline]
     fn probability(&self, light: LightId, in_tree: impl FnOnce(&ReferenceLightBvh) -> f32) -> f32 {
-        match self.infinite.first_pmf(light) {
-            FirstPmf::Infinite(pmf) => pmf,
-            FirstPmf::Others(pmf) => pmf * in_tree(&self.tree),
-        }
+        self.infinite.first_pmf(light).then(|| in_tree(&self.tree))
     }
 }
 

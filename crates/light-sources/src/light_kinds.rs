@@ -1,4 +1,5 @@
-//! The kinds of light, in one table: all code with one entry a kind is made from it.
+//! The kinds of light, in one table: the enums with one entry a kind and the lists of a set are made
+//! from it.
 
 use alloc::vec::Vec;
 

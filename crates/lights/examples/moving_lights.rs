@@ -69,7 +69,7 @@ impl Field {
         let extents = lights.extents();
         Ok(Self {
             // Lights that are off have a place in the tree, which a refit switches on.
-            sampler: BvhLightSampler::with(&extents, &LightBvhOptions::DYNAMIC)?,
+            sampler: BvhLightSampler::with_options(&extents, &LightBvhOptions::DYNAMIC)?,
             extents,
             lights,
             moving,

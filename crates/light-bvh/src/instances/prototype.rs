@@ -46,14 +46,14 @@ impl LightPrototype {
     /// # Errors
     /// As for [`LightBvh::build`].
     pub fn new(lights: &[LightExtent]) -> Result<Self, LightBvhError> {
-        Self::with(lights, &LightBvhOptions::default())
+        Self::with_options(lights, &LightBvhOptions::default())
     }
 
     /// The same, built as `options` say.
     ///
     /// # Errors
     /// As for [`LightBvh::build`].
-    pub fn with(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
+    pub fn with_options(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
         expect_addressable(lights.len())?;
         let all = Scan::of(lights, options.dark)?;
         let numbers = by_direction::parts(lights, |light| {

@@ -248,7 +248,7 @@ fn a_dark_wall_has_a_place_if_that_is_wanted() {
     let dark: Vec<_> = dark.collect();
     let placements = street(3, 3.0);
     let parts = |options: &LightBvhOptions| {
-        let prototype = LightPrototype::with(&dark, options).expect("valid lights");
+        let prototype = LightPrototype::with_options(&dark, options).expect("valid lights");
         let tree = InstancedLightBvh::build_with(vec![prototype], &placements, options);
         tree.expect("within reach")
     };

@@ -142,7 +142,7 @@ fn in_proportion_to_irradiance() {
         LightBvhOptions::FAST,
         LightBvhOptions::DYNAMIC,
     ] {
-        let sampler = BvhLightSampler::with(&lights(), &options).expect("valid lights");
+        let sampler = BvhLightSampler::with_options(&lights(), &options).expect("valid lights");
         check("tree", &sampler, at_floor, emitters);
     }
 }

@@ -41,12 +41,12 @@ light_testkit::sampler_laws! {
 
     /// The default hierarchy, built along a space-filling curve.
     mod bvh_morton {
-        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::FAST).expect("valid bounds")
+        |set| BvhLightSampler::with_options(&set.extents(), &LightBvhOptions::FAST).expect("valid bounds")
     }
 
     /// The default hierarchy, built with lights that are off.
     mod bvh_dynamic {
-        |set| BvhLightSampler::with(&set.extents(), &LightBvhOptions::DYNAMIC)
+        |set| BvhLightSampler::with_options(&set.extents(), &LightBvhOptions::DYNAMIC)
             .expect("valid bounds")
     }
 
@@ -132,7 +132,7 @@ light_testkit::sampler_laws! {
 /// A tree that has followed the lights of the set to where they are.
 fn refitted(set: &SamplerCase) -> BvhLightSampler {
     let before = set.exchanged_extents();
-    let sampler = BvhLightSampler::with(&before, &LightBvhOptions::DYNAMIC);
+    let sampler = BvhLightSampler::with_options(&before, &LightBvhOptions::DYNAMIC);
     let mut sampler = sampler.expect("valid bounds");
     sampler.refit(&set.extents()).expect("as many lights");
     sampler

@@ -38,7 +38,7 @@ pub fn refits(data: &[u8]) {
     let us = [input.fraction()];
     let count = input.below(MAX_LIGHTS) + 1;
     let first: Vec<LightExtent> = (0..count).map(|_| input.scene_extent()).collect();
-    let mut tree = BvhLightSampler::with(&first, &options).expect("valid lights");
+    let mut tree = BvhLightSampler::with_options(&first, &options).expect("valid lights");
     let fresh = tree.clone();
     let mut lights = first.clone();
     for _ in 0..MAX_STEPS {
@@ -134,7 +134,7 @@ fn compare(
     contexts: &[LightSampleContext],
     us: &[u64],
 ) {
-    let rebuilt = BvhLightSampler::with(lights, options).expect("valid lights");
+    let rebuilt = BvhLightSampler::with_options(lights, options).expect("valid lights");
     check(Kind::named("rebuilt"), &rebuilt, lights, contexts, us);
     let powers = [refit, &rebuilt].map(|sampler| sampler.tree().power());
     assert_eq!(

@@ -27,7 +27,7 @@ pub fn samplers(data: &[u8]) {
     while !input.is_empty() && lights.len() < MAX_LIGHTS {
         lights.push(input.scene_extent());
     }
-    let tree = match BvhLightSampler::with(&lights, &options) {
+    let tree = match BvhLightSampler::with_options(&lights, &options) {
         Ok(tree) => tree,
         Err(error) => panic!("a valid light is refused: {error}"),
     };

@@ -100,12 +100,12 @@ impl SoakSet {
         let extents = set.extents();
         let valid = "generated lights are valid";
         let tree = |options: &LightBvhOptions| {
-            let mut tree = BvhLightSampler::with(&extents, options).expect(valid);
+            let mut tree = BvhLightSampler::with_options(&extents, options).expect(valid);
             set_groups(&mut tree, &groups);
             tree
         };
         let mut refitted =
-            BvhLightSampler::with(&set.exchanged_extents(), &LightBvhOptions::DYNAMIC)
+            BvhLightSampler::with_options(&set.exchanged_extents(), &LightBvhOptions::DYNAMIC)
                 .expect(valid);
         set_groups(&mut refitted, &groups);
         refitted.refit(&extents).expect("as many lights");
