@@ -90,9 +90,10 @@ impl AnyLightSampler {
                 Self::BvhReference(ReferenceBvhLightSampler::new(extents)?)
             }
             SamplerKind::Bvh => Self::Bvh(BvhLightSampler::new(extents)?),
-            SamplerKind::BvhMorton => {
-                Self::Bvh(BvhLightSampler::with_options(extents, &LightBvhOptions::FAST)?)
-            }
+            SamplerKind::BvhMorton => Self::Bvh(BvhLightSampler::with_options(
+                extents,
+                &LightBvhOptions::FAST,
+            )?),
         })
     }
 

@@ -33,7 +33,10 @@ impl BvhLightSampler {
     ///
     /// # Errors
     /// As for [`LightBvh::build`].
-    pub fn with_options(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
+    pub fn with_options(
+        lights: &[LightExtent],
+        options: &LightBvhOptions,
+    ) -> Result<Self, LightBvhError> {
         Ok(Self {
             tree: LightBvh::build_with(lights, options)?,
             infinite: emitting(lights, &[]).collect(),

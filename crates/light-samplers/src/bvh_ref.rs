@@ -170,7 +170,9 @@ impl LightSampler for BvhLightSamplerRef<'_> {
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
         let power = self.power;
-        let first = self.infinite.first_pmf(light, power, InfiniteLight::fluence);
+        let first = self
+            .infinite
+            .first_pmf(light, power, InfiniteLight::fluence);
         first.then(|| self.tree.pmf_emitter(light))
     }
 }

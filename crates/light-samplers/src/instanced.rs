@@ -70,7 +70,11 @@ impl InstancedBvhLightSampler {
         for (light, bounds) in infinite {
             let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
             bounds.validate().map_err(bad)?;
-            lights.extend(InfiniteLight::emitting(light, bounds, LightGroups::default()));
+            lights.extend(InfiniteLight::emitting(
+                light,
+                bounds,
+                LightGroups::default(),
+            ));
         }
         Ok(Self {
             tree,

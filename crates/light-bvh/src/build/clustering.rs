@@ -12,7 +12,7 @@ use crate::parallel::{join, map};
 const CLUSTER: usize = 16;
 
 /// How many times the mean power of clusters one has from which on a light that outshines its rest
-/// is a cluster of its own. Chosen by V: see `docs/light-bvh.md`.
+/// is a cluster of its own. Chosen by V: see `docs/light-bvh-study.md`.
 const BRIGHT: f32 = 8.0;
 
 /// Clusters that one job makes.

@@ -3,7 +3,7 @@ use light_math::glam::Vec3;
 use crate::build::cluster::{Cluster, Sums};
 
 /// The share of a group's power from which on a light or a cluster may be split from the rest.
-/// Chosen by V: see `docs/light-bvh.md`.
+/// Chosen by V: see `docs/light-bvh-study.md`.
 const SHARE: f32 = 0.4;
 
 /// What outshines the rest of its group. The moments of the group are about its own, with the box

@@ -17,7 +17,7 @@ use crate::simd::dispatch;
 pub(crate) const MAX_REVISION: f32 = 16.0;
 
 /// How many times less a group may count where lights emit in steps: children at the edges of their
-/// beams tell no more than the mean of all. Chosen by V: see `docs/light-bvh.md`.
+/// beams tell no more than the mean of all. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const MAX_STEP_REVISION: f32 = 2.0;
 
 /// How many times the weights of the root such a group may count more. Chosen by V.

@@ -5,7 +5,7 @@ use crate::importance::child_view::{ChildView, DISTANCE, dist_sq};
 use crate::lane_math::{LaneMask, dot, larger, likely_above_zero};
 
 /// How much of the squared width of one light counts as variance of its emission, in codes of the
-/// axis. Chosen by V: see `docs/light-bvh.md`.
+/// axis. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const RAMP_BY_POSITION: f32 = 11.0;
 
 /// The same of a group: where its emitters lie on both sides of the plane through the receiver,
@@ -36,12 +36,12 @@ pub(crate) const BOX_EMISSION: f32 = 297.0;
 pub(crate) const STEP_EDGE: f32 = 4.87;
 
 /// How far the weight of a subtree may be off, as a share of the weights of its node: one that may be
-/// off by more is looked into. Chosen by V and by time: see `docs/light-bvh.md`.
+/// off by more is looked into. Chosen by V and by time: see `docs/light-bvh-study.md`.
 pub(crate) const DOUBT: f32 = 0.2;
 
 /// How many times its variance the square of an emission or of a height is at least, and the squared
 /// distance the squared width, where the lights of a group may count by their powers alone. Chosen
-/// by V and by time: see `docs/light-bvh.md`.
+/// by V and by time: see `docs/light-bvh-study.md`.
 #[cfg(feature = "alloc")]
 pub(crate) const FAR_SQ: f32 = 16.0;
 

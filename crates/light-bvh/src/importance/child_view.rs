@@ -8,7 +8,7 @@ use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::{BOTH_SIDES, WideNode, decode_power};
 
 /// How much of a child's squared width counts as variance of its distance. Chosen by V: see
-/// `docs/light-bvh.md`.
+/// `docs/light-bvh-study.md`.
 pub(crate) const DISTANCE: f32 = 0.09;
 
 /// Round-off of a position, as a share of its distance: of coordinates, and of products with them.

@@ -8,7 +8,7 @@ use crate::lane_math::{LaneMask, dot, larger, likely_above_zero};
 
 /// How much of the squared half extents of a child, along the normal, counts as variance of its
 /// height over the horizon: a little more than that of lights which fill the box evenly, 1/3.
-/// Chosen by V: see `docs/light-bvh.md`.
+/// Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const HEIGHT: f32 = 0.43;
 
 /// The plane through a receiver, with its normal up.

@@ -8,7 +8,7 @@ use crate::importance::horizon::{HalfHeight, Horizon};
 use crate::lane_math::{dot, larger};
 
 /// How far the mean position counts as moved toward that of what is above the horizon, for the
-/// distance. Chosen by V: see `docs/light-bvh.md`.
+/// distance. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const NEARER: f32 = 0.3;
 
 /// The least variance along a normal, over that of the box without correlations.

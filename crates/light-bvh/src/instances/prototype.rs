@@ -53,7 +53,10 @@ impl LightPrototype {
     ///
     /// # Errors
     /// As for [`LightBvh::build`].
-    pub fn with_options(lights: &[LightExtent], options: &LightBvhOptions) -> Result<Self, LightBvhError> {
+    pub fn with_options(
+        lights: &[LightExtent],
+        options: &LightBvhOptions,
+    ) -> Result<Self, LightBvhError> {
         expect_addressable(lights.len())?;
         let all = Scan::of(lights, options.dark)?;
         let numbers = by_direction::parts(lights, |light| {

@@ -18,7 +18,7 @@ const LARGEST_DETERMINANT: f32 = 0.05;
 const LEAST_LIGHTS: u32 = 16;
 
 /// The least number of lights of a large group. Chosen by V and by instructions: see
-/// `docs/light-bvh.md`.
+/// `docs/light-bvh-study.md`.
 const LARGE_LIGHTS: u32 = 1024;
 
 /// The covariance of the positions of a group of lights, over a squared length.

@@ -7,7 +7,7 @@ use crate::node::light_emission::{Emission, Lobe, Shape};
 use crate::node::sheet_code::SheetCode;
 
 /// How much of the squared depth of a group of ramps, over its squared width, counts as squared
-/// spread. Chosen by V: see `docs/light-bvh.md`.
+/// spread. Chosen by V: see `docs/light-bvh-study.md`.
 const RAMP_BY_DEPTH: f32 = 15.0;
 
 /// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak

@@ -7,7 +7,7 @@ use crate::node::spread_code::SpreadCode;
 use crate::node::wide_node::WideNode;
 
 /// The correlation that one step means. Two are the most: less than 1, for no sheet is without
-/// depth. Chosen by V: see `docs/light-bvh.md`.
+/// depth. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const CORRELATION: f32 = 0.325;
 
 /// The code of three correlations that are 0.

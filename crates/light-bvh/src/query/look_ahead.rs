@@ -20,7 +20,7 @@ pub(crate) const NEAR_SMALL: f32 = 16.0;
 ///
 /// One level further down does not tell how much a light beside the receiver gives, where the
 /// subtree has itself children that are far smaller than its codes. Chosen by V: see
-/// `docs/light-bvh.md`.
+/// `docs/light-bvh-study.md`.
 pub(crate) const NEAR_SHARE: f32 = 0.125;
 
 impl LightBvhRef<'_> {

@@ -8,7 +8,7 @@ use crate::node::wide_node::WideNode;
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::weights::{MOST, Weights, total};
 
-/// How many times the best odds a child may have at most. Chosen by V: see `docs/light-bvh.md`.
+/// How many times the best odds a child may have at most. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const ODDS: f32 = 8.0;
 
 /// How many times that of a group: where its mean does not reach the receiver, some of its lights may.

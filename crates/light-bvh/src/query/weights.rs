@@ -18,7 +18,7 @@ const LEAST_TOTAL_NEAR: f32 = 1e-30;
 /// The least weight of a child that can contribute, as a share of the weights of its node.
 ///
 /// An estimate has no limit to its error; this bounds what a light costs that was estimated too
-/// low. Chosen by V: see `docs/light-bvh.md`.
+/// low. Chosen by V: see `docs/light-bvh-study.md`.
 pub(crate) const LEAST_SHARE: f32 = 1.0 / 1024.0;
 
 /// The share of the weights of its node from which on a child is capped, if it is uncertain.

@@ -209,7 +209,8 @@ fn a_dark_light_of_an_opened_placement_has_no_place() {
     let lights = lamps(&mut Rng::new(6));
     let mut dark = lights.clone();
     dark[7] = scaled(&dark[7], 0.0);
-    let kept = LightPrototype::with_options(&dark, &LightBvhOptions::DYNAMIC).expect("valid lights");
+    let kept =
+        LightPrototype::with_options(&dark, &LightBvhOptions::DYNAMIC).expect("valid lights");
     let placements = row(2, 0.25);
     let mut tree = InstancedLightBvh::build(vec![kept], &placements).expect("within reach");
     let refused = InstancedLightBvhError::NoPlace { placement: 0 };

@@ -54,7 +54,8 @@ impl PlacedScene {
     }
 
     pub(super) fn prototypes(&self, options: &LightBvhOptions) -> Vec<LightPrototype> {
-        let prototype = |lights: &Vec<_>| LightPrototype::with_options(lights, options).expect("valid");
+        let prototype =
+            |lights: &Vec<_>| LightPrototype::with_options(lights, options).expect("valid");
         self.kinds.iter().map(prototype).collect()
     }
 
