@@ -6,7 +6,50 @@ use crate::importance::child_view::ChildView;
 /// [`LightBvh`](crate::LightBvh).
 ///
 /// An importance of 0 has to be sound: no light of the group can contribute. Any other value is an
-/// estimate.
+/// estimate. A receiver of your own is one of this crate's times a factor of what it knows of
+/// directions and places; how a group emits is known to these alone.
+///
+/// ```
+/// use light_bvh::light_bounds::light_math::{Aabb, glam::Vec3};
+/// use light_bvh::light_bounds::{LightBounds, LightExtent, LightId};
+/// use light_bvh::{ChildView, LightBvh, Receiver, SurfaceReceiver};
+///
+/// /// A table behind a curtain in the plane of y and z, which takes nine tenths of the light from
+/// /// beyond it.
+/// #[derive(Clone, Copy)]
+/// struct Curtained(SurfaceReceiver);
+///
+/// impl Receiver for Curtained {
+///     fn position(&self) -> Vec3 {
+///         self.0.position()
+///     }
+///
+///     fn weigh(&self, child: &ChildView, inv_unit: f32) -> f32 {
+///         let x = self.position().x * inv_unit + child.mean[0];
+///         let passes = if x > 0.0 { 0.1 } else { 1.0 };
+///         passes * self.0.weigh(child, inv_unit)
+///     }
+///
+///     fn likelihood(&self, child: &ChildView) -> f32 {
+///         self.0.likelihood(child)
+///     }
+/// }
+///
+/// let lamp = |x: f32| LightExtent::Bounded(LightBounds {
+///     bounds: Aabb::from_point(Vec3::new(x, 0.0, 2.0)),
+///     w: Vec3::NEG_Z,
+///     phi: 1.0,
+///     cos_theta_o: 1.0,
+///     cos_theta_e: 0.0,
+///     two_sided: false,
+/// });
+/// let tree = LightBvh::build(&[lamp(-2.0), lamp(1.0)])?;
+/// let table = SurfaceReceiver::new(Vec3::X * -0.5, Vec3::Z);
+/// let beyond = LightId(1);
+/// assert!((tree.view().pmf(&table, beyond) - 0.5).abs() < 0.01);
+/// assert!(tree.view().pmf(&Curtained(table), beyond) < 0.1);
+/// # Ok::<(), light_bvh::LightBvhError>(())
+/// ```
 pub trait Receiver: Copy {
     /// The point that groups are seen from.
     fn position(&self) -> Vec3;
