@@ -2,9 +2,7 @@ use std::path::Path;
 
 use lights::math::spectrum::photometric::Lumen;
 use lights::photometry::{self, Luminaire, PhotometricWeb, parse_eulumdat, parse_lm63};
-use lights::sources::{
-    Channels, ColorModel, GoniometricLightDesc, Image, IntensityAmount, MediumInterface,
-};
+use lights::sources::{Channels, ColorModel, GoniometricLightDesc, Image, IntensityAmount};
 
 use crate::glam::Affine3A;
 use crate::text::{read_text, text_of};
@@ -71,13 +69,9 @@ pub(crate) fn goniometric_light<C: ColorModel>(
     size: u32,
 ) -> GoniometricLightDesc<C> {
     let distribution = Image::from_f32([size, size], Channels::Gray, web.distribution(size));
-    GoniometricLightDesc {
-        transform,
-        distribution: distribution.expect("a square of parts of the peak"),
-        emission,
-        amount: IntensityAmount::LuminousPower(Lumen(web.total_lumens())),
-        media: MediumInterface::default(),
-    }
+    let distribution = distribution.expect("a square of parts of the peak");
+    let amount = IntensityAmount::LuminousPower(Lumen(web.total_lumens()));
+    GoniometricLightDesc::new(transform, distribution, emission, amount)
 }
 
 #[cfg(test)]

@@ -123,7 +123,7 @@ impl SetLight {
         }
     }
 
-    /// The extent of the light for light samplers.
+    /// The bounds of the light, for light samplers.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub fn bounds(&self) -> LightBounds {

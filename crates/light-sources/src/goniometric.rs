@@ -39,6 +39,26 @@ pub struct GoniometricLightDesc<C: ColorModel> {
     pub media: MediumInterface,
 }
 
+impl<C: ColorModel> GoniometricLightDesc<C> {
+    /// A light of the relative intensities of `distribution`, a grey square image by
+    /// [`equal_area`](light_math::equal_area), in vacuum.
+    #[must_use]
+    pub fn new(
+        transform: Affine3A,
+        distribution: Image,
+        emission: C::Emission,
+        amount: IntensityAmount,
+    ) -> Self {
+        Self {
+            transform,
+            distribution,
+            emission,
+            amount,
+            media: MediumInterface::default(),
+        }
+    }
+}
+
 /// A point light with a measured distribution of intensity.
 ///
 /// # Source

@@ -37,6 +37,21 @@ pub struct PortalInfiniteLightDesc {
     pub portal: [Vec3; 4],
 }
 
+impl PortalInfiniteLightDesc {
+    /// The sky of `map` in light space, as [`ImageInfiniteLightDesc`](crate::ImageInfiniteLightDesc)
+    /// has it, through the rectangle of these corners in the scene, one after the other; light comes
+    /// from where they run clockwise.
+    #[must_use]
+    pub fn new(map: EnvironmentMap, portal: [Vec3; 4]) -> Self {
+        Self {
+            transform: Affine3A::IDENTITY,
+            map,
+            amount: RadianceAmount::default(),
+            portal,
+        }
+    }
+}
+
 /// An environment map that is visible through one rectangle only, such as a window.
 ///
 /// The picture is resampled into a square in which the portal, seen from anywhere, is a rectangle

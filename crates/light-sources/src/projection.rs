@@ -37,6 +37,21 @@ pub struct ProjectionLightDesc {
     pub media: MediumInterface,
 }
 
+impl ProjectionLightDesc {
+    /// A projector of `image` along +z of `transform`, whose shorter side spans the angle `fov` in
+    /// `(0, pi)`, in vacuum.
+    #[must_use]
+    pub fn new(transform: Affine3A, image: Image, fov: f32, amount: IntensityAmount) -> Self {
+        Self {
+            transform,
+            image,
+            fov,
+            amount,
+            media: MediumInterface::default(),
+        }
+    }
+}
+
 /// A point light that projects a picture: a slide projector.
 ///
 /// # Source

@@ -157,22 +157,12 @@ fn each_light_of_an_image_adds_its_table() {
     let image = gray([8, 8], |i| 1.0 + i as f32);
     let image = || image.clone();
     let goniometric = || {
-        LightDesc::Goniometric(GoniometricLightDesc {
-            transform: Affine3A::IDENTITY,
-            distribution: image(),
-            emission: Vec3::ONE,
-            amount: IntensityAmount::Radiometric(1.0),
-            media: MediumInterface::default(),
-        })
+        let amount = IntensityAmount::Radiometric(1.0);
+        GoniometricLightDesc::new(Affine3A::IDENTITY, image(), Vec3::ONE, amount).into()
     };
     let projection = || {
-        LightDesc::Projection(ProjectionLightDesc {
-            transform: Affine3A::IDENTITY,
-            image: image(),
-            fov: 1.0,
-            amount: IntensityAmount::Radiometric(1.0),
-            media: MediumInterface::default(),
-        })
+        let amount = IntensityAmount::Radiometric(1.0);
+        ProjectionLightDesc::new(Affine3A::IDENTITY, image(), 1.0, amount).into()
     };
     let sky = || {
         LightDesc::ImageInfinite(ImageInfiniteLightDesc {
@@ -228,16 +218,12 @@ fn an_image_of_one_color_is_as_strong_as_the_color() {
 
     let amount = RadianceAmount::default();
     let map = || EnvironmentMap::EqualArea(image.clone());
+    let window = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
     let skies = [
         UniformInfiniteLightDesc::new(red, amount).into(),
         ImageInfiniteLightDesc::new(map()).into(),
         ImageInfiniteLightDesc::new(EnvironmentMap::LatLong(image.clone())).into(),
-        LightDesc::PortalInfinite(PortalInfiniteLightDesc {
-            transform: Affine3A::IDENTITY,
-            map: map(),
-            amount,
-            portal: [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
-        }),
+        PortalInfiniteLightDesc::new(map(), window).into(),
     ];
     let skies = set(skies);
     let strength = |i| at_infinity(&skies.get(LightId(i)).expect("a sky")).fluence;
