@@ -42,6 +42,7 @@ mod may_contribute;
 pub mod naive;
 #[cfg(feature = "sources")]
 mod own_twin;
+mod pinned;
 #[cfg(feature = "samplers")]
 mod placed_case;
 mod quadrature;
@@ -67,6 +68,7 @@ pub use kolmogorov_smirnov::{KolmogorovSmirnov, kolmogorov_smirnov_uniform};
 pub use may_contribute::may_contribute;
 #[cfg(feature = "sources")]
 pub use own_twin::own_twin;
+pub use pinned::{Fingerprint, assert_pinned};
 #[cfg(feature = "samplers")]
 pub use placed_case::PlacedCase;
 pub use quadrature::{GaussLegendre, integrate};

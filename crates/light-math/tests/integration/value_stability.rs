@@ -11,6 +11,7 @@ use light_math::distribution::{
 };
 use light_math::glam::{Vec2, Vec3};
 use light_math::{OctahedralVector, discrete, equal_area, fraction, lat_long, warp};
+use light_testkit::{Fingerprint, assert_pinned};
 
 /// What each function gives at [`places`], as a fingerprint of all bits.
 const PINNED: &[(&str, u64)] = &[
@@ -38,17 +39,6 @@ const PINNED: &[(&str, u64)] = &[
     ("piecewise_constant_2d", 0x01d807bb14fe5be6),
     ("windowed_piecewise_constant_2d", 0x63147ee84333e8dd),
 ];
-
-/// An FNV-1a hash of numbers, bit by bit.
-struct Fingerprint(u64);
-
-impl Fingerprint {
-    fn add(&mut self, bits: u64) {
-        for byte in bits.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
-}
 
 /// What is hashed: its numbers in order.
 trait Numbers {
@@ -81,11 +71,11 @@ fn places() -> impl Iterator<Item = Vec2> {
 }
 
 fn of<T: Numbers>(f: impl Fn(Vec2) -> T) -> u64 {
-    let mut fingerprint = Fingerprint(0xcbf2_9ce4_8422_2325);
+    let mut fingerprint = Fingerprint::default();
     for u in places() {
-        f(u).each(|number| fingerprint.add(u64::from(number.to_bits())));
+        f(u).each(|number| fingerprint.add([number]));
     }
-    fingerprint.0
+    fingerprint.value()
 }
 
 const WEIGHTS: [f32; 12] = [
@@ -192,15 +182,5 @@ fn tables() -> Vec<(&'static str, u64)> {
 
 #[test]
 fn values_are_those_of_before() {
-    let found: Vec<_> = [warps(), maps(), tables()].concat();
-    let row = |(name, value): &(&str, u64)| format!("    (\"{name}\", {value:#018x}),\n");
-    let moved: Vec<_> = found
-        .iter()
-        .filter(|entry| !PINNED.contains(entry))
-        .collect();
-    let table: String = found.iter().map(row).collect();
-    assert!(
-        moved.is_empty() && found.len() == PINNED.len(),
-        "moved: {moved:?}; all are now\n{table}"
-    );
+    assert_pinned(&[warps(), maps(), tables()].concat(), PINNED);
 }

@@ -29,3 +29,5 @@ mod phase_mis;
 mod support;
 #[cfg(feature = "std")]
 mod trackers;
+#[cfg(feature = "libm")]
+mod value_stability;

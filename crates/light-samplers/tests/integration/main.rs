@@ -24,4 +24,6 @@ mod placed;
 #[cfg(feature = "std")]
 mod resampled;
 mod support;
+#[cfg(feature = "libm")]
+mod value_stability;
 mod visibility;

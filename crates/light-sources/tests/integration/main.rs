@@ -42,3 +42,5 @@ mod threads;
 mod tiny_shapes;
 #[cfg(feature = "std")]
 mod units_of_length;
+#[cfg(feature = "libm")]
+mod value_stability;
