@@ -76,7 +76,7 @@ impl LightBvh {
             nodes,
             order,
             slots,
-            power: rounded(scan.power),
+            power: saturated(scan.power),
             groups: Vec::new(),
         };
         (tree, moments)
@@ -111,7 +111,7 @@ impl LightBvh {
 
     /// Refits the tree to leaves that are valid, of so much power together.
     pub(crate) fn refit_to_leaves(&mut self, power: f64, leaves: &impl LeafMoments) {
-        self.power = rounded(power);
+        self.power = saturated(power);
         refit::fill(&mut self.nodes, 0, &self.order, leaves);
     }
 
@@ -216,6 +216,6 @@ impl LightBvh {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "rounds a power")]
-pub(crate) const fn rounded(power: f64) -> f32 {
+pub(crate) const fn saturated(power: f64) -> f32 {
     (power as f32).min(f32::MAX)
 }

@@ -15,7 +15,7 @@ use crate::rows::push_words;
 /// Rows of a light.
 const ROWS: usize = 4;
 
-/// What stands in the last word of a light's first row.
+/// What is in the last word of a light's first row.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Point = 1,

@@ -96,15 +96,15 @@ fn check_sets(device: &Device, count: u32, part: &str) -> Result<bool, String> {
     let sky = sky();
     let sets: Vec<_> = sets(&sky)
         .into_iter()
-        .filter(|&(kind, n, beside)| name(kind, n, beside).contains(part))
+        .filter(|&(kind, n, infinite)| name(kind, n, infinite).contains(part))
         .collect();
     if sets.is_empty() {
         return Err(format!("no set has {part} in its name"));
     }
     println!("\n{}", Tally::HEAD);
     let mut all = true;
-    for (kind, n, beside) in sets {
-        all &= check_set(device, kind, n, beside, count)?;
+    for (kind, n, infinite) in sets {
+        all &= check_set(device, kind, n, infinite, count)?;
     }
     Ok(all)
 }
@@ -129,34 +129,34 @@ fn sets(sky: &[LightExtent]) -> Vec<(SetKind, usize, &[LightExtent])> {
 fn names() -> Vec<String> {
     let sky = sky();
     let sets = sets(&sky).into_iter();
-    sets.map(|(kind, n, beside)| name(kind, n, beside))
+    sets.map(|(kind, n, infinite)| name(kind, n, infinite))
         .collect()
 }
 
-fn name(kind: SetKind, n: usize, beside: &[LightExtent]) -> String {
-    let beside = if beside.is_empty() { "" } else { " and a sky" };
-    format!("{} {n}{beside}", kind.name())
+fn name(kind: SetKind, n: usize, infinite: &[LightExtent]) -> String {
+    let infinite = if infinite.is_empty() { "" } else { " and a sky" };
+    format!("{} {n}{infinite}", kind.name())
 }
 
-/// Prints the row of a set of `n` lights with the lights at infinity `beside`; whether it keeps
+/// Prints the row of a set of `n` lights with the lights at infinity `infinite`; whether it keeps
 /// what is promised.
 fn check_set(
     device: &Device,
     kind: SetKind,
     n: usize,
-    beside: &[LightExtent],
+    infinite: &[LightExtent],
     count: u32,
 ) -> Result<bool, String> {
     let set = BenchSet::generate(kind, n, 1);
     let mut lights: Vec<LightExtent> = set.lights.iter().map(|l| l.bounds().into()).collect();
-    lights.extend_from_slice(beside);
+    lights.extend_from_slice(infinite);
     let sampler = BvhLightSampler::new(&lights).map_err(|e| e.to_string())?;
     let sampler = sampler.view();
     let rows = light_sampler_rows(&sampler).map_err(|e| e.to_string())?;
     let queries: Vec<Query> = (0..count)
         .map(|i| Query::new(&set, lights.len(), i))
         .collect();
-    let name = name(kind, n, beside);
+    let name = name(kind, n, infinite);
     let mut all = true;
     for choices in [Choices::Single, Choices::OfFour] {
         let entry = choices.entry_point();

@@ -131,7 +131,7 @@ impl<G: SplitGroup> NodeChildren<G> {
     }
 
     /// How many lights become children themselves.
-    pub(crate) fn lights(&self) -> usize {
+    pub(crate) fn light_count(&self) -> usize {
         self.parts()
             .filter(|(_, single)| *single)
             .map(|(g, _)| g.lights())
@@ -155,7 +155,7 @@ impl<G: SplitGroup> NodeChildren<G> {
     }
 
     /// How many groups become nodes.
-    pub(crate) fn nodes(&self) -> usize {
+    pub(crate) fn node_count(&self) -> usize {
         self.count - self.singles.count_ones() as usize
     }
 

@@ -62,10 +62,10 @@ impl<'o> OutputSlice<'o> {
     /// The node over `children`, whose lights are put into their places, and the room that is left
     /// for what is below.
     fn node<G: SplitGroup>(self, children: &NodeChildren<G>) -> (NodeCounts, Self) {
-        let (own, order) = self.order.split_at_mut(children.lights());
+        let (own, order) = self.order.split_at_mut(children.light_count());
         let counts = NodeCounts {
-            inner: low_byte(children.nodes()),
-            count: low_byte(children.nodes() + own.len()),
+            inner: low_byte(children.node_count()),
+            count: low_byte(children.node_count() + own.len()),
         };
         let mut places = own.iter_mut();
         children.each_light(|light| {

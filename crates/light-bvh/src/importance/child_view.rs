@@ -183,12 +183,12 @@ impl ChildView {
     }
 }
 
-/// The mean squared distance of a box about `mean` of which `variance` is the share of its squared
-/// width that counts. Above 0, because no extent is 0.
+/// The mean squared distance of a box about `mean`, `share` of whose squared width counts as variance.
+/// Above 0, because no extent is 0.
 #[cfg_attr(soft_floats, inline(never))]
 #[cfg_attr(not(soft_floats), inline(always))]
-pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], variance: f32) -> f32 {
+pub(crate) fn dist_sq(mean: [f32; 3], extent: [f32; 3], share: f32) -> f32 {
     let [x, y, z] = mean;
     let width = extent[0] + extent[1] + extent[2];
-    (x * x + y * y) + (z * z + variance * (width * width))
+    (x * x + y * y) + (z * z + share * (width * width))
 }

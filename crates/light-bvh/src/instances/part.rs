@@ -7,7 +7,7 @@ use crate::build::lights::Lights;
 use crate::build::options::LightBvhOptions;
 use crate::build::refit;
 use crate::build::scan::Scan;
-use crate::light_bvh::{LightBvh, rounded};
+use crate::light_bvh::{LightBvh, saturated};
 use crate::node::moments::Moments;
 use crate::node::wide_node::{NOWHERE, WIDTH, WideNode};
 
@@ -39,7 +39,7 @@ impl Part {
         Self {
             nodes: first..all.nodes.len(),
             order_end: all.order.len(),
-            power: rounded(scan.power),
+            power: saturated(scan.power),
             moments,
         }
     }
@@ -49,7 +49,7 @@ impl Part {
         let nodes = &mut all.nodes[self.nodes.clone()];
         let order = &all.order[..self.order_end];
         self.moments = refit::fill(nodes, self.nodes.start, order, lights);
-        self.power = rounded(power);
+        self.power = saturated(power);
     }
 
     /// The root of its tree.

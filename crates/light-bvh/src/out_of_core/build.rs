@@ -10,7 +10,7 @@ use crate::build::lights::phi;
 use crate::build::options::{DarkLights, LightBvhOptions};
 use crate::build::scan::{Scan, expect_addressable, is_held};
 use crate::build::topology::low_word;
-use crate::light_bvh::rounded;
+use crate::light_bvh::saturated;
 use crate::node::wide_node::MAX_DEPTH;
 use crate::out_of_core::cells::Cells;
 use crate::out_of_core::error::OutOfCoreError;
@@ -122,7 +122,7 @@ impl OutOfCoreBuild {
             progress(BuildStage::Build, writer.held());
             Ok(())
         })?;
-        let power = rounded(scan.power);
+        let power = saturated(scan.power);
         let (nodes, bytes) = writer.finish(power)?;
         Ok(OutOfCoreTree {
             lights: count,

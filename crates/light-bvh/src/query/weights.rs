@@ -135,7 +135,7 @@ impl Weights {
         }
     }
 
-    /// Sets what is told of all lanes together.
+    /// Sets the sum of all lanes, and whether one of them has most of it.
     #[cfg_attr(soft_floats, inline(never))]
     #[cfg_attr(not(soft_floats), inline(always))]
     pub(crate) fn sum_up(&mut self) {
