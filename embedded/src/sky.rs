@@ -5,7 +5,7 @@ use light_math::DirectionCone;
 use light_math::distribution::PiecewiseConstant2D;
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
 use light_math::glam::{Vec2, Vec3};
-use light_samplers::InfiniteLight;
+use light_samplers::StoredInfiniteLight;
 
 use crate::scene_records::SkyRecord;
 
@@ -46,8 +46,8 @@ impl Sky {
     }
 
     /// What the sampler knows of it.
-    pub(crate) fn infinite_light(&self) -> InfiniteLight {
-        InfiniteLight {
+    pub(crate) fn infinite_light(&self) -> StoredInfiniteLight {
+        StoredInfiniteLight {
             light: LightId(self.record.id),
             bounds: InfiniteBounds {
                 fluence: self.record.fluence,

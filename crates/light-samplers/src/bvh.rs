@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use light_bounds::{LightExtent, LightGroups, LightId, LightSampleContext, SampledLight};
 use light_bvh::{LightBvh, LightBvhError, LightBvhOptions};
 
-use crate::infinite_lights::{InfiniteLight, InfiniteLights, emitting};
+use crate::infinite_lights::{InfiniteLights, StoredInfiniteLight, emitting};
 use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
 
 /// The default: chooses about in proportion to the irradiance that each light would give without
@@ -15,7 +15,7 @@ use crate::{BvhLightSamplerRef, LightChoices, LightSampler};
 #[derive(Clone, Debug, Default)]
 pub struct BvhLightSampler {
     tree: LightBvh,
-    infinite: Vec<InfiniteLight>,
+    infinite: Vec<StoredInfiniteLight>,
     /// Of all lights by id; empty if all are in all groups.
     groups: Vec<LightGroups>,
 }

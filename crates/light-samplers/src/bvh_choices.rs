@@ -4,7 +4,7 @@ use light_bvh::{CutDetail, LightBvhAt, LightBvhRef, LightCut};
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
-use crate::infinite_lights::{InfiniteLight, InfiniteLights, irradiance};
+use crate::infinite_lights::{InfiniteLights, StoredInfiniteLight, irradiance};
 
 /// The default hierarchy and its lights at infinity at one context.
 ///
@@ -111,7 +111,7 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
         if self.infinite.is_empty() {
             return self.tree.sample(u);
         }
-        let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
+        let weight = |light: &StoredInfiniteLight| irradiance(light, &self.ctx);
         let first = self.infinite.first(u, self.in_tree, weight)?;
         first.then(|u| self.tree.sample(u))
     }
@@ -120,7 +120,7 @@ impl<'a, T: InTree> BvhChoices<'a, T> {
         if self.infinite.is_empty() {
             return self.tree.pmf(light);
         }
-        let weight = |light: &InfiniteLight| irradiance(light, &self.ctx);
+        let weight = |light: &StoredInfiniteLight| irradiance(light, &self.ctx);
         let first = self.infinite.first_pmf(light, self.in_tree, weight);
         first.then(|| self.tree.pmf(light))
     }

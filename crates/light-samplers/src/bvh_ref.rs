@@ -3,7 +3,7 @@ use light_bvh::visibility::{CellFactors, LightBvhInCellAt};
 use light_bvh::{LightBvhAt, LightBvhRef};
 
 use crate::bvh_choices::BvhChoices;
-use crate::infinite_lights::{InfiniteLight, InfiniteLights, InfiniteLightsError};
+use crate::infinite_lights::{InfiniteLights, InfiniteLightsError, StoredInfiniteLight};
 use crate::{LightChoices, LightSampler};
 
 /// The least number of choices for which a cut is faster than single choices.
@@ -28,7 +28,7 @@ impl<'a> BvhLightSamplerRef<'a> {
     pub fn new(
         tree: LightBvhRef<'a>,
         power: f32,
-        infinite: &'a [InfiniteLight],
+        infinite: &'a [StoredInfiniteLight],
     ) -> Result<Self, InfiniteLightsError> {
         Ok(Self {
             tree,
@@ -51,7 +51,7 @@ impl<'a> BvhLightSamplerRef<'a> {
 
     /// The lights at infinity that emit, in ascending order of their ids.
     #[must_use]
-    pub const fn infinite_lights(&self) -> &'a [InfiniteLight] {
+    pub const fn infinite_lights(&self) -> &'a [StoredInfiniteLight] {
         self.infinite.lights()
     }
 
@@ -164,7 +164,9 @@ impl LightSampler for BvhLightSamplerRef<'_> {
     }
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
-        let first = self.infinite.first(u, self.power, InfiniteLight::fluence)?;
+        let first = self
+            .infinite
+            .first(u, self.power, StoredInfiniteLight::fluence)?;
         first.then(|u| self.tree.sample_emitter(u))
     }
 
@@ -172,7 +174,7 @@ impl LightSampler for BvhLightSamplerRef<'_> {
         let power = self.power;
         let first = self
             .infinite
-            .first_pmf(light, power, InfiniteLight::fluence);
+            .first_pmf(light, power, StoredInfiniteLight::fluence);
         first.then(|| self.tree.pmf_emitter(light))
     }
 }

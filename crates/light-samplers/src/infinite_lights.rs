@@ -20,7 +20,7 @@ const TREE: usize = 0;
 
 /// A light at infinity, as a sampler stores it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InfiniteLight {
+pub struct StoredInfiniteLight {
     /// Its id.
     pub light: LightId,
     /// Its bounds.
@@ -32,7 +32,7 @@ pub struct InfiniteLight {
 /// The lights at infinity in ascending order of ids.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct InfiniteLights<'a> {
-    lights: &'a [InfiniteLight],
+    lights: &'a [StoredInfiniteLight],
 }
 
 /// The infinite ones of `lights` that emit, by id.
@@ -42,18 +42,18 @@ pub(crate) struct InfiniteLights<'a> {
 pub(crate) fn emitting<'a>(
     lights: &'a [LightExtent],
     groups: &'a [LightGroups],
-) -> impl Iterator<Item = InfiniteLight> + use<'a> {
+) -> impl Iterator<Item = StoredInfiniteLight> + use<'a> {
     let infinite = (0..)
         .map(LightId)
         .zip(lights)
         .filter_map(|(id, extent)| Some((id, *extent.infinite()?)));
     infinite.filter_map(|(light, bounds)| {
         let groups = groups.get(light.index()).copied().unwrap_or_default();
-        InfiniteLight::emitting(light, bounds, groups)
+        StoredInfiniteLight::emitting(light, bounds, groups)
     })
 }
 
-impl InfiniteLight {
+impl StoredInfiniteLight {
     /// A light with valid bounds, if it emits.
     #[cfg(feature = "alloc")]
     pub(crate) fn emitting(
@@ -78,11 +78,11 @@ impl InfiniteLight {
 
 impl<'a> InfiniteLights<'a> {
     /// Of lights that were stored before.
-    pub(crate) fn new(lights: &'a [InfiniteLight]) -> Result<Self, InfiniteLightsError> {
+    pub(crate) fn new(lights: &'a [StoredInfiniteLight]) -> Result<Self, InfiniteLightsError> {
         if !lights.is_sorted_by(|a, b| a.light < b.light) {
             return Err(InfiniteLightsError::Order);
         }
-        for &InfiniteLight { light, bounds, .. } in lights {
+        for &StoredInfiniteLight { light, bounds, .. } in lights {
             let bad = |reason| InfiniteLightsError::Bounds { light, reason };
             bounds.validate().map_err(bad)?;
         }
@@ -91,11 +91,11 @@ impl<'a> InfiniteLights<'a> {
 
     /// Of lights that are in order, with valid bounds.
     #[cfg(feature = "alloc")]
-    pub(crate) const fn of_valid(lights: &'a [InfiniteLight]) -> Self {
+    pub(crate) const fn of_valid(lights: &'a [StoredInfiniteLight]) -> Self {
         Self { lights }
     }
 
-    pub(crate) const fn lights(&self) -> &'a [InfiniteLight] {
+    pub(crate) const fn lights(&self) -> &'a [StoredInfiniteLight] {
         self.lights
     }
 
@@ -110,7 +110,7 @@ impl<'a> InfiniteLights<'a> {
         &self,
         u: u64,
         in_tree: f32,
-        weight: impl Fn(&InfiniteLight) -> f32,
+        weight: impl Fn(&StoredInfiniteLight) -> f32,
     ) -> Option<FirstChoice> {
         let weights = self.weights(in_tree, weight);
         // By reference as in `first_pmf`, so that both share one instance of the code.
@@ -131,7 +131,7 @@ impl<'a> InfiniteLights<'a> {
         &self,
         light: LightId,
         in_tree: f32,
-        weight: impl Fn(&InfiniteLight) -> f32,
+        weight: impl Fn(&StoredInfiniteLight) -> f32,
     ) -> FirstPmf {
         let found = self
             .lights
@@ -154,7 +154,7 @@ impl<'a> InfiniteLights<'a> {
     fn weights(
         &self,
         in_tree: f32,
-        weight: impl Fn(&InfiniteLight) -> f32,
+        weight: impl Fn(&StoredInfiniteLight) -> f32,
     ) -> impl Fn(usize) -> f32 {
         let lights = self.lights;
         move |index| match index.checked_sub(TREE + 1) {
@@ -192,7 +192,7 @@ impl core::error::Error for InfiniteLightsError {}
 
 /// Estimated irradiance at `ctx` from a light at infinity; 0 only if all of it is below the
 /// horizon, or if it is in none of the groups of `ctx`.
-pub(crate) fn irradiance(light: &InfiniteLight, ctx: &LightSampleContext) -> f32 {
+pub(crate) fn irradiance(light: &StoredInfiniteLight, ctx: &LightSampleContext) -> f32 {
     if light.groups.is_wanted(ctx.groups) {
         float::positive_product(light.bounds.fluence, mean_cosine(&light.bounds, ctx))
     } else {

@@ -8,7 +8,7 @@ use light_bvh::{InstancedLightBvh, InstancedLightBvhError, PlacedLight, Placemen
 
 use crate::bvh_choices::BvhChoices;
 use crate::id_count::MOST;
-use crate::infinite_lights::{InfiniteLight, InfiniteLights};
+use crate::infinite_lights::{InfiniteLights, StoredInfiniteLight};
 use crate::placed_lights_at::{PlacedLightsAt, numbered};
 use crate::{LightChoices, LightSampler};
 
@@ -19,7 +19,7 @@ use crate::{LightChoices, LightSampler};
 #[derive(Clone, Debug)]
 pub struct InstancedBvhLightSampler {
     tree: InstancedLightBvh,
-    infinite: Vec<InfiniteLight>,
+    infinite: Vec<StoredInfiniteLight>,
 }
 
 impl InstancedBvhLightSampler {
@@ -70,7 +70,7 @@ impl InstancedBvhLightSampler {
         for (light, bounds) in infinite {
             let bad = |reason| InstancedBvhLightSamplerError::Infinite { light, reason };
             bounds.validate().map_err(bad)?;
-            lights.extend(InfiniteLight::emitting(
+            lights.extend(StoredInfiniteLight::emitting(
                 light,
                 bounds,
                 LightGroups::default(),
@@ -141,13 +141,13 @@ impl LightSampler for InstancedBvhLightSampler {
 
     fn sample_emitter(&self, u: u64) -> Option<SampledLight> {
         let (infinite, power) = (self.infinite(), self.tree.power());
-        let first = infinite.first(u, power, InfiniteLight::fluence)?;
+        let first = infinite.first(u, power, StoredInfiniteLight::fluence)?;
         first.then(|u| numbered(&self.tree, self.tree.sample_emitter(u)?))
     }
 
     fn pmf_emitter(&self, light: LightId) -> f32 {
         let (infinite, power) = (self.infinite(), self.tree.power());
-        let first = infinite.first_pmf(light, power, InfiniteLight::fluence);
+        let first = infinite.first_pmf(light, power, StoredInfiniteLight::fluence);
         let pmf = |light| self.tree.pmf_emitter(light);
         first.then(|| self.placed_light(light).map_or(0.0, pmf))
     }

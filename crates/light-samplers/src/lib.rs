@@ -52,7 +52,7 @@ pub use bvh_ref::BvhLightSamplerRef;
 #[cfg(feature = "alloc")]
 pub use exhaustive::ExhaustiveLightSampler;
 pub use grouped::GroupedLightSampler;
-pub use infinite_lights::{HORIZON_SLACK, InfiniteLight, InfiniteLightsError};
+pub use infinite_lights::{HORIZON_SLACK, InfiniteLightsError, StoredInfiniteLight};
 #[cfg(feature = "alloc")]
 pub use instanced::{InstancedBvhLightSampler, InstancedBvhLightSamplerError};
 pub use light_sampler::{LightChoices, LightSampler};

@@ -4,7 +4,7 @@ use light_math::fraction;
 
 /// The irradiance of a light in all groups.
 fn irradiance(bounds: &InfiniteBounds, ctx: &LightSampleContext) -> f32 {
-    let light = InfiniteLight {
+    let light = StoredInfiniteLight {
         light: LightId(0),
         bounds: *bounds,
         groups: LightGroups::ALL,
@@ -98,9 +98,9 @@ fn sky() -> [LightExtent; 4] {
 /// Beside a tree of weight 2.
 #[test]
 fn each_choice_has_its_share_of_u() {
-    let lights: Vec<InfiniteLight> = emitting(&sky(), &[]).collect();
+    let lights: Vec<StoredInfiniteLight> = emitting(&sky(), &[]).collect();
     let sky = InfiniteLights::new(&lights).expect("in order");
-    let fluence = |light: &InfiniteLight| light.bounds.fluence;
+    let fluence = |light: &StoredInfiniteLight| light.bounds.fluence;
     // Of four weights at most five parts of 2^16 go elsewhere.
     const PARTS: f32 = 5.0 / 65536.0;
     for (u, light, pmf, rest) in [
@@ -136,7 +136,7 @@ fn each_choice_has_its_share_of_u() {
 
 #[test]
 fn lights_out_of_order_or_without_valid_bounds_are_refused() {
-    let lights: Vec<InfiniteLight> = emitting(&sky(), &[]).collect();
+    let lights: Vec<StoredInfiniteLight> = emitting(&sky(), &[]).collect();
     let swapped = [lights[1], lights[0]];
     let error = InfiniteLights::new(&swapped).map(|_| ());
     assert_eq!(error, Err(InfiniteLightsError::Order), "swapped");
