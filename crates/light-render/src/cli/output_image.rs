@@ -50,6 +50,11 @@ impl OutputImage {
         })
     }
 
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Writes a part of a picture with its exact sums.
     ///
     /// # Errors

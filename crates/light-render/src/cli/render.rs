@@ -14,6 +14,7 @@ use super::failure::Failure;
 use super::interrupt::GentleStop;
 use super::light_choice::LightChoice;
 use super::memory_check::{PICTURE, check_cells_memory, check_memory};
+use super::output_image::OutputImage;
 use super::prepared_picture::PreparedPicture;
 use super::progress::{ProgressLine, Volume};
 use super::render_args::RenderArgs;
@@ -57,7 +58,7 @@ impl RenderArgs {
     fn run_once(&self, stamps: &mut Option<FileStamps>) -> Result<(), Failure> {
         self.input.expect_outputs(&self.output)?;
         self.input.expect_outputs(self.checkpoint.file())?;
-        let outputs = self.outputs()?;
+        let mut outputs = self.outputs()?;
         let mut picture = self.prepare(stamps)?;
         if self.skip_existing && self.is_there(&picture) {
             return Ok(());
@@ -74,7 +75,7 @@ impl RenderArgs {
             return Ok(());
         };
         let report = self.json.then(|| self.report(&picture, &choice, &made));
-        let (made, interrupted) = self.keep_unfinished(&picture, made)?;
+        let (made, interrupted) = self.keep_unfinished(&picture, made, &mut outputs)?;
         self.write(&outputs, &picture, made)?;
         if let Some(report) = report {
             say!("{report}")?;
@@ -208,18 +209,23 @@ impl RenderArgs {
     }
 
     /// Keeps the sums of a picture that somebody stopped before its last sample, and says how to
-    /// go on.
+    /// go on. Outputs that are there already, perhaps finished, are taken out of `outputs`.
     fn keep_unfinished(
         &self,
         picture: &PreparedPicture,
         mut made: RenderedPicture,
+        outputs: &mut Vec<OutputImage>,
     ) -> Result<(RenderedPicture, Option<Failure>), Failure> {
         let is_whole = made.rendering.film.samples() >= picture.settings.samples.end;
         if !made.is_stopped || is_whole {
             return Ok((made, None));
         }
+        let mut old = self.output.clone();
+        old.retain(|path| path.is_file());
+        outputs.retain(|output| !old.iter().any(|path| path == output.path()));
         let unfinished = Unfinished {
-            output: &self.output[0],
+            outputs: &self.output,
+            old: &old,
             wanted: self.settings.wanted_samples(picture.file),
             checkpoint: self.checkpoint.path(),
         };

@@ -1,14 +1,19 @@
+use std::fs::{self, File};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::{Film, PartialPicture, PictureIdentity};
 
 use super::failure::Failure;
+use super::output_file::{expect_another, refuse};
 
 /// A picture that somebody stopped before its last sample.
 #[derive(Debug)]
 pub(super) struct Unfinished<'a> {
-    /// The first of its files.
-    pub(super) output: &'a Path,
+    /// All of its files.
+    pub(super) outputs: &'a [PathBuf],
+    /// Those of them that keep what they held before.
+    pub(super) old: &'a [PathBuf],
     /// Samples a pixel that were wanted; `None` for as many as fit into a time.
     pub(super) wanted: Option<u32>,
     /// The checkpoint that was asked for, which holds all samples by now.
@@ -30,21 +35,28 @@ impl Unfinished<'_> {
         let of = self
             .wanted
             .map_or_else(String::new, |wanted| format!(" of {wanted}"));
-        let done = format!(
-            "interrupted after {samples}{of} samples a pixel, which {} holds",
-            self.output.display()
-        );
+        let holder = self.outputs.iter().find(|path| !self.old.contains(path));
+        let holder = holder.map_or_else(String::new, |path| {
+            format!(", which {} holds", path.display())
+        });
+        let old = self.old.first().map_or_else(String::new, |path| {
+            format!("; {} stays as it was", path.display())
+        });
+        let done = format!("interrupted after {samples}{of} samples a pixel{holder}{old}");
         if let Some(path) = self.checkpoint {
             let message = format!("{done}; the same command goes on from {}", path.display());
             return Ok((film, Failure::Interrupted(message)));
         }
-        let path = self.checkpoint_path();
+        let path = self.free_path()?;
         let part = PartialPicture {
             samples: 0..samples,
             film,
             identity: identity(),
         };
-        part.write(&path).map_err(Failure::input)?;
+        part.write(&path).map_err(|error| {
+            drop(fs::remove_file(&path));
+            Failure::input(error)
+        })?;
         let message = format!(
             "{done}; to go on, add --checkpoint {} to the same command",
             path.display()
@@ -52,8 +64,21 @@ impl Unfinished<'_> {
         Ok((part.film, Failure::Interrupted(message)))
     }
 
-    /// Beside the picture.
-    fn checkpoint_path(&self) -> PathBuf {
-        self.output.with_extension("checkpoint.exr")
+    /// The first name beside the picture that no file has, which an empty file takes.
+    fn free_path(&self) -> Result<PathBuf, Failure> {
+        let mut ending = "checkpoint.exr".to_owned();
+        let mut number = 1;
+        loop {
+            let path = self.outputs[0].with_extension(ending);
+            if expect_another(&path, self.outputs, "--output").is_ok() {
+                match File::create_new(&path) {
+                    Ok(_) => return Ok(path),
+                    Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                    Err(error) => return Err(refuse(&path, format!("cannot be written: {error}"))),
+                }
+            }
+            number += 1;
+            ending = format!("checkpoint-{number}.exr");
+        }
     }
 }

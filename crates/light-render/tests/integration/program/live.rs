@@ -236,6 +236,48 @@ fn a_stopped_rendering_is_kept_and_goes_on() {
     );
 }
 
+/// The samples of an interrupted rendering replace no file but those that it made itself.
+#[cfg(unix)]
+#[test]
+fn a_stopped_rendering_writes_over_nothing() {
+    let folder = Folder::new("stopped-kept");
+    let (scene, out) = (folder.scene(LIT), folder.path("out.exr"));
+    let names = ["out.exr", "out.checkpoint.exr", "out.checkpoint-2.exr"];
+    let old = names.map(|name| folder.file(name, name));
+    let [third, png] = ["out.checkpoint-3.exr", "out.png"].map(|name| folder.path(name));
+    let interrupted = |more: &[&str]| {
+        let viewer = StandIn::listen();
+        let args = ["render", &scene, "-o", &out, "--width", "8"];
+        let live = ["--spp", "4000000", "--view", &viewer.flag];
+        let child = start(&[&args, &live[..], more].concat());
+        let first = viewer.first_update.recv_timeout(PATIENCE);
+        first.expect("a first pass");
+        let (status, error) = interrupt(child);
+        assert_eq!(status, Some(130), "{error}");
+        for (name, path) in names.iter().zip(&old) {
+            let content = fs::read_to_string(path).expect("as it was");
+            assert_eq!(&content, name, "{error}");
+        }
+        error
+    };
+    let error = interrupted(&[]);
+    let as_it_was = "out.exr stays as it was";
+    for words in [as_it_was, &format!("--checkpoint {third} ")] {
+        assert!(error.contains(words), "{words:?} in {error}");
+    }
+    let samples = |path: &str| {
+        let part = PartialPicture::read(Path::new(path)).expect("the samples");
+        part.samples.end
+    };
+    let before = samples(&third);
+    let error = interrupted(&["--checkpoint", &third, "-o", &png]);
+    for words in [as_it_was, "out.png holds", "goes on from"] {
+        assert!(error.contains(words), "{words:?} in {error}");
+    }
+    assert!(samples(&third) > before, "never fewer samples");
+    assert!(Path::new(&png).exists(), "a picture that was not there");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_scene_that_changes_is_rendered_again() {
