@@ -51,9 +51,18 @@ impl AnyLightSampler {
         check_memory(kind, lights.len())?;
         match kind {
             SamplerKind::Uniform => Self::uniform(lights.len()),
-            SamplerKind::Power => Ok(Self::Power(PowerLightSampler::new(&lights.powers())?)),
+            SamplerKind::Power => Self::by_power(&lights.powers()),
             _ => Self::over(kind, &lights.extents()),
         }
+    }
+
+    /// The sampler by these powers; the index is the id.
+    ///
+    /// # Errors
+    /// When the lights are more than ids or than the memory holds, or powers are invalid.
+    pub(crate) fn by_power(powers: &[f32]) -> Result<Self, AnyLightSamplerError> {
+        check_memory(SamplerKind::Power, powers.len())?;
+        Ok(Self::Power(PowerLightSampler::new(powers)?))
     }
 
     fn uniform(lights: usize) -> Result<Self, AnyLightSamplerError> {

@@ -24,4 +24,10 @@ impl BenchSet {
             .map(|light| light.bounds().into())
             .collect()
     }
+
+    /// The emitted powers of the lights, by id.
+    #[must_use]
+    pub fn powers(&self) -> Vec<f32> {
+        self.lights.iter().map(SetLight::power).collect()
+    }
 }

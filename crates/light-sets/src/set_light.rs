@@ -123,6 +123,38 @@ impl SetLight {
         }
     }
 
+    /// The emitted power: that of both sides of a two-sided triangle, and of a spot that in its
+    /// cone. The `phi` of the [`bounds`](Self::bounds) is another number, for importances.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
+    pub fn power(&self) -> f32 {
+        let power = match *self {
+            Self::Triangle {
+                vertices,
+                radiance,
+                two_sided,
+            } => {
+                let [a, b, c] = vertices.map(Vec3::as_dvec3);
+                let sides = if two_sided { 2.0 } else { 1.0 };
+                sides * PI * f64::from(radiance) * 0.5 * (b - a).cross(c - a).length()
+            }
+            Self::Point { intensity, .. } => 4.0 * PI * f64::from(intensity),
+            Self::Spot {
+                intensity,
+                cone_deg,
+                delta_deg,
+                ..
+            } => {
+                // The falloff is 1/2 in the mean over its cosines. From squares of sines, which
+                // narrow cones keep the digits of.
+                let sin_sq = |angle: f64| (0.5 * angle).sin().powi(2);
+                let [start, end] = cone(cone_deg, delta_deg).map(sin_sq);
+                2.0 * PI * f64::from(intensity) * (start + end)
+            }
+        };
+        power as f32
+    }
+
     /// The bounds of the light, for light samplers.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]

@@ -19,19 +19,23 @@ fn has_infinite(lights: &[LightExtent]) -> bool {
 }
 
 impl Candidate {
-    /// Builds the sampler of the given kind.
+    /// Builds the sampler of the given kind; that by power goes by `powers`.
     ///
     /// # Errors
     /// The first light that the sampler refuses.
     pub(super) fn new(
         kind: SamplerKind,
         extents: &[LightExtent],
+        powers: &[f32],
     ) -> Result<Self, AnyLightSamplerError> {
         Ok(Self {
             kind,
             n_lights: extents.len(),
             has_infinite: has_infinite(extents),
-            sampler: AnyLightSampler::over(kind, extents)?,
+            sampler: match kind {
+                SamplerKind::Power => AnyLightSampler::by_power(powers)?,
+                _ => AnyLightSampler::over(kind, extents)?,
+            },
         })
     }
 

@@ -71,7 +71,7 @@ pub fn bench(
     set: &BenchSet,
     options: &BenchOptions,
 ) -> Result<Vec<BenchRow>, AnyLightSamplerError> {
-    let extents = set.extents();
+    let (extents, powers) = (set.extents(), set.powers());
     let plan = Plan {
         set: name,
         measurement: &options.measurement,
@@ -79,7 +79,7 @@ pub fn bench(
         extents: &extents,
     };
     plan.measure(&Query::new(set, options), |kind| {
-        Candidate::new(kind, &extents)
+        Candidate::new(kind, &extents, &powers)
     })
 }
 
@@ -87,7 +87,9 @@ pub fn bench(
 mod tests {
     use super::*;
     use crate::SamplerKind;
-    use light_sets::SetKind;
+    use core::f64::consts::PI;
+    use light_sets::{SetKind, SetLight, SetPoint};
+    use lights::glam::Vec3;
 
     fn options(k: u32) -> BenchOptions {
         of(SamplerKind::Uniform, k)
@@ -114,6 +116,39 @@ mod tests {
         assert_eq!(row.laws.pmf_mismatch, 0.0, "same bits");
         assert!(row.laws.pmf_sum_max_error < 1e-6, "a distribution");
         assert!(row.variance.mean > 1.0, "as noisy as uniform sampling is");
+    }
+
+    /// A spot of a narrow cone and both sides of a triangle: bounds give other powers.
+    #[test]
+    fn choices_by_power_go_by_what_is_emitted() {
+        let lights = vec![
+            SetLight::Triangle {
+                vertices: [Vec3::Z, Vec3::Z + Vec3::Y, Vec3::Z + Vec3::X],
+                radiance: 1.0,
+                two_sided: true,
+            },
+            SetLight::Spot {
+                p: Vec3::Z,
+                target: Vec3::ZERO,
+                intensity: 1.0,
+                cone_deg: 10.0,
+                delta_deg: 0.0,
+            },
+        ];
+        let at = SetPoint {
+            p: Vec3::ZERO,
+            n: Vec3::Z,
+        };
+        let f = [0, 1].map(|i: usize| lights[i].contribution(&at));
+        let powers = [PI, 2.0 * PI * (1.0 - 10f64.to_radians().cos())];
+        let all = powers[0] + powers[1];
+        let moment: f64 = (0..2).map(|i| f[i] * f[i] * all / powers[i]).sum();
+        let expected = moment / (f[0] + f[1]).powi(2) - 1.0;
+        let points = vec![at];
+        let set = BenchSet { lights, points };
+        let found = bench("two", &set, &of(SamplerKind::Power, 1)).expect("valid lights");
+        let found = found[0].variance.mean;
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found}, {expected}");
     }
 
     #[test]
@@ -165,7 +200,7 @@ mod tests {
     #[test]
     fn a_light_that_is_refused_is_named() {
         let mut set = BenchSet::generate(SetKind::Uniform, 10, 1);
-        set.lights[7] = set.lights[7].moved(lights::math::glam::Vec3::splat(1e38));
+        set.lights[7] = set.lights[7].moved(Vec3::splat(1e38));
         let options = of(SamplerKind::Bvh, 1);
         let error = bench("uniform", &set, &options).expect_err("too far");
         assert!(error.to_string().starts_with("light 7: "), "{error}");

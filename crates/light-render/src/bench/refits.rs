@@ -59,7 +59,7 @@ pub fn refits(
     let points = options.points_of(set);
     let mut rows = Vec::new();
     for &sampler in &options.measurement.samplers {
-        let mut following = Candidate::new(sampler, &set.extents())?;
+        let mut following = Candidate::new(sampler, &set.extents(), &set.powers())?;
         let Some(at_first) = following.degradation() else {
             continue;
         };
@@ -81,7 +81,7 @@ pub fn refits(
                 moved,
                 degradation: following.degradation().map_or(0.0, |now| now / at_first),
                 refitted: variance(&following),
-                rebuilt: variance(&Candidate::new(sampler, &set.extents())?),
+                rebuilt: variance(&Candidate::new(sampler, &set.extents(), &set.powers())?),
             });
         }
     }

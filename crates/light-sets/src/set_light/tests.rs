@@ -71,6 +71,60 @@ fn bounds_tell_power_and_cone() {
     );
 }
 
+/// Sums over directions give the same as the closed forms.
+#[test]
+fn powers_are_those_of_all_directions() {
+    let triangle = |two_sided| SetLight::Triangle {
+        vertices: [Vec3::ZERO, Vec3::X, 2.0 * Vec3::Y],
+        radiance: 3.0,
+        two_sided,
+    };
+    let spot = |cone_deg, delta_deg| SetLight::Spot {
+        p: Vec3::ZERO,
+        target: Vec3::Z,
+        intensity: 2.0,
+        cone_deg,
+        delta_deg,
+    };
+    let point = SetLight::Point {
+        p: Vec3::ZERO,
+        intensity: 2.0,
+    };
+    let lights = [
+        (triangle(false), 3.0 * PI),
+        (triangle(true), 6.0 * PI),
+        (point, 8.0 * PI),
+        (spot(30.0, 0.0), 4.0 * PI * (1.0 - 30f64.to_radians().cos())),
+        (spot(70.0, 50.0), f64::from(spot(70.0, 50.0).power())),
+        (spot(180.0, 180.0), 4.0 * PI),
+    ];
+    for (light, expected) in lights {
+        assert!(
+            (f64::from(light.power()) / expected - 1.0).abs() < 1e-6,
+            "{light:?}"
+        );
+        let steps = 20_000;
+        let sum: f64 = (0..steps)
+            .map(|i| {
+                let z = (f64::from(i) + 0.5) / f64::from(steps) * 2.0 - 1.0;
+                let direction = DVec3::new((1.0 - z * z).sqrt(), 0.0, z);
+                light.intensity_toward(direction, 0.0)
+            })
+            .sum();
+        let sum = 4.0 * PI * sum / f64::from(steps);
+        assert!(
+            (sum / expected - 1.0).abs() < 1e-3,
+            "{light:?}: {sum}, {expected}"
+        );
+    }
+    let narrow = f64::from(spot(1e-3, 0.0).power());
+    let expected = 2.0 * PI * 1e-3f64.to_radians().powi(2);
+    assert!(
+        (narrow / expected - 1.0).abs() < 1e-6,
+        "{narrow}: of a narrow cone"
+    );
+}
+
 /// A target as near as floats can tell, or as far, still gives a unit axis.
 #[test]
 fn a_spot_has_a_unit_axis_wherever_it_is_aimed() {
