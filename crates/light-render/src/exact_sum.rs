@@ -5,13 +5,13 @@ use lights::glam::Vec3;
 /// A sum of colours that does not depend on the order and grouping of its terms, so that parts of a
 /// picture can be rendered anywhere and merged to the same bits.
 ///
-/// Each channel counts steps of 2^-48 in 128 bits: terms smaller than that are lost. Terms of more
-/// than 2^46 count as 2^46, so that no sum of 2^32 terms overflows.
+/// Each channel counts steps of 2^-48 (3.6e-15) in 128 bits: terms smaller than that are lost. Terms
+/// of more than 2^46 (7.0e13) count as 2^46, so that no sum of 2^32 terms overflows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExactSum([i128; 3]);
 
 const STEPS: f64 = (1u64 << 48) as f64;
-const LARGEST_TERM: f32 = (1u64 << 46) as f32;
+pub(crate) const LARGEST_TERM: f32 = (1u64 << 46) as f32;
 
 impl ExactSum {
     /// The sum that counts so many steps of 2^-48, a number for each channel.

@@ -5,7 +5,8 @@ use crate::{ExactSum, FilmRow};
 /// The film: the sum of the samples of every pixel, rows from the top.
 ///
 /// The pixel filter is a box one pixel wide: a sample counts for the pixel it falls into and for no
-/// other. A pixel takes 24, 30 or 48 bytes.
+/// other. A pixel takes 24, 30 or 48 bytes. A sample of more than 2^46 (7.0e13) counts as that much,
+/// and what of it is below 2^-48 (3.6e-15) is lost.
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,
@@ -95,7 +96,13 @@ impl Film {
             for (x, sum) in more.sums().enumerate() {
                 row.add_sum(x, sum);
             }
+            row.add_clipped(more);
         }
+    }
+
+    /// How many pixels have samples that a sum holds only 2^46 of.
+    pub(crate) fn clipped_pixels(&self) -> usize {
+        self.rows.iter().map(FilmRow::clipped).sum()
     }
 
     /// The mean of each pixel's samples as linear RGB, row by row; black without samples.
@@ -136,6 +143,23 @@ mod tests {
             "the mean of 1 and 3"
         );
         assert_eq!((film.samples(), film.resolution()), (2, (2, 1)), "counts");
+    }
+
+    #[test]
+    fn clipped_pixels_are_counted_once() {
+        let mut film = Film::new(3, 2);
+        film.expose(1)[0].add(1, Vec3::splat(ExactSum::from(Vec3::MAX).mean(1).x));
+        assert_eq!(film.clipped_pixels(), 0, "all of the largest term");
+        for _ in 0..2 {
+            film.expose(1)[1].add(2, Vec3::new(0.0, 8e13, 0.0));
+        }
+        assert_eq!(film.clipped_pixels(), 1, "two samples of one pixel");
+        let mut other = Film::new(3, 2);
+        other.expose(1)[0].add(0, Vec3::MAX);
+        other.add(&film);
+        assert_eq!(other.clipped_pixels(), 2, "one of each");
+        other.add(&film);
+        assert_eq!(other.clipped_pixels(), 2, "the same ones");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 use lights::glam::Vec3;
 
 use crate::ExactSum;
+use crate::exact_sum::LARGEST_TERM;
 
 /// The sums of a row of pixels, with as many bits as they need: 24 bytes a pixel while no sum of
 /// the row reaches 65536, 30 while none reaches 2^31, and 48 then.
@@ -9,6 +10,8 @@ pub struct FilmRow {
     /// The lower 64 bits of each channel's steps.
     low: Vec<[u64; 3]>,
     high: HighWords,
+    /// Which pixels have samples above the largest term of a sum; empty where none has.
+    clipped: Vec<bool>,
 }
 
 /// The upper 64 bits of each channel's steps.
@@ -28,16 +31,20 @@ impl FilmRow {
         Self {
             low: vec![[0; 3]; width],
             high: HighWords::Zero,
+            clipped: Vec::new(),
         }
     }
 
-    /// Adds a sample to pixel `x`.
+    /// Adds a sample to pixel `x`; of channels above 2^46 that much.
     ///
     /// # Panics
     /// Panics if there is no such pixel.
     #[inline]
     pub fn add(&mut self, x: usize, radiance: Vec3) {
         self.add_sum(x, radiance.into());
+        if radiance.abs().max_element() > LARGEST_TERM {
+            self.set_clipped(x);
+        }
     }
 
     /// Adds several samples to pixel `x`.
@@ -55,6 +62,26 @@ impl FilmRow {
             let sum = core::array::from_fn(|i| sum[i].saturating_add(high[i]));
             self.high.set(x, sum, self.low.len());
         }
+    }
+
+    /// Notes that pixel `x` has less than its samples.
+    #[cold]
+    fn set_clipped(&mut self, x: usize) {
+        self.clipped.resize(self.low.len(), false);
+        self.clipped[x] = true;
+    }
+
+    /// Takes over which pixels of a row of the same length are clipped.
+    pub(crate) fn add_clipped(&mut self, other: &Self) {
+        let clipped = other.clipped.iter().enumerate();
+        for (x, _) in clipped.filter(|(_, is_so)| **is_so) {
+            self.set_clipped(x);
+        }
+    }
+
+    /// How many pixels are clipped.
+    pub(crate) fn clipped(&self) -> usize {
+        self.clipped.iter().filter(|is_so| **is_so).count()
     }
 
     /// The sum of pixel `x`.

@@ -4,13 +4,25 @@ use light_scene::Image;
 use lights::glam::Vec3;
 use lights::math::spectrum::rec709_luminance;
 
-use crate::{LightInventory, ToneMap};
+use crate::exact_sum::LARGEST_TERM;
+use crate::{Film, LightInventory, ToneMap};
 
 /// Lamps that give less than this part of the light of the skies are said to be lost under them.
 const LOST: f64 = 1e-4;
 
 /// Of a picture with at least this share of white it is said: lamps in view are far less.
 const MUCH: f64 = 0.1;
+
+/// What to say of a picture some of whose pixels the film cannot hold.
+pub(crate) fn of_range(film: &Film) -> Option<String> {
+    let pixels = film.clipped_pixels();
+    (pixels > 0).then(|| {
+        format!(
+            "radiance above {LARGEST_TERM:.1e} is clipped, in {pixels} pixels: try --light-scale \
+             or --env-scale"
+        )
+    })
+}
 
 /// What to say of a picture without light.
 pub(crate) fn of_black(image: &Image) -> Option<String> {

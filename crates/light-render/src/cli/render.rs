@@ -181,6 +181,7 @@ impl RenderArgs {
         }
         let rejected = rendering.rejected;
         self.doubt(|| (rejected > 0).then(|| format!("{rejected} samples were not finite")));
+        self.doubt(|| doubts::of_range(&rendering.film));
         let names = layers.iter().flat_map(|layers| layers.names()).cloned();
         Ok(Some(RenderedPicture {
             layers: names.zip(films.iter().map(Film::develop)).collect(),

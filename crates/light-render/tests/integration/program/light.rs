@@ -52,6 +52,28 @@ fn scenes_without_light_get_a_sky_and_say_so() {
 }
 
 #[test]
+fn clipped_radiance_is_said() {
+    let folder = Folder::new("clipped");
+    let scene = folder.scene(LIT);
+    let out = folder.path("a.exr");
+    let render = ["render", &scene, "-o", &out, "--light-scale", "1e20"];
+    let said = words(&render);
+    assert_eq!(said.lines().count(), 1, "{said}");
+    let clipped = picture(&out)
+        .texels()
+        .iter()
+        .filter(|&&c| c.max_element() > 1e13)
+        .count();
+    for word in [
+        "above 7.0e13",
+        "--light-scale",
+        &format!("in {clipped} pixels"),
+    ] {
+        assert!(said.contains(word), "{word} in {said}");
+    }
+}
+
+#[test]
 fn scenes_of_black_lights_stay_black() {
     let folder = Folder::new("black_lights");
     let scene = folder.file(
