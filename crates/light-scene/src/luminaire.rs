@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::path::{Component, Path};
 
 use lights::math::spectrum::photometric::Lumen;
 use lights::photometry::{self, Luminaire, PhotometricWeb, parse_eulumdat, parse_lm63};
@@ -10,7 +10,7 @@ use crate::{Diagnostic, Files, Location};
 
 /// The luminaire that a file describes: EULUMDAT if its name ends in `.ldt`, LM-63 otherwise.
 ///
-/// A file that `TILT=` names is searched in the same folder.
+/// A file that `TILT=` names is searched in the same folder; a name that leads out of it is refused.
 ///
 /// # Errors
 /// When a file cannot be read or is malformed: file, line and what was expected there.
@@ -33,8 +33,13 @@ pub fn parse_luminaire(path: &Path, text: &str, files: Files<'_>) -> Result<Lumi
     luminaire.map_err(|error| in_luminaire(path, &error))
 }
 
-/// The text of the file `name` in the folder of `path`, or why there is none.
+/// The text of the file `name` in the folder of `path`, or why there is none. Nothing outside of
+/// that folder is opened: the file may come from anywhere, and messages show what they found.
 pub(crate) fn read_next_to(path: &Path, name: &str, files: Files<'_>) -> Result<String, String> {
+    let mut parts = Path::new(name).components();
+    if !parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err("expected a file in the same folder".into());
+    }
     let bytes = files.read(&path.with_file_name(name));
     bytes
         .map(|bytes| text_of(&bytes).into_owned())
@@ -122,6 +127,27 @@ mod tests {
             "the file that is wrong"
         );
         assert_eq!(broken.location, Location::Line(4), "and the line");
+    }
+
+    #[test]
+    fn a_tilt_file_is_in_the_folder() {
+        let folder = TestFolder::new("luminaire_tilt_out");
+        fs::create_dir_all(folder.path("sub")).expect("a folder");
+        fs::write(folder.path("lamp.tlt"), "1\n3\n0 45 90\n1 0.9 0.7\n").expect("written");
+        let read = |folder_name: &str, name: &str| {
+            let text = format!("TILT={name}\n1 1000 1 2 1 1 1 0 0 0\n1 1 12\n0 90\n0\n10 5\n");
+            let path = folder.path(folder_name).join("a.ies");
+            parse_luminaire(&path, &text, Files::DISK)
+        };
+        assert!(read("", "./lamp.tlt").is_ok(), "in the folder");
+        let whole = folder.path("lamp.tlt").display().to_string();
+        for name in ["../lamp.tlt", "../sub/../lamp.tlt", &whole] {
+            let error = read("sub", name).expect_err("outside");
+            let is_refused = error
+                .message
+                .ends_with("expected a file in the same folder");
+            assert!(is_refused, "{name}: {error}");
+        }
     }
 
     #[test]
