@@ -9,7 +9,7 @@ use lights::sources::equal_area_size;
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
 use super::memory_check::check_memory;
-use super::output_file::{expect_another, expect_writable};
+use super::output_file::{expect_another, expect_image};
 use super::whole::whole;
 
 /// A texel while it is made, as light, as a picture, and in the file.
@@ -48,6 +48,7 @@ impl ConvertArgs {
     /// Files that cannot be read or written; an input of unclear shape.
     pub(super) fn run(&self) -> Result<(), Failure> {
         expect_another(&self.output, from_ref(&self.input), "the one that is read")?;
+        expect_image(&self.output)?;
         let Environment { image, map } = Environment::read(&self.input, self.from)?;
         let to = self.to.map_or_else(|| other(map), SphereMap::from);
         let size = match self.height {
@@ -55,7 +56,6 @@ impl ConvertArgs {
             None if to == map => image.size(),
             None => shape(to, natural_height(to, image.size()[1])),
         };
-        expect_writable(&self.output)?;
         let what = format!("a map of {} x {} texels (--height)", size[0], size[1]);
         check_memory(
             &what,

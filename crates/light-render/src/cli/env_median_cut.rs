@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::env_regions::draw_regions;
 use super::environment::{Environment, MapName};
 use super::failure::Failure;
-use super::output_file::expect_another;
+use super::output_file::{expect_another, expect_image};
 use super::stdout::say;
 use super::whole::whole;
 
@@ -80,6 +80,7 @@ impl MedianCutArgs {
             from_ref(&self.image),
             "the map for the picture of regions",
         )?;
+        expect_image(&picture)?;
         let Environment { image, map } = Environment::read(&self.image, self.map)?;
         let refuse = |message: String| Failure::input(Diagnostic::file(&self.image, message));
         let lights = MedianCut::new(image.clone(), map, self.sums.into())

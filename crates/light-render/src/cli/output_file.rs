@@ -24,6 +24,21 @@ pub(crate) fn expect_writable(path: &Path) -> Result<(), Failure> {
         .map_err(|error| refuse(path, format!("cannot be written: {error}")))
 }
 
+/// Makes sure that an image can be written to `path`, as [`expect_writable`] does.
+///
+/// # Errors
+/// When it cannot, or the name does not end as that of an image.
+pub(crate) fn expect_image(path: &Path) -> Result<(), Failure> {
+    if !["exr", "hdr", "png"]
+        .iter()
+        .any(|ending| has_ending(path, ending))
+    {
+        let message = "expected an image to write: .exr, .hdr or .png";
+        return Err(refuse(path, message));
+    }
+    expect_writable(path)
+}
+
 /// Makes sure that `path` names none of the files in `others`, however it is spelled; `role` says
 /// what those are.
 ///

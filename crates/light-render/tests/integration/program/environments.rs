@@ -1,5 +1,6 @@
 //! Environment maps: read, cut into lights, converted.
 
+use std::fs;
 use std::path::Path;
 
 use light_scene::glam::Vec3;
@@ -160,6 +161,29 @@ fn environments_are_cut_and_converted() {
     assert_refused(&forced, &["square", "64 x 32"]);
     let folder_missing = folder.path("missing/e.png");
     assert_refused(&["env", "convert", &map, &folder_missing], &["missing"]);
+}
+
+/// An output that cannot be written is refused before the map is read, which warns here.
+#[test]
+fn outputs_of_environments_are_checked_first() {
+    let folder = Folder::new("env-outputs");
+    let map = folder.path("a.hdr");
+    write_map(&map, 4, 2);
+    let mut bytes = fs::read(&map).expect("a map");
+    let head = bytes
+        .iter()
+        .position(|&byte| byte == b'\n')
+        .expect("a line");
+    bytes.splice(head..head, *b"\nEXPOSURE=2");
+    fs::write(&map, bytes).expect("a map");
+    let read = lights(&["env", "convert", &map, &folder.path("b.exr")]);
+    let said = String::from_utf8(read.stderr).expect("text");
+    assert!(said.contains("warning"), "{said}");
+    for output in ["missing/b.exr", "b.jpg", "b"].map(|name| folder.path(name)) {
+        assert_refused(&["env", "convert", &map, &output], &[&output]);
+        let cut = ["env", "median-cut", &map, "-n", "2", "-o", &output];
+        assert_refused(&cut, &[&output]);
+    }
 }
 
 /// A map of radiance 2 in its upper half and 1 below.
