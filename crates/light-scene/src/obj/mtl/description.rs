@@ -84,6 +84,10 @@ impl Description {
                 "`Kd` of glass was ignored",
             ),
             (
+                finish == Finish::Matt && self.is_glassy(),
+                "the glass of `illum 4`, `6`, `7` or `9` was taken as matt: expected `Ni` above 0",
+            ),
+            (
                 finish == Finish::Metal && self.diffuse_map.is_some(),
                 "`map_Kd` of a metal was taken as its mean",
             ),
@@ -141,13 +145,18 @@ impl Description {
         Some(Alpha { opacity, cutoff })
     }
 
+    /// Whether the illumination model is one of glass.
+    fn is_glassy(&self) -> bool {
+        matches!(self.illumination, 4 | 6 | 7 | 9)
+    }
+
     fn finish(&self) -> Finish {
         let diffuse = self.diffuse.unwrap_or_default();
         match self.illumination {
             _ if self.metallic >= 0.5 => Finish::Metal,
             5 => Finish::Mirror,
             3 if self.specular.max_element() > diffuse.max_element() => Finish::Mirror,
-            4 | 6 | 7 | 9 if self.index_of_refraction > 0.0 => Finish::Glass,
+            _ if self.is_glassy() && self.index_of_refraction > 0.0 => Finish::Glass,
             _ if self.roughness.is_some() && self.index_of_refraction > 1.0 => Finish::Lacquer,
             _ => Finish::Matt,
         }

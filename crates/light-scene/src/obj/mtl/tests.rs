@@ -153,7 +153,7 @@ fn what_does_not_count_is_named_once() {
     let mtl = "newmtl a\nKs .5\nnewmtl b\nKs .5\nnewmtl c\nillum 5\nKd 1\nnewmtl d\nillum 4\n\
         map_Kd a b.png\n\
         newmtl e\nPm .6\nmap_Kd a b.png\nnewmtl f\nd .5\nTr .7\nbump a b.png\nTf 1\nTf 1\n\
-        newmtl g\nmap_Kd c.dds\nnewmtl h\nKd 0 2 0\nKd 3\nd 2\n";
+        newmtl g\nmap_Kd c.dds\nnewmtl h\nKd 0 2 0\nKd 3\nd 2\nnewmtl i\nNi 0\nillum 7\n";
     let expected = [
         "dir/a.mtl:1: `Ks` of a matt surface was ignored: expected `Pr` of a lacquered one, or \
          `illum 3` or `5` of a mirror",
@@ -167,6 +167,8 @@ fn what_does_not_count_is_named_once() {
         "dir/a.mtl:21: `c.dds` was ignored: expected .exr, .hdr, .pfm, .png, .tga or .jpg",
         "dir/a.mtl:23: `Kd` above 1 was taken as 1",
         "dir/a.mtl:25: `d` above 1 was taken as 1",
+        "dir/a.mtl:26: the glass of `illum 4`, `6`, `7` or `9` was taken as matt: expected `Ni` \
+         above 0",
     ];
     assert_eq!(warnings(mtl), expected, "one warning each");
 }
