@@ -20,24 +20,51 @@ pub enum LightSetProblem {
     /// The file cannot be read or written.
     Io(io::Error),
     /// The record is neither `tri`, `point` nor `spot`.
-    UnknownRecord,
+    UnknownRecord {
+        /// The first word of the line.
+        found: String,
+    },
     /// The line has too few or too many fields.
     FieldCount {
         /// How many numbers the record needs.
         expected: usize,
+        /// How many fields there are.
+        found: usize,
     },
     /// A field is not a finite number.
-    BadNumber,
+    BadNumber {
+        /// The field.
+        found: String,
+    },
     /// The flag `twosided` is neither 0 nor 1.
-    BadFlag,
+    BadFlag {
+        /// The number in its place.
+        found: f32,
+    },
     /// A radiance or intensity is negative.
-    NegativeEmission,
+    NegativeEmission {
+        /// The radiance or intensity.
+        found: f32,
+    },
     /// The power is more than a single-precision number holds.
-    Power,
+    Power {
+        /// The power.
+        found: f64,
+    },
     /// The cone is not within 0 and 180 degrees, or its soft edge is wider than the cone.
-    BadCone,
+    BadCone {
+        /// Half angle of the cone, in degrees.
+        cone_deg: f32,
+        /// Width of the soft edge, in degrees.
+        delta_deg: f32,
+    },
+    /// A spot is aimed at the point where it is.
+    NoAxis,
     /// A normal is not of unit length.
-    NotUnit,
+    NotUnit {
+        /// Its length.
+        found: f32,
+    },
     /// The file has no records.
     Empty,
 }
@@ -56,18 +83,38 @@ impl fmt::Display for LightSetProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io(error) => write!(f, "{error}"),
-            Self::UnknownRecord => f.write_str("expected a record `tri`, `point` or `spot`"),
-            Self::FieldCount { expected } => write!(f, "expected {expected} numbers"),
-            Self::BadNumber => f.write_str("expected a finite number"),
-            Self::BadFlag => f.write_str("expected `twosided` to be 0 or 1"),
-            Self::NegativeEmission => {
-                f.write_str("expected a radiance or intensity that is not negative")
+            Self::UnknownRecord { found } => write!(
+                f,
+                "expected a record `tri`, `point` or `spot`, found `{found}`"
+            ),
+            Self::FieldCount { expected, found } => {
+                write!(f, "expected {expected} numbers, found {found}")
             }
-            Self::Power => f.write_str("expected a light of finite power"),
-            Self::BadCone => {
-                f.write_str("expected 0 < cone_deg <= 180 and 0 <= delta_deg <= cone_deg")
+            Self::BadNumber { found } => write!(f, "expected a finite number, found `{found}`"),
+            Self::BadFlag { found } => {
+                write!(f, "expected `twosided` to be 0 or 1, found {found}")
             }
-            Self::NotUnit => f.write_str("expected a normal of unit length"),
+            Self::NegativeEmission { found } => write!(
+                f,
+                "expected a radiance or intensity that is not negative, found {found}"
+            ),
+            Self::Power { found } => {
+                write!(f, "expected a light of finite power, found {found:.1e}")
+            }
+            Self::BadCone {
+                cone_deg,
+                delta_deg,
+            } => write!(
+                f,
+                "expected 0 < cone_deg <= 180 and 0 <= delta_deg <= cone_deg, found {cone_deg} \
+                 and {delta_deg}"
+            ),
+            Self::NoAxis => {
+                f.write_str("expected a target apart from the spot, found its position")
+            }
+            Self::NotUnit { found } => {
+                write!(f, "expected a normal of unit length, found {found}")
+            }
             Self::Empty => f.write_str("expected at least one record"),
         }
     }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use light_sets::{BenchSet, SetLight, SetPoint};
 
 use super::error::{LightSetError, LightSetProblem};
-use crate::text::{read_all, without_mark};
+use crate::text::{read_all, shown, without_mark};
 
 /// The set in the files `lights` and `points`. A normal that is a unit vector but for the rounding
 /// of single precision keeps its bits; others, within a thousandth of one, are made unit.
@@ -65,7 +65,7 @@ fn of_finite_power(light: SetLight) -> Result<SetLight, LightSetProblem> {
         }
     };
     if !(power <= f64::from(f32::MAX)) {
-        return Err(LightSetProblem::Power);
+        return Err(LightSetProblem::Power { found: power });
     }
     Ok(light)
 }
@@ -76,7 +76,7 @@ fn parse_light(line: &str) -> Result<SetLight, LightSetProblem> {
         Some("tri") => {
             let [x0, y0, z0, x1, y1, z1, x2, y2, z2, radiance, flag] = numbers(fields)?;
             if flag != 0.0 && flag != 1.0 {
-                return Err(LightSetProblem::BadFlag);
+                return Err(LightSetProblem::BadFlag { found: flag });
             }
             Ok(SetLight::Triangle {
                 vertices: [
@@ -98,17 +98,26 @@ fn parse_light(line: &str) -> Result<SetLight, LightSetProblem> {
         Some("spot") => {
             let [px, py, pz, tx, ty, tz, intensity, cone_deg, delta_deg] = numbers(fields)?;
             if !(cone_deg > 0.0 && cone_deg <= 180.0 && delta_deg >= 0.0 && delta_deg <= cone_deg) {
-                return Err(LightSetProblem::BadCone);
+                return Err(LightSetProblem::BadCone {
+                    cone_deg,
+                    delta_deg,
+                });
+            }
+            let (p, target) = (Vec3::new(px, py, pz), Vec3::new(tx, ty, tz));
+            if p == target {
+                return Err(LightSetProblem::NoAxis);
             }
             Ok(SetLight::Spot {
-                p: Vec3::new(px, py, pz),
-                target: Vec3::new(tx, ty, tz),
+                p,
+                target,
                 intensity: emission(intensity)?,
                 cone_deg,
                 delta_deg,
             })
         }
-        _ => Err(LightSetProblem::UnknownRecord),
+        other => Err(LightSetProblem::UnknownRecord {
+            found: shown(other.unwrap_or_default()),
+        }),
     }
 }
 
@@ -118,36 +127,36 @@ fn parse_point(line: &str) -> Result<SetPoint, LightSetProblem> {
     let [x, y, z, nx, ny, nz] = numbers(line.split_whitespace())?;
     let p = Vec3::new(x, y, z);
     let n = Vec3::new(nx, ny, nz);
-    let off = (n.length() - 1.0).abs();
+    let found = n.length();
+    let off = (found - 1.0).abs();
     if !(off < 1e-3) {
-        return Err(LightSetProblem::NotUnit);
+        return Err(LightSetProblem::NotUnit { found });
     }
     // Files carry nine digits, but their writers may have rounded harder.
     let n = if off <= ROUNDING { n } else { n.normalize() };
     Ok(SetPoint { p, n })
 }
 
-fn numbers<const N: usize>(mut fields: SplitWhitespace<'_>) -> Result<[f32; N], LightSetProblem> {
-    let count = LightSetProblem::FieldCount { expected: N };
-    let mut out = [0.0; N];
-    for slot in &mut out {
-        let Some(field) = fields.next() else {
-            return Err(count);
-        };
-        *slot = f32::from_str(field).map_err(|_| LightSetProblem::BadNumber)?;
-        if !slot.is_finite() {
-            return Err(LightSetProblem::BadNumber);
-        }
+fn numbers<const N: usize>(fields: SplitWhitespace<'_>) -> Result<[f32; N], LightSetProblem> {
+    let found = fields.clone().count();
+    if found != N {
+        return Err(LightSetProblem::FieldCount { expected: N, found });
     }
-    if fields.next().is_some() {
-        return Err(count);
+    let mut out = [0.0; N];
+    for (slot, field) in out.iter_mut().zip(fields) {
+        let number = f32::from_str(field)
+            .ok()
+            .filter(|number| number.is_finite());
+        *slot = number.ok_or_else(|| LightSetProblem::BadNumber {
+            found: shown(field),
+        })?;
     }
     Ok(out)
 }
 
 fn emission(value: f32) -> Result<f32, LightSetProblem> {
     if !(value >= 0.0) {
-        return Err(LightSetProblem::NegativeEmission);
+        return Err(LightSetProblem::NegativeEmission { found: value });
     }
     Ok(value)
 }
@@ -183,40 +192,38 @@ mod tests {
     fn every_problem_is_reported() {
         use LightSetProblem as P;
         let light = |line| parse_light(line).expect_err("a bad line");
-        assert!(matches!(light("disk 1 2 3"), P::UnknownRecord), "kind");
-        assert!(matches!(light(""), P::UnknownRecord), "blank line");
-        assert!(
-            matches!(light("point 1 2 3"), P::FieldCount { expected: 4 }),
-            "few"
-        );
-        assert!(
-            matches!(light("point 1 2 3 4 5"), P::FieldCount { expected: 4 }),
-            "many"
-        );
-        assert!(
-            matches!(light("point 1 2 x 4"), P::BadNumber),
-            "not a number"
-        );
-        assert!(
-            matches!(light("point 1 2 inf 4"), P::BadNumber),
-            "not finite"
-        );
-        assert!(
-            matches!(light("point 1 2 3 -4"), P::NegativeEmission),
-            "negative"
-        );
-        assert!(
-            matches!(light("tri 0 0 0 1 0 0 0 1 0 2.5 2"), P::BadFlag),
-            "flag"
-        );
-        assert!(
-            matches!(light("spot 0 0 1 0 0 0 4 30 31"), P::BadCone),
-            "edge"
-        );
-        assert!(
-            matches!(parse_point("0 0 0 0 0 2"), Err(P::NotUnit)),
-            "normal"
-        );
+        for (line, expected) in [
+            (
+                "disk 1 2 3",
+                "expected a record `tri`, `point` or `spot`, found `disk`",
+            ),
+            ("", "expected a record `tri`, `point` or `spot`, found ``"),
+            ("point 1 2 3", "expected 4 numbers, found 3"),
+            ("point 1 2 3 4 5", "expected 4 numbers, found 5"),
+            ("point 1 2 x 4", "expected a finite number, found `x`"),
+            ("point 1 2 inf 4", "expected a finite number, found `inf`"),
+            (
+                "point 1 2 3 -4",
+                "expected a radiance or intensity that is not negative, found -4",
+            ),
+            (
+                "tri 0 0 0 1 0 0 0 1 0 2.5 2",
+                "expected `twosided` to be 0 or 1, found 2",
+            ),
+            (
+                "spot 0 0 1 0 0 0 4 30 31",
+                "expected 0 < cone_deg <= 180 and 0 <= delta_deg <= cone_deg, found 30 and 31",
+            ),
+            (
+                "spot 0 0 0 0 0 0 1 30 10",
+                "expected a target apart from the spot, found its position",
+            ),
+        ] {
+            assert_eq!(light(line).to_string(), expected, "{line}");
+        }
+        let normal = parse_point("0 0 0 0 0 2").expect_err("a bad normal");
+        let expected = "expected a normal of unit length, found 2";
+        assert_eq!(normal.to_string(), expected);
         let missing = Path::new("no/such.lights");
         let folder = crate::test_folder::TestFolder::new("light_set_mark");
         let marked = folder.path("a.lights");
@@ -225,10 +232,16 @@ mod tests {
         assert_eq!(read.len(), 1, "a byte order mark is passed over");
         std::fs::write(&marked, "point 1 2 3 4\npoint 1 2 3 3e38\n").expect("written");
         let error = read_light_set(&marked, missing).expect_err("too bright");
-        let expected = format!("{}:2: expected a light of finite power", marked.display());
+        let expected = format!(
+            "{}:2: expected a light of finite power, found 3.8e39",
+            marked.display()
+        );
         assert_eq!(error.to_string(), expected);
         let huge = parse_light("tri 0 0 0 1e20 0 0 0 1e20 0 1 0").expect("a triangle");
-        assert!(matches!(of_finite_power(huge), Err(P::Power)), "area");
+        assert!(
+            matches!(of_finite_power(huge), Err(P::Power { .. })),
+            "area"
+        );
 
         let error = read_light_set(missing, missing).expect_err("no file");
         assert!(matches!(error.problem, P::Io(_)), "missing file");
