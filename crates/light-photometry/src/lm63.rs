@@ -87,9 +87,18 @@ pub fn parse_lm63(
     numbers.list(3, "a dimension of the luminous opening")?;
     let ballast = numbers.number("the ballast factor")?;
     let ballast_lamp = numbers.number("the ballast-lamp factor or a number for future use")?;
-    let factor = multiplier * ballast * if year < 1995 { ballast_lamp } else { 1.0 };
+    let ballasts = ballast * if year < 1995 { ballast_lamp } else { 1.0 };
+    if !(ballasts > 0.0) {
+        return Err(numbers.wrong(format!(
+            "expected a ballast factor above 0, found `{ballasts}`"
+        )));
+    }
+    let factor = multiplier * ballasts;
     if !(factor > 0.0 && factor.is_finite()) {
-        return Err(numbers.wrong("expected a ballast factor above 0"));
+        return Err(numbers.wrong(format!(
+            "expected multiplier and ballast factors of a product that is finite and above 0, \
+             found {multiplier:e} and {ballasts:e}"
+        )));
     }
     let input_watts = numbers.number("the input watts")?;
 

@@ -253,6 +253,15 @@ fn errors_name_line_and_expectation() {
             "line 2: expected a multiplier above 0, found `0`",
         ),
         (
+            "TILT=NONE\n1 -1 1e30 2 1 1 2 0 0 0\n1e9 1".to_owned(),
+            "line 3: expected multiplier and ballast factors of a product that is finite and \
+             above 0, found 1e30 and 1e9",
+        ),
+        (
+            "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n0 1".to_owned(),
+            "line 3: expected a ballast factor above 0, found `0`",
+        ),
+        (
             "TILT=NONE\n1 -1 1\n2.5 1".to_owned(),
             "line 3: expected the number of vertical angles from 1 to 7201, found `2.5`",
         ),
