@@ -100,6 +100,9 @@ impl IesArgs {
         for warning in self.warnings(luminaire) {
             say!("warning: {warning}")?;
         }
+        if self.output.is_none() {
+            say!("plot        -o PLOT.svg draws it")?;
+        }
         Ok(())
     }
 }
