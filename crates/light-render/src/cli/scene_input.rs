@@ -134,7 +134,8 @@ impl SceneInput {
         if !world.lights().is_empty() {
             return Ok(());
         }
-        let nothing = "no light in the scene is above 0: expected one, --env IMAGE or --sky NAME";
+        let nothing = "no light in the scene is above 0: each is black, or of a surface without \
+                       area; expected another, --env IMAGE or --sky NAME";
         Err(refuse(&self.scene, nothing))
     }
 

@@ -42,6 +42,21 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
 
 /// With the file that it may mean.
 #[test]
+fn a_light_without_area_is_hinted_at() {
+    let folder = Folder::new("no-area");
+    let scene = folder.file(
+        "a.pbrt",
+        "Camera \"perspective\" WorldBegin AreaLightSource \"diffuse\"\n\
+         Shape \"trianglemesh\" \"point3 P\" [0 0 1 1 0 1 2 0 1] \"integer indices\" [0 1 2]\n",
+    );
+    let out = folder.path("a.exr");
+    assert_refused(
+        &["render", &scene, "-o", &out],
+        &["a.pbrt: ", "without area"],
+    );
+}
+
+#[test]
 fn a_folder_is_no_scene() {
     let folder = Folder::new("is a Größe");
     let out = folder.path("out.exr");
